@@ -1,0 +1,56 @@
+#include "app/certificate_table.hpp"
+
+#include <fmt/core.h>
+
+namespace curveskel {
+namespace {
+
+const char* verdict(bool good) { return good ? "ok" : "WRONG"; }
+
+}  // namespace
+
+std::string certificate_table(const Certificate& c, const CertificateOptions& options) {
+  // D is the diagonal of the surface's bounding box.
+  std::string text = "certificate          skeleton   surface\n";
+  text += fmt::format("  components       {:>10} {:>9}   {}\n", c.components,
+                      c.components_of_surface, verdict(c.components == c.components_of_surface));
+  text += fmt::format("  cycles, genus    {:>10} {:>9}   {}\n", c.cycle_rank, c.genus,
+                      verdict(c.cycle_rank == c.genus));
+  text += fmt::format("  length inside    {:>8.3f} %  >= {:.1f} %   {}\n", 100 * c.inside_fraction,
+                      100 * options.inside_needed, verdict(c.inside_enough));
+  text += fmt::format("  deepest exit     {:>10.2g} D\n", c.deepest_exit);
+  text += fmt::format("  centredness      {:>10.3f} median, {:.3f} 90th percentile (0 = centred)\n",
+                      c.centredness_median, c.centredness_p90);
+  text += fmt::format("  coverage         {:>8.1f} %  of the vertices within 1.5 local radii\n",
+                      100 * c.coverage);
+  text += fmt::format("  reach            {:>10.4f} D, 95th percentile to the inscribed balls\n",
+                      c.reach);
+  text +=
+      fmt::format("  tips             {:>10}\n  junctions        {:>10}\n", c.tips, c.junctions);
+  text += fmt::format("  spurs            {:>10}\n", c.spurs);
+  text += fmt::format("  length           {:>10.3f} D\n", c.length);
+  text += fmt::format("  turning          {:>10.1f} rad per D\n", c.turning);
+  return text;
+}
+
+std::string failures(const Certificate& c, const CertificateOptions& options) {
+  std::string text;
+  const auto add = [&text](const std::string& failure) {
+    text += (text.empty() ? "" : "; ") + failure;
+  };
+  if (c.components != c.components_of_surface) {
+    add(fmt::format("the skeleton has {} components, the surface {}", c.components,
+                    c.components_of_surface));
+  }
+  if (c.cycle_rank != c.genus) {
+    add(fmt::format("the skeleton has {} independent cycles, the surface genus {}", c.cycle_rank,
+                    c.genus));
+  }
+  if (!c.inside_enough) {
+    add(fmt::format("{:.3f} % of the length is inside, needed {:.1f} %", 100 * c.inside_fraction,
+                    100 * options.inside_needed));
+  }
+  return text;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,18 @@
+// The certificate for people.
+#pragma once
+
+#include <string>
+
+#include "skeleton/certificate.hpp"
+
+namespace curveskel {
+
+/// A table of a dozen lines, each with its line end.
+[[nodiscard]] std::string certificate_table(const Certificate& certificate,
+                                            const CertificateOptions& options);
+
+/// What the certificate finds wrong, in one line; empty if nothing is.
+[[nodiscard]] std::string failures(const Certificate& certificate,
+                                   const CertificateOptions& options);
+
+}  // namespace curveskel

@@ -1,0 +1,21 @@
+// The command line: verbs, exit codes, and what a person sees when something is wrong.
+#pragma once
+
+namespace curveskel {
+
+/// Scripts rely on these; they never change.
+struct ExitCode {
+  static constexpr int done = 0;
+  static constexpr int internal = 1;  ///< a defect of the program
+  static constexpr int usage = 2;
+  static constexpr int input = 3;
+  static constexpr int device = 4;
+  static constexpr int solver = 5;  ///< or a certificate that failed
+  static constexpr int output = 6;
+  static constexpr int interrupted = 130;  ///< by Ctrl-C
+};
+
+/// Parses, runs the verb and returns the exit code. Nothing is thrown.
+[[nodiscard]] int run_command_line(int argc, char** argv);
+
+}  // namespace curveskel

@@ -1,0 +1,43 @@
+// curveskel devices: what OpenCL offers here.
+#include <fmt/core.h>
+
+#include "app/arguments.hpp"
+#include "app/command_line.hpp"
+#include "app/verbs.hpp"
+#include "contraction/device.hpp"
+
+namespace curveskel {
+namespace {
+
+const char* yes_no(bool yes) { return yes ? "yes" : "no"; }
+
+int run_devices(Session& session) {
+  const std::vector<Device> found = devices();
+  if (found.empty()) {
+    session.terminal.error(
+        "no OpenCL device was found; install a driver for the graphics card, or pocl-opencl-icd to "
+        "use the processor");
+    return ExitCode::device;
+  }
+  std::string text;
+  for (const Device& device : found) {
+    text += fmt::format(
+        "{}\n  platform          {}\n  version           {}, driver {}\n"
+        "  kind              {}, {} compute units, {:.1f} GiB\n"
+        "  double precision  {}\n  GL sharing        {}\n",
+        device.name, device.platform, device.version, device.driver, device.gpu ? "GPU" : "CPU",
+        device.compute_units, static_cast<double>(device.memory_bytes) / (1024.0 * 1024.0 * 1024.0),
+        yes_no(device.double_precision), yes_no(device.gl_sharing));
+  }
+  session.terminal.result(text);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_devices(CLI::App& program) {
+  return {program.add_subcommand("devices", "List the OpenCL devices of this machine"),
+          run_devices};
+}
+
+}  // namespace curveskel

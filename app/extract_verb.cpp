@@ -1,0 +1,209 @@
+// curveskel extract: a surface file in, its curve skeleton out.
+#include <fmt/core.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
+#include "app/command_line.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#include "skeleton/extract.hpp"
+#include "skeleton/skeleton_files.hpp"
+#include "surface/clean.hpp"
+#include "surface/read.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExtractArguments {
+  fs::path mesh;
+  std::vector<std::string> outputs;
+  std::optional<SkeletonFormat> format;
+  std::string report;
+  bool quiet = false;
+  int fair_iterations = 0;
+  ExtractOptions options;
+};
+
+template <typename Work>
+auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto result = work();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  times.push_back({stage, taken.count()});
+  return result;
+}
+
+/// From vertices of the clean surface to those of the file.
+Eigen::VectorXi node_of_file_vertex(const CleanSurface& cleaned, const CurveSkeleton& skeleton) {
+  return cleaned.vertex_of_input.unaryExpr(
+      [&](int vertex) { return vertex < 0 ? -1 : skeleton.node_of_vertex[vertex]; });
+}
+
+std::string count_of(Eigen::Index count, const std::string& one, const std::string& many = {}) {
+  return fmt::format("{} {}", count, count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+std::string summary(const ExtractArguments& arguments, const ExtractionRecord& record) {
+  const auto& [skeleton, components, certificate, times] = record.extraction;
+  const Surface& surface = record.cleaned.surface;
+  std::string text =
+      fmt::format("{}: {}, {}; {}, genus {}\n", arguments.mesh.filename().string(),
+                  count_of(surface.positions.rows(), "vertex", "vertices"),
+                  count_of(surface.triangles.rows(), "triangle"),
+                  count_of(certificate.components_of_surface, "component"), certificate.genus);
+  for (const std::string& line : record.cleaned.changes.lines)
+    text += fmt::format("  changed: {}\n", line);
+  for (const std::string& line : record.notes) text += fmt::format("  {}\n", line);
+  text += fmt::format("skeleton: {}, {}\n", count_of(skeleton.nodes.rows(), "node"),
+                      count_of(skeleton.edges.rows(), "edge"));
+  return text + certificate_table(certificate, arguments.options.certificate);
+}
+
+std::string time_line(const std::vector<StageTime>& times) {
+  double all = 0;
+  std::string parts;
+  for (const StageTime& time : times) {
+    all += time.seconds;
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", time.stage, time.seconds);
+  }
+  return fmt::format("{:.2f} s ({}); {:.0f} MB at most\n", all, parts,
+                     static_cast<double>(peak_memory_bytes()) / 1e6);
+}
+
+std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
+                                       const std::vector<SkeletonFormat>& formats,
+                                       const ExtractionRecord& record,
+                                       const CurveSkeleton& skeleton, Session& session) {
+  SkeletonContext context;
+  context.surface = &record.cleaned.surface;
+  context.provenance = program_and_version() + ", " + arguments.mesh.filename().string();
+  context.report_json = result_json(record);
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
+    files.push_back({arguments.outputs[i], format_skeleton(skeleton, formats[i], context)});
+  }
+  return files;
+}
+
+int run_extract(ExtractArguments arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  const auto formats = formats_of(arguments.outputs, arguments.format);
+  std::vector<std::string> names = arguments.outputs;
+  if (!arguments.report.empty()) names.push_back(arguments.report);
+  check_outputs(names, arguments.mesh);
+  const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
+  if (to_output) session.terminal.keep_output_clean();
+  arguments.options.fairing = arguments.fair_iterations > 0;
+  arguments.options.fair.iterations = arguments.fair_iterations;
+  arguments.options.fair.threads = arguments.options.threads;
+  arguments.options.certificate.threads = arguments.options.threads;
+
+  std::vector<std::string> notes;
+  Monitor monitor = session.monitor();
+  monitor.note = nullptr;  // the summary has these
+  std::vector<StageTime> times;
+  const PolygonSoup soup =
+      timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
+  const CleanSurface cleaned = timed(times, "clean", [&] { return clean(soup, monitor); });
+  monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
+  const Extraction extraction = extract(cleaned.surface, arguments.options, monitor);
+  times.insert(times.end(), extraction.times.begin(), extraction.times.end());
+
+  CurveSkeleton skeleton = extraction.skeleton;
+  skeleton.node_of_vertex = node_of_file_vertex(cleaned, extraction.skeleton);
+  const ExtractionRecord record{soup, cleaned, arguments.options, extraction, notes};
+  auto files = timed(times, "write",
+                     [&] { return format_outputs(arguments, formats, record, skeleton, session); });
+  if (!arguments.report.empty()) {
+    files.push_back({arguments.report, report_json(record, {times, arguments.outputs})});
+  }
+  write_outputs(files, session);
+
+  if (!arguments.quiet) {
+    std::string text = summary(arguments, record);
+    for (const OutputFile& file : files) {
+      if (file.name != "-") text += fmt::format("wrote {}\n", file.name);
+    }
+    session.terminal.result(text + time_line(times));
+  }
+  const std::string failed = failures(extraction.certificate, arguments.options.certificate);
+  if (extraction.certificate.topology_correct()) {
+    if (!failed.empty()) session.terminal.warn(failed);
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failed);
+  return ExitCode::solver;
+}
+
+}  // namespace
+
+Verb add_extract(CLI::App& program) {
+  const auto arguments = std::make_shared<ExtractArguments>();
+  CLI::App* parser =
+      program.add_subcommand("extract", "Extract the curve skeleton of a surface file");
+  ExtractOptions& options = arguments->options;
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->outputs,
+                   "skeleton file, its format by the extension; may be given several times; - is "
+                   "standard output")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  parser
+      ->add_option_function<std::string>(
+          "--format",
+          [arguments](const std::string& name) {
+            arguments->format = choice_of(skeleton_formats, name);
+            if (!arguments->format) {
+              throw CLI::ValidationError("--format",
+                                         name + " is none of: " + names_in(skeleton_formats));
+            }
+          },
+          "format of standard output")
+      ->type_name("NAME");
+  parser
+      ->add_option("--report", arguments->report, "what was changed, decided and measured, as JSON")
+      ->type_name("FILE.json");
+  add_choice(*parser, "--flow", options.contraction.flow, flows, "contraction flow");
+  add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
+  parser
+      ->add_option_function<std::string>(
+          "--resolution",
+          [&options](const std::string& text) {
+            if (text == "full") {
+              options.resolution = 0;
+            } else if (!CLI::detail::lexical_cast(text, options.resolution) ||
+                       options.resolution < 1) {
+              throw CLI::ValidationError("--resolution",
+                                         "needs a number of vertices or full, not " + text);
+            }
+          },
+          "working vertices")
+      ->type_name("N|full")
+      ->default_str(std::to_string(options.resolution));
+  add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay");
+  add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
+             "iterations of fairing before the contraction, for noisy surfaces");
+  add_number(*parser, "--threads", options.threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers) +
+                 meanings("Formats", skeleton_formats));
+  return {parser, [arguments](Session& session) { return run_extract(*arguments, session); }};
+}
+
+}  // namespace curveskel

@@ -1,0 +1,82 @@
+#include "app/interruption.hpp"
+
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <initializer_list>
+
+#include "surface/error.hpp"
+
+namespace curveskel {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A signal handler reaches nothing but what is static.
+sem_t arrived;
+volatile std::sig_atomic_t last_signal = 0;
+
+extern "C" void on_signal(int signal) {
+  last_signal = signal;
+  sem_post(&arrived);
+}
+
+void handle(int signal) {
+  struct sigaction action {};
+  // Started with the signal ignored (nohup, a shell's background job): it stays so.
+  if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+  action = {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+Interruption::Interruption() {
+  sem_init(&arrived, 0, 0);
+  last_signal = 0;
+  // A reader that closes its end of the pipe is an error of the write, not the end of the process.
+  std::signal(SIGPIPE, SIG_IGN);
+  handle(SIGINT);
+  handle(SIGTERM);
+  watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
+}
+
+Interruption::~Interruption() {
+  watcher_.request_stop();
+  sem_post(&arrived);
+  watcher_.join();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == on_signal) {
+      std::signal(signal, SIG_DFL);
+    }
+  }
+  sem_destroy(&arrived);
+}
+
+int Interruption::exit_code() const { return 128 + (last_signal != 0 ? last_signal : SIGINT); }
+
+void Interruption::check() const {
+  if (stop_.stop_requested()) throw Cancelled();
+}
+
+void Interruption::watch(const std::stop_token& finished) {
+  while (sem_wait(&arrived) != 0 && errno == EINTR) {
+  }
+  if (finished.stop_requested()) return;
+  stop_.request_stop();
+  std::unique_lock lock(mutex_);
+  ended_.wait_for(lock, finished, 800ms, [] { return false; });
+  if (finished.stop_requested()) return;
+  const auto writing = hold();
+  constexpr char message[] = "\ncurveskel: interrupted\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(exit_code());
+}
+
+}  // namespace curveskel

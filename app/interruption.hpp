@@ -1,0 +1,39 @@
+// Ctrl-C and termination: a polite request to the running stage, and a second later the end.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+namespace curveskel {
+
+/// While one exists, SIGINT and SIGTERM request a stop; a stage that has not obeyed after 0.8 s is
+/// ended together with the process, unless a file is being written just then. There can be one at a
+/// time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
+  /// 128 + the signal's number, once there was one.
+  [[nodiscard]] int exit_code() const;
+  /// Throws Cancelled if a stop was requested.
+  void check() const;
+  /// While held, the process does not end halfway through a file.
+  [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(writing_); }
+
+ private:
+  void watch(const std::stop_token& finished);
+
+  std::stop_source stop_;
+  std::mutex writing_;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread watcher_;
+};
+
+}  // namespace curveskel

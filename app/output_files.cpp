@@ -1,0 +1,68 @@
+#include "app/output_files.hpp"
+
+#include <fmt/core.h>
+
+#include <set>
+
+#include "surface/error.hpp"
+#include "surface/write_file.hpp"
+
+namespace curveskel {
+
+namespace fs = std::filesystem;
+
+std::vector<SkeletonFormat> formats_of(const std::vector<std::string>& names,
+                                       const std::optional<SkeletonFormat>& format) {
+  std::vector<SkeletonFormat> formats;
+  bool used = false;
+  for (const std::string& name : names) {
+    if (name != "-") {
+      formats.push_back(format_of(name, skeleton_formats));
+      continue;
+    }
+    if (!format) {
+      throw UsageError("-o - needs --format NAME, one of: " + names_in(skeleton_formats));
+    }
+    formats.push_back(*format);
+    used = true;
+  }
+  if (format && !used) {
+    throw UsageError("--format is for -o -; a file's format follows from its extension");
+  }
+  return formats;
+}
+
+void check_outputs(const std::vector<std::string>& names, const fs::path& input) {
+  std::set<fs::path> seen;
+  for (const std::string& name : names) {
+    std::error_code none;
+    if (!seen.insert(name == "-" ? fs::path(name) : fs::weakly_canonical(fs::absolute(name), none))
+             .second) {
+      throw UsageError(name + " is named twice as an output");
+    }
+    if (name == "-") continue;
+    if (fs::equivalent(name, input, none)) {
+      throw UsageError(name + " is the input; name another output");
+    }
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, none)) {
+      throw Error(Fault::output,
+                  fmt::format("{}: there is no folder {}; create it first", name, folder.string()));
+    }
+  }
+}
+
+void write_outputs(const std::vector<OutputFile>& files, Session& session) {
+  for (const OutputFile& file : files) {
+    session.interruption.check();
+    const auto hold = session.interruption.hold();
+    if (file.name == "-") {
+      session.terminal.end_progress();
+      Terminal::write_output(file.bytes);
+    } else {
+      write_file(file.name, file.bytes);
+    }
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,43 @@
+// Where results go: files by name, or standard output.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/verbs.hpp"
+#include "skeleton/skeleton_files.hpp"
+
+namespace curveskel {
+
+/// A finished file that is not written yet.
+struct OutputFile {
+  std::string name;  ///< "-" for standard output
+  std::string bytes;
+};
+
+/// The format that a file name's extension stands for. Throws UsageError listing the right ones.
+template <typename Format, std::size_t Count>
+[[nodiscard]] Format format_of(const std::string& name, const NameTable<Format, Count>& table) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const auto found = choice_of(table, extension.empty() ? extension : extension.substr(1));
+  if (found) return *found;
+  throw UsageError(name + ": " +
+                   (extension.empty() ? "no extension" : "the extension " + extension) +
+                   " is none of: " + names_in(table));
+}
+
+/// The format of each output; `format` is that of "-". Throws UsageError where one is missing.
+[[nodiscard]] std::vector<SkeletonFormat> formats_of(const std::vector<std::string>& names,
+                                                     const std::optional<SkeletonFormat>& format);
+
+/// Before hours of work: throws UsageError where an output is named twice or is the input, and
+/// Error(Fault::output) where its folder does not exist.
+void check_outputs(const std::vector<std::string>& names, const std::filesystem::path& input);
+
+/// Writes each file whole; an interruption takes effect between files.
+void write_outputs(const std::vector<OutputFile>& files, Session& session);
+
+}  // namespace curveskel

@@ -1,0 +1,181 @@
+#include "app/report.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace curveskel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Certificate& c) {
+  return {{"topology_correct", c.topology_correct()},
+          {"inside_enough", c.inside_enough},
+          {"components", c.components},
+          {"components_of_surface", c.components_of_surface},
+          {"cycle_rank", c.cycle_rank},
+          {"genus", c.genus},
+          {"inside_fraction", c.inside_fraction},
+          {"deepest_exit", c.deepest_exit},
+          {"centredness_median", c.centredness_median},
+          {"centredness_p90", c.centredness_p90},
+          {"coverage", c.coverage},
+          {"reach", c.reach},
+          {"spurs", c.spurs},
+          {"tips", c.tips},
+          {"junctions", c.junctions},
+          {"length", c.length},
+          {"turning", c.turning}};
+}
+
+Json to_json(const CertificateOptions& o) {
+  return {
+      {"sample_spacing", o.sample_spacing}, {"inside_needed", o.inside_needed}, {"rays", o.rays}};
+}
+
+Json to_json(const Changes& c) {
+  return {{"polygons_triangulated", c.polygons_triangulated},
+          {"vertices_merged", c.vertices_merged},
+          {"duplicate_faces_dropped", c.duplicate_faces_dropped},
+          {"degenerate_faces_dropped", c.degenerate_faces_dropped},
+          {"isolated_vertices_dropped", c.isolated_vertices_dropped},
+          {"vertices_split_off", c.vertices_split_off},
+          {"faces_flipped", c.faces_flipped},
+          {"components_turned", c.components_turned},
+          {"lines", c.lines}};
+}
+
+Json to_json(const ContractionOptions& o) {
+  return {{"flow", name_of(flows, o.flow)},
+          {"solver", name_of(solvers, o.solver)},
+          {"max_iterations", o.max_iterations},
+          {"contraction_weight", o.contraction_weight},
+          {"contraction_growth", o.contraction_growth},
+          {"medial_weight", o.medial_weight},
+          {"paper_weight", o.paper_weight},
+          {"attraction_weight", o.attraction_weight},
+          {"collapse_length", o.collapse_length},
+          {"stop_volume_ratio", o.stop_volume_ratio},
+          {"stop_area_ratio", o.stop_area_ratio}};
+}
+
+Json to_json(const FairOptions& o) {
+  return {{"method", name_of(fair_methods, o.method)},
+          {"iterations", o.iterations},
+          {"smoothing", o.smoothing},
+          {"volume", name_of(volume_rules, o.volume)},
+          {"double_precision", o.double_precision}};
+}
+
+Json to_json(const ExtractOptions& o) {
+  return {
+      {"resolution", o.resolution},
+      {"least_resolution", o.least_resolution},
+      {"fair", o.fairing ? to_json(o.fair) : Json(nullptr)},
+      {"contraction", to_json(o.contraction)},
+      {"surgery",
+       {{"shape_weight", o.surgery.shape_weight}, {"sampling_weight", o.surgery.sampling_weight}}},
+      {"embed",
+       {{"detail", o.embed.detail},
+        {"merge", o.embed.merge},
+        {"straight", o.embed.straight},
+        {"relax_rounds", o.embed.relax_rounds},
+        {"keep_radius", o.embed.keep_radius},
+        {"tip_gap", o.embed.tip_gap}}},
+      {"certificate", to_json(o.certificate)}};
+}
+
+Json to_json(const ComponentRecord& c, bool with_times) {
+  Json steps = Json::array();
+  for (const Step& step : c.steps) {
+    steps.push_back({{"area_ratio", step.area_ratio},
+                     {"volume_ratio", step.volume_ratio},
+                     {"residual", step.residual},
+                     {"vertices", step.vertices},
+                     {"solver", name_of(solvers, step.solver)},
+                     {"solver_iterations", step.solver_iterations}});
+    if (with_times) steps.back()["seconds"] = step.seconds;
+  }
+  return {{"vertices", c.vertices},
+          {"working_vertices", c.working_vertices},
+          {"genus", c.genus},
+          {"attempts", c.attempts},
+          {"bands", c.bands},
+          {"stop", name_of(stops, c.stop)},
+          {"contraction", std::move(steps)}};
+}
+
+Json to_json(const ExtractionRecord& record, bool with_times) {
+  const Surface& surface = record.cleaned.surface;
+  Json components = Json::array();
+  for (const ComponentRecord& component : record.extraction.components) {
+    components.push_back(to_json(component, with_times));
+  }
+  return {{"program", program_and_version()},
+          {"input",
+           {{"file", record.soup.file.filename().string()},
+            {"format", name_of(surface_formats, record.soup.format)},
+            {"vertices", record.soup.positions.rows()},
+            {"polygons", record.soup.offsets.size() - 1}}},
+          {"changes", to_json(record.cleaned.changes)},
+          {"surface",
+           {{"vertices", surface.positions.rows()},
+            {"triangles", surface.triangles.rows()},
+            {"components", record.extraction.certificate.components_of_surface},
+            {"genus", record.extraction.certificate.genus}}},
+          {"parameters", to_json(record.options)},
+          {"components", std::move(components)},
+          {"notes", record.notes},
+          {"skeleton",
+           {{"nodes", record.extraction.skeleton.nodes.rows()},
+            {"edges", record.extraction.skeleton.edges.rows()}}},
+          {"certificate", to_json(record.extraction.certificate)}};
+}
+
+/// File names need not be UTF-8; what is not is replaced rather than refused.
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string program_and_version() { return "curveskel " CURVESKEL_VERSION; }
+
+std::string result_json(const ExtractionRecord& record) {
+  return text_of(to_json(record, false), -1);
+}
+
+std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
+  Json json = to_json(record, true);
+  Json times = Json::array();
+  double seconds = 0;
+  for (const StageTime& time : run.times) {
+    times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
+    seconds += time.seconds;
+  }
+  json["outputs"] = run.outputs;
+  json["threads"] = record.options.threads;
+  json["times"] = std::move(times);
+  json["seconds"] = seconds;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return text_of(json, 2) + "\n";
+}
+
+std::string evaluation_json(const std::string& surface_file, const std::string& skeleton_file,
+                            const Certificate& certificate, const CertificateOptions& options) {
+  const Json json = {{"program", program_and_version()},
+                     {"surface", surface_file},
+                     {"skeleton", skeleton_file},
+                     {"parameters", to_json(options)},
+                     {"certificate", to_json(certificate)}};
+  return text_of(json, 2) + "\n";
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace curveskel

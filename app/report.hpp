@@ -1,0 +1,46 @@
+// Reports: everything that was measured, decided and changed, as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "skeleton/extract.hpp"
+#include "surface/clean.hpp"
+#include "surface/read.hpp"
+
+namespace curveskel {
+
+/// "curveskel 0.1.0".
+[[nodiscard]] std::string program_and_version();
+
+/// What one extraction was, for its reports.
+struct ExtractionRecord {
+  const PolygonSoup& soup;
+  const CleanSurface& cleaned;
+  const ExtractOptions& options;
+  const Extraction& extraction;
+  const std::vector<std::string>& notes;  ///< what the stages said on the way
+};
+
+/// What depends on the run and not on input and options.
+struct RunRecord {
+  std::vector<StageTime> times;
+  std::vector<std::string> outputs;
+};
+
+/// A JSON object: the same input and options give the same text.
+[[nodiscard]] std::string result_json(const ExtractionRecord& record);
+
+/// The same and the run: times, threads, peak memory, outputs. Ends with a newline.
+[[nodiscard]] std::string report_json(const ExtractionRecord& record, const RunRecord& run);
+
+/// Certificate of a skeleton file against a surface file. Ends with a newline.
+[[nodiscard]] std::string evaluation_json(const std::string& surface_file,
+                                          const std::string& skeleton_file,
+                                          const Certificate& certificate,
+                                          const CertificateOptions& options);
+
+/// The largest resident memory of the process so far.
+[[nodiscard]] std::size_t peak_memory_bytes();
+
+}  // namespace curveskel

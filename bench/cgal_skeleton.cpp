@@ -1,0 +1,89 @@
+#include "bench/cgal_skeleton.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/extract_mean_curvature_flow_skeleton.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "surface/clean.hpp"
+#include "surface/read.hpp"
+
+namespace curveskel::bench {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
+namespace processing = CGAL::Polygon_mesh_processing;
+
+Mesh mesh_of(const Surface& surface) {
+  Mesh mesh;
+  for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
+  for (const auto& t : surface.triangles.rowwise()) {
+    const auto vertex = [&](int k) { return Mesh::Vertex_index(static_cast<unsigned>(t[k])); };
+    mesh.add_face(vertex(0), vertex(1), vertex(2));
+  }
+  return mesh;
+}
+
+Mesh read_mesh(const std::filesystem::path& file) {
+  constexpr std::array own_formats{".off", ".obj", ".ply"};
+  Mesh mesh;
+  if (std::find(own_formats.begin(), own_formats.end(), file.extension()) != own_formats.end() &&
+      CGAL::IO::read_polygon_mesh(file.string(), mesh)) {
+    processing::triangulate_faces(mesh);
+    return mesh;
+  }
+  return mesh_of(clean(read_polygons(file, {}), {}).surface);
+}
+
+void append(const Skeletonization::Skeleton& part, CurveSkeleton& whole,
+            std::vector<std::pair<int, int>>& edges) {
+  const Eigen::Index before = whole.nodes.rows();
+  whole.nodes.conservativeResize(before + static_cast<Eigen::Index>(num_vertices(part)), 3);
+  for (const auto vertex : CGAL::make_range(vertices(part))) {
+    const Kernel::Point_3& p = part[vertex].point;
+    whole.nodes.row(before + static_cast<Eigen::Index>(vertex)) << p.x(), p.y(), p.z();
+  }
+  for (const auto edge : CGAL::make_range(boost::edges(part))) {
+    const auto a = static_cast<int>(before + static_cast<Eigen::Index>(source(edge, part)));
+    const auto b = static_cast<int>(before + static_cast<Eigen::Index>(target(edge, part)));
+    edges.emplace_back(std::min(a, b), std::max(a, b));
+  }
+}
+
+}  // namespace
+
+CurveSkeleton cgal_skeleton(const std::filesystem::path& file) {
+  Mesh mesh = read_mesh(file);
+  if (!CGAL::is_closed(mesh)) throw std::runtime_error("CGAL reads no closed surface");
+  std::vector<Mesh> components;
+  processing::split_connected_components(mesh, components);
+  CurveSkeleton whole;
+  std::vector<std::pair<int, int>> edges;
+  for (Mesh& component : components) {
+    if (!processing::is_outward_oriented(component)) {
+      processing::reverse_face_orientations(component);
+    }
+    Skeletonization::Skeleton skeleton;
+    CGAL::extract_mean_curvature_flow_skeleton(component, skeleton);
+    append(skeleton, whole, edges);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  whole.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    whole.edges.row(static_cast<Eigen::Index>(i)) << edges[i].first, edges[i].second;
+  }
+  return whole;
+}
+
+}  // namespace curveskel::bench

@@ -1,0 +1,34 @@
+// What every method of the local flow implements; one file per method.
+#pragma once
+
+#include <memory>
+
+#include "contraction/fair.hpp"
+#include "contraction/one_rings.hpp"
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+/// A surface on its way through the flow. Vertices without a ring stay where they are.
+class LocalFlow {
+ public:
+  virtual ~LocalFlow() = default;
+  /// Moves all vertices at once, `iterations` times.
+  virtual void advance(int iterations, const Monitor& monitor) = 0;
+  [[nodiscard]] virtual Positions positions() = 0;
+};
+
+/// Positions are expected near the origin with a bounding-box diagonal of about 1; all methods
+/// keep a reference to `surface` and `rings`, which must outlive them.
+[[nodiscard]] std::unique_ptr<LocalFlow> make_cpu_flow(const Surface& surface,
+                                                       const OneRings& rings,
+                                                       const FairOptions& options);
+[[nodiscard]] std::unique_ptr<LocalFlow> make_host_flow(const Surface& surface,
+                                                        const OneRings& rings,
+                                                        const FairOptions& options);
+[[nodiscard]] std::unique_ptr<LocalFlow> make_opencl_flow(const Surface& surface,
+                                                          const OneRings& rings,
+                                                          const FairOptions& options);
+
+}  // namespace curveskel

@@ -1,0 +1,30 @@
+// The whole library in one include: a triangle surface in, its curve skeleton out.
+//
+//   using namespace curveskel;
+//   const CleanSurface clean_surface = clean(read_polygons("model.obj", {}), {});
+//   const Extraction extraction = extract(clean_surface.surface, ExtractOptions{}, Monitor{});
+//   extraction.skeleton.nodes;   // #N by 3
+#pragma once
+
+#include "contraction/contract.hpp"
+#include "contraction/device.hpp"
+#include "contraction/fair.hpp"
+#include "contraction/laplacian.hpp"
+#include "contraction/least_squares.hpp"
+#include "skeleton/certificate.hpp"
+#include "skeleton/curve_skeleton.hpp"
+#include "skeleton/extract.hpp"
+#include "skeleton/skeleton_files.hpp"
+#include "surface/clean.hpp"
+#include "surface/coarsen.hpp"
+#include "surface/error.hpp"
+#include "surface/inscribed_balls.hpp"
+#include "surface/measures.hpp"
+#include "surface/monitor.hpp"
+#include "surface/names.hpp"
+#include "surface/read.hpp"
+#include "surface/surface.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+#include "surface/write_file.hpp"
+#include "surface/write_surface.hpp"

@@ -1,0 +1,11 @@
+// The OpenCL C programs, embedded from kernels/*.cl at build time.
+#pragma once
+
+#include <string_view>
+
+namespace curveskel {
+
+/// One work-item per vertex, any valence; see the file for macros and arguments.
+extern const std::string_view one_ring_stream_source;
+
+}  // namespace curveskel

@@ -1,0 +1,170 @@
+// The level set of tubes round a graph's edges, melted together where branches meet.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "meshes/level_set.hpp"
+#include "meshes/shapes.hpp"
+#include "surface/error.hpp"
+
+namespace curveskel::shapes {
+namespace {
+
+using Eigen::Vector3d;
+
+int root_of(std::vector<int>& parent, int i) {
+  while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+  return i;
+}
+
+std::vector<int> node_degrees(const CurveSkeleton& graph) {
+  std::vector<int> degree(static_cast<std::size_t>(graph.nodes.rows()), 0);
+  for (Eigen::Index e = 0; e < graph.edges.size(); ++e)
+    ++degree[static_cast<std::size_t>(graph.edges.data()[e])];
+  return degree;
+}
+
+int components_of(Eigen::Index nodes, const Eigen::Ref<const Eigen::MatrixXi>& links) {
+  std::vector<int> parent(static_cast<std::size_t>(nodes));
+  std::iota(parent.begin(), parent.end(), 0);
+  auto count = static_cast<int>(nodes);
+  for (Eigen::Index e = 0; e < links.rows(); ++e) {
+    const int a = root_of(parent, links(e, 0));
+    const int b = root_of(parent, links(e, 1));
+    if (a == b) continue;
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    --count;
+  }
+  return count;
+}
+
+// Edges grouped by branch: those that share a node of degree 2 belong together.
+std::vector<std::vector<int>> edges_by_branch(const CurveSkeleton& graph) {
+  const auto count = static_cast<int>(graph.edges.rows());
+  const std::vector<int> degree = node_degrees(graph);
+  std::vector<int> parent(static_cast<std::size_t>(count));
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<int> edge_at(degree.size(), -1);
+  for (int e = 0; e < count; ++e) {
+    for (int k = 0; k < 2; ++k) {
+      const auto node = static_cast<std::size_t>(graph.edges(e, k));
+      if (degree[node] != 2) continue;
+      if (edge_at[node] < 0) {
+        edge_at[node] = e;
+      } else {
+        const int a = root_of(parent, e);
+        const int b = root_of(parent, edge_at[node]);
+        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      }
+    }
+  }
+  std::vector<std::vector<int>> groups(static_cast<std::size_t>(count));
+  for (int e = 0; e < count; ++e) groups[static_cast<std::size_t>(root_of(parent, e))].push_back(e);
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+double distance_to_tube(const CurveSkeleton& graph, int edge, const Vector3d& p) {
+  const int i = graph.edges(edge, 0);
+  const int j = graph.edges(edge, 1);
+  const Vector3d a = graph.nodes.row(i);
+  const Vector3d along = graph.nodes.row(j).transpose() - a;
+  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - a - t * along).norm() - (1 - t) * graph.radii[i] - t * graph.radii[j];
+}
+
+// A few edges of one branch and a ball round their tubes, to pass over what is far.
+struct Stretch {
+  std::vector<int> edges;
+  Vector3d centre;
+  double reach = 0;
+};
+
+std::vector<Stretch> stretches_of(const CurveSkeleton& graph, const std::vector<int>& branch) {
+  constexpr std::size_t length = 8;
+  std::vector<Stretch> stretches;
+  for (std::size_t first = 0; first < branch.size(); first += length) {
+    const auto begin = branch.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = std::min(length, branch.size() - first);
+    Stretch stretch{{begin, begin + static_cast<std::ptrdiff_t>(count)}, Vector3d::Zero()};
+    Eigen::AlignedBox3d bounds;
+    for (const int e : stretch.edges) {
+      for (int k = 0; k < 2; ++k) bounds.extend(graph.nodes.row(graph.edges(e, k)).transpose());
+    }
+    stretch.centre = bounds.center();
+    stretch.reach = bounds.diagonal().norm() / 2 + graph.radii.maxCoeff();
+    stretches.push_back(std::move(stretch));
+  }
+  return stretches;
+}
+
+double distance_to_branch(const CurveSkeleton& graph, const std::vector<Stretch>& branch,
+                          const Vector3d& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Stretch& stretch : branch) {
+    if ((p - stretch.centre).norm() - stretch.reach >= nearest) continue;
+    for (const int e : stretch.edges) nearest = std::min(nearest, distance_to_tube(graph, e, p));
+  }
+  return nearest;
+}
+
+Field field_of(const CurveSkeleton& graph, double melt) {
+  std::vector<std::vector<Stretch>> branches;
+  for (const auto& branch : edges_by_branch(graph)) branches.push_back(stretches_of(graph, branch));
+  return [&graph, melt, branches = std::move(branches)](const Vector3d& p) {
+    std::vector<double> distances;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& branch : branches) {
+      distances.push_back(distance_to_branch(graph, branch, p));
+      least = std::min(least, distances.back());
+    }
+    if (melt <= 0) return least;
+    double sum = 0;
+    for (const double d : distances) sum += std::exp((least - d) / melt);
+    return least - melt * std::log(sum);
+  };
+}
+
+void require_topology(const Shape& shape) {
+  const auto& triangles = shape.surface.triangles;
+  Eigen::MatrixXi links(triangles.rows() * 2, 2);
+  links << triangles.leftCols<2>(), triangles.rightCols<2>();
+  const int components = components_of(shape.surface.positions.rows(), links);
+  const auto euler = static_cast<int>(shape.surface.positions.rows() - triangles.rows() / 2);
+  const int genus = components - euler / 2;
+  if (components == shape.components && genus == shape.genus) return;
+  throw Error(Fault::input,
+              "shape " + shape.name + ": the tubes' surface has " + std::to_string(components) +
+                  " components and genus " + std::to_string(genus) + ", the graph " +
+                  std::to_string(shape.components) + " and cycle rank " +
+                  std::to_string(shape.genus) +
+                  "; put tubes that share no node further apart, or raise the resolution");
+}
+
+}  // namespace
+
+Shape tube_union(std::string name, const CurveSkeleton& graph, const TubeUnionOptions& options) {
+  const double thinnest = graph.radii.minCoeff();
+  std::vector<Vector3d> seeds;
+  for (Eigen::Index i = 0; i < graph.nodes.rows(); ++i) seeds.emplace_back(graph.nodes.row(i));
+  const std::vector<int> degree = node_degrees(graph);
+
+  Shape shape;
+  shape.name = std::move(name);
+  shape.axis = graph;
+  shape.components = components_of(graph.nodes.rows(), graph.edges);
+  shape.genus = shape.cycles =
+      static_cast<int>(graph.edges.rows() - graph.nodes.rows()) + shape.components;
+  shape.tips = static_cast<int>(std::count(degree.begin(), degree.end(), 1));
+  shape.junctions =
+      static_cast<int>(std::count_if(degree.begin(), degree.end(), [](int d) { return d > 2; }));
+  shape.surface = mesh_level_set(field_of(graph, options.blend * thinnest), seeds,
+                                 thinnest / options.resolution / 0.6);
+  require_topology(shape);
+  return shape;
+}
+
+}  // namespace curveskel::shapes

@@ -1,0 +1,28 @@
+// The last resort of the surgery: a partition whose graph is right whatever the contraction did.
+#pragma once
+
+#include "skeleton/circles.hpp"
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+/// A surface with the graph of its bands.
+struct BandGraph {
+  Surface surface;                  ///< the input, subdivided where its handles are too fine
+  Eigen::VectorXi vertex_of_input;  ///< #V of the input: the same vertex in `surface`
+  VertexGraph graph;                ///< of `surface`
+};
+
+/// Cuts the surface where the edge distance d from an extreme vertex passes k w + w/2. Edges are
+/// shorter than w, so no triangle meets three bands, and the connected components of the bands are
+/// pieces that meet along circles: a discrete Reeb graph (Reeb 1946). A component with a handle of
+/// its own means that w is too wide; the surface is then subdivided 1:4 and cut again with w
+/// halved. Precondition: one closed oriented component. Throws Error(Fault::solver) if a piece
+/// keeps a handle after six subdivisions.
+[[nodiscard]] BandGraph band_graph(const Surface& surface, const Monitor& monitor);
+
+/// Genus of each group's piece of surface, (2 - chi - circles) / 2.
+[[nodiscard]] std::vector<int> genus_of_groups(const Surface& surface, const VertexGraph& graph);
+
+}  // namespace curveskel

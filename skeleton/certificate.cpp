@@ -1,0 +1,303 @@
+#include "skeleton/certificate.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "skeleton/curve_samples.hpp"
+#include "skeleton/sequence_tree.hpp"
+#include "surface/measures.hpp"
+#include "surface/parallel.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double tangent_scale = 1.0 / 100;  // of D
+constexpr double turning_scale = 1.0 / 100;  // of D
+constexpr double coverage_factor = 1.5;      // of the local radius
+constexpr Eigen::Index most_vertices = 20000;
+
+// Surface, skeleton and what all figures share.
+struct Subject {
+  const SurfaceTree& tree;
+  const CurveSkeleton& skeleton;
+  std::vector<Branch> branches;
+  std::vector<int> degree;    // per node
+  Eigen::VectorXd clearance;  // per node: signed distance to the surface, of junctions only
+  std::vector<CurveSample> samples;
+  std::vector<double> radius;  // per sample: signed distance to the surface, positive inside
+  double diagonal = 0;
+  int threads = 0;
+};
+
+std::vector<int> degrees(const CurveSkeleton& skeleton) {
+  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()), 0);
+  for (const std::int32_t node : skeleton.edges.reshaped()) {
+    ++degree[static_cast<std::size_t>(node)];
+  }
+  return degree;
+}
+
+bool is_junction(const Subject& subject, int node) {
+  return subject.degree[static_cast<std::size_t>(node)] >= 3;
+}
+
+// The branches' samples; a lone node is a sample too, worth one step.
+std::vector<CurveSample> sample_curve(const Subject& subject, double spacing) {
+  auto samples = sample_branches(subject.skeleton, subject.branches, spacing,
+                                 tangent_scale * subject.diagonal);
+  for (std::size_t node = 0; node < subject.degree.size(); ++node) {
+    if (subject.degree[node] > 0) continue;
+    samples.push_back({subject.skeleton.nodes.row(static_cast<Eigen::Index>(node)),
+                       Vector3d::UnitZ(), spacing, -1});
+  }
+  return samples;
+}
+
+// Runs body(i) for all samples in blocks, so that progress and cancellation come from this thread.
+template <typename Body>
+void for_samples(const Subject& subject, double from, double to, const Monitor& monitor,
+                 const Body& body) {
+  constexpr std::size_t block = 2048;
+  const std::size_t all = subject.samples.size();
+  for (std::size_t first = 0; first < all; first += block) {
+    const double share = static_cast<double>(first) / static_cast<double>(all);
+    monitor.report("certify", from + (to - from) * share);
+    parallel_for(std::min(block, all - first), 32, subject.threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = first + begin; i < first + end; ++i) body(i);
+                 });
+  }
+}
+
+// Standard deviation over mean of the ray lengths in the plane normal to the curve.
+double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int rays) {
+  const Vector3d u = sample.tangent.unitOrthogonal();
+  const Vector3d w = sample.tangent.cross(u);
+  double sum = 0;
+  double squares = 0;
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2 * std::numbers::pi * k / rays;
+    const double length =
+        tree.ray(sample.position, std::cos(angle) * u + std::sin(angle) * w).distance;
+    if (!std::isfinite(length)) return 0;  // the surface is not closed
+    sum += length;
+    squares += length * length;
+  }
+  const double mean = sum / rays;
+  return std::sqrt(std::max(0.0, squares / rays - mean * mean)) / mean;
+}
+
+// Within the ball of a junction at an end of its branch the normal plane cuts the other branches.
+bool at_junction(const Subject& subject, const CurveSample& sample) {
+  if (sample.branch < 0) return false;
+  const Branch& branch = subject.branches[static_cast<std::size_t>(sample.branch)];
+  for (const int node : {branch.nodes.front(), branch.nodes.back()}) {
+    if (!is_junction(subject, node)) continue;
+    const Vector3d junction = subject.skeleton.nodes.row(node);
+    if ((sample.position - junction).norm() < subject.clearance[node]) return true;
+  }
+  return false;
+}
+
+// The smallest value that at least `share` of the weight does not exceed.
+double weighted_quantile(std::vector<std::pair<double, double>> value_and_weight, double share) {
+  std::sort(value_and_weight.begin(), value_and_weight.end());
+  double total = 0;
+  for (const auto& [value, weight] : value_and_weight) total += weight;
+  double below = 0;
+  for (const auto& [value, weight] : value_and_weight) {
+    below += weight;
+    if (below >= share * total) return value;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void measure_inside(const Subject& subject, Certificate& certificate) {
+  double length = 0;
+  double inside = 0;
+  for (std::size_t i = 0; i < subject.samples.size(); ++i) {
+    length += subject.samples[i].length;
+    if (subject.radius[i] > 0) {
+      inside += subject.samples[i].length;
+    } else {
+      certificate.deepest_exit =
+          std::max(certificate.deepest_exit, -subject.radius[i] / subject.diagonal);
+    }
+  }
+  certificate.inside_fraction = length > 0 ? inside / length : 0;
+}
+
+void measure_centredness(const Subject& subject, int rays, const Monitor& monitor,
+                         Certificate& certificate) {
+  constexpr double left_out = -1;
+  std::vector<double> variation(subject.samples.size(), left_out);
+  const auto measure = [&](bool at_junctions_too) {
+    for_samples(subject, 0.2, 0.7, monitor, [&](std::size_t i) {
+      const CurveSample& sample = subject.samples[i];
+      if (subject.radius[i] <= 0) {
+        variation[i] = std::numeric_limits<double>::infinity();
+      } else if (at_junctions_too || !at_junction(subject, sample)) {
+        variation[i] = ray_variation(subject.tree, sample, rays);
+      }
+    });
+  };
+  const auto measured = [](double value) { return std::isfinite(value) && value != left_out; };
+  measure(false);
+  if (std::none_of(variation.begin(), variation.end(), measured)) measure(true);
+  std::vector<std::pair<double, double>> weighted;
+  for (std::size_t i = 0; i < variation.size(); ++i) {
+    if (variation[i] != left_out) weighted.emplace_back(variation[i], subject.samples[i].length);
+  }
+  certificate.centredness_median = weighted_quantile(weighted, 0.5);
+  certificate.centredness_p90 = weighted_quantile(std::move(weighted), 0.9);
+}
+
+// The samples as balls whose radius counts `factor` times.
+SequenceTree ball_tree(const Subject& subject, double factor) {
+  std::vector<SequenceTree::Item> items;
+  items.reserve(subject.samples.size());
+  for (std::size_t i = 0; i < subject.samples.size(); ++i) {
+    const Vector3d& p = subject.samples[i].position;
+    items.push_back({p, p, factor * std::max(0.0, subject.radius[i])});
+  }
+  return SequenceTree(std::move(items));
+}
+
+void measure_coverage(const Subject& subject, const Positions& vertices, const Monitor& monitor,
+                      Certificate& certificate) {
+  if (subject.samples.empty()) {
+    certificate.reach = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const SequenceTree balls = ball_tree(subject, 1);
+  const SequenceTree wide_balls = ball_tree(subject, coverage_factor);
+  const auto gap = [&](const SequenceTree& tree, const Vector3d& v, double factor) {
+    return tree.minimum(v, 0, [&](std::size_t i) {
+      return (v - subject.samples[i].position).norm() - factor * std::max(0.0, subject.radius[i]);
+    });
+  };
+  const Eigen::Index stride = (vertices.rows() + most_vertices - 1) / most_vertices;
+  const auto chosen = static_cast<std::size_t>((vertices.rows() + stride - 1) / stride);
+  std::vector<char> covered(chosen);
+  std::vector<double> uncovered(chosen);
+  monitor.report("certify", 0.7);
+  parallel_for(chosen, 256, subject.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3d v = vertices.row(static_cast<Eigen::Index>(i) * stride);
+      covered[i] = gap(wide_balls, v, coverage_factor) <= 0 ? 1 : 0;
+      uncovered[i] = std::max(0.0, gap(balls, v, 1));
+    }
+  });
+  const auto number = std::count(covered.begin(), covered.end(), 1);
+  certificate.coverage = static_cast<double>(number) / static_cast<double>(chosen);
+  std::vector<std::pair<double, double>> distances;
+  for (const double distance : uncovered) distances.emplace_back(distance, 1);
+  certificate.reach = weighted_quantile(std::move(distances), 0.95) / subject.diagonal;
+}
+
+int count_spurs(const Subject& subject) {
+  int spurs = 0;
+  for (const Branch& branch : subject.branches) {
+    int tip = branch.nodes.front();
+    int junction = branch.nodes.back();
+    if (is_junction(subject, tip)) std::swap(tip, junction);
+    if (subject.degree[static_cast<std::size_t>(tip)] != 1 || !is_junction(subject, junction)) {
+      continue;
+    }
+    const double length = polyline_length(polyline(subject.skeleton, branch));
+    if (length < subject.clearance[junction]) ++spurs;
+  }
+  return spurs;
+}
+
+// Sum of the angles between successive chords of about `step`.
+double turning_of(const Subject& subject, const Branch& branch, double step) {
+  const auto line = polyline(subject.skeleton, branch);
+  const double length = polyline_length(line);
+  const int chords = static_cast<int>(std::lround(length / step));
+  if (chords < 2) return 0;
+  std::vector<double> arc_lengths;
+  for (int k = 0; k <= chords; ++k) arc_lengths.push_back(length * k / chords);
+  auto points = points_along(line, arc_lengths);
+  const bool cycle =
+      branch.nodes.front() == branch.nodes.back() && !is_junction(subject, branch.nodes.front());
+  if (cycle) points.push_back(points[1]);
+  double turning = 0;
+  for (std::size_t k = 2; k < points.size(); ++k) {
+    const Vector3d a = points[k - 1] - points[k - 2];
+    const Vector3d b = points[k] - points[k - 1];
+    turning += std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return turning;
+}
+
+void measure_shape(const Subject& subject, Certificate& certificate) {
+  double length = 0;
+  double turning = 0;
+  for (const Branch& branch : subject.branches) {
+    length += polyline_length(polyline(subject.skeleton, branch));
+    turning += turning_of(subject, branch, turning_scale * subject.diagonal);
+  }
+  certificate.length = length / subject.diagonal;
+  certificate.turning = length > 0 ? turning / certificate.length : 0;
+  certificate.spurs = count_spurs(subject);
+}
+
+void count(const Surface& surface, const CurveSkeleton& skeleton, Certificate& certificate) {
+  const GraphTopology graph = graph_topology(skeleton);
+  certificate.components = graph.components;
+  certificate.cycle_rank = graph.cycle_rank;
+  certificate.tips = graph.tips;
+  certificate.junctions = graph.junctions;
+  const Topology counted = topology(surface);
+  certificate.components_of_surface = counted.components();
+  certificate.genus = std::accumulate(counted.genus.begin(), counted.genus.end(), 0);
+}
+
+}  // namespace
+
+Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
+                     const CertificateOptions& options, const Monitor& monitor) {
+  if (!skeleton.nodes.allFinite()) {
+    throw Error(Fault::input,
+                "the skeleton has a coordinate that is no finite number; certify needs finite "
+                "node positions: repair or write the skeleton again");
+  }
+  Certificate certificate;
+  monitor.report("certify", 0);
+  count(surface, skeleton, certificate);
+  const SurfaceTree tree(surface);
+  Subject subject{tree, skeleton, branches(skeleton), degrees(skeleton), {}, {}, {}};
+  subject.diagonal = bounding_box_diagonal(surface.positions);
+  subject.threads = options.threads;
+  subject.clearance.setZero(skeleton.nodes.rows());
+  for (int node = 0; node < skeleton.nodes.rows(); ++node) {
+    if (!is_junction(subject, node)) continue;
+    subject.clearance[node] = tree.inscribed_radius(skeleton.nodes.row(node));
+  }
+  subject.samples = sample_curve(subject, options.sample_spacing * subject.diagonal);
+  subject.radius.resize(subject.samples.size());
+  for_samples(subject, 0.1, 0.2, monitor, [&](std::size_t i) {
+    subject.radius[i] = tree.inscribed_radius(subject.samples[i].position);
+  });
+
+  measure_inside(subject, certificate);
+  certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
+  measure_centredness(subject, options.rays, monitor, certificate);
+  measure_coverage(subject, surface.positions, monitor, certificate);
+  measure_shape(subject, certificate);
+  monitor.report("certify", 1);
+  return certificate;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,120 @@
+#include "skeleton/curve_skeleton.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace curveskel {
+namespace {
+
+/// The neighbours of every node, ascending: those of i are neighbour[first[i]] .. [first[i+1] - 1];
+/// edge[k] is the row of `edges` behind neighbour[k].
+struct Adjacency {
+  std::vector<int> first;
+  std::vector<int> neighbour;
+  std::vector<int> edge;
+  [[nodiscard]] int degree(int node) const {
+    return first[static_cast<std::size_t>(node) + 1] - first[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] int begin(int node) const { return first[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] int end(int node) const { return first[static_cast<std::size_t>(node) + 1]; }
+};
+
+Adjacency adjacency_of(const CurveSkeleton& skeleton) {
+  const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
+  const auto edges = static_cast<std::size_t>(skeleton.edges.rows());
+  Adjacency adjacency{std::vector<int>(nodes + 1, 0), std::vector<int>(2 * edges),
+                      std::vector<int>(2 * edges)};
+  for (const std::int32_t node : skeleton.edges.reshaped()) {
+    ++adjacency.first[static_cast<std::size_t>(node) + 1];
+  }
+  std::partial_sum(adjacency.first.begin(), adjacency.first.end(), adjacency.first.begin());
+  std::vector<int> next(adjacency.first.begin(), adjacency.first.end() - 1);
+  const auto append = [&](int from, int to, int edge) {
+    const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(from)]++);
+    adjacency.neighbour[place] = to;
+    adjacency.edge[place] = edge;
+  };
+  // Rows are sorted with i < j: the smaller neighbours of a node come first, each group ascending.
+  for (int e = 0; e < skeleton.edges.rows(); ++e) {
+    append(skeleton.edges(e, 1), skeleton.edges(e, 0), e);
+  }
+  for (int e = 0; e < skeleton.edges.rows(); ++e) {
+    append(skeleton.edges(e, 0), skeleton.edges(e, 1), e);
+  }
+  return adjacency;
+}
+
+int find_root(std::vector<int>& parent, int node) {
+  while (parent[static_cast<std::size_t>(node)] != node) {
+    auto& above = parent[static_cast<std::size_t>(node)];
+    above = parent[static_cast<std::size_t>(above)];
+    node = above;
+  }
+  return node;
+}
+
+}  // namespace
+
+std::vector<Branch> branches(const CurveSkeleton& skeleton) {
+  const Adjacency adjacency = adjacency_of(skeleton);
+  const auto nodes = static_cast<int>(skeleton.nodes.rows());
+  std::vector<bool> taken(static_cast<std::size_t>(skeleton.edges.rows()), false);
+  std::vector<Branch> result;
+
+  const auto walk_from = [&](int start) {
+    for (int k = adjacency.begin(start); k < adjacency.end(start); ++k) {
+      auto step = static_cast<std::size_t>(k);
+      if (taken[static_cast<std::size_t>(adjacency.edge[step])]) continue;
+      Branch branch{{start}};
+      while (true) {
+        const int edge = adjacency.edge[step];
+        const int node = adjacency.neighbour[step];
+        taken[static_cast<std::size_t>(edge)] = true;
+        branch.nodes.push_back(node);
+        if (node == start || adjacency.degree(node) != 2) break;
+        step = static_cast<std::size_t>(adjacency.begin(node));
+        if (adjacency.edge[step] == edge) ++step;
+      }
+      result.push_back(std::move(branch));
+    }
+  };
+  for (int node = 0; node < nodes; ++node) {
+    if (adjacency.degree(node) != 2) walk_from(node);
+  }
+  for (int node = 0; node < nodes; ++node) walk_from(node);  // cycles without a junction are left
+
+  std::sort(result.begin(), result.end(), [](const Branch& a, const Branch& b) {
+    return std::lexicographical_compare(a.nodes.begin(), a.nodes.begin() + 2, b.nodes.begin(),
+                                        b.nodes.begin() + 2);
+  });
+  return result;
+}
+
+GraphTopology graph_topology(const CurveSkeleton& skeleton) {
+  const auto nodes = static_cast<int>(skeleton.nodes.rows());
+  GraphTopology topology;
+  std::vector<int> parent(static_cast<std::size_t>(nodes));
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<int> degree(static_cast<std::size_t>(nodes), 0);
+  topology.components = nodes;
+  for (int e = 0; e < skeleton.edges.rows(); ++e) {
+    const int i = skeleton.edges(e, 0);
+    const int j = skeleton.edges(e, 1);
+    ++degree[static_cast<std::size_t>(i)];
+    ++degree[static_cast<std::size_t>(j)];
+    const int a = find_root(parent, i);
+    const int b = find_root(parent, j);
+    if (a == b) continue;
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    --topology.components;
+  }
+  topology.cycle_rank = static_cast<int>(skeleton.edges.rows()) - nodes + topology.components;
+  topology.tips = static_cast<int>(std::count(degree.begin(), degree.end(), 1));
+  topology.junctions =
+      static_cast<int>(std::count_if(degree.begin(), degree.end(), [](int d) { return d >= 3; }));
+  return topology;
+}
+
+}  // namespace curveskel

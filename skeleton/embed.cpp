@@ -1,0 +1,179 @@
+#include "skeleton/embed.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contraction/laplacian.hpp"
+#include "skeleton/inside.hpp"
+#include "skeleton/network.hpp"
+#include "skeleton/prune.hpp"
+#include "skeleton/relax.hpp"
+#include "skeleton/tips.hpp"
+
+namespace curveskel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Each group at the area-weighted mean of its vertices' ball centres, each circle at that of the
+/// ends of the edges that it crosses.
+std::vector<Point> positions_from_balls(const Surface& surface, const InscribedBalls& balls,
+                                        const VertexGraph& graph) {
+  const Eigen::VectorXd areas = vertex_areas(surface);
+  std::vector<Point> sum(at(graph.nodes()), Point::Zero());
+  std::vector<double> weight(at(graph.nodes()), 0);
+  const auto add = [&](int node, int vertex) {
+    const double w = std::max(areas[vertex], std::numeric_limits<double>::min());
+    sum[at(node)] += w * balls.centres.row(vertex).transpose();
+    weight[at(node)] += w;
+  };
+  for (int v = 0; v < static_cast<int>(graph.group_of_vertex.size()); ++v) {
+    add(graph.group_of_vertex[v], v);
+  }
+  for (int c = 0; c < static_cast<int>(graph.circles.size()); ++c) {
+    for (const auto& edge : graph.circles[at(c)]) {
+      add(graph.groups + c, edge[0]);
+      add(graph.groups + c, edge[1]);
+    }
+  }
+  for (std::size_t n = 0; n < sum.size(); ++n) sum[n] /= weight[n];
+  return sum;
+}
+
+/// Junctions that share most of one inscribed ball become one, at the larger ball.
+void merge_junctions(Network& network, const SurfaceTree& tree, double factor) {
+  for (;;) {
+    double nearest = factor;
+    int best = -1;
+    for (int s = 0; s < static_cast<int>(network.strands.size()); ++s) {
+      const Strand& strand = network.strands[at(s)];
+      if (!strand.alive || strand.from == strand.to) continue;
+      if (network.degree(strand.from) < 3 || network.degree(strand.to) < 3) continue;
+      const double radius = std::max(tree.inscribed_radius(network.hubs[at(strand.from)].position),
+                                     tree.inscribed_radius(network.hubs[at(strand.to)].position));
+      if (radius <= 0) continue;
+      const double ratio = network.length(strand) / radius;
+      if (ratio < nearest) {
+        nearest = ratio;
+        best = s;
+      }
+    }
+    if (best < 0) return;
+    const Strand& strand = network.strands[at(best)];
+    const Point a = network.hubs[at(strand.from)].position;
+    const Point b = network.hubs[at(strand.to)].position;
+    const bool keep_from = tree.inscribed_radius(a) >= tree.inscribed_radius(b);
+    network.collapse(best, keep_from ? strand.from : strand.to, keep_from ? a : b);
+  }
+}
+
+/// Drops the points of each strand that lie in the ball of its junction, so that it leaves
+/// straight.
+void straighten_at_junctions(Network& network, const SurfaceTree& tree, double share) {
+  for (Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const auto reach_of = [&](int hub) {
+      if (network.degree(hub) < 3) return 0.0;
+      return share * std::max(0.0, tree.inscribed_radius(network.hubs[at(hub)].position));
+    };
+    const Point& from = network.hubs[at(strand.from)].position;
+    const Point& to = network.hubs[at(strand.to)].position;
+    const double from_reach = reach_of(strand.from);
+    const double to_reach = reach_of(strand.to);
+    const std::size_t least = strand.from == strand.to ? 2 : 0;
+    auto& points = strand.points;
+    std::size_t begin = 0;
+    while (points.size() - begin > least && (points[begin] - from).norm() < from_reach) ++begin;
+    points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(begin));
+    while (points.size() > least && (points.back() - to).norm() < to_reach) points.pop_back();
+  }
+}
+
+/// Every vertex goes to the nearest of the nodes that its group may belong to.
+Eigen::VectorXi nearest_nodes(const InscribedBalls& balls, const VertexGraph& graph,
+                              const NetworkNodes& nodes) {
+  Eigen::VectorXi node_of_vertex(graph.group_of_vertex.size());
+  for (Eigen::Index v = 0; v < node_of_vertex.size(); ++v) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int node : nodes.group_nodes[at(graph.group_of_vertex[v])]) {
+      const double distance = (nodes.skeleton.nodes.row(node) - balls.centres.row(v)).squaredNorm();
+      if (distance < nearest) {
+        nearest = distance;
+        node_of_vertex[v] = node;
+      }
+    }
+  }
+  return node_of_vertex;
+}
+
+/// Two strands between the same hubs, or a closed one, need inner points to be told apart.
+void keep_simple(Network& network) {
+  for (Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const std::size_t least = strand.from == strand.to ? 2 : 1;
+    while (strand.points.size() < least) {
+      const auto line = network.polyline(strand);
+      std::vector<Point> points;
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        if (i > 0) points.push_back(line[i]);
+        points.push_back(0.5 * (line[i] + line[i + 1]));
+      }
+      strand.points = std::move(points);
+    }
+  }
+}
+
+}  // namespace
+
+double slenderness_limit(double detail) { return detail < 0.5 ? 3 - 3 * detail : 3 * (1 - detail); }
+
+CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
+                    const VertexGraph& graph, const EmbedOptions& options, int threads,
+                    const Monitor& monitor) {
+  monitor.report("embed", 0);
+  Network network = network_of_graph(graph, positions_from_balls(surface, balls, graph));
+  const Regions regions = regions_of(surface, graph);
+  prune_blunt(network, surface, regions, slenderness_limit(options.detail));
+  keep_inside(network, surface, balls, graph, tree);
+  centre_junctions(network, tree);
+  merge_junctions(network, tree, options.merge);
+  monitor.report("embed", 0.2);
+
+  RelaxOptions centring;
+  centring.keep = options.keep_radius;
+  centring.rounds = options.first_rounds;
+  do {
+    straighten_at_junctions(network, tree, options.straight);
+    resample(network, tree);
+    relax(network, tree, centring, threads);
+    straighten_at_junctions(network, tree, options.straight);
+    shape_tips(network, tree, options.tip_reach, options.tip_gap);
+    lengthen_short_leaves(network, tree);
+    monitor.report("embed", 0.4);
+  } while (prune_spurs(network, tree, 1));
+  centring.rounds = options.relax_rounds;
+  relax(network, tree, centring, threads);
+  monitor.report("embed", 0.6);
+
+  keep_simple(network);
+  keep_inside(network, surface, balls, graph, tree);
+  thin_out(network, tree);
+  centring.covered = true;
+  centring.rounds = options.smooth_rounds;
+  relax(network, tree, centring, threads);
+  monitor.report("embed", 0.9);
+
+  NetworkNodes nodes = nodes_of_network(network, graph.groups);
+  CurveSkeleton& skeleton = nodes.skeleton;
+  skeleton.node_of_vertex = nearest_nodes(balls, graph, nodes);
+  skeleton.radii.resize(skeleton.nodes.rows());
+  for (Eigen::Index n = 0; n < skeleton.nodes.rows(); ++n) {
+    skeleton.radii[n] = std::max(0.0, tree.inscribed_radius(skeleton.nodes.row(n)));
+  }
+  monitor.report("embed", 1);
+  return std::move(nodes.skeleton);
+}
+
+}  // namespace curveskel

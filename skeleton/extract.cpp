@@ -1,0 +1,187 @@
+#include "skeleton/extract.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "skeleton/bands.hpp"
+#include "surface/canonical.hpp"
+#include "surface/coarsen.hpp"
+#include "surface/inscribed_balls.hpp"
+#include "surface/refine.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Adds the time of each stage to the list, in the order of first use.
+class StageClock {
+ public:
+  explicit StageClock(std::vector<StageTime>& times) : times_(times) {}
+
+  template <typename Work>
+  auto operator()(const char* stage, const Work& work) {
+    const auto start = Clock::now();
+    auto result = work();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    auto found = std::find_if(times_.begin(), times_.end(),
+                              [&](const StageTime& t) { return t.stage == stage; });
+    if (found == times_.end()) found = times_.insert(times_.end(), {stage, 0});
+    found->seconds += seconds;
+    return result;
+  }
+
+ private:
+  std::vector<StageTime>& times_;
+};
+
+/// One component, from its canonical form to its skeleton there.
+class Pipeline {
+ public:
+  Pipeline(const ExtractOptions& options, const Monitor& monitor, StageClock& clock)
+      : options_(options), monitor_(monitor), clock_(clock) {}
+
+  CurveSkeleton run(const Surface& canonical, int resolution, ComponentRecord& record) {
+    Surface source = canonical;
+    if (options_.fairing) {
+      source = clock_("fair", [&] { return fair(canonical, options_.fair, monitor_); });
+    }
+    Coarsened working = clock_("coarsen", [&] { return at_resolution(source, resolution); });
+    record.working_vertices = static_cast<int>(working.surface.positions.rows());
+
+    const auto tree = clock_("balls", [&] { return SurfaceTree(canonical); });
+    auto balls = clock_("balls", [&] {
+      if (!options_.fairing) return inscribed_balls(working.surface, tree, options_.threads);
+      return inscribed_balls(working.surface, SurfaceTree(source), options_.threads);
+    });
+
+    std::optional<VertexGraph> graph = graph_by_contraction(working.surface, balls, record);
+    if (!graph) {
+      BandGraph bands = clock_("surgery", [&] { return band_graph(working.surface, monitor_); });
+      for (int& v : working.vertex_of_input) v = bands.vertex_of_input[v];
+      working.surface = std::move(bands.surface);
+      graph = std::move(bands.graph);
+      balls = inscribed_balls(working.surface, tree, options_.threads);
+      record.bands = true;
+    }
+
+    CurveSkeleton skeleton = clock_("embed", [&] {
+      return embed(working.surface, tree, balls, *graph, options_.embed, options_.threads,
+                   monitor_);
+    });
+    Eigen::VectorXi node_of_vertex(canonical.positions.rows());
+    for (Eigen::Index v = 0; v < node_of_vertex.size(); ++v) {
+      node_of_vertex[v] = skeleton.node_of_vertex[working.vertex_of_input[v]];
+    }
+    skeleton.node_of_vertex = std::move(node_of_vertex);
+    return skeleton;
+  }
+
+ private:
+  Coarsened at_resolution(const Surface& source, int resolution) const {
+    const int least = options_.least_resolution;
+    if (source.positions.rows() < least) {
+      Surface finer = refine(source, least);
+      return {std::move(finer),
+              Eigen::VectorXi::LinSpaced(source.positions.rows(), 0,
+                                         static_cast<int>(source.positions.rows()) - 1)};
+    }
+    CoarsenOptions coarsening;
+    coarsening.target_vertices = resolution;
+    return coarsen(source, coarsening, monitor_);
+  }
+
+  std::optional<VertexGraph> graph_by_contraction(const Surface& working,
+                                                  const InscribedBalls& balls,
+                                                  ComponentRecord& record) {
+    ContractionOptions contraction = options_.contraction;
+    constexpr int most_attempts = 2;
+    for (record.attempts = 1; record.attempts <= most_attempts; ++record.attempts) {
+      Contraction contracted = clock_(
+          "contract", [&] { return contract(working, balls.centres, contraction, monitor_); });
+      auto graph = clock_("surgery",
+                          [&] { return surgery(working, contracted, options_.surgery, monitor_); });
+      record.steps = std::move(contracted.steps);
+      record.stop = contracted.stop;
+      if (graph) return graph;
+      contraction.contraction_weight /= 3;
+      contraction.contraction_growth = 1 + (contraction.contraction_growth - 1) / 3;
+      contraction.collapse_length /= 2;
+    }
+    record.attempts = most_attempts;
+    return std::nullopt;
+  }
+
+  const ExtractOptions& options_;
+  const Monitor& monitor_;
+  StageClock& clock_;
+};
+
+/// The surface's working vertices that a component gets.
+int share_of_resolution(const ExtractOptions& options, Eigen::Index vertices, Eigen::Index all) {
+  if (options.resolution <= 0) return static_cast<int>(vertices);
+  const double share = double(options.resolution) * double(vertices) / double(all);
+  return std::max(options.least_resolution, static_cast<int>(std::lround(share)));
+}
+
+/// Appends a component's skeleton, its vertex map going from local to whole.
+void append(CurveSkeleton& whole, const CurveSkeleton& part, const std::vector<int>& whole_vertex) {
+  const Eigen::Index nodes = whole.nodes.rows();
+  const Eigen::Index edges = whole.edges.rows();
+  whole.nodes.conservativeResize(nodes + part.nodes.rows(), 3);
+  whole.nodes.bottomRows(part.nodes.rows()) = part.nodes;
+  whole.radii.conservativeResize(nodes + part.nodes.rows());
+  whole.radii.tail(part.nodes.rows()) = part.radii;
+  whole.edges.conservativeResize(edges + part.edges.rows(), 2);
+  whole.edges.bottomRows(part.edges.rows()) = part.edges.array() + static_cast<int>(nodes);
+  for (std::size_t v = 0; v < whole_vertex.size(); ++v) {
+    whole.node_of_vertex[whole_vertex[v]] =
+        part.node_of_vertex[static_cast<Eigen::Index>(v)] + static_cast<int>(nodes);
+  }
+}
+
+}  // namespace
+
+Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
+  Extraction result;
+  StageClock clock(result.times);
+  const auto [parts, genus] = clock("normalise", [&] {
+    const Topology counted = topology(surface);
+    return std::pair(split_components(surface, counted), counted.genus);
+  });
+  result.skeleton.nodes.resize(0, 3);
+  result.skeleton.edges.resize(0, 2);
+  result.skeleton.node_of_vertex = Eigen::VectorXi::Constant(surface.positions.rows(), -1);
+
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const Component& part = parts[c];
+    const auto vertices = part.surface.positions.rows();
+    ComponentRecord record;
+    record.vertices = static_cast<int>(vertices);
+    record.genus = genus[c];
+    const Canonical canonical = clock("normalise", [&] { return canonical_form(part.surface); });
+    CurveSkeleton skeleton =
+        Pipeline(options, monitor, clock)
+            .run(canonical.surface,
+                 share_of_resolution(options, vertices, surface.positions.rows()), record);
+    skeleton.nodes = canonical.to_model(skeleton.nodes);
+    skeleton.radii *= canonical.scale;
+    std::vector<int> whole_vertex(part.vertex_in_whole.size());
+    for (std::size_t v = 0; v < whole_vertex.size(); ++v) {
+      whole_vertex[v] = part.vertex_in_whole[static_cast<std::size_t>(
+          canonical.input_of_vertex[static_cast<Eigen::Index>(v)])];
+    }
+    append(result.skeleton, skeleton, whole_vertex);
+    result.components.push_back(std::move(record));
+  }
+  result.certificate = clock(
+      "certify", [&] { return evaluate(surface, result.skeleton, options.certificate, monitor); });
+  return result;
+}
+
+}  // namespace curveskel

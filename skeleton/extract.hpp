@@ -1,0 +1,59 @@
+// The whole way from a clean surface to its certified curve skeleton.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contraction/contract.hpp"
+#include "contraction/fair.hpp"
+#include "skeleton/certificate.hpp"
+#include "skeleton/curve_skeleton.hpp"
+#include "skeleton/embed.hpp"
+#include "skeleton/surgery.hpp"
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct ExtractOptions {
+  int resolution = 8000;        ///< working vertices for the whole surface; 0 = all that there are
+  int least_resolution = 1500;  ///< working vertices for each component; fewer are refined
+  int threads = 0;              ///< 0 = one per core; the result does not depend on it
+  bool fairing = false;         ///< clean the input by `fair` first
+  FairOptions fair;
+  ContractionOptions contraction;
+  SurgeryOptions surgery;
+  EmbedOptions embed;
+  CertificateOptions certificate;
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// How one component went.
+struct ComponentRecord {
+  int vertices = 0;          ///< of the surface passed in
+  int working_vertices = 0;  ///< after coarsening or refining
+  int genus = 0;
+  int attempts = 1;    ///< contractions until the surgery succeeded, each gentler than the last
+  bool bands = false;  ///< the surgery gave up, see band_graph
+  std::vector<Step> steps;
+  Stop stop = Stop::iterations;
+};
+
+struct Extraction {
+  CurveSkeleton skeleton;  ///< node_of_vertex indexes the vertices of the surface passed in
+  std::vector<ComponentRecord> components;  ///< in the order of `topology`
+  Certificate certificate;
+  std::vector<StageTime> times;  ///< in the order of the stages, summed over the components
+};
+
+/// normalise -> coarsen -> fair -> contract -> surgery -> embed -> certify, each component on its
+/// own. Precondition: a clean surface (see Surface).
+/// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
+[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
+                                 const Monitor& monitor);
+
+}  // namespace curveskel

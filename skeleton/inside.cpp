@@ -1,0 +1,265 @@
+#include "skeleton/inside.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "skeleton/relax.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double least_radius = 1e-5;
+constexpr int deepest = 10;
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+/// Inside and away from the surface, or moved there if that can be done nearby.
+Point pulled_inside(const SurfaceTree& tree, const Point& p) {
+  const double radius = tree.inscribed_radius(p);
+  if (radius >= least_radius) return p;
+  const auto nearest = tree.nearest(p);
+  Point inward = radius < 0 ? Point(nearest.point - p) : Point(p - nearest.point);
+  if (inward.norm() == 0) return p;
+  inward.normalize();
+  const auto ball = tree.inscribed_ball(nearest.point, inward);
+  if (!std::isfinite(ball.radius) || tree.inscribed_radius(ball.centre) <= radius) return p;
+  return ball.centre;
+}
+
+/// Appends the points that have to come between p and q, straight where that stays inside, bent
+/// inwards where not. False if some gap could not be covered; `inserted` is then best left unused.
+class Cover {
+ public:
+  Cover(const SurfaceTree& tree, bool may_bend) : tree_(tree), may_bend_(may_bend) {}
+
+  bool between(const Point& p, const Point& q, std::vector<Point>& inserted) const {
+    return between(p, tree_.inscribed_radius(p), q, tree_.inscribed_radius(q), 0, inserted);
+  }
+
+ private:
+  bool between(const Point& p, double p_radius, const Point& q, double q_radius, int depth,
+               std::vector<Point>& inserted) const {
+    const double length = (q - p).norm();
+    if (p_radius > 0 && q_radius > 0 && length <= p_radius + q_radius) return true;
+    if (depth == deepest || p_radius <= 0 || q_radius <= 0) return false;
+    Point middle = 0.5 * (p + q);
+    double radius = tree_.inscribed_radius(middle);
+    if (radius < least_radius) {
+      if (!may_bend_) return false;
+      const Point moved = pulled_inside(tree_, middle);
+      // A centre far from both ends belongs to another part of the surface.
+      if ((moved - middle).norm() > length) return false;
+      middle = moved;
+      radius = tree_.inscribed_radius(middle);
+    }
+    if (!between(p, p_radius, middle, radius, depth + 1, inserted)) return false;
+    inserted.push_back(middle);
+    return between(middle, radius, q, q_radius, depth + 1, inserted);
+  }
+
+  const SurfaceTree& tree_;
+  bool may_bend_;
+};
+
+/// Cheapest chains of the vertices' inscribed balls from neighbour to neighbour.
+class BallChains {
+ public:
+  BallChains(const Surface& surface, const InscribedBalls& balls, const VertexGraph& graph)
+      : balls_(balls), graph_(graph), neighbours_(at(surface.positions.rows())) {
+    for (const auto& [a, b] : index_edges(surface.triangles).edges) {
+      neighbours_[at(a)].push_back(b);
+      neighbours_[at(b)].push_back(a);
+    }
+  }
+
+  /// Ball centres from about p to about q through vertices of the given groups; empty if there is
+  /// no way. Going far and going through small balls both cost.
+  [[nodiscard]] std::vector<Point> chain(const Point& p, const Point& q,
+                                         const std::vector<char>& group_allowed) const {
+    const int source = holder_of(p, group_allowed);
+    const int target = holder_of(q, group_allowed);
+    if (source < 0 || target < 0) return {};
+    std::vector<double> cost(neighbours_.size(), std::numeric_limits<double>::infinity());
+    std::vector<int> previous(neighbours_.size(), -1);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    cost[at(source)] = 0;
+    queue.emplace(0, source);
+    while (!queue.empty()) {
+      const auto [so_far, v] = queue.top();
+      queue.pop();
+      if (v == target) break;
+      if (so_far > cost[at(v)]) continue;
+      for (const int next : neighbours_[at(v)]) {
+        if (!allowed(next, group_allowed)) continue;
+        const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
+        const double narrow = std::min(balls_.radii[v], balls_.radii[next]);
+        const double total = so_far + step / narrow;
+        if (total >= cost[at(next)]) continue;
+        cost[at(next)] = total;
+        previous[at(next)] = v;
+        queue.emplace(total, next);
+      }
+    }
+    if (!std::isfinite(cost[at(target)])) return {};
+    std::vector<Point> points;
+    for (int v = target; v >= 0; v = previous[at(v)]) points.push_back(balls_.centres.row(v));
+    std::reverse(points.begin(), points.end());
+    return points;
+  }
+
+  /// The ball centre nearest to p of the vertices of the given groups; p if they have none.
+  [[nodiscard]] Point nearest_centre(const Point& p, const std::vector<char>& group_allowed) const {
+    Point best = p;
+    double least = std::numeric_limits<double>::infinity();
+    for (int v = 0; v < static_cast<int>(neighbours_.size()); ++v) {
+      if (!allowed(v, group_allowed)) continue;
+      const double distance = (balls_.centres.row(v).transpose() - p).norm();
+      if (distance < least) {
+        least = distance;
+        best = balls_.centres.row(v);
+      }
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] bool allowed(int v, const std::vector<char>& group_allowed) const {
+    return group_allowed[at(graph_.group_of_vertex[v])] != 0 && balls_.radii[v] > least_radius;
+  }
+
+  /// The vertex whose ball holds the point best.
+  [[nodiscard]] int holder_of(const Point& p, const std::vector<char>& group_allowed) const {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int v = 0; v < static_cast<int>(neighbours_.size()); ++v) {
+      if (!allowed(v, group_allowed)) continue;
+      const double gap = (balls_.centres.row(v).transpose() - p).norm() - balls_.radii[v];
+      if (gap < least) {
+        least = gap;
+        best = v;
+      }
+    }
+    return best;
+  }
+
+  const InscribedBalls& balls_;
+  const VertexGraph& graph_;
+  std::vector<std::vector<int>> neighbours_;
+};
+
+/// Leaves out the points of a chain that a straight line inside makes needless.
+std::vector<Point> shortcut(const std::vector<Point>& chain, const SurfaceTree& tree) {
+  const Cover straight(tree, false);
+  std::vector<Point> kept{chain.front()};
+  for (std::size_t i = 0; i + 1 < chain.size();) {
+    std::size_t next = i + 1;
+    std::vector<Point> unused;
+    for (std::size_t step = 2; i + step < chain.size(); step *= 2) {
+      if (!straight.between(chain[i], chain[i + step], unused)) break;
+      next = i + step;
+    }
+    kept.push_back(chain[next]);
+    i = next;
+  }
+  return kept;
+}
+
+class Keeper {
+ public:
+  Keeper(Network& network, const Surface& surface, const InscribedBalls& balls,
+         const VertexGraph& graph, const SurfaceTree& tree)
+      : network_(network), graph_(graph), tree_(tree), chains_(surface, balls, graph) {}
+
+  int run() {
+    for (Hub& hub : network_.hubs) {
+      if (!hub.alive) continue;
+      hub.position = pulled_inside(tree_, hub.position);
+      if (tree_.inscribed_radius(hub.position) < least_radius) {
+        hub.position = chains_.nearest_centre(hub.position, groups_of(hub.nodes));
+      }
+    }
+    for (Strand& strand : network_.strands) {
+      if (strand.alive) cover_strand(strand);
+    }
+    return uncovered_;
+  }
+
+ private:
+  void cover_strand(Strand& strand) {
+    for (Point& p : strand.points) p = pulled_inside(tree_, p);
+    const auto line = network_.polyline(strand);
+    const auto radii = radii_at(tree_, line);
+    std::vector<Point> points;
+    std::size_t i = 0;
+    while (i + 1 < line.size()) {
+      std::size_t next = i + 1;
+      std::vector<Point> between;
+      if (!Cover(tree_, true).between(line[i], line[next], between)) {
+        // From the last point that is inside to the next one.
+        while (next + 1 < line.size() && radii[next] < least_radius) ++next;
+        between = detour(strand, line[i], line[next]);
+      }
+      points.insert(points.end(), between.begin(), between.end());
+      if (next + 1 < line.size()) points.push_back(line[next]);
+      i = next;
+    }
+    strand.points = std::move(points);
+  }
+
+  [[nodiscard]] std::vector<char> groups_of(const std::vector<int>& nodes) const {
+    std::vector<char> allowed(at(graph_.groups), 0);
+    for (const int node : nodes) {
+      if (node < graph_.groups) allowed[at(node)] = 1;
+    }
+    return allowed;
+  }
+
+  std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
+    std::vector<int> nodes = strand.nodes;
+    for (const int hub : {strand.from, strand.to}) {
+      const auto& more = network_.hubs[at(hub)].nodes;
+      nodes.insert(nodes.end(), more.begin(), more.end());
+    }
+    auto chain = chains_.chain(p, q, groups_of(nodes));
+    if (chain.empty()) {
+      ++uncovered_;
+      return {};
+    }
+    chain.insert(chain.begin(), p);
+    chain.push_back(q);
+    chain = shortcut(chain, tree_);
+    std::vector<Point> points;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      if (i > 0) points.push_back(chain[i]);
+      std::vector<Point> between;
+      if (Cover(tree_, true).between(chain[i], chain[i + 1], between)) {
+        points.insert(points.end(), between.begin(), between.end());
+      } else {
+        ++uncovered_;
+      }
+    }
+    return points;
+  }
+
+  Network& network_;
+  const VertexGraph& graph_;
+  const SurfaceTree& tree_;
+  BallChains chains_;
+  int uncovered_ = 0;
+};
+
+}  // namespace
+
+int keep_inside(Network& network, const Surface& surface, const InscribedBalls& balls,
+                const VertexGraph& graph, const SurfaceTree& tree) {
+  return Keeper(network, surface, balls, graph, tree).run();
+}
+
+}  // namespace curveskel

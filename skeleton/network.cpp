@@ -1,0 +1,217 @@
+#include "skeleton/network.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace curveskel {
+namespace {
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+int Network::degree(int hub) const {
+  int count = 0;
+  for (const Strand& strand : strands) {
+    if (strand.alive)
+      count += static_cast<int>(strand.from == hub) + static_cast<int>(strand.to == hub);
+  }
+  return count;
+}
+
+std::vector<int> Network::strands_at(int hub) const {
+  std::vector<int> found;
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    const Strand& strand = strands[s];
+    if (strand.alive && (strand.from == hub || strand.to == hub))
+      found.push_back(static_cast<int>(s));
+  }
+  return found;
+}
+
+bool Network::is_leaf(const Strand& strand) const {
+  return strand.alive && (degree(strand.from) == 1) != (degree(strand.to) == 1);
+}
+
+int Network::living_strands() const {
+  return static_cast<int>(
+      std::count_if(strands.begin(), strands.end(), [](const Strand& s) { return s.alive; }));
+}
+
+std::vector<Point> Network::polyline(const Strand& strand) const {
+  std::vector<Point> line;
+  line.reserve(strand.points.size() + 2);
+  line.push_back(hubs[at(strand.from)].position);
+  append(line, strand.points);
+  line.push_back(hubs[at(strand.to)].position);
+  return line;
+}
+
+double Network::length(const Strand& strand) const {
+  const auto line = polyline(strand);
+  double sum = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
+  return sum;
+}
+
+void Network::orient_from(int strand, int hub) {
+  Strand& s = strands[at(strand)];
+  if (s.from == hub) return;
+  std::swap(s.from, s.to);
+  std::reverse(s.points.begin(), s.points.end());
+  std::reverse(s.nodes.begin(), s.nodes.end());
+}
+
+void Network::prune(int strand) {
+  Strand& s = strands[at(strand)];
+  const int tip = degree(s.from) == 1 ? s.from : s.to;
+  const int base = tip == s.from ? s.to : s.from;
+  append(hubs[at(base)].nodes, s.nodes);
+  append(hubs[at(base)].nodes, hubs[at(tip)].nodes);
+  s.alive = false;
+  hubs[at(tip)].alive = false;
+  if (degree(base) == 2) dissolve(base);
+}
+
+void Network::collapse(int strand, int into, const Point& position) {
+  Strand& s = strands[at(strand)];
+  const int gone = s.from == into ? s.to : s.from;
+  append(hubs[at(into)].nodes, s.nodes);
+  append(hubs[at(into)].nodes, hubs[at(gone)].nodes);
+  s.alive = false;
+  hubs[at(gone)].alive = false;
+  hubs[at(into)].position = position;
+  for (Strand& other : strands) {
+    if (!other.alive) continue;
+    if (other.from == gone) other.from = into;
+    if (other.to == gone) other.to = into;
+  }
+}
+
+void Network::dissolve(int hub) {
+  const auto around = strands_at(hub);
+  if (around.size() != 2) return;  // a closed curve keeps its hub
+  orient_from(around[1], hub);
+  Strand& first = strands[at(around[0])];
+  Strand& second = strands[at(around[1])];
+  if (first.to != hub) orient_from(around[0], first.to);
+  first.points.push_back(hubs[at(hub)].position);
+  append(first.points, second.points);
+  append(first.nodes, hubs[at(hub)].nodes);
+  append(first.nodes, second.nodes);
+  first.to = second.to;
+  second.alive = false;
+  hubs[at(hub)].alive = false;
+}
+
+Network network_of_graph(const VertexGraph& graph, const std::vector<Point>& positions) {
+  const int nodes = graph.nodes();
+  std::vector<std::vector<int>> neighbours(at(nodes));
+  for (Eigen::Index e = 0; e < graph.edges.rows(); ++e) {
+    const auto a = graph.edges(e, 0);
+    const auto b = graph.edges(e, 1);
+    neighbours[at(a)].push_back(b);
+    neighbours[at(b)].push_back(a);
+  }
+
+  Network network;
+  std::vector<int> hub_of_node(at(nodes), -1);
+  std::vector<char> used(at(nodes), 0);
+  const auto make_hub = [&](int node) {
+    hub_of_node[at(node)] = static_cast<int>(network.hubs.size());
+    network.hubs.push_back({positions[at(node)], {node}, true});
+  };
+  const auto trace = [&](int start, int next) {
+    Strand strand;
+    strand.from = hub_of_node[at(start)];
+    int previous = start;
+    int node = next;
+    while (hub_of_node[at(node)] < 0) {
+      used[at(node)] = 1;
+      strand.points.push_back(positions[at(node)]);
+      strand.nodes.push_back(node);
+      // A chain node has two neighbours; both are `previous` only in a two-node cycle.
+      const auto& around = neighbours[at(node)];
+      const int following = around[0] == previous ? around[1] : around[0];
+      previous = std::exchange(node, following);
+    }
+    strand.to = hub_of_node[at(node)];
+    network.strands.push_back(std::move(strand));
+  };
+
+  for (int node = 0; node < nodes; ++node) {
+    if (neighbours[at(node)].size() != 2) make_hub(node);
+  }
+  for (int node = 0; node < nodes; ++node) {
+    if (hub_of_node[at(node)] < 0) continue;
+    // Circles have degree 2, so a neighbour is never a hub itself.
+    for (const int next : neighbours[at(node)]) {
+      if (used[at(next)] == 0) trace(node, next);
+    }
+  }
+  for (int node = 0; node < graph.groups; ++node) {
+    if (used[at(node)] != 0 || hub_of_node[at(node)] >= 0) continue;
+    make_hub(node);
+    trace(node, neighbours[at(node)][0]);
+  }
+  return network;
+}
+
+NetworkNodes nodes_of_network(const Network& network, int groups) {
+  NetworkNodes result;
+  std::vector<Point> points;
+  std::vector<std::array<std::int32_t, 2>> edges;
+  std::vector<int> node_of_hub(network.hubs.size(), -1);
+  for (std::size_t h = 0; h < network.hubs.size(); ++h) {
+    if (!network.hubs[h].alive) continue;
+    node_of_hub[h] = static_cast<int>(points.size());
+    points.push_back(network.hubs[h].position);
+  }
+  result.group_nodes.resize(at(groups));
+  const auto claim = [&](const std::vector<int>& graph_nodes, const std::vector<int>& line) {
+    for (const int node : graph_nodes) {
+      if (node < groups) append(result.group_nodes[at(node)], line);
+    }
+  };
+  for (const Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    std::vector<int> line{node_of_hub[at(strand.from)]};
+    for (const Point& point : strand.points) {
+      line.push_back(static_cast<int>(points.size()));
+      points.push_back(point);
+    }
+    line.push_back(node_of_hub[at(strand.to)]);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      edges.push_back({std::min(line[i - 1], line[i]), std::max(line[i - 1], line[i])});
+    }
+    claim(strand.nodes, line);
+    claim(network.hubs[at(strand.from)].nodes, line);
+    claim(network.hubs[at(strand.to)].nodes, line);
+  }
+  for (std::size_t h = 0; h < network.hubs.size(); ++h) {
+    if (network.hubs[h].alive) claim(network.hubs[h].nodes, {node_of_hub[h]});
+  }
+  for (auto& nodes : result.group_nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  std::sort(edges.begin(), edges.end());
+
+  CurveSkeleton& skeleton = result.skeleton;
+  skeleton.nodes.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    skeleton.nodes.row(static_cast<Eigen::Index>(i)) = points[i];
+  }
+  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
+  }
+  return result;
+}
+
+}  // namespace curveskel

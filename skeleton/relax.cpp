@@ -1,0 +1,244 @@
+#include "skeleton/relax.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "surface/parallel.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double least_spacing = 1.0 / 400;
+constexpr double most_spacing = 1.0 / 60;
+
+/// The polyline's points at equal steps of arc length, ends left out.
+std::vector<Point> evenly(const std::vector<Point>& line, int inner) {
+  std::vector<double> arc{0};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    arc.push_back(arc.back() + (line[i] - line[i - 1]).norm());
+  }
+  std::vector<Point> points;
+  std::size_t i = 1;
+  for (int k = 1; k <= inner; ++k) {
+    const double s = arc.back() * k / (inner + 1);
+    while (i + 1 < line.size() && arc[i] < s) ++i;
+    const double step = arc[i] - arc[i - 1];
+    const double t = step > 0 ? (s - arc[i - 1]) / step : 0;
+    points.push_back(line[i - 1] + t * (line[i] - line[i - 1]));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& points) {
+  std::vector<double> radii(points.size());
+  std::transform(points.begin(), points.end(), radii.begin(),
+                 [&](const Point& p) { return tree.inscribed_radius(p); });
+  return radii;
+}
+
+Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
+                           int rays, double radius) {
+  const double shortest = radius;
+  const double length = direction.norm();
+  if (!(shortest > 0) || !(length > 0)) return point;
+  const Point n = direction / length;
+  const Point u = n.unitOrthogonal();
+  const Point w = n.cross(u);
+  const double limit = 3 * shortest;
+  Point sum = Point::Zero();
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2 * std::numbers::pi * k / rays;
+    const Point ray = std::cos(angle) * u + std::sin(angle) * w;
+    sum += std::min(limit, tree.ray(point, ray, limit).distance) * ray;
+  }
+  return point + 2 * sum / rays;
+}
+
+void resample(Network& network, const SurfaceTree& tree) {
+  for (Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const auto line = network.polyline(strand);
+    auto radii = radii_at(tree, line);
+    std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
+                     radii.end());
+    const double spacing = std::clamp(0.5 * radii[radii.size() / 2], least_spacing, most_spacing);
+    const int closed = strand.from == strand.to ? 3 : 1;
+    const int inner =
+        std::max(closed, static_cast<int>(std::lround(network.length(strand) / spacing)) - 1);
+    strand.points = evenly(line, inner);
+  }
+}
+
+namespace {
+
+/// Where the thick strands at a junction lead on straight: the mean of its neighbouring points,
+/// weighted by the square of their inscribed radii.
+Point straight_through(const Network& network, int hub, const SurfaceTree& tree) {
+  Point sum = Point::Zero();
+  double weight = 0;
+  const auto add = [&](const Point& p) {
+    const double radius = std::max(1e-6, tree.inscribed_radius(p));
+    sum += radius * radius * p;
+    weight += radius * radius;
+  };
+  for (const Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const auto line = network.polyline(strand);
+    if (strand.from == hub) add(line[1]);
+    if (strand.to == hub) add(line[line.size() - 2]);
+  }
+  return sum / weight;
+}
+
+/// Junctions move to where their strands meet with the least turn, as long as they stay central.
+void relax_hubs(Network& network, const SurfaceTree& tree, const std::vector<double>& first_radius,
+                double keep) {
+  for (int h = 0; h < static_cast<int>(network.hubs.size()); ++h) {
+    Hub& hub = network.hubs[static_cast<std::size_t>(h)];
+    if (!hub.alive || network.degree(h) < 3) continue;
+    const Point candidate = 0.5 * (hub.position + straight_through(network, h, tree));
+    if (tree.inscribed_radius(candidate) >= keep * first_radius[static_cast<std::size_t>(h)]) {
+      hub.position = candidate;
+    }
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Moves the inner points of one strand in turn, each half-way to the centre of its cross-section
+/// and half-way to the middle of its neighbours.
+/// Those whose neighbourhood moved by less than a thousandth of the radius last time are at rest.
+void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tree,
+                  const RelaxOptions& options, std::vector<double>& last_move) {
+  const auto line = network.polyline(strand);
+  auto radius = radii_at(tree, line);
+  const auto overlap = [&](const Point& p, double p_radius, const Point& q, double q_radius) {
+    return (p - q).norm() <= p_radius + q_radius;
+  };
+  auto& points = strand.points;
+  last_move.resize(points.size(), 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double stir = last_move[i];
+    if (i > 0) stir = std::max(stir, last_move[i - 1]);
+    if (i + 1 < points.size()) stir = std::max(stir, last_move[i + 1]);
+    if (stir < 1e-3 * radius[i + 1]) continue;
+    last_move[i] = 0;
+    const Point& before = i > 0 ? points[i - 1] : line.front();
+    const Point& after = i + 1 < points.size() ? points[i + 1] : line.back();
+    const Point centre =
+        cross_section_centre(tree, points[i], after - before, options.rays, radius[i + 1]);
+    const Point target = 0.5 * (points[i] + centre);
+    // Along a cubic through two points either way, which does not cut corners (bilaplacian).
+    Point middle = 0.5 * (before + after);
+    if (options.covered && i > 0 && i + 1 < points.size()) {
+      const Point& far_before = i > 1 ? points[i - 2] : line.front();
+      const Point& far_after = i + 2 < points.size() ? points[i + 2] : line.back();
+      middle = (4 * (before + after) - (far_before + far_after)) / 6;
+    }
+    const Point smooth = (1 - options.smoothing) * target + options.smoothing * middle;
+    for (const Point& candidate : {smooth, target}) {
+      const double moved = tree.inscribed_radius(candidate);
+      if (moved < options.keep * radius[i + 1]) continue;
+      if (options.covered && !(overlap(before, radius[i], candidate, moved) &&
+                               overlap(after, radius[i + 2], candidate, moved))) {
+        continue;
+      }
+      last_move[i] = (candidate - points[i]).norm();
+      points[i] = candidate;
+      radius[i + 1] = moved;
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// The hub of a closed curve is no special place: half-way round becomes the hub, so that the point
+/// there takes part like any other.
+void turn_half_way_round(Network& network, Strand& strand) {
+  Point& hub = network.hubs[static_cast<std::size_t>(strand.from)].position;
+  const auto middle = strand.points.begin() + static_cast<std::ptrdiff_t>(strand.points.size() / 2);
+  std::vector<Point> points(middle + 1, strand.points.end());
+  points.push_back(hub);
+  points.insert(points.end(), strand.points.begin(), middle);
+  hub = *middle;
+  strand.points = std::move(points);
+}
+
+}  // namespace
+
+void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options, int threads) {
+  std::vector<double> hub_radius;
+  for (const Hub& hub : network.hubs) {
+    hub_radius.push_back(hub.alive ? tree.inscribed_radius(hub.position) : 0);
+  }
+  std::vector<std::vector<double>> last_move(network.strands.size());
+  for (int round = 0; round < options.rounds; ++round) {
+    for (std::size_t s = 0; s < network.strands.size(); ++s) {
+      Strand& strand = network.strands[s];
+      if (!strand.alive || strand.from != strand.to || network.degree(strand.from) != 2) continue;
+      turn_half_way_round(network, strand);
+      last_move[s].clear();
+    }
+    parallel_for(network.strands.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        Strand& strand = network.strands[s];
+        if (strand.alive) relax_strand(network, strand, tree, options, last_move[s]);
+      }
+    });
+    if (!options.covered) relax_hubs(network, tree, hub_radius, options.keep_junction);
+  }
+}
+
+void centre_junctions(Network& network, const SurfaceTree& tree) {
+  constexpr int steps = 30;
+  for (int h = 0; h < static_cast<int>(network.hubs.size()); ++h) {
+    Hub& hub = network.hubs[static_cast<std::size_t>(h)];
+    if (!hub.alive || network.degree(h) < 3) continue;
+    const Point start = hub.position;
+    const double first_radius = tree.inscribed_radius(start);
+    double radius = first_radius;
+    for (int step = 0; step < steps && radius > 0; ++step) {
+      const Point away = (hub.position - tree.nearest(hub.position).point).normalized();
+      const Point candidate = hub.position + 0.1 * radius * away;
+      const double larger = tree.inscribed_radius(candidate);
+      if (larger <= radius || (candidate - start).norm() > first_radius) break;
+      hub.position = candidate;
+      radius = larger;
+    }
+  }
+}
+
+void thin_out(Network& network, const SurfaceTree& tree) {
+  for (Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const auto line = network.polyline(strand);
+    auto radius = radii_at(tree, line);
+    std::vector<Point> kept;
+    std::size_t last = 0;
+    const std::size_t least = strand.from == strand.to ? 2 : 1;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      const double gap = (line[i + 1] - line[last]).norm();
+      const bool enough = kept.size() + (line.size() - 2 - i) >= least;
+      if (enough && gap <= std::clamp(0.5 * radius[i], least_spacing, most_spacing) &&
+          gap <= radius[last] + radius[i + 1]) {
+        continue;
+      }
+      kept.push_back(line[i]);
+      last = i;
+    }
+    strand.points = std::move(kept);
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,46 @@
+// Central and smooth: where the points of a network go.
+#pragma once
+
+#include <vector>
+
+#include "skeleton/network.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel {
+
+/// The inscribed radius at each point, negative outside.
+[[nodiscard]] std::vector<double> radii_at(const SurfaceTree& tree,
+                                           const std::vector<Point>& points);
+
+/// The centre of the cross-section through `point` normal to `direction`: twice the mean of the
+/// vectors along rays to the surface, which is exact to first order for a circle. `rays` rays, each
+/// cut at three times the point's inscribed `radius`. The point itself if that is not positive.
+[[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
+                                         const Point& direction, int rays, double radius);
+
+/// Places the inner points of each strand evenly, about half an inscribed radius apart.
+/// Lengths relative to D = 1.
+void resample(Network& network, const SurfaceTree& tree);
+
+struct RelaxOptions {
+  int rounds = 4;
+  int rays = 12;                ///< in the plane normal to the strand
+  double keep = 0.8;            ///< share of its inscribed radius that a moved point must keep
+  double keep_junction = 0.95;  ///< the same for junctions, which belong in the thickest place
+  double smoothing = 0.5;       ///< share of the neighbours' middle in a point's new place
+  bool covered = false;         ///< keep the balls of neighbouring points overlapping; hubs stay
+};
+
+/// Rounds of centring and smoothing of all inner points and straightening at junctions. The result
+/// does not depend on the number of threads.
+void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options, int threads);
+
+/// Moves each junction away from the nearest surface as long as that widens its inscribed ball, by
+/// one radius at most.
+void centre_junctions(Network& network, const SurfaceTree& tree);
+
+/// Drops inner points that crowd (nearer than half an inscribed radius) where the balls of their
+/// neighbours overlap without them.
+void thin_out(Network& network, const SurfaceTree& tree);
+
+}  // namespace curveskel

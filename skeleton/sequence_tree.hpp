@@ -1,0 +1,81 @@
+// Nearest-item search over a sequence whose neighbours lie close together, such as the points along
+// a curve: groups of eight, groups of eight groups and so on. Internal to skeleton/.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace curveskel {
+
+class SequenceTree {
+ public:
+  struct Item {
+    Eigen::Vector3d lower;
+    Eigen::Vector3d upper;
+    double weight = 0;  ///< what the item's value may lie below the distance to its box
+  };
+
+  explicit SequenceTree(std::vector<Item> items) {
+    levels_.push_back(std::move(items));
+    while (levels_.back().size() > 1) {
+      const std::vector<Item>& below = levels_.back();
+      std::vector<Item> groups;
+      for (std::size_t i = 0; i < below.size(); ++i) {
+        if (i % width == 0) {
+          groups.push_back(below[i]);
+          continue;
+        }
+        Item& group = groups.back();
+        group.lower = group.lower.cwiseMin(below[i].lower);
+        group.upper = group.upper.cwiseMax(below[i].upper);
+        group.weight = std::max(group.weight, below[i].weight);
+      }
+      levels_.push_back(std::move(groups));
+    }
+  }
+
+  /// The smallest value(i) over all items, where value(i) >= (distance from p to box i) - weight i;
+  /// infinity if there are no items. Once a value <= enough is found, any such value may be
+  /// returned.
+  template <typename Value>
+  [[nodiscard]] double minimum(const Eigen::Vector3d& p, double enough, const Value& value) const {
+    double best = std::numeric_limits<double>::infinity();
+    if (!levels_.front().empty()) visit(levels_.size() - 1, 0, p, enough, value, best);
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t width = 8;
+
+  template <typename Value>
+  void visit(std::size_t level, std::size_t index, const Eigen::Vector3d& p, double enough,
+             const Value& value, double& best) const {
+    if (level == 0) {
+      best = std::min(best, value(index));
+      return;
+    }
+    const std::vector<Item>& below = levels_[level - 1];
+    const std::size_t first = index * width;
+    const std::size_t count = std::min(width, below.size() - first);
+    std::array<std::pair<double, std::size_t>, width> order;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Item& item = below[first + i];
+      const double distance =
+          (item.lower - p).cwiseMax(p - item.upper).cwiseMax(Eigen::Vector3d::Zero()).norm();
+      order[i] = {distance - item.weight, first + i};
+    }
+    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count && order[i].first < best && best > enough; ++i) {
+      visit(level - 1, order[i].second, p, enough, value, best);
+    }
+  }
+
+  std::vector<std::vector<Item>> levels_;  // the items first, the one root last
+};
+
+}  // namespace curveskel

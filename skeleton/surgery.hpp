@@ -1,0 +1,28 @@
+// Connectivity surgery: a contracted surface becomes a graph.
+#pragma once
+
+#include <optional>
+
+#include "contraction/contract.hpp"
+#include "skeleton/circles.hpp"
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct SurgeryOptions {
+  double shape_weight = 1;       ///< Au et al. 2008, w_a
+  double sampling_weight = 0.1;  ///< Au et al. 2008, w_b
+};
+
+/// Merges vertices into groups by half-edge collapses of the contracted surface, in the order of Au
+/// et al.'s shape and sampling costs, until no triangle has three groups; never makes a group of
+/// genus > 0. One node per group and one per circle along which two groups meet, so the cycle rank
+/// is the surface's genus. Empty when the collapses end in triangles that no merge may remove; then
+/// contract more gently, or see reeb_groups.
+[[nodiscard]] std::optional<VertexGraph> surgery(const Surface& surface,
+                                                 const Contraction& contraction,
+                                                 const SurgeryOptions& options,
+                                                 const Monitor& monitor);
+
+}  // namespace curveskel

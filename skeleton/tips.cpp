@@ -1,0 +1,100 @@
+#include "skeleton/tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "skeleton/relax.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double least_radius = 1.0 / 1000;
+constexpr int most_steps = 64;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// The direction in which the line arrives at its point i.
+Point heading(const std::vector<Point>& line, std::size_t i) {
+  return (line[i] - line[i - std::min<std::size_t>(i, 3)]).normalized();
+}
+
+/// Cuts the strand where the surface straight ahead and all the rest of the strand lie within
+/// `reach` inscribed radii: what bends into a corner of a blunt end goes.
+void retract(Network& network, Strand& strand, const SurfaceTree& tree, double reach) {
+  const auto line = network.polyline(strand);
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const double near = reach * tree.inscribed_radius(line[i]);
+    const auto rest = line.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(rest, line.end(),
+                    [&](const Point& p) { return (p - line[i]).norm() > near; })) {
+      continue;
+    }
+    if (tree.ray(line[i], heading(line, i), near).triangle < 0) continue;
+    network.hubs[at(strand.to)].position = line[i];
+    strand.points.resize(i - 1);
+    return;
+  }
+}
+
+/// Steps straight ahead, recentred each time, until the surface ahead is near. A step that turns
+/// away or widens has left the end that it should reach.
+void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap) {
+  auto line = network.polyline(strand);
+  const Point first_heading = heading(line, line.size() - 1);
+  double radius = tree.inscribed_radius(line.back());
+  const double widest = 1.1 * radius;
+  for (int step = 0; step < most_steps && radius >= least_radius; ++step) {
+    const Point& tip = line.back();
+    const Point direction = heading(line, line.size() - 1);
+    const double left = tree.ray(tip, direction).distance;
+    if (left <= gap * radius || !std::isfinite(left)) break;
+    const Point guess = tip + std::min(0.5 * radius, left - radius) * direction;
+    Point next = 0.5 * (guess + cross_section_centre(tree, guess, direction, 12,
+                                                     tree.inscribed_radius(guess)));
+    if (tree.inscribed_radius(next) < tree.inscribed_radius(guess)) next = guess;
+    radius = tree.inscribed_radius(next);
+    if (radius < least_radius || radius > widest) break;
+    if ((next - tip).normalized().dot(first_heading) < 0.7) break;
+    line.push_back(next);
+  }
+  network.hubs[at(strand.to)].position = line.back();
+  strand.points.assign(line.begin() + 1, line.end() - 1);
+}
+
+}  // namespace
+
+void shape_tips(Network& network, const SurfaceTree& tree, double reach, double gap) {
+  for (int s = 0; s < static_cast<int>(network.strands.size()); ++s) {
+    if (!network.strands[at(s)].alive) continue;
+    for (const int tip : {network.strands[at(s)].from, network.strands[at(s)].to}) {
+      if (network.degree(tip) != 1) continue;
+      network.orient_from(s, network.strands[at(s)].from == tip ? network.strands[at(s)].to
+                                                                : network.strands[at(s)].from);
+      retract(network, network.strands[at(s)], tree, reach);
+      grow(network, network.strands[at(s)], tree, gap);
+    }
+  }
+}
+
+void lengthen_short_leaves(Network& network, const SurfaceTree& tree) {
+  constexpr double margin = 1.02;
+  constexpr double narrowest = 0.4;
+  for (int s = 0; s < static_cast<int>(network.strands.size()); ++s) {
+    if (!network.is_leaf(network.strands[at(s)])) continue;
+    const int from = network.strands[at(s)].from;
+    network.orient_from(s, network.degree(from) == 1 ? network.strands[at(s)].to : from);
+    Strand& strand = network.strands[at(s)];
+    auto line = network.polyline(strand);
+    const double junction_radius = tree.inscribed_radius(line.front());
+    const double missing = margin * junction_radius - network.length(strand);
+    if (missing <= 0 || network.length(strand) < 0.25 * junction_radius) continue;
+    const Point tip = line.back() + missing * heading(line, line.size() - 1);
+    if (tree.inscribed_radius(tip) < narrowest * junction_radius) continue;
+    if (tree.ray(line.back(), heading(line, line.size() - 1), missing).triangle >= 0) continue;
+    strand.points.push_back(line.back());
+    network.hubs[at(strand.to)].position = tip;
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,223 @@
+#include "surface/clean.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "surface/half_edges.hpp"
+#include "surface/orient.hpp"
+#include "surface/weld.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Half-edges, three per face, are counted in 32 bits.
+constexpr std::int64_t most_faces = 2147483647 / 3;
+
+std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
+
+/// The work in progress: triangles over the vertices of the file until they are renumbered.
+struct Draft {
+  const PolygonSoup& soup;
+  Surface surface;
+  Changes changes;
+
+  [[noreturn]] void fail(const std::string& found, const std::string& needed,
+                         const std::string& remedy) const {
+    const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+    throw Error(Fault::input, file + ": found " + found + ", needed " + needed + "; " + remedy);
+  }
+
+  [[nodiscard]] std::int32_t vertices() const {
+    return static_cast<std::int32_t>(surface.positions.rows());
+  }
+
+  [[nodiscard]] std::string edge_words(std::int32_t half_edge) const {
+    const std::int32_t a = surface.triangles.data()[half_edge];
+    const std::int32_t b = surface.triangles.data()[next_half_edge(half_edge)];
+    return "the edge between vertices " + vertex_words(std::min(a, b)) + " and " +
+           vertex_words(std::max(a, b)) + ", counted from 0,";
+  }
+
+  [[nodiscard]] std::string vertex_words(std::int32_t vertex) const {
+    const auto position = surface.positions.row(vertex);
+    std::ostringstream words;
+    words << vertex << " at (" << position.x() << " " << position.y() << " " << position.z() << ")";
+    return words.str();
+  }
+};
+
+void drop_repeats(Draft& draft) {
+  draft.changes.degenerate_faces_dropped += drop_degenerate_faces(draft.surface.triangles);
+  draft.changes.duplicate_faces_dropped +=
+      drop_duplicate_faces(draft.surface.triangles, draft.vertices());
+  if (draft.surface.triangles.rows() > 0) return;
+  draft.fail("no face with three different vertices (" +
+                 std::to_string(draft.changes.degenerate_faces_dropped) + " degenerate ones)",
+             "a closed surface", "export the file again");
+}
+
+/// Merges along the boundary alone: only there can merging close anything, and elsewhere it would
+/// pinch a surface that is whole. Returns the vertex that each vertex of the file was merged into.
+std::vector<std::int32_t> close_seams(Draft& draft, const std::vector<bool>& on_boundary) {
+  auto merged_into = coincident_vertices(draft.surface.positions, on_boundary);
+  for (std::int32_t v = 0; v < draft.vertices(); ++v) {
+    draft.changes.vertices_merged += merged_into[at(v)] != v ? 1 : 0;
+  }
+  for (std::int32_t& corner : draft.surface.triangles.reshaped<Eigen::RowMajor>()) {
+    corner = merged_into[at(corner)];
+  }
+  return merged_into;
+}
+
+void require_closed(const Draft& draft, const HalfEdges& half_edges) {
+  if (half_edges.first_unpaired < 0) return;
+  const std::string counts = " (in all " + std::to_string(half_edges.boundary_edges) +
+                             " edges with one face, " + std::to_string(half_edges.crowded_edges) +
+                             " with three or more)";
+  const bool open = half_edges.faces_at_first == 1;
+  draft.fail(draft.edge_words(half_edges.first_unpaired) + " with " +
+                 std::to_string(half_edges.faces_at_first) + (open ? " face" : " faces") + counts,
+             "a closed 2-manifold, every edge with exactly two faces",
+             open ? "fill the holes, or weld vertices that nearly coincide, in a mesh editor first"
+                  : "separate the parts that touch there, or remove inner faces, in a mesh editor "
+                    "first");
+}
+
+void orient_consistently(Draft& draft, const Orientation& orientation) {
+  if (orientation.conflict >= 0) {
+    draft.fail("a one-sided (non-orientable) surface: at " +
+                   draft.edge_words(orientation.conflict) +
+                   " the two faces cannot be made to agree",
+               "an orientable surface with an inside and an outside",
+               "cut it there or thicken it in a mesh editor first");
+  }
+  for (Eigen::Index f = 0; f < draft.surface.triangles.rows(); ++f) {
+    if (!orientation.turn[at(f)]) continue;
+    std::swap(draft.surface.triangles(f, 1), draft.surface.triangles(f, 2));
+    ++draft.changes.faces_flipped;
+  }
+}
+
+void turn_outward(Draft& draft, const Orientation& orientation) {
+  // A sheet in rounded double coordinates has some 1e-17 of its area times its extent.
+  constexpr double least_volume = 1e-10;
+  const auto sums = component_sums(draft.surface, orientation);
+  for (const ComponentSums& sum : sums) {
+    if (std::abs(sum.volume) > least_volume * sum.area) {
+      draft.changes.components_turned += sum.volume < 0 ? 1 : 0;
+      continue;
+    }
+    std::ostringstream found;
+    found << "a closed component without volume (" << sum.volume << " of " << sum.area
+          << " area, extent as unit): it is flat or its sides cancel; it begins with "
+          << draft.edge_words(3 * sum.first_face);
+    draft.fail(found.str(), "a surface that encloses some volume",
+               "thicken or remove it in a mesh editor first");
+  }
+  for (Eigen::Index f = 0; f < draft.surface.triangles.rows(); ++f) {
+    if (sums[at(orientation.component_of_face[at(f)])].volume < 0) {
+      std::swap(draft.surface.triangles(f, 1), draft.surface.triangles(f, 2));
+    }
+  }
+}
+
+/// Drops the vertices without a face, keeps the order of the others. Returns the new index of each.
+std::vector<std::int32_t> renumber(Draft& draft) {
+  std::vector<std::int32_t> number(at(draft.vertices()), -1);
+  for (const std::int32_t corner : draft.surface.triangles.reshaped<Eigen::RowMajor>()) {
+    number[at(corner)] = 0;
+  }
+  std::int32_t used = 0;
+  for (std::int32_t v = 0; v < draft.vertices(); ++v) {
+    if (number[at(v)] < 0) continue;
+    draft.surface.positions.row(used) = draft.surface.positions.row(v);
+    number[at(v)] = used++;
+  }
+  draft.surface.positions.conservativeResize(used, 3);
+  for (std::int32_t& corner : draft.surface.triangles.reshaped<Eigen::RowMajor>()) {
+    corner = number[at(corner)];
+  }
+  return number;
+}
+
+void describe(Changes& changes, const Monitor& monitor) {
+  const auto line = [&](std::int64_t count, const std::string& one, const std::string& many,
+                        const std::string& what) {
+    if (count == 0) return;
+    changes.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
+    monitor.say(changes.lines.back());
+  };
+  line(changes.polygons_triangulated, "polygon", "polygons", "triangulated");
+  line(changes.vertices_merged, "vertex", "vertices", "merged with another at the same position");
+  line(changes.degenerate_faces_dropped, "degenerate face", "degenerate faces",
+       "dropped (repeated corner)");
+  line(changes.duplicate_faces_dropped, "duplicate face", "duplicate faces",
+       "dropped (same three vertices)");
+  line(changes.isolated_vertices_dropped, "isolated vertex", "isolated vertices", "dropped");
+  line(changes.vertices_split_off, "copy of a vertex", "copies of vertices",
+       "made where parts of the surface touch in a point (bow-tie)");
+  line(changes.faces_flipped, "face", "faces", "flipped to agree with the neighbours");
+  line(changes.components_turned, "component", "components", "turned from inward to outward");
+}
+
+std::int64_t count_polygons_to_split(const PolygonSoup& soup) {
+  std::int64_t count = 0;
+  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
+    count += soup.offsets[p] - soup.offsets[p - 1] > 3 ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor) {
+  monitor.report("clean", 0);
+  Draft draft{soup, {soup.positions, triangulate(soup)}, {}};
+  draft.changes.polygons_triangulated = count_polygons_to_split(soup);
+  if (draft.surface.triangles.rows() > most_faces) {
+    draft.fail(std::to_string(draft.surface.triangles.rows()) + " triangles",
+               "at most " + std::to_string(most_faces), "decimate the surface first");
+  }
+  monitor.report("clean", 0.2);
+  drop_repeats(draft);
+  monitor.report("clean", 0.4);
+  HalfEdges half_edges = pair_half_edges(draft.surface.triangles, draft.vertices());
+  std::vector<std::int32_t> merged_into(at(draft.vertices()));
+  std::iota(merged_into.begin(), merged_into.end(), 0);
+  if (half_edges.boundary_edges > 0) {
+    merged_into = close_seams(draft, half_edges.vertex_on_boundary);
+    drop_repeats(draft);
+    monitor.report("clean", 0.6);
+    half_edges = pair_half_edges(draft.surface.triangles, draft.vertices());
+  }
+  require_closed(draft, half_edges);
+  monitor.report("clean", 0.8);
+
+  const Orientation orientation = orient(draft.surface.triangles, half_edges);
+  const std::int32_t before_split = draft.vertices();
+  draft.changes.vertices_split_off = split_umbrellas(draft.surface, half_edges);
+  orient_consistently(draft, orientation);
+  turn_outward(draft, orientation);
+  const std::vector<std::int32_t> number = renumber(draft);
+
+  CleanSurface result;
+  result.vertex_of_input.resize(before_split);
+  for (std::int32_t v = 0; v < before_split; ++v) {
+    result.vertex_of_input[v] = number[at(merged_into[at(v)])];
+    draft.changes.isolated_vertices_dropped += result.vertex_of_input[v] < 0 ? 1 : 0;
+  }
+  describe(draft.changes, monitor);
+  result.surface = std::move(draft.surface);
+  result.changes = std::move(draft.changes);
+  monitor.report("clean", 1);
+  return result;
+}
+
+}  // namespace curveskel

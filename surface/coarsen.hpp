@@ -1,0 +1,28 @@
+// Fewer vertices, same topology, every input vertex accounted for.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct CoarsenOptions {
+  int target_vertices = 8000;  ///< working resolution; a smaller surface is left as it is
+  int threads = 0;             ///< at most, 0 = one per core; the result does not depend on it
+};
+
+struct Coarsened {
+  Surface surface;
+  Eigen::VectorXi vertex_of_input;  ///< #V of the input: the vertex that it was merged into
+};
+
+/// Edge collapse by quadric error (Garland and Heckbert 1997) in passes without a heap, under the
+/// link condition, so the genus of every component is kept. Far too fine surfaces are collapsed in
+/// parts first, in parallel. Deterministic, whatever the number of threads.
+/// Precondition: closed oriented 2-manifold. May stop above the target where no edge may go.
+[[nodiscard]] Coarsened coarsen(const Surface& surface, const CoarsenOptions& options,
+                                const Monitor& monitor);
+
+}  // namespace curveskel

@@ -1,0 +1,16 @@
+// Independent work on all cores, with results that do not depend on how many there are.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace curveskel {
+
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), from at most `threads` threads
+/// (0 = one per core, the calling one among them). The ranges depend on count and grain alone. The
+/// body must write only to places that its own range owns. The first exception, in the order of the
+/// ranges, is rethrown.
+void parallel_for(std::size_t count, std::size_t grain, int threads,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+}  // namespace curveskel

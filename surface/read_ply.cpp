@@ -1,0 +1,146 @@
+// Stanford PLY. One walk over rows and properties serves all three encodings: the template argument
+// only fetches single values.
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "surface/formats.hpp"
+#include "surface/ply_header.hpp"
+#include "surface/ply_values.hpp"
+
+namespace curveskel {
+namespace {
+
+enum class Role { ignored, x, y, z, polygon, strip };
+
+Role role_of(const PlyElement& element, const PlyProperty& property) {
+  if (element.name == "vertex" && !property.is_list) {
+    if (property.name == "x") return Role::x;
+    if (property.name == "y") return Role::y;
+    if (property.name == "z") return Role::z;
+  }
+  const bool indices = property.name == "vertex_indices" || property.name == "vertex_index";
+  if (indices && property.is_list && element.name == "face") return Role::polygon;
+  if (indices && property.is_list && element.name == "tristrips") return Role::strip;
+  return Role::ignored;
+}
+
+template <typename Values>
+void read_polygon(Values& values, const PlyPlace& place, PolygonSoup& soup) {
+  for (std::int64_t left = list_length(values, place); left > 0; --left) {
+    soup.corners.push_back(vertex_index(values, place, soup.positions.rows(), 0));
+  }
+  end_polygon(soup);
+}
+
+/// Each vertex past the second makes a triangle with the two before it, of alternating orientation;
+/// -1 starts a new strip.
+template <typename Values>
+void read_strip(Values& values, const PlyPlace& place, PolygonSoup& soup) {
+  std::int32_t first = -1;
+  std::int32_t second = -1;
+  bool odd = false;
+  for (std::int64_t left = list_length(values, place); left > 0; --left) {
+    const std::int32_t vertex = vertex_index(values, place, soup.positions.rows(), -1);
+    if (vertex < 0) {
+      first = second = -1;
+      odd = false;
+      continue;
+    }
+    if (first >= 0) {
+      soup.corners.insert(soup.corners.end(), {odd ? second : first, odd ? first : second, vertex});
+      end_polygon(soup);
+      odd = !odd;
+    }
+    first = second;
+    second = vertex;
+  }
+}
+
+template <typename Values>
+void read_row(Values& values, PlyPlace& place, const std::vector<Role>& roles, PolygonSoup& soup) {
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    place.property = &place.element->properties[i];
+    switch (roles[i]) {
+      case Role::x:
+      case Role::y:
+      case Role::z:
+        soup.positions(place.row, static_cast<int>(roles[i]) - static_cast<int>(Role::x)) =
+            coordinate(values, place);
+        break;
+      case Role::polygon:
+        read_polygon(values, place, soup);
+        break;
+      case Role::strip:
+        read_strip(values, place, soup);
+        break;
+      case Role::ignored:
+        values.skip(place.property->type, place.property->is_list ? list_length(values, place) : 1,
+                    place);
+        break;
+    }
+  }
+}
+
+template <typename Values>
+void read_elements(Values values, const PlyHeader& header, PolygonSoup& soup,
+                   const Monitor& monitor) {
+  for (const auto& element : header.elements) {
+    if (element.properties.empty()) continue;
+    std::vector<Role> roles;
+    for (const auto& property : element.properties) roles.push_back(role_of(element, property));
+    PlyPlace place{&element, nullptr, 0};
+    for (; place.row < element.count; ++place.row) {
+      if (place.row % rows_per_report == 0) monitor.report("read", values.fraction());
+      read_row(values, place, roles, soup);
+    }
+  }
+}
+
+/// Faces may come before the vertices that they refer to, so the vertices are counted first.
+std::int64_t check_vertices(const FileBytes& file, const PlyHeader& header) {
+  std::int64_t vertices = 0;
+  int elements = 0;
+  for (const auto& element : header.elements) {
+    if (element.name != "vertex") continue;
+    ++elements;
+    vertices = element.count;
+    for (const std::string_view name : {"x", "y", "z"}) {
+      const bool there = std::any_of(
+          element.properties.begin(), element.properties.end(),
+          [&](const PlyProperty& property) { return property.name == name && !property.is_list; });
+      if (!there) {
+        file.fail("no property \"" + std::string(name) + "\" in element \"vertex\"",
+                  "the properties x, y and z", "export the file again");
+      }
+    }
+  }
+  if (elements != 1 || vertices > most_vertices) {
+    file.fail(std::to_string(elements) + " elements \"vertex\" with " + std::to_string(vertices) +
+                  " rows",
+              "one of at most " + std::to_string(most_vertices) + " rows",
+              "export the file again, split or decimated if it is that large");
+  }
+  return vertices;
+}
+
+}  // namespace
+
+PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor) {
+  const PlyHeader header = read_ply_header(file);
+  PolygonSoup soup;
+  soup.format = SurfaceFormat::ply;
+  soup.offsets.push_back(0);
+  soup.positions.resize(check_vertices(file, header), 3);
+  with_ply_values(file, header,
+                  [&](auto values) { read_elements(std::move(values), header, soup, monitor); });
+  return soup;
+}
+
+bool looks_like_ply(const FileBytes& file) {
+  return file.content.starts_with("ply\n") || file.content.starts_with("ply\r");
+}
+
+}  // namespace curveskel

@@ -1,0 +1,33 @@
+// The queries of SurfaceTree in the tree's local frame. Internal to surface/.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "surface/wide_tree.hpp"
+
+namespace curveskel {
+
+struct LocalNearest {
+  Eigen::Vector3d point;
+  int triangle = -1;  ///< -1 = none within the limit
+};
+[[nodiscard]] LocalNearest find_nearest(const WideTree& tree, const Eigen::Vector3d& p,
+                                        double limit);
+
+struct LocalHit {
+  double distance = std::numeric_limits<double>::infinity();
+  int triangle = -1;
+};
+[[nodiscard]] LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
+                                const Eigen::Vector3d& direction, double limit);
+
+/// Whether the surface winds around p a non-zero number of times.
+[[nodiscard]] bool winds_around(const WideTree& tree, const Eigen::Vector3d& p);
+
+/// Radius of the largest ball that touches p with its centre along n; infinity if nothing bounds it
+/// below 1.
+[[nodiscard]] double find_ball_radius(const WideTree& tree, const Eigen::Vector3d& p,
+                                      const Eigen::Vector3d& n, double min_sine);
+
+}  // namespace curveskel

@@ -1,0 +1,140 @@
+"""curveskel extract."""
+
+import json
+import os
+import pty
+import subprocess
+import unittest
+
+from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, default_signals, start, write_torus
+from program import PROGRAM
+
+FORMATS = ["obj", "ply", "cgal", "swc", "vtp", "csv", "graphml", "json", "svg", "png"]
+
+
+class Outputs(CommandLineTest):
+    def test_every_format_at_once(self):
+        outputs = [word for name in FORMATS for word in ("-o", f"y.{name}")]
+        self.run_ok("extract", Y, *outputs, cwd=self.folder)
+        self.assertEqual(self.files(), sorted(f"y.{name}" for name in FORMATS))
+        for name in FORMATS:
+            self.assertGreater((self.folder / f"y.{name}").stat().st_size, 0)
+
+    def test_extension_in_capitals(self):
+        self.run_ok("extract", Y, "-o", "Y.OBJ", cwd=self.folder)
+        self.assertIn(b"\nv ", (self.folder / "Y.OBJ").read_bytes())
+
+    def test_standard_output_has_the_file_and_nothing_else(self):
+        for name in FORMATS:
+            self.run_ok("extract", Y, "-o", f"y.{name}", cwd=self.folder)
+            result = self.run_ok("extract", Y, "-o", "-", "--format", name)
+            self.assertEqual(result.out, (self.folder / f"y.{name}").read_bytes(), name)
+            self.assertIn("certificate", result.err)
+
+    def test_a_reader_that_goes_away_is_an_output_fault(self):
+        process = start("extract", Y, "-o", "-", "--format", "png")
+        process.stdout.close()
+        process.stdout = None
+        self.assertEqual(Result(process).code, 6)
+
+    def test_an_old_file_is_replaced(self):
+        old = self.folder / "y.obj"
+        old.write_text("old")
+        self.run_ok("extract", Y, "-o", old)
+        self.assertNotIn("old", old.read_text())
+
+
+class VertexMap(CommandLineTest):
+    def test_indexes_the_vertices_of_the_file(self):
+        # Unused vertices in front: everything moves by three.
+        lines = TORUS.read_text().splitlines()
+        counts = next(i for i, line in enumerate(lines) if line[:1].isdigit())
+        vertices, faces, _ = map(int, lines[counts].split())
+        body = [line for line in lines[counts + 1:] if line.strip() and line[0] != "#"]
+        moved = [" ".join([n, *(str(int(v) + 3) for v in corners)])
+                 for n, *corners in (line.split() for line in body[vertices:])]
+        mesh = self.folder / "moved.off"
+        mesh.write_text("\n".join(["OFF", f"{vertices + 3} {faces} 0", *["9 9 9"] * 3,
+                                   *body[:vertices], *moved]) + "\n")
+        self.run_ok("extract", mesh, "-o", "moved.json", cwd=self.folder)
+        self.run_ok("extract", TORUS, "-o", "torus.json", cwd=self.folder)
+        found = json.loads((self.folder / "moved.json").read_text())
+        plain = json.loads((self.folder / "torus.json").read_text())
+        self.assertEqual(found["node_of_vertex"], [-1, -1, -1] + plain["node_of_vertex"])
+        self.assertEqual(found["nodes"], plain["nodes"])
+        self.assertEqual(set(plain["node_of_vertex"]) - set(range(len(plain["nodes"]))), set())
+
+
+class Report(CommandLineTest):
+    def test_says_what_was_done(self):
+        self.run_ok("extract", LINKED_RINGS, "-o", "rings.obj", "--report", "report.json",
+                    "--flow", "paper", "--detail", "0.25", cwd=self.folder)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["input"]["file"], "linked-rings.off")
+        self.assertEqual(report["parameters"]["contraction"]["flow"], "paper")
+        self.assertEqual(report["parameters"]["embed"]["detail"], 0.25)
+        self.assertEqual(len(report["components"]), 2)
+        for component in report["components"]:
+            ratios = [step["area_ratio"] for step in component["contraction"]]
+            self.assertEqual(ratios, sorted(ratios, reverse=True))
+            self.assertGreater(len(ratios), 0)
+        self.assertEqual(report["certificate"]["components"], 2)
+        self.assertEqual(report["certificate"]["cycle_rank"], 2)
+        self.assertTrue(report["certificate"]["topology_correct"])
+        self.assertEqual([time["stage"] for time in report["times"]][:2], ["read", "clean"])
+        self.assertGreater(report["peak_memory_bytes"], 1000000)
+        self.assertEqual(report["outputs"], ["rings.obj"])
+
+
+class SameBytes(CommandLineTest):
+    def test_twice_and_with_any_number_of_threads(self):
+        mesh = write_torus(self.folder / "torus.ply", 250, 80)
+        written = {}
+        for run, threads in enumerate((1, 2, 2, 0)):
+            outputs = [word for name in FORMATS for word in ("-o", f"{run}.{name}")]
+            self.run_ok("extract", mesh, *outputs, "--threads", threads, cwd=self.folder)
+            for name in FORMATS:
+                data = (self.folder / f"{run}.{name}").read_bytes()
+                self.assertEqual(data, written.setdefault(name, data), f"{name}, {threads} threads")
+
+
+class Messages(CommandLineTest):
+    def test_one_plain_line_per_stage_where_there_is_no_terminal(self):
+        lines = self.run_ok("extract", LINKED_RINGS, "-o", "x.obj", cwd=self.folder).err.splitlines()
+        self.assertNotIn("\r", "".join(lines))
+        stages = [line.removesuffix(" ...") for line in lines if line.endswith(" ...")]
+        self.assertEqual(len(stages), len(set(stages)))
+        for stage in ("read", "clean", "contract"):
+            self.assertIn(stage, stages)
+
+    def test_a_bar_per_stage_on_a_terminal(self):
+        terminal, end = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "extract", Y, "-o", self.folder / "y.obj"],
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=end,
+                                   preexec_fn=default_signals)
+        os.close(end)
+        seen = b""
+        try:
+            while chunk := os.read(terminal, 65536):
+                seen += chunk
+        except OSError:  # the program closed its end
+            pass
+        process.communicate()
+        os.close(terminal)
+        self.assertEqual(process.returncode, 0)
+        self.assertRegex(seen, rb"\rcontract +\[=+\] 100 %|\rcontract[^\r\n]*\[=+\] 100 %|contract +\[=+\] 100 %")
+        self.assertIn(b"100 %", seen)
+
+    def test_the_summary_goes_to_standard_output(self):
+        text = self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder).out.decode()
+        for word in ("y.off", "certificate", "components", "length inside", "wrote y.obj"):
+            self.assertIn(word, text)
+
+    def test_quiet_says_nothing(self):
+        for verb, output in (("extract", "x.obj"), ("contract", "x.ply")):
+            result = self.run_ok(verb, Y, "-o", output, "--quiet", cwd=self.folder)
+            self.assertEqual((result.out, result.err), (b"", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,108 @@
+"""What the program says when it is asked, and when it is asked wrongly."""
+
+import unittest
+
+from program import TORUS, Y, CommandLineTest, run
+
+USAGE, INPUT, OUTPUT = 2, 3, 6
+
+
+class Help(CommandLineTest):
+    def test_names_every_verb_and_exit_code(self):
+        text = self.run_ok("--help").out.decode()
+        for word in ("extract", "contract", "evaluate", "devices", "Exit codes", "130"):
+            self.assertIn(word, text)
+
+    def test_of_a_verb_shows_defaults_and_names(self):
+        text = self.run_ok("extract", "--help").out.decode()
+        for word in ("--flow NAME=medial", "--solver NAME=auto", "--resolution N|full=8000",
+                     "--detail N=0.5", "--fair N=0", "--threads N=0", "graphml", "cholesky"):
+            self.assertIn(word, text)
+
+    def test_version(self):
+        self.assertRegex(self.run_ok("--version").out.decode(), r"^curveskel \d+\.\d+\.\d+\n$")
+
+
+class WrongArguments(CommandLineTest):
+    def test_list_the_right_verbs(self):
+        for arguments in ((), ("extrakt", TORUS)):
+            self.refused(USAGE, *arguments, says=["extract", "contract", "evaluate", "devices"])
+
+    def test_list_the_right_options(self):
+        self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "--flwo", "medial",
+                     says=["--flwo", "--flow", "--resolution"], cwd=self.folder)
+
+    def test_list_the_right_flows(self):
+        for verb, output in (("extract", "x.obj"), ("contract", "x.ply")):
+            self.refused(USAGE, verb, TORUS, "-o", output, "--flow", "papre",
+                         says=["papre", "medial", "paper"], cwd=self.folder)
+
+    def test_list_the_right_solvers(self):
+        self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "--solver", "qr",
+                     says=["auto", "cholesky", "sparse-qr"], cwd=self.folder)
+
+    def test_list_the_right_formats(self):
+        formats = ["obj", "ply", "cgal", "swc", "vtp", "csv", "graphml", "json", "svg", "png"]
+        for output in ("x.xyz", "x", ".obj"):
+            self.refused(USAGE, "extract", TORUS, "-o", output, says=formats, cwd=self.folder)
+        self.refused(USAGE, "extract", TORUS, "-o", "-", "--format", "xyz", says=formats)
+        self.refused(USAGE, "extract", TORUS, "-o", "-", says=["--format"] + formats)
+
+    def test_numbers_out_of_range_name_the_range(self):
+        for option, value, word in (("--detail", "1.5", "from 0 to 1"), ("--detail", "x", "x"),
+                                    ("--resolution", "0", "full"), ("--resolution", "few", "full"),
+                                    ("--threads", "-1", "from 0"), ("--fair", "2.5", "2.5")):
+            self.refused(USAGE, "extract", TORUS, "-o", "x.obj", option, value,
+                         says=[option, word], cwd=self.folder)
+
+    def test_that_contradict_each_other(self):
+        self.refused(USAGE, "extract", TORUS, says=["--output"])
+        self.refused(USAGE, "extract", "-o", "x.obj", says=["MESH"])
+        self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "-o", "./x.obj", says=["twice"],
+                     cwd=self.folder)
+        self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "--format", "obj", says=["--format"],
+                     cwd=self.folder)
+        self.refused(USAGE, "extract", TORUS, "-o", "x.json", "--report", "x.json",
+                     says=["twice"], cwd=self.folder)
+
+    def test_never_overwrite_the_input(self):
+        mesh = self.folder / "mesh.ply"
+        mesh.write_bytes(TORUS.read_bytes())
+        self.refused(USAGE, "extract", mesh, "-o", "mesh.ply", says=["input"], cwd=self.folder)
+        self.refused(USAGE, "contract", mesh, "-o", mesh, says=["input"])
+        self.assertEqual(mesh.read_bytes(), TORUS.read_bytes())
+
+
+class WrongFiles(CommandLineTest):
+    def test_a_missing_surface_is_an_input_fault(self):
+        (self.folder / "skeleton.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")
+        for arguments in (("extract", "no.off", "-o", "x.obj"), ("contract", "no.off", "-o", "x.ply"),
+                          ("evaluate", "no.off", "skeleton.obj"), ("evaluate", TORUS, "no.off")):
+            self.refused(INPUT, *arguments, says=["no.off"], cwd=self.folder)
+
+    def test_a_surface_with_a_hole_is_an_input_fault_that_names_the_edge(self):
+        mesh = self.folder / "open.off"
+        lines = TORUS.read_text().split("\n")
+        counts = next(i for i, line in enumerate(lines) if line[:1].isdigit())
+        vertices, faces, _ = map(int, lines[counts].split())
+        body = [line for line in lines[counts + 1:] if line.strip()]
+        mesh.write_text("\n".join(["OFF", f"{vertices} {faces - 1} 0"] + body[:-1]) + "\n")
+        self.refused(INPUT, "extract", mesh, "-o", "x.obj", says=["open.off", "edge"],
+                     cwd=self.folder)
+
+    def test_a_missing_folder_is_an_output_fault_before_any_work(self):
+        self.refused(OUTPUT, "extract", TORUS, "-o", "no/x.obj", says=["no"], cwd=self.folder)
+
+    def test_one_output_that_fails_is_an_output_fault(self):
+        (self.folder / "x.obj").mkdir()
+        self.refused(OUTPUT, "extract", TORUS, "-o", "x.obj", says=["x.obj"], cwd=self.folder)
+
+    def test_a_full_disk_is_an_output_fault(self):
+        with open("/dev/full", "wb") as full:
+            result = run("extract", Y, "-o", "-", "--format", "obj", stdout=full)
+            self.assertEqual(result.code, OUTPUT, result.err)
+            self.assertIn("No space left", result.err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,201 @@
+// Laws that every back end obeys: one answer for one problem, an honest residual, no wrong answer.
+#include "contraction/least_squares.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "surface/error.hpp"
+
+namespace curveskel {
+namespace {
+
+struct System {
+  std::string name;
+  SparseMatrix a;
+  Positions b;
+};
+
+/// [W_L L; W_H] X = [0; W_H X0] (eq. 3) on a small surface.
+System stacked(const std::string& name, const Surface& surface, double contraction) {
+  const SparseMatrix l = intrinsic_delaunay_laplacian(surface);
+  const Eigen::Index n = l.cols();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (SparseMatrix::InnerIterator entry(l, j); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j),
+                           contraction * entry.value());
+    }
+    entries.emplace_back(static_cast<int>(n + j), static_cast<int>(j),
+                         1 + 0.5 * std::sin(static_cast<double>(j)));
+  }
+  System system{name, SparseMatrix(2 * n, n), Positions::Zero(2 * n, 3)};
+  system.a.setFromTriplets(entries.begin(), entries.end());
+  system.b.bottomRows(n) = surface.positions;
+  return system;
+}
+
+const std::vector<System>& systems() {
+  static const std::vector<System> all = [] {
+    const Surface sphere = shapes::ellipsoid({1, 1, 1}, 2).surface;
+    const Surface ring = shapes::torus(3, 1, 12).surface;
+    std::vector<System> made = {
+        stacked("sphere, weak contraction", sphere, 0.1),
+        stacked("sphere, strong contraction", sphere, 100),
+        stacked("ring", ring, 10),
+    };
+    System polynomial{"a cubic through seven values", SparseMatrix(7, 4), Positions(7, 3)};
+    for (int i = 0; i < 7; ++i) {
+      for (int k = 0; k < 4; ++k) polynomial.a.insert(i, k) = std::pow(0.3 * i - 1, k);
+      polynomial.b.row(i) << std::sin(i), std::cos(i), i;
+    }
+    polynomial.a.makeCompressed();
+    made.push_back(polynomial);
+    System square{"one unknown, one row", SparseMatrix(1, 1), Positions(1, 3)};
+    square.a.insert(0, 0) = 4;
+    square.b << 4, 8, 12;
+    made.push_back(square);
+    return made;
+  }();
+  return all;
+}
+
+SparseMatrix normal_matrix(const System& system) { return system.a.transpose() * system.a; }
+
+class EverySolver : public testing::TestWithParam<Solver> {};
+
+TEST_P(EverySolver, AgreesWithDenseQr) {
+  LeastSquares solver(GetParam());
+  for (const auto& system : systems()) {
+    const Eigen::MatrixXd expected =
+        Eigen::MatrixXd(system.a).colPivHouseholderQr().solve(Eigen::MatrixXd(system.b));
+    const Solution solution = solver.solve(system.a, system.b);
+    EXPECT_LE((solution.x - expected).norm(), 1e-8 * expected.norm()) << system.name;
+    EXPECT_LE(solution.residual, 1e-10) << system.name;
+  }
+}
+
+TEST_P(EverySolver, SolvesDefiniteSystems) {
+  LeastSquares solver(GetParam());
+  for (const auto& system : systems()) {
+    const SparseMatrix h = normal_matrix(system);
+    const Positions known = Eigen::RowVector3d(1, -2, 3).replicate(h.rows(), 1);
+    const Positions right = h * known;
+    const Solution solution = solver.solve_definite(h, right);
+    EXPECT_LE((solution.x - known).norm(), 1e-7 * known.norm()) << system.name;
+    // Backward stable: as small a residual as rounding H X allows.
+    const double rounding = 1e-14 * h.norm() * solution.x.norm() / right.norm();
+    EXPECT_LE(solution.residual, rounding) << system.name;
+  }
+}
+
+TEST_P(EverySolver, GivesTheSameBytesWhetherThePatternIsKnownOrNew) {
+  const System first = stacked("", shapes::torus(3, 1, 12).surface, 10);
+  System second = first;
+  second.a *= 0.5;
+  LeastSquares reused(GetParam());
+  (void)reused.solve(first.a, first.b);
+  const Positions again = reused.solve(second.a, second.b).x;
+  const Positions fresh = LeastSquares(GetParam()).solve(second.a, second.b).x;
+  EXPECT_EQ(again, fresh);
+}
+
+TEST_P(EverySolver, TakesASystemOfAnotherSizeNext) {
+  LeastSquares solver(GetParam());
+  for (int round = 0; round < 2; ++round) {
+    for (const auto& system : systems()) {
+      EXPECT_LE(solver.solve(system.a, system.b).residual, 1e-10) << system.name;
+    }
+  }
+}
+
+TEST_P(EverySolver, ReportsTheResidualOfWhatItReturns) {
+  LeastSquares solver(GetParam());
+  for (const auto& system : systems()) {
+    const Solution solution = solver.solve(system.a, system.b);
+    const Positions misfit = system.a * solution.x - system.b;
+    const Positions gradient = system.a.transpose() * misfit;
+    const Positions right = system.a.transpose() * system.b;
+    EXPECT_DOUBLE_EQ(solution.residual, gradient.norm() / right.norm()) << system.name;
+  }
+}
+
+/// What is thrown names the solver's fault and says something about the matrix.
+template <typename Solve>
+void expect_solver_error(const Solve& solve, const std::string& said) {
+  try {
+    solve();
+    FAIL() << "no error: " << said;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::solver);
+    EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+  }
+}
+
+TEST_P(EverySolver, RefusesAMatrixWithoutFullRank) {
+  SparseMatrix a(6, 3);
+  for (int i = 0; i < 6; ++i) {
+    a.insert(i, 0) = 1 + i;
+    a.insert(i, 1) = 1;
+  }  // the third column is empty
+  a.makeCompressed();
+  LeastSquares solver(GetParam());
+  expect_solver_error([&] { (void)solver.solve(a, Positions::Ones(6, 3)); }, "3");
+  // The solver is still of use afterwards.
+  EXPECT_LE(solver.solve(systems()[0].a, systems()[0].b).residual, 1e-10);
+}
+
+TEST_P(EverySolver, RefusesShapesThatDoNotFit) {
+  const System& system = systems()[0];
+  LeastSquares solver(GetParam());
+  const SparseMatrix wide = system.a.transpose();
+  expect_solver_error([&] { (void)solver.solve(wide, Positions::Ones(wide.rows(), 3)); },
+                      "at least as many rows");
+  expect_solver_error([&] { (void)solver.solve(system.a, Positions::Ones(3, 3)); }, "right-hand");
+  expect_solver_error([&] { (void)solver.solve_definite(system.a, system.b); }, "square");
+}
+
+INSTANTIATE_TEST_SUITE_P(LeastSquares, EverySolver,
+                         testing::Values(Solver::automatic, Solver::cholesky, Solver::sparse_qr),
+                         [](const auto& each) {
+                           std::string name(name_of(solvers, each.param));
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Cholesky, RefusesAMatrixThatIsNotDefinite) {
+  SparseMatrix h(3, 3);
+  h.insert(0, 0) = 1;
+  h.insert(1, 1) = -1;
+  h.insert(2, 2) = 1;
+  h.makeCompressed();
+  expect_solver_error(
+      [&] { (void)LeastSquares(Solver::cholesky).solve_definite(h, Positions::Ones(3, 3)); },
+      "not positive definite");
+}
+
+TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {
+  for (const auto& entry : solvers) {
+    for (const int unknowns : {1, 1000, 1000000}) {
+      const Solver chosen = choose_solver(entry.value, unknowns);
+      EXPECT_NE(chosen, Solver::automatic);
+      if (entry.value != Solver::automatic) {
+        EXPECT_EQ(chosen, entry.value);
+      }
+    }
+  }
+}
+
+TEST(LeastSquares, SaysWhichSolverItUsed) {
+  LeastSquares solver(Solver::automatic);
+  (void)solver.solve(systems()[0].a, systems()[0].b);
+  EXPECT_EQ(solver.solver(),
+            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols())));
+}
+
+}  // namespace
+}  // namespace curveskel
