@@ -73,7 +73,7 @@ void Interruption::watch(const std::stop_token& finished) {
   std::unique_lock lock(mutex_);
   ended_.wait_for(lock, finished, 800ms, [] { return false; });
   if (finished.stop_requested()) return;
-  const auto writing = hold();
+  [[maybe_unused]] const auto writing = hold();  // NOLINT(clang-analyzer-deadcode.DeadStores)
   constexpr char message[] = "\ncurveskel: interrupted\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
   _exit(exit_code());

@@ -6,7 +6,7 @@
 namespace curveskel {
 namespace {
 
-constexpr double mollify = 1e-4;
+constexpr double flow_mollify = 1e-4;
 constexpr double max_edge_weight = 1e3;
 constexpr double max_contraction_weight = 1e5;  // w_L and W_L stop growing here
 constexpr double max_area_loss = 1e14;          // cap of A0 / A
@@ -41,7 +41,7 @@ FlowSystem::FlowSystem(const ContractionOptions& options, double mean_face_area)
 
 Solution FlowSystem::solve(const ContractingSurface& surface) {
   assembly_.assemble(
-      triangulation_.weights(surface.mesh, surface.positions, mollify, max_edge_weight),
+      triangulation_.weights(surface.mesh, surface.positions, flow_mollify, max_edge_weight),
       surface.mesh.vertices(), laplacian_);
   const Eigen::VectorXd loss = surface.initial_areas.cwiseQuotient(
       surface.vertex_areas().cwiseMax(surface.initial_areas / max_area_loss));

@@ -38,11 +38,11 @@ Complex3 operator*(Complex a, const Complex3& b) { return {a * b.x, a * b.y, a *
 Complex3 complex(const Eigen::Vector3d& v) { return {{v.x(), 0}, {v.y(), 0}, {v.z(), 0}}; }
 
 /// mu / 2 times the cotangents of the face (centre, first, second); 0 for a face without area.
-struct Corners {
+struct Cotangents {
   double centre, first, second;
 };
-Corners corners(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
-                double half_smoothing) {
+Cotangents face_cotangents(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+                           double half_smoothing) {
   const Eigen::Vector3d edge = second - first;
   const double double_area = first.cross(second).norm();
   const double scale = double_area > 0 ? half_smoothing / double_area : 0;
@@ -60,8 +60,8 @@ Eigen::Vector3d centre_step(std::span<const std::int32_t> ring, const Positions&
   Eigen::Vector3d here = at(0);
   const Eigen::Vector3d first = here;
   const Eigen::Vector3d end = at(last);
-  const Corners closing = corners(end, first, half_smoothing);
-  Corners before = closing;
+  const Cotangents closing = face_cotangents(end, first, half_smoothing);
+  Cotangents before = closing;
 
   Complex to_last{0, -closing.centre};  // the entry that couples this row to the last one
   Complex carry;                        // i x the multiplier of the row before
@@ -72,7 +72,7 @@ Eigen::Vector3d centre_step(std::span<const std::int32_t> ring, const Positions&
   double coupling_sum = 0;
   for (std::size_t i = 0; i < last; ++i) {
     const Eigen::Vector3d following = i + 1 == last ? end : at(i + 1);
-    const Corners after = corners(here, following, half_smoothing);
+    const Cotangents after = face_cotangents(here, following, half_smoothing);
     const double s = after.second + before.first;  // coupling to the centre
     coupling_sum += s;
     // carry = i t / pivot of the row before, t = before.centre, so t^2 / pivot = -i t carry.

@@ -4,13 +4,13 @@ namespace curveskel {
 namespace {
 
 /// Per vertex the faces that it is a corner of, as corners 3 f + k.
-struct Corners {
+struct CornersByVertex {
   std::vector<std::int64_t> start;
   std::vector<std::int32_t> corner;
 };
 
-Corners corners_by_vertex(const Triangles& triangles, Eigen::Index vertices) {
-  Corners corners;
+CornersByVertex corners_by_vertex(const Triangles& triangles, Eigen::Index vertices) {
+  CornersByVertex corners;
   corners.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
   const std::span<const std::int32_t> vertex_of(triangles.data(),
                                                 static_cast<std::size_t>(triangles.size()));
@@ -28,7 +28,7 @@ Corners corners_by_vertex(const Triangles& triangles, Eigen::Index vertices) {
 }  // namespace
 
 OneRings one_rings(const Triangles& triangles, Eigen::Index vertices) {
-  const Corners corners = corners_by_vertex(triangles, vertices);
+  const CornersByVertex corners = corners_by_vertex(triangles, vertices);
   const std::int32_t* const vertex_of = triangles.data();
   OneRings rings;
   rings.start.reserve(static_cast<std::size_t>(vertices) + 1);

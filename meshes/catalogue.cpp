@@ -5,7 +5,7 @@
 namespace curveskel::shapes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Shape rings(int loops) { return tube_union("", ring_chain(loops, 3, 1), {0.25, 2}); }
 

@@ -15,7 +15,7 @@ namespace curveskel::shapes {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct GraphBuilder {
   std::vector<Vector3d> nodes;

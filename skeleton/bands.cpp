@@ -10,14 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "surface/element_index.hpp"
 #include "surface/error.hpp"
 
 namespace curveskel {
 namespace {
 
 constexpr int most_subdivisions = 6;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Shortest distances along edges (Dijkstra); ties by vertex.
 std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {

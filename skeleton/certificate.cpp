@@ -201,6 +201,7 @@ void measure_coverage(const Subject& subject, const Positions& vertices, const M
   const auto number = std::count(covered.begin(), covered.end(), 1);
   certificate.coverage = static_cast<double>(number) / static_cast<double>(chosen);
   std::vector<std::pair<double, double>> distances;
+  distances.reserve(uncovered.size());
   for (const double distance : uncovered) distances.emplace_back(distance, 1);
   certificate.reach = weighted_quantile(std::move(distances), 0.95) / subject.diagonal;
 }

@@ -179,13 +179,13 @@ namespace {
 
 /// The triangles' crossing edges linked into circles: for each crossing edge its neighbours across
 /// its two triangles.
-struct Crossings {
+struct LinkedCrossings {
   std::vector<std::array<int, 2>> next;  // per edge, -1 = not crossing
 };
 
-Crossings link_crossings(const Triangles& triangles, const EdgeIndex& index,
-                         const Eigen::VectorXi& group) {
-  Crossings crossings;
+LinkedCrossings link_crossings(const Triangles& triangles, const EdgeIndex& index,
+                               const Eigen::VectorXi& group) {
+  LinkedCrossings crossings;
   crossings.next.assign(index.edges.size(), {-1, -1});
   const auto attach = [&](int edge, int other) {
     auto& next = crossings.next[static_cast<std::size_t>(edge)];
@@ -219,7 +219,7 @@ VertexGraph graph_of_groups(const Surface& surface, const Eigen::VectorXi& group
   }
 
   const EdgeIndex index = index_edges(surface.triangles);
-  const Crossings crossings = link_crossings(surface.triangles, index, graph.group_of_vertex);
+  const LinkedCrossings crossings = link_crossings(surface.triangles, index, graph.group_of_vertex);
   std::vector<char> seen(index.edges.size(), 0);
   std::vector<std::array<int, 2>> edges;
   for (std::size_t first = 0; first < index.edges.size(); ++first) {

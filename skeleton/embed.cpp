@@ -11,11 +11,10 @@
 #include "skeleton/prune.hpp"
 #include "skeleton/relax.hpp"
 #include "skeleton/tips.hpp"
+#include "surface/element_index.hpp"
 
 namespace curveskel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Each group at the area-weighted mean of its vertices' ball centres, each circle at that of the
 /// ends of the edges that it crosses.

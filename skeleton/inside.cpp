@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "skeleton/relax.hpp"
+#include "surface/element_index.hpp"
 
 namespace curveskel {
 namespace {
 
 constexpr double least_radius = 1e-5;
 constexpr int deepest = 10;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Inside and away from the surface, or moved there if that can be done nearby.
 Point pulled_inside(const SurfaceTree& tree, const Point& p) {

@@ -1,5 +1,7 @@
 #include "skeleton/network.hpp"
 
+#include "surface/element_index.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -10,8 +12,6 @@ template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 

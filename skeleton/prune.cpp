@@ -1,12 +1,12 @@
 #include "skeleton/prune.hpp"
 
+#include "surface/element_index.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace curveskel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 int base_of(const Network& network, const Strand& strand) {
   return network.degree(strand.from) == 1 ? strand.to : strand.from;

@@ -13,7 +13,7 @@
 namespace curveskel {
 namespace {
 
-constexpr std::string_view export_again = "correct it or export the file again";
+constexpr std::string_view correct_it = "correct it or export the file again";
 
 double next_number(TextCursor& text, std::string_view needed) {
   text.skip_blanks();
@@ -25,7 +25,7 @@ std::int64_t next_integer(TextCursor& text, std::string_view needed) {
   const TextCursor start = text;
   const std::int64_t value = text.integer(needed);
   if (!text.at_line_end() && text.peek() != ' ' && text.peek() != '\t' && text.peek() != '\r') {
-    start.fail(needed, export_again);
+    start.fail(needed, correct_it);
   }
   return value;
 }
@@ -122,7 +122,7 @@ RawGraph read_polylines(const FileBytes& file) {
     const TextCursor start = text;
     const std::int64_t count = next_integer(text, "the number of points of a polyline");
     if (count < 1 || count > static_cast<std::int64_t>(text.bytes_left())) {
-      start.fail("the number of points of a polyline, 1 or more, that follow", export_again);
+      start.fail("the number of points of a polyline, 1 or more, that follow", correct_it);
     }
     std::vector<int> chain;
     for (std::int64_t k = 0; k < count; ++k) {
@@ -166,7 +166,7 @@ RawGraph read_swc(const FileBytes& file) {
     const std::int64_t parent = next_integer(text, "the parent of a sample (-1 = none)");
     const int point = graph.add(position, radius);
     if (!point_of.emplace(id, point).second) {
-      start.fail("the number of a sample that is not used above", export_again);
+      start.fail("the number of a sample that is not used above", correct_it);
     }
     links.push_back({point, parent, parent_at});
   }
@@ -174,7 +174,7 @@ RawGraph read_swc(const FileBytes& file) {
     graph.alone.push_back(link.point);
     if (link.parent < 0) continue;
     const auto parent = point_of.find(link.parent);
-    if (parent == point_of.end()) link.at.fail("the number of a sample in this file", export_again);
+    if (parent == point_of.end()) link.at.fail("the number of a sample in this file", correct_it);
     graph.edges.emplace_back(parent->second, link.point);
   }
   for (const auto& [from, to] : comments.cuts) {
@@ -182,7 +182,7 @@ RawGraph read_swc(const FileBytes& file) {
     const auto b = point_of.find(to);
     if (a == point_of.end() || b == point_of.end()) {
       file.fail("\"# cut " + std::to_string(from) + " " + std::to_string(to) + "\"",
-                "two samples in this file", export_again);
+                "two samples in this file", correct_it);
     }
     graph.edges.emplace_back(a->second, b->second);
   }

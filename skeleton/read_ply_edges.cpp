@@ -11,21 +11,21 @@
 namespace curveskel {
 namespace {
 
-enum class Role { ignored, x, y, z, radius, from, to };
+enum class EdgeRole { ignored, x, y, z, radius, from, to };
 
-Role role_of(const PlyElement& element, const PlyProperty& property) {
-  if (property.is_list) return Role::ignored;
+EdgeRole edge_role(const PlyElement& element, const PlyProperty& property) {
+  if (property.is_list) return EdgeRole::ignored;
   if (element.name == "vertex") {
-    if (property.name == "x") return Role::x;
-    if (property.name == "y") return Role::y;
-    if (property.name == "z") return Role::z;
-    if (property.name == "radius") return Role::radius;
+    if (property.name == "x") return EdgeRole::x;
+    if (property.name == "y") return EdgeRole::y;
+    if (property.name == "z") return EdgeRole::z;
+    if (property.name == "radius") return EdgeRole::radius;
   }
   if (element.name == "edge") {
-    if (property.name == "vertex1") return Role::from;
-    if (property.name == "vertex2") return Role::to;
+    if (property.name == "vertex1") return EdgeRole::from;
+    if (property.name == "vertex2") return EdgeRole::to;
   }
-  return Role::ignored;
+  return EdgeRole::ignored;
 }
 
 const PlyElement& element_named(const FileBytes& file, const PlyHeader& header,
@@ -41,11 +41,11 @@ const PlyElement& element_named(const FileBytes& file, const PlyHeader& header,
 }
 
 void need_roles(const FileBytes& file, const PlyElement& element,
-                std::initializer_list<Role> needed, std::string_view names) {
-  for (const Role role : needed) {
+                std::initializer_list<EdgeRole> needed, std::string_view names) {
+  for (const EdgeRole role : needed) {
     const bool there =
         std::any_of(element.properties.begin(), element.properties.end(),
-                    [&](const auto& property) { return role_of(element, property) == role; });
+                    [&](const auto& property) { return edge_role(element, property) == role; });
     if (!there) {
       file.fail("an element \"" + element.name + "\" without one of " + std::string(names),
                 "all of them", "export the file again");
@@ -60,26 +60,26 @@ void read_row(Values& values, PlyPlace& place, std::int64_t vertices, RawGraph& 
   std::pair<int, int> edge;
   for (const PlyProperty& property : place.element->properties) {
     place.property = &property;
-    switch (role_of(*place.element, property)) {
-      case Role::x:
+    switch (edge_role(*place.element, property)) {
+      case EdgeRole::x:
         point.x() = coordinate(values, place);
         break;
-      case Role::y:
+      case EdgeRole::y:
         point.y() = coordinate(values, place);
         break;
-      case Role::z:
+      case EdgeRole::z:
         point.z() = coordinate(values, place);
         break;
-      case Role::radius:
+      case EdgeRole::radius:
         radius = coordinate(values, place);
         break;
-      case Role::from:
+      case EdgeRole::from:
         edge.first = vertex_index(values, place, vertices, 0);
         break;
-      case Role::to:
+      case EdgeRole::to:
         edge.second = vertex_index(values, place, vertices, 0);
         break;
-      case Role::ignored:
+      case EdgeRole::ignored:
         values.skip(property.type, property.is_list ? list_length(values, place) : 1, place);
         break;
     }
@@ -94,8 +94,8 @@ RawGraph read_ply_edges(const FileBytes& file) {
   const PlyHeader header = read_ply_header(file);
   const PlyElement& edge = element_named(file, header, "edge");
   const PlyElement& vertex = element_named(file, header, "vertex");
-  need_roles(file, vertex, {Role::x, Role::y, Role::z}, "x, y, z");
-  need_roles(file, edge, {Role::from, Role::to}, "vertex1, vertex2");
+  need_roles(file, vertex, {EdgeRole::x, EdgeRole::y, EdgeRole::z}, "x, y, z");
+  need_roles(file, edge, {EdgeRole::from, EdgeRole::to}, "vertex1, vertex2");
   RawGraph graph;
   with_ply_values(file, header, [&](auto values) {
     for (const PlyElement& element : header.elements) {

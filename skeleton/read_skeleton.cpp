@@ -22,7 +22,7 @@ std::string lower_extension(std::filesystem::path path) {
 }
 
 /// The formats that say in their first lines what they are.
-std::optional<SkeletonFormat> format_by_content(const FileBytes& file) {
+std::optional<SkeletonFormat> skeleton_format_by_content(const FileBytes& file) {
   constexpr std::size_t first_lines = 2000;
   std::string_view text(file.content);
   if (text.starts_with("ply\n") || text.starts_with("ply\r")) return SkeletonFormat::ply;
@@ -36,7 +36,7 @@ std::optional<SkeletonFormat> format_by_content(const FileBytes& file) {
   return std::nullopt;
 }
 
-std::optional<SkeletonFormat> format_by_extension(const std::filesystem::path& path) {
+std::optional<SkeletonFormat> skeleton_format_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == "txt") return SkeletonFormat::cgal;  // CGAL's own is ".polylines.txt"
   return choice_of(skeleton_formats, std::string_view(extension));
@@ -72,8 +72,8 @@ CurveSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
 
 CurveSkeleton read_skeleton(const std::filesystem::path& path) {
   const FileBytes file = read_file(path, Monitor{});
-  std::optional<SkeletonFormat> format = format_by_content(file);
-  if (!format) format = format_by_extension(path);
+  std::optional<SkeletonFormat> format = skeleton_format_by_content(file);
+  if (!format) format = skeleton_format_by_extension(path);
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",

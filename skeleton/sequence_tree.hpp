@@ -67,9 +67,11 @@ class SequenceTree {
       const Item& item = below[first + i];
       const double distance =
           (item.lower - p).cwiseMax(p - item.upper).cwiseMax(Eigen::Vector3d::Zero()).norm();
-      order[i] = {distance - item.weight, first + i};
+      const std::pair entry{distance - item.weight, first + i};
+      std::size_t place = i;  // insertion sort
+      for (; place > 0 && entry < order[place - 1]; --place) order[place] = order[place - 1];
+      order[place] = entry;
     }
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count && order[i].first < best && best > enough; ++i) {
       visit(level - 1, order[i].second, p, enough, value, best);
     }

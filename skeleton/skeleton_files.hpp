@@ -51,6 +51,6 @@ struct SkeletonContext {
 /// none; `node_of_vertex` comes from JSON only.
 /// Throws Error(Fault::input) that names the file, the line or element, and what is wrong there.
 /// Time and memory linear in the file's size, times a logarithm for the joining.
-[[nodiscard]] CurveSkeleton read_skeleton(const std::filesystem::path& file);
+[[nodiscard]] CurveSkeleton read_skeleton(const std::filesystem::path& path);
 
 }  // namespace curveskel

@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "skeleton/relax.hpp"
+#include "surface/element_index.hpp"
 
 namespace curveskel {
 namespace {
 
-constexpr double least_radius = 1.0 / 1000;
+constexpr double least_tip_radius = 1.0 / 1000;
 constexpr int most_steps = 64;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The direction in which the line arrives at its point i.
 Point heading(const std::vector<Point>& line, std::size_t i) {
@@ -44,7 +43,7 @@ void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap)
   const Point first_heading = heading(line, line.size() - 1);
   double radius = tree.inscribed_radius(line.back());
   const double widest = 1.1 * radius;
-  for (int step = 0; step < most_steps && radius >= least_radius; ++step) {
+  for (int step = 0; step < most_steps && radius >= least_tip_radius; ++step) {
     const Point& tip = line.back();
     const Point direction = heading(line, line.size() - 1);
     const double left = tree.ray(tip, direction).distance;
@@ -54,7 +53,7 @@ void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap)
                                                      tree.inscribed_radius(guess)));
     if (tree.inscribed_radius(next) < tree.inscribed_radius(guess)) next = guess;
     radius = tree.inscribed_radius(next);
-    if (radius < least_radius || radius > widest) break;
+    if (radius < least_tip_radius || radius > widest) break;
     if ((next - tip).normalized().dot(first_heading) < 0.7) break;
     line.push_back(next);
   }

@@ -18,7 +18,7 @@ Eigen::Matrix3d principal_axes(const Surface& surface) {
   return principal_frame(surface, 1).axes.front().transpose();
 }
 
-struct Extent {
+struct ViewExtent {
   Eigen::Vector3d low;
   Eigen::Vector3d high;
   [[nodiscard]] Eigen::Vector3d size() const { return high - low; }
@@ -26,9 +26,9 @@ struct Extent {
 };
 
 /// Along the rows of `axes`.
-Extent extent_along(const Positions& positions, const Eigen::Matrix3d& axes) {
-  Extent extent{Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
-                Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};
+ViewExtent extent_along(const Positions& positions, const Eigen::Matrix3d& axes) {
+  ViewExtent extent{Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
+                    Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};
   for (const auto& position : positions.rowwise()) {
     const Eigen::Vector3d along = axes * position.transpose();
     extent.low = extent.low.cwiseMin(along);
@@ -39,7 +39,7 @@ Extent extent_along(const Positions& positions, const Eigen::Matrix3d& axes) {
 
 /// How much of its box the shape would stand on if `axis` pointed up: the box of the vertices next
 /// to the lower end, seen along the axis, over that of all.
-double footing(const Positions& positions, const Extent& extent, int axis) {
+double footing(const Positions& positions, const ViewExtent& extent, int axis) {
   constexpr double sole = 0.02;  // of the height
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;
@@ -62,7 +62,7 @@ struct Upright {
 
 /// Rows right, up, towards the viewer for a shape that is aligned with its coordinate frame, where
 /// either y or z is up.
-Upright upright_axes(const Positions& positions, const Extent& extent) {
+Upright upright_axes(const Positions& positions, const ViewExtent& extent) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -139,7 +139,7 @@ std::array<View, 2> best_views(const Surface& surface, int width, int height) {
   };
 
   const Eigen::Matrix3d principal = principal_axes(surface);
-  const Extent box = extent_along(surface.positions, Eigen::Matrix3d::Identity());
+  const ViewExtent box = extent_along(surface.positions, Eigen::Matrix3d::Identity());
   const double smaller = extent_along(surface.positions, principal).size().prod();
   Layout layout;
   if (smaller < worth_turning * box.size().prod()) {
@@ -150,7 +150,7 @@ std::array<View, 2> best_views(const Surface& surface, int width, int height) {
     layout = layout_of(upright_axes(surface.positions, box));
   }
 
-  const Extent extent = extent_along(surface.positions, layout.axes);
+  const ViewExtent extent = extent_along(surface.positions, layout.axes);
   const Eigen::Vector3d pixels = extent.size() * layout.scale;
   const Eigen::Vector3d target = layout.axes.transpose() * extent.middle();
   const Eigen::Vector3d right = layout.axes.row(0);

@@ -23,13 +23,13 @@ class Blocks {
   /// Fewer than `count` where the data ends.
   std::string take(std::size_t count) {
     if (!base64_) {
-      const std::string taken(rest_.substr(0, count));
+      std::string taken(rest_.substr(0, count));
       rest_.remove_prefix(taken.size());
       return taken;
     }
     while (decoded_.size() < count && decode_group()) {
     }
-    const std::string taken = decoded_.substr(0, count);
+    std::string taken = decoded_.substr(0, count);
     decoded_.erase(0, taken.size());
     return taken;
   }

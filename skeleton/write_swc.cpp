@@ -57,14 +57,14 @@ Forest longest_forest(const CurveSkeleton& skeleton) {
   return forest;
 }
 
-struct Sample {
+struct SwcSample {
   int node;
   int parent;  ///< index of the parent's sample, -1 for a root
 };
 
 /// Depth first, so that the samples of a branch follow each other; a component's root is its
 /// thickest node.
-std::vector<Sample> depth_first_samples(const CurveSkeleton& skeleton, const Forest& forest) {
+std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton, const Forest& forest) {
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
   std::vector<int> roots(nodes);
   std::iota(roots.begin(), roots.end(), 0);
@@ -72,12 +72,12 @@ std::vector<Sample> depth_first_samples(const CurveSkeleton& skeleton, const For
     std::stable_sort(roots.begin(), roots.end(),
                      [&](int a, int b) { return skeleton.radii(a) > skeleton.radii(b); });
   }
-  std::vector<Sample> samples;
+  std::vector<SwcSample> samples;
   std::vector<bool> seen(nodes, false);
   for (const int root : roots) {
-    std::vector<Sample> stack{{root, -1}};
+    std::vector<SwcSample> stack{{root, -1}};
     while (!stack.empty()) {
-      const Sample sample = stack.back();
+      const SwcSample sample = stack.back();
       stack.pop_back();
       if (seen[static_cast<std::size_t>(sample.node)]) continue;
       seen[static_cast<std::size_t>(sample.node)] = true;
@@ -109,7 +109,7 @@ std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   if (skeleton.nodes.rows() == 0) return text;
 
   const Forest forest = longest_forest(skeleton);
-  const std::vector<Sample> samples = depth_first_samples(skeleton, forest);
+  const std::vector<SwcSample> samples = depth_first_samples(skeleton, forest);
   std::vector<int> id_of_node(samples.size());
   std::string unknown;
   for (std::size_t s = 0; s < samples.size(); ++s) {

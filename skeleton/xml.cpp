@@ -8,7 +8,7 @@
 namespace curveskel {
 namespace {
 
-constexpr int deepest = 64;
+constexpr int deepest_element = 64;
 constexpr std::string_view blanks = " \t\r\n";
 
 std::string without_prefix(std::string_view name) {
@@ -112,8 +112,8 @@ class Parser {
   }
 
   XmlElement element(int depth) {
-    if (depth > deepest) {
-      fail("elements nested more than " + std::to_string(deepest) + " deep", "fewer");
+    if (depth > deepest_element) {
+      fail("elements nested more than " + std::to_string(deepest_element) + " deep", "fewer");
     }
     XmlElement result;
     result.position = at_;

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "surface/element_index.hpp"
 #include "surface/half_edges.hpp"
 #include "surface/orient.hpp"
 #include "surface/weld.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 /// Half-edges, three per face, are counted in 32 bits.
 constexpr std::int64_t most_faces = 2147483647 / 3;
-
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
 /// The work in progress: triangles over the vertices of the file until they are renumbered.
 struct Draft {

@@ -38,7 +38,7 @@ struct CleanSurface {
 /// each after leaving out corners that repeat the one before them, and one triangle with a repeated
 /// corner for a polygon with one or two. Where it can, it avoids diagonals that are an edge or a
 /// diagonal of another polygon too. O(k^2) at worst for a polygon of k corners.
-[[nodiscard]] Triangles triangulate(const PolygonSoup& soup);
+[[nodiscard]] Triangles triangulate(const PolygonSoup& given);
 
 /// Triangulates, merges coincident vertices (exactly equal positions, and only where that does not
 /// make a manifold edge or vertex non-manifold), drops duplicate and degenerate faces and isolated

@@ -1,15 +1,11 @@
 #include "surface/orient.hpp"
 
+#include "surface/element_index.hpp"
+
 #include <Eigen/Geometry>
 #include <cstddef>
 
 namespace curveskel {
-namespace {
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 std::int64_t split_umbrellas(Surface& surface, const HalfEdges& half_edges) {
   std::int32_t* const corner = surface.triangles.data();
   const auto corners = static_cast<std::int32_t>(surface.triangles.size());

@@ -10,7 +10,7 @@
 namespace curveskel {
 namespace {
 
-constexpr std::string_view export_again = "correct the header or export the file again";
+constexpr std::string_view correct_header = "correct the header or export the file again";
 
 PlyType read_type(TextCursor& line) {
   constexpr std::array<std::pair<std::string_view, PlyType>, 18> types{{
@@ -37,13 +37,13 @@ PlyType read_type(TextCursor& line) {
   for (const auto& [name, type] : types) {
     if (line.accept(name)) return type;
   }
-  line.fail("a type (char, uchar, short, ushort, int, uint, float, double)", export_again);
+  line.fail("a type (char, uchar, short, ushort, int, uint, float, double)", correct_header);
 }
 
 std::string read_name(TextCursor& line, std::string_view needed) {
   line.skip_blanks();
   const std::string_view name = line.word();
-  if (name.empty()) line.fail(needed, export_again);
+  if (name.empty()) line.fail(needed, correct_header);
   return std::string(name);
 }
 
@@ -52,7 +52,7 @@ PlyEncoding read_encoding(TextCursor& line) {
   if (line.accept("ascii")) return PlyEncoding::ascii;
   if (line.accept("binary_little_endian")) return PlyEncoding::little_endian;
   if (line.accept("binary_big_endian")) return PlyEncoding::big_endian;
-  line.fail("ascii, binary_little_endian or binary_big_endian", export_again);
+  line.fail("ascii, binary_little_endian or binary_big_endian", correct_header);
 }
 
 PlyElement read_element(TextCursor& line) {
@@ -61,7 +61,7 @@ PlyElement read_element(TextCursor& line) {
   line.skip_blanks();
   const TextCursor start = line;
   element.count = line.integer("a number of rows");
-  if (element.count < 0) start.fail("a number of rows", export_again);
+  if (element.count < 0) start.fail("a number of rows", correct_header);
   return element;
 }
 
@@ -74,7 +74,7 @@ PlyProperty read_property(TextCursor& line) {
     const TextCursor start = line;
     property.count_type = read_type(line);
     if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64) {
-      start.fail("an integer type for the length of a list", export_again);
+      start.fail("an integer type for the length of a list", correct_header);
     }
   }
   property.type = read_type(line);
@@ -158,15 +158,15 @@ PlyHeader read_ply_header(const FileBytes& file) {
     } else if (line.accept("element")) {
       header.elements.push_back(read_element(line));
     } else if (line.accept("property")) {
-      if (header.elements.empty()) line.fail("\"element\" before \"property\"", export_again);
+      if (header.elements.empty()) line.fail("\"element\" before \"property\"", correct_header);
       header.elements.back().properties.push_back(read_property(line));
     } else if (line.accept("end_header")) {
       break;
     } else if (!line.at_line_end() && !line.accept("comment") && !line.accept("obj_info")) {
-      line.fail("format, comment, obj_info, element, property or end_header", export_again);
+      line.fail("format, comment, obj_info, element, property or end_header", correct_header);
     }
   }
-  if (!encoded) line.fail("a \"format\" line before \"end_header\"", export_again);
+  if (!encoded) line.fail("a \"format\" line before \"end_header\"", correct_header);
   line.skip_line();
   header.data_begin = line.position();
   check_counts(file, header);

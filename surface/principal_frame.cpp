@@ -18,7 +18,7 @@ constexpr double equal_eigenvalues = 1e-6;  // relative to their sum
 constexpr double no_skewness = 1e-6;        // third moment over its largest possible value
 constexpr double equal_sizes = 1e-7;        // relative
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using CornerPoints = std::array<Eigen::Vector3d, 3>;
 
 class Pose {
  public:
@@ -83,9 +83,9 @@ class Pose {
   Eigen::Vector3d point(Eigen::Index vertex) const { return points_.row(vertex).transpose(); }
 
   // Sorted by coordinates, so that what is computed from them is free of the numbering.
-  Corners corners(Eigen::Index face) const {
-    Corners p = {point(surface_.triangles(face, 0)), point(surface_.triangles(face, 1)),
-                 point(surface_.triangles(face, 2))};
+  CornerPoints corners(Eigen::Index face) const {
+    CornerPoints p = {point(surface_.triangles(face, 0)), point(surface_.triangles(face, 1)),
+                      point(surface_.triangles(face, 2))};
     const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return a.x() != b.x() ? a.x() < b.x() : a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
     };

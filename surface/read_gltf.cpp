@@ -19,7 +19,7 @@
 namespace curveskel {
 namespace {
 
-constexpr std::string_view export_again = "export the file again";
+constexpr std::string_view gltf_remedy = "export the file again";
 
 class SceneReader {
  public:
@@ -32,8 +32,7 @@ class SceneReader {
     const std::vector<int> roots = root_nodes();
     std::vector<std::pair<int, Eigen::Affine3d>> open;
     const auto add = [&](const std::vector<int>& nodes, const Eigen::Affine3d& frame) {
-      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-        open.emplace_back(*node, frame);
+      for (std::size_t i = nodes.size(); i-- > 0;) open.emplace_back(nodes[i], frame);
     };
     add(roots, Eigen::Affine3d::Identity());
     while (!open.empty()) {
@@ -79,7 +78,7 @@ class SceneReader {
     const tinygltf::Node& node = gltf_element(file_, model_.nodes, index, "node");
     if (visited_[static_cast<std::size_t>(index)]) {
       file_.fail("node " + std::to_string(index) + " twice in the scene", "a tree of nodes",
-                 export_again);
+                 gltf_remedy);
     }
     visited_[static_cast<std::size_t>(index)] = true;
     return node;
@@ -102,7 +101,7 @@ class SceneReader {
     }
     if (!result.matrix().allFinite() || result.matrix().row(3) != Eigen::RowVector4d::UnitW()) {
       file_.fail("a transform of node " + std::to_string(index) + " that is not affine",
-                 "finite numbers and a last row of 0 0 0 1", export_again);
+                 "finite numbers and a last row of 0 0 0 1", gltf_remedy);
     }
     return result;
   }
@@ -139,7 +138,7 @@ class SceneReader {
           frame * Eigen::Vector3d(points.at(i, 0), points.at(i, 1), points.at(i, 2));
       if (!point.allFinite()) {
         file_.fail("NaN or infinity in position " + std::to_string(i) + " (counted from 0)",
-                   "finite numbers", export_again);
+                   "finite numbers", gltf_remedy);
       }
       coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
     }
@@ -159,7 +158,7 @@ class SceneReader {
       if (!(vertex >= 0 && vertex < static_cast<double>(points) && std::floor(vertex) == vertex)) {
         file_.fail("vertex index " + std::to_string(vertex) + " in accessor " +
                        std::to_string(primitive.indices),
-                   "whole numbers from 0 to " + std::to_string(points) + " - 1", export_again);
+                   "whole numbers from 0 to " + std::to_string(points) + " - 1", gltf_remedy);
       }
       vertices.push_back(static_cast<std::int64_t>(vertex));
     }
@@ -174,7 +173,7 @@ class SceneReader {
         separate ? vertices.size() / 3 : std::max<std::size_t>(vertices.size(), 2) - 2;
     if (separate && vertices.size() % 3 != 0) {
       file_.fail(std::to_string(vertices.size()) + " indices of triangles", "a multiple of three",
-                 export_again);
+                 gltf_remedy);
     }
     for (std::size_t i = 0; i < count; ++i) {
       std::array<std::size_t, 3> corner{3 * i, 3 * i + 1, 3 * i + 2};

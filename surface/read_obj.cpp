@@ -15,16 +15,6 @@ namespace {
 constexpr std::string_view index_remedy =
     "OBJ counts vertices from 1, or from -1 backwards; export the file again";
 
-void read_vertex(TextCursor& text, std::vector<double>& coordinates) {
-  constexpr std::array<std::string_view, 3> needed{"the x coordinate of a vertex",
-                                                   "the y coordinate of a vertex",
-                                                   "the z coordinate of a vertex"};
-  for (const auto& name : needed) {
-    text.skip_blanks();
-    coordinates.push_back(text.number(name));
-  }
-}
-
 /// Corners are v, v/vt, v//vn or v/vt/vn; only v is kept.
 void read_face(TextCursor& text, std::int64_t vertices, PolygonSoup& soup) {
   for (text.skip_blanks(); !text.at_line_end() && text.peek() != '#'; text.skip_blanks()) {
@@ -76,7 +66,7 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
     if (row % rows_per_report == 0) monitor.report("read", text.fraction());
     text.skip_blanks();
     if (text.accept("v")) {
-      read_vertex(text, coordinates);
+      text.read_vertex(coordinates);
     } else if (text.accept("f")) {
       read_face(text, static_cast<std::int64_t>(coordinates.size() / 3), soup);
     } else if (text.peek() == '#') {

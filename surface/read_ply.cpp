@@ -13,18 +13,18 @@
 namespace curveskel {
 namespace {
 
-enum class Role { ignored, x, y, z, polygon, strip };
+enum class FaceRole { ignored, x, y, z, polygon, strip };
 
-Role role_of(const PlyElement& element, const PlyProperty& property) {
+FaceRole face_role(const PlyElement& element, const PlyProperty& property) {
   if (element.name == "vertex" && !property.is_list) {
-    if (property.name == "x") return Role::x;
-    if (property.name == "y") return Role::y;
-    if (property.name == "z") return Role::z;
+    if (property.name == "x") return FaceRole::x;
+    if (property.name == "y") return FaceRole::y;
+    if (property.name == "z") return FaceRole::z;
   }
   const bool indices = property.name == "vertex_indices" || property.name == "vertex_index";
-  if (indices && property.is_list && element.name == "face") return Role::polygon;
-  if (indices && property.is_list && element.name == "tristrips") return Role::strip;
-  return Role::ignored;
+  if (indices && property.is_list && element.name == "face") return FaceRole::polygon;
+  if (indices && property.is_list && element.name == "tristrips") return FaceRole::strip;
+  return FaceRole::ignored;
 }
 
 template <typename Values>
@@ -60,23 +60,24 @@ void read_strip(Values& values, const PlyPlace& place, PolygonSoup& soup) {
 }
 
 template <typename Values>
-void read_row(Values& values, PlyPlace& place, const std::vector<Role>& roles, PolygonSoup& soup) {
+void read_row(Values& values, PlyPlace& place, const std::vector<FaceRole>& roles,
+              PolygonSoup& soup) {
   for (std::size_t i = 0; i < roles.size(); ++i) {
     place.property = &place.element->properties[i];
     switch (roles[i]) {
-      case Role::x:
-      case Role::y:
-      case Role::z:
-        soup.positions(place.row, static_cast<int>(roles[i]) - static_cast<int>(Role::x)) =
+      case FaceRole::x:
+      case FaceRole::y:
+      case FaceRole::z:
+        soup.positions(place.row, static_cast<int>(roles[i]) - static_cast<int>(FaceRole::x)) =
             coordinate(values, place);
         break;
-      case Role::polygon:
+      case FaceRole::polygon:
         read_polygon(values, place, soup);
         break;
-      case Role::strip:
+      case FaceRole::strip:
         read_strip(values, place, soup);
         break;
-      case Role::ignored:
+      case FaceRole::ignored:
         values.skip(place.property->type, place.property->is_list ? list_length(values, place) : 1,
                     place);
         break;
@@ -89,8 +90,8 @@ void read_elements(Values values, const PlyHeader& header, PolygonSoup& soup,
                    const Monitor& monitor) {
   for (const auto& element : header.elements) {
     if (element.properties.empty()) continue;
-    std::vector<Role> roles;
-    for (const auto& property : element.properties) roles.push_back(role_of(element, property));
+    std::vector<FaceRole> roles;
+    for (const auto& property : element.properties) roles.push_back(face_role(element, property));
     PlyPlace place{&element, nullptr, 0};
     for (; place.row < element.count; ++place.row) {
       if (place.row % rows_per_report == 0) monitor.report("read", values.fraction());

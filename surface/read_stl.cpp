@@ -14,19 +14,19 @@
 namespace curveskel {
 namespace {
 
-constexpr std::size_t header_bytes = 84;  // 80 of any text, 4 of the number of facets
-constexpr std::size_t facet_bytes = 50;   // normal, three corners, two bytes of attributes
+constexpr std::size_t preamble_bytes = 84;  // 80 of any text, 4 of the number of facets
+constexpr std::size_t facet_bytes = 50;     // normal, three corners, two bytes of attributes
 
 std::uint32_t facets_announced(const FileBytes& file) {
   std::uint32_t facets = 0;
-  std::memcpy(&facets, file.content.data() + header_bytes - 4, sizeof facets);
+  std::memcpy(&facets, file.content.data() + preamble_bytes - 4, sizeof facets);
   return facets;
 }
 
 /// The size tells a binary file, even if its header begins with "solid".
 bool has_binary_size(const FileBytes& file) {
-  return file.content.size() >= header_bytes &&
-         file.content.size() == header_bytes + facet_bytes * facets_announced(file);
+  return file.content.size() >= preamble_bytes &&
+         file.content.size() == preamble_bytes + facet_bytes * facets_announced(file);
 }
 
 std::string lower_word(TextCursor& text) {
@@ -49,15 +49,15 @@ bool has_ascii_start(const FileBytes& file) {
 
 PolygonSoup read_binary(const FileBytes& file, const Monitor& monitor) {
   const std::size_t size = file.content.size();
-  if (size < header_bytes) {
+  if (size < preamble_bytes) {
     file.fail(std::to_string(size) + " bytes that are no ASCII STL",
-              "at least " + std::to_string(header_bytes) + " bytes of a binary STL",
+              "at least " + std::to_string(preamble_bytes) + " bytes of a binary STL",
               "check that this is an STL file, or fetch it again");
   }
   const std::size_t facets = facets_announced(file);
-  if (facets > (size - header_bytes) / facet_bytes) {
+  if (facets > (size - preamble_bytes) / facet_bytes) {
     file.fail(std::to_string(facets) + " facets announced in " + std::to_string(size) + " bytes",
-              std::to_string(header_bytes + facet_bytes * facets) + " bytes for them",
+              std::to_string(preamble_bytes + facet_bytes * facets) + " bytes for them",
               "the file is truncated or no STL: fetch or export it again");
   }
   if (3 * facets > static_cast<std::size_t>(most_vertices)) {
@@ -72,7 +72,7 @@ PolygonSoup read_binary(const FileBytes& file, const Monitor& monitor) {
       monitor.report("read", static_cast<double>(facet) / static_cast<double>(facets));
     }
     std::array<float, 9> values{};
-    const char* const data = file.content.data() + header_bytes + facet_bytes * facet;
+    const char* const data = file.content.data() + preamble_bytes + facet_bytes * facet;
     std::memcpy(values.data(), data + 3 * sizeof(float), sizeof values);
     for (const float value : values) {
       if (!std::isfinite(value)) {
@@ -86,16 +86,6 @@ PolygonSoup read_binary(const FileBytes& file, const Monitor& monitor) {
   return soup;
 }
 
-void read_vertex(TextCursor& text, std::vector<double>& coordinates) {
-  constexpr std::array<std::string_view, 3> needed{"the x coordinate of a vertex",
-                                                   "the y coordinate of a vertex",
-                                                   "the z coordinate of a vertex"};
-  for (const auto& name : needed) {
-    text.skip_blanks();
-    coordinates.push_back(text.number(name));
-  }
-}
-
 /// "facet normal" and "outer loop" carry nothing that the corners do not say.
 PolygonSoup read_ascii(const FileBytes& file, const Monitor& monitor) {
   std::vector<double> coordinates;
@@ -107,7 +97,7 @@ PolygonSoup read_ascii(const FileBytes& file, const Monitor& monitor) {
     const TextCursor start = text;
     const std::string word = lower_word(text);
     if (word == "vertex") {
-      read_vertex(text, coordinates);
+      text.read_vertex(coordinates);
     } else if (word == "facet") {
       facet_begin = coordinates.size();
       open = "endfacet";

@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -84,6 +85,16 @@ double TextCursor::number(std::string_view needed) {
   }
   at_ = next;
   return value;
+}
+
+void TextCursor::read_vertex(std::vector<double>& coordinates) {
+  constexpr std::array<std::string_view, 3> needed{"the x coordinate of a vertex",
+                                                   "the y coordinate of a vertex",
+                                                   "the z coordinate of a vertex"};
+  for (const auto& name : needed) {
+    skip_blanks();
+    coordinates.push_back(number(name));
+  }
 }
 
 std::int64_t TextCursor::integer(std::string_view needed) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "surface/file_bytes.hpp"
 
@@ -45,6 +46,8 @@ class TextCursor {
   /// A finite number that ends at a blank, a line end, a comment or the end of the text. `needed`
   /// says what stands here, for the message of the Error(Fault::input) thrown otherwise.
   double number(std::string_view needed);
+  /// The three coordinates of a vertex, appended.
+  void read_vertex(std::vector<double>& coordinates);
   /// An integer; what may follow it is the caller's business.
   std::int64_t integer(std::string_view needed);
   /// Throws like `number` unless a blank, a line end or a comment follows.

@@ -12,8 +12,6 @@
 namespace curveskel {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Edges and faces are chords of a curved surface: a ball that meets one closer to the tangent plane
 // than this is bounded by the chord, not by the surface.
 constexpr double chord_sine = 0.5;

@@ -8,6 +8,9 @@
 
 namespace curveskel {
 
+/// No surface met, in a query's local units.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 struct LocalNearest {
   Eigen::Vector3d point;
   int triangle = -1;  ///< -1 = none within the limit
@@ -16,7 +19,7 @@ struct LocalNearest {
                                         double limit);
 
 struct LocalHit {
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = infinity;
   int triangle = -1;
 };
 [[nodiscard]] LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,

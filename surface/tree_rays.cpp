@@ -11,8 +11,6 @@
 namespace curveskel {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Single-precision slabs; the ray starts within or at the frame's box.
 class BoxRay {
  public:

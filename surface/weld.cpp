@@ -8,11 +8,10 @@
 #include <tuple>
 
 #include "surface/buckets.hpp"
+#include "surface/element_index.hpp"
 
 namespace curveskel {
 namespace {
-
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
 /// Returns how many were not kept.
 std::int64_t keep_faces(Triangles& triangles, const std::vector<bool>& keep) {

@@ -56,9 +56,9 @@ class Output {
 
   /// The system's error, or 0.
   int write(std::string_view bytes) const {
-    constexpr std::size_t chunk_bytes = std::size_t{1} << 26;
+    constexpr std::size_t piece_bytes = std::size_t{1} << 26;
     while (!bytes.empty()) {
-      const auto written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), chunk_bytes));
+      const auto written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), piece_bytes));
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) return errno;
       bytes.remove_prefix(static_cast<std::size_t>(written));

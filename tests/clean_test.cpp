@@ -161,17 +161,17 @@ PolygonSoup star_shaped(int corners, std::uint32_t seed) {
 }
 
 /// The strip between two turns of a spiral: every ear clipper's worst friend.
-PolygonSoup spiral(int steps) {
+PolygonSoup spiral(Eigen::Index steps) {
   PolygonSoup soup;
   soup.positions.resize(2 * steps, 3);
-  for (int i = 0; i < steps; ++i) {
-    const double angle = 0.3 * i;
+  for (Eigen::Index i = 0; i < steps; ++i) {
+    const double angle = 0.3 * static_cast<double>(i);
     const double radius = 1 + 0.1 * angle;
     soup.positions.row(i) << radius * std::cos(angle), radius * std::sin(angle), 0;
     soup.positions.row(2 * steps - 1 - i) << (radius - 0.3) * std::cos(angle),
         (radius - 0.3) * std::sin(angle), 0;
   }
-  for (int i = 0; i < 2 * steps; ++i) soup.corners.push_back(i);
+  for (std::int32_t i = 0; i < 2 * steps; ++i) soup.corners.push_back(i);
   soup.offsets = {0, 2 * steps};
   return soup;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "surface/measures.hpp"
@@ -19,8 +20,8 @@ Surface ring(int rings, int sides, double radius) {
   surface.triangles.resize(Eigen::Index{2} * rings * sides, 3);
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < sides; ++j) {
-      const double u = 2 * EIGEN_PI * i / rings;
-      const double v = 2 * EIGEN_PI * j / sides;
+      const double u = 2 * std::numbers::pi * i / rings;
+      const double v = 2 * std::numbers::pi * j / sides;
       const double out = 1 + 0.2 * std::cos(5 * u) + radius * std::cos(v);
       surface.positions.row(i * sides + j) << out * std::cos(u), out * std::sin(u),
           radius * std::sin(v);
@@ -28,8 +29,8 @@ Surface ring(int rings, int sides, double radius) {
       const int b = (i + 1) % rings * sides + j;
       const int c = (i + 1) % rings * sides + (j + 1) % sides;
       const int d = i * sides + (j + 1) % sides;
-      surface.triangles.row(2 * a) << a, b, c;
-      surface.triangles.row(2 * a + 1) << a, c, d;
+      surface.triangles.row(Eigen::Index{2} * a) << a, b, c;
+      surface.triangles.row(Eigen::Index{2} * a + 1) << a, c, d;
     }
   }
   return surface;
@@ -80,7 +81,7 @@ TEST(Coarsen, MergedVerticesAreNeighboursInSpace) {
   for (const Case& each : cases()) {
     const Coarsened result = coarsened(each);
     // Patches of equal area would have this radius.
-    const double patch = std::sqrt(area(each.surface) / each.target / EIGEN_PI);
+    const double patch = std::sqrt(area(each.surface) / each.target / std::numbers::pi);
     for (Eigen::Index v = 0; v < result.vertex_of_input.size(); ++v) {
       EXPECT_LT(
           (each.surface.positions.row(v) - result.surface.positions.row(result.vertex_of_input(v)))

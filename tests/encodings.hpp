@@ -301,7 +301,9 @@ inline std::vector<Encoding> all() {
          {"char", "uchar", "short", "ushort", "int", "uint", "int8", "uint8", "int16", "uint16",
           "int32", "uint32", "float", "double", "float32", "float64"}) {
       const bool integer = type.find("float") == std::string::npos && type != "double";
-      result.push_back({"ply_" + encoding + "_" + type, ".ply",
+      std::string name = "ply_";
+      name.append(encoding).append("_").append(type);
+      result.push_back({std::move(name), ".ply",
                         ply(encoding, type, integer ? type : "uchar", integer ? type : "int")});
     }
   }

@@ -56,7 +56,7 @@ struct Decoded {
     if (!rgb) columns = rows = 0;
   }
   [[nodiscard]] Eigen::Vector3i at(int x, int y) const {
-    const stbi_uc* pixel = rgb.get() + 3 * (y * columns + x);
+    const stbi_uc* pixel = rgb.get() + std::ptrdiff_t{3} * (y * columns + x);
     return {pixel[0], pixel[1], pixel[2]};
   }
   [[nodiscard]] Eigen::Vector3i at(const Eigen::Vector3d& pixel) const {
@@ -102,7 +102,9 @@ TEST(Rasterise, LeavesNoGapBetweenTriangles) {
   const auto depth = static_cast<float>(view.pixels_per_unit);
   for (int y = 2; y < fragments.height - 2; ++y) {
     for (int x = 2; x < fragments.width - 2; ++x) {
-      const auto& fragment = fragments.pixels[static_cast<std::size_t>(y * fragments.width + x)];
+      const auto& fragment =
+          fragments.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(fragments.width) +
+                           static_cast<std::size_t>(x)];
       ASSERT_EQ(fragment.coverage, 1) << x << " " << y;
       ASSERT_NEAR(fragment.thickness, depth, 1e-3F * depth) << x << " " << y;
     }
@@ -216,7 +218,7 @@ TEST(Picture, OfSvgHasTwoLinesPerEdgeAndView) {
        at = svg.find("<line", at + 1)) {
     ++lines;
   }
-  EXPECT_EQ(lines, 2 * 2 * shape.axis.edges.rows());
+  EXPECT_EQ(lines, 4 * shape.axis.edges.rows());
 }
 
 TEST(Picture, NeedsTheSurface) {

@@ -49,6 +49,7 @@ inline SkeletonSample random_sample(unsigned seed) {
   std::uniform_real_distribution<double> unit(-1, 1);
   const int count = 5 + static_cast<int>(random() % 30);
   std::vector<Eigen::RowVector3d> nodes;
+  nodes.reserve(static_cast<std::size_t>(count));
   for (int n = 0; n < count; ++n) {
     nodes.emplace_back(unit(random), unit(random) * std::pow(10, 12 * unit(random)), unit(random));
   }

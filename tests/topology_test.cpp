@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace curveskel {
 namespace {
@@ -11,20 +12,20 @@ namespace {
 // A ring of `rings` circles of `sides` vertices, closed on itself: genus 1.
 Surface torus(int rings, int sides) {
   Surface surface;
-  surface.positions.resize(rings * sides, 3);
-  surface.triangles.resize(2 * rings * sides, 3);
+  surface.positions.resize(Eigen::Index{rings} * sides, 3);
+  surface.triangles.resize(Eigen::Index{2} * rings * sides, 3);
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < sides; ++j) {
-      const double u = 2 * EIGEN_PI * i / rings;
-      const double v = 2 * EIGEN_PI * j / sides;
+      const double u = 2 * std::numbers::pi * i / rings;
+      const double v = 2 * std::numbers::pi * j / sides;
       const double ring = 3 + std::cos(v);
       surface.positions.row(i * sides + j) << ring * std::cos(u), ring * std::sin(u), std::sin(v);
       const int a = i * sides + j;
       const int b = (i + 1) % rings * sides + j;
       const int c = (i + 1) % rings * sides + (j + 1) % sides;
       const int d = i * sides + (j + 1) % sides;
-      surface.triangles.row(2 * a) << a, b, c;
-      surface.triangles.row(2 * a + 1) << a, c, d;
+      surface.triangles.row(Eigen::Index{2} * a) << a, b, c;
+      surface.triangles.row(Eigen::Index{2} * a + 1) << a, c, d;
     }
   }
   return surface;
