@@ -44,7 +44,7 @@ TEST(Groups, GenusOfTheWholeIsTheSurfaces) {
     const int vertices = static_cast<int>(shape.surface.positions.rows());
     // Any merge order will do as long as the two share an edge; vertices 0.. are grown from 0.
     std::vector<char> taken(static_cast<std::size_t>(vertices), 0);
-    taken[0] = 1;
+    taken.at(0) = 1;
     std::vector<std::vector<int>> neighbours(taken.size());
     for (const auto& [a, b] : index_edges(shape.surface.triangles).edges) {
       neighbours[static_cast<std::size_t>(a)].push_back(b);
