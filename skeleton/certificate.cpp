@@ -254,20 +254,27 @@ void measure_shape(const Subject& subject, Certificate& certificate) {
   certificate.spurs = count_spurs(subject);
 }
 
-void count(const Surface& surface, const CurveSkeleton& skeleton, Certificate& certificate) {
+void count(const CurveSkeleton& skeleton, Certificate& certificate) {
   const GraphTopology graph = graph_topology(skeleton);
   certificate.components = graph.components;
   certificate.cycle_rank = graph.cycle_rank;
   certificate.tips = graph.tips;
   certificate.junctions = graph.junctions;
-  const Topology counted = topology(surface);
-  certificate.components_of_surface = counted.components();
-  certificate.genus = std::accumulate(counted.genus.begin(), counted.genus.end(), 0);
 }
 
 }  // namespace
 
 Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
+                     const CertificateOptions& options, const Monitor& monitor) {
+  monitor.report("certify", 0);
+  const Topology counted = topology(surface);
+  return evaluate(
+      {surface.positions, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
+       counted.components(), counted.total_genus()},
+      skeleton, options, monitor);
+}
+
+Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
   if (!skeleton.nodes.allFinite()) {
     throw Error(Fault::input,
@@ -276,20 +283,21 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
   }
   Certificate certificate;
   monitor.report("certify", 0);
-  count(surface, skeleton, certificate);
-  const SurfaceTree tree(surface);
-  Subject subject{tree, skeleton, branches(skeleton), degrees(skeleton), {}, {}, {}};
-  subject.diagonal = bounding_box_diagonal(surface.positions);
+  count(skeleton, certificate);
+  certificate.components_of_surface = surface.components;
+  certificate.genus = surface.genus;
+  Subject subject{surface.tree, skeleton, branches(skeleton), degrees(skeleton), {}, {}, {}};
+  subject.diagonal = surface.diagonal;
   subject.threads = options.threads;
   subject.clearance.setZero(skeleton.nodes.rows());
   for (int node = 0; node < skeleton.nodes.rows(); ++node) {
     if (!is_junction(subject, node)) continue;
-    subject.clearance[node] = tree.inscribed_radius(skeleton.nodes.row(node));
+    subject.clearance[node] = surface.tree.inscribed_radius(skeleton.nodes.row(node));
   }
   subject.samples = sample_curve(subject, options.sample_spacing * subject.diagonal);
   subject.radius.resize(subject.samples.size());
   for_samples(subject, 0.1, 0.2, monitor, [&](std::size_t i) {
-    subject.radius[i] = tree.inscribed_radius(subject.samples[i].position);
+    subject.radius[i] = surface.tree.inscribed_radius(subject.samples[i].position);
   });
 
   measure_inside(subject, certificate);

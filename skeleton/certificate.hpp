@@ -7,6 +7,7 @@
 #include "skeleton/curve_skeleton.hpp"
 #include "surface/monitor.hpp"
 #include "surface/surface.hpp"
+#include "surface/tree.hpp"
 
 namespace curveskel {
 
@@ -48,6 +49,19 @@ struct Certificate {
 /// the tree and a few microseconds per sample and ray.
 /// Throws Error(Fault::input) if a node's position is no finite number.
 [[nodiscard]] Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
+                                   const CertificateOptions& options, const Monitor& monitor);
+
+/// What a certificate compares a skeleton with.
+struct CertifiedSurface {
+  const Positions& positions;
+  const SurfaceTree& tree;
+  double diagonal;  ///< D
+  int components;
+  int genus;  ///< sum over the components
+};
+
+/// The same for a surface of which all this is known.
+[[nodiscard]] Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                                    const CertificateOptions& options, const Monitor& monitor);
 
 /// One-sided distances in both directions, sampled every `spacing` (model units); the larger one.

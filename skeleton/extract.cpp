@@ -10,6 +10,8 @@
 #include "surface/canonical.hpp"
 #include "surface/coarsen.hpp"
 #include "surface/inscribed_balls.hpp"
+#include "surface/measures.hpp"
+#include "surface/parallel.hpp"
 #include "surface/refine.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
@@ -46,15 +48,21 @@ class Pipeline {
   Pipeline(const ExtractOptions& options, const Monitor& monitor, StageClock& clock)
       : options_(options), monitor_(monitor), clock_(clock) {}
 
-  CurveSkeleton run(const Surface& canonical, int resolution, ComponentRecord& record) {
+  struct Result {
+    CurveSkeleton skeleton;
+    SurfaceTree tree;  // over the canonical surface
+  };
+
+  Result run(const Surface& canonical, int resolution, ComponentRecord& record) {
     Surface source = canonical;
     if (options_.fairing) {
       source = clock_("fair", [&] { return fair(canonical, options_.fair, monitor_); });
     }
+    auto planted = in_background(options_.threads, [&] { return SurfaceTree(canonical); });
     Coarsened working = clock_("coarsen", [&] { return at_resolution(source, resolution); });
     record.working_vertices = static_cast<int>(working.surface.positions.rows());
 
-    const auto tree = clock_("balls", [&] { return SurfaceTree(canonical); });
+    auto tree = clock_("balls", [&] { return planted.get(); });
     auto balls = clock_("balls", [&] {
       if (!options_.fairing) return inscribed_balls(working.surface, tree, options_.threads);
       return inscribed_balls(working.surface, SurfaceTree(source), options_.threads);
@@ -79,7 +87,7 @@ class Pipeline {
       node_of_vertex[v] = skeleton.node_of_vertex[working.vertex_of_input[v]];
     }
     skeleton.node_of_vertex = std::move(node_of_vertex);
-    return skeleton;
+    return {std::move(skeleton), std::move(tree)};
   }
 
  private:
@@ -145,15 +153,29 @@ void append(CurveSkeleton& whole, const CurveSkeleton& part, const std::vector<i
   }
 }
 
+std::vector<int> vertices_in_whole(const Component& part, const Canonical& canonical) {
+  std::vector<int> whole_vertex(part.vertex_in_whole.size());
+  for (std::size_t v = 0; v < whole_vertex.size(); ++v) {
+    whole_vertex[v] = part.vertex_in_whole[static_cast<std::size_t>(
+        canonical.input_of_vertex[static_cast<Eigen::Index>(v)])];
+  }
+  return whole_vertex;
+}
+
 }  // namespace
 
 Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
   Extraction result;
   StageClock clock(result.times);
-  const auto [parts, genus] = clock("normalise", [&] {
-    const Topology counted = topology(surface);
-    return std::pair(split_components(surface, counted), counted.genus);
-  });
+  const Topology counted = clock("normalise", [&] { return topology(surface); });
+  const auto parts = clock("normalise", [&] { return split_components(surface, counted); });
+  // Several components need a tree of their own for the certificate, in the background; a single
+  // one has its tree by then.
+  std::optional<SurfaceTree> tree_of_all;
+  std::future<SurfaceTree> planted;
+  if (parts.size() > 1) {
+    planted = in_background(options.threads, [&] { return SurfaceTree(surface); });
+  }
   result.skeleton.nodes.resize(0, 3);
   result.skeleton.edges.resize(0, 2);
   result.skeleton.node_of_vertex = Eigen::VectorXi::Constant(surface.positions.rows(), -1);
@@ -163,24 +185,26 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
     const auto vertices = part.surface.positions.rows();
     ComponentRecord record;
     record.vertices = static_cast<int>(vertices);
-    record.genus = genus[c];
+    record.genus = counted.genus[c];
     const Canonical canonical = clock("normalise", [&] { return canonical_form(part.surface); });
-    CurveSkeleton skeleton =
+    auto [skeleton, tree] =
         Pipeline(options, monitor, clock)
             .run(canonical.surface,
                  share_of_resolution(options, vertices, surface.positions.rows()), record);
     skeleton.nodes = canonical.to_model(skeleton.nodes);
     skeleton.radii *= canonical.scale;
-    std::vector<int> whole_vertex(part.vertex_in_whole.size());
-    for (std::size_t v = 0; v < whole_vertex.size(); ++v) {
-      whole_vertex[v] = part.vertex_in_whole[static_cast<std::size_t>(
-          canonical.input_of_vertex[static_cast<Eigen::Index>(v)])];
+    append(result.skeleton, skeleton, vertices_in_whole(part, canonical));
+    if (parts.size() == 1) {
+      tree_of_all = tree.in_frame(canonical.rotation, canonical.origin, canonical.scale);
     }
-    append(result.skeleton, skeleton, whole_vertex);
     result.components.push_back(std::move(record));
   }
-  result.certificate = clock(
-      "certify", [&] { return evaluate(surface, result.skeleton, options.certificate, monitor); });
+  result.certificate = clock("certify", [&] {
+    if (planted.valid()) tree_of_all = planted.get();
+    return evaluate({surface.positions, *tree_of_all, bounding_box_diagonal(surface.positions),
+                     counted.components(), counted.total_genus()},
+                    result.skeleton, options.certificate, monitor);
+  });
   return result;
 }
 

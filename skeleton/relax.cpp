@@ -113,13 +113,34 @@ void relax_hubs(Network& network, const SurfaceTree& tree, const std::vector<dou
 
 namespace {
 
+/// What a strand's rounds hand on to each other.
+struct Rest {
+  std::vector<double> last_move;  // per inner point
+  std::vector<double> radius;     // inscribed, per point, ends included
+  Point from = Point::Zero();     // where the ends were
+  Point to = Point::Zero();
+};
+
+/// The inscribed radii along the strand, of which only those at ends that moved are asked for anew.
+void update_radii(Rest& rest, const SurfaceTree& tree, const std::vector<Point>& line) {
+  if (rest.radius.size() != line.size()) {
+    rest.radius = radii_at(tree, line);
+  } else {
+    if (rest.from != line.front()) rest.radius.front() = tree.inscribed_radius(line.front());
+    if (rest.to != line.back()) rest.radius.back() = tree.inscribed_radius(line.back());
+  }
+  rest.from = line.front();
+  rest.to = line.back();
+}
+
 /// Moves the inner points of one strand in turn, each half-way to the centre of its cross-section
 /// and half-way to the middle of its neighbours.
 /// Those whose neighbourhood moved by less than a thousandth of the radius last time are at rest.
 void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tree,
-                  const RelaxOptions& options, std::vector<double>& last_move) {
+                  const RelaxOptions& options, Rest& rest) {
   const auto line = network.polyline(strand);
-  auto radius = radii_at(tree, line);
+  update_radii(rest, tree, line);
+  auto& [last_move, radius, from, to] = rest;
   const auto overlap = [&](const Point& p, double p_radius, const Point& q, double q_radius) {
     return (p - q).norm() <= p_radius + q_radius;
   };
@@ -145,7 +166,7 @@ void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tre
     }
     const Point smooth = (1 - options.smoothing) * target + options.smoothing * middle;
     for (const Point& candidate : {smooth, target}) {
-      const double moved = tree.inscribed_radius(candidate);
+      const double moved = tree.inscribed_radius(candidate, {points[i], radius[i + 1]});
       if (moved < options.keep * radius[i + 1]) continue;
       if (options.covered && !(overlap(before, radius[i], candidate, moved) &&
                                overlap(after, radius[i + 2], candidate, moved))) {
@@ -182,18 +203,18 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
   for (const Hub& hub : network.hubs) {
     hub_radius.push_back(hub.alive ? tree.inscribed_radius(hub.position) : 0);
   }
-  std::vector<std::vector<double>> last_move(network.strands.size());
+  std::vector<Rest> rest(network.strands.size());
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t s = 0; s < network.strands.size(); ++s) {
       Strand& strand = network.strands[s];
       if (!strand.alive || strand.from != strand.to || network.degree(strand.from) != 2) continue;
       turn_half_way_round(network, strand);
-      last_move[s].clear();
+      rest[s] = {};
     }
     parallel_for(network.strands.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         Strand& strand = network.strands[s];
-        if (strand.alive) relax_strand(network, strand, tree, options, last_move[s]);
+        if (strand.alive) relax_strand(network, strand, tree, options, rest[s]);
       }
     });
     if (!options.covered) relax_hubs(network, tree, hub_radius, options.keep_junction);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <vector>
 
 #include "surface/surface.hpp"
@@ -14,6 +15,7 @@ struct Topology {
   std::vector<int> faces;               ///< per component
   std::vector<int> genus;               ///< per component, (2 - V + E - F) / 2
   [[nodiscard]] int components() const { return static_cast<int>(genus.size()); }
+  [[nodiscard]] int total_genus() const { return std::accumulate(genus.begin(), genus.end(), 0); }
 };
 
 /// Precondition: closed oriented 2-manifold, no isolated vertices. O(#F log #F).

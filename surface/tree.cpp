@@ -5,34 +5,66 @@
 
 namespace curveskel {
 
+/// The hierarchy, and where its local frame lies in the frame of the queries.
 struct SurfaceTree::Implementation {
-  WideTree tree;
+  std::shared_ptr<const WideTree> tree;
+  Eigen::Vector3d centre;                                  // of the local frame
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // columns: the local axes
+  double scale = 1;                                        // local units per unit
+
+  [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
+    return direction_to_local(point - centre) * scale;
+  }
+  [[nodiscard]] Eigen::Vector3d direction_to_local(const Eigen::Vector3d& direction) const {
+    return rotation.transpose() * direction;
+  }
+  [[nodiscard]] Eigen::Vector3d from_local(const Eigen::Vector3d& local) const {
+    return rotation * (local / scale) + centre;
+  }
 };
 
+SurfaceTree::SurfaceTree(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
 SurfaceTree::SurfaceTree(const Surface& surface)
-    : implementation_(std::make_unique<Implementation>(Implementation{build_wide_tree(surface)})) {}
+    : implementation_(std::make_unique<Implementation>()) {
+  auto tree = std::make_shared<const WideTree>(build_wide_tree(surface));
+  implementation_->centre = tree->centre;
+  implementation_->scale = tree->scale;
+  implementation_->tree = std::move(tree);
+}
 SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
+SurfaceTree SurfaceTree::in_frame(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin,
+                                  double scale) const {
+  auto moved = std::make_unique<Implementation>(*implementation_);
+  moved->centre = origin + scale * rotation * implementation_->centre;
+  moved->rotation = rotation * implementation_->rotation;
+  moved->scale = implementation_->scale / scale;
+  return SurfaceTree(std::move(moved));
+}
+
 SurfaceTree::Nearest SurfaceTree::nearest(const Eigen::Vector3d& point, double limit) const {
-  const WideTree& tree = implementation_->tree;
-  const Eigen::Vector3d p = tree.to_local(point);
-  const LocalNearest nearest = find_nearest(tree, p, limit * tree.scale);
+  const Implementation& here = *implementation_;
+  const Eigen::Vector3d p = here.to_local(point);
+  const LocalNearest nearest = find_nearest(*here.tree, p, limit * here.scale);
   if (nearest.triangle < 0) return {point};
-  return {tree.to_model(nearest.point), (nearest.point - p).norm() / tree.scale, nearest.triangle};
+  return {here.from_local(nearest.point), (nearest.point - p).norm() / here.scale,
+          nearest.triangle};
 }
 
 SurfaceTree::Hit SurfaceTree::ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double limit) const {
-  const WideTree& tree = implementation_->tree;
-  const LocalHit hit = find_hit(tree, tree.to_local(origin), direction, limit * tree.scale);
+  const Implementation& here = *implementation_;
+  const LocalHit hit = find_hit(*here.tree, here.to_local(origin),
+                                here.direction_to_local(direction), limit * here.scale);
   if (hit.triangle < 0) return {};
-  return {hit.distance / tree.scale, hit.triangle};
+  return {hit.distance / here.scale, hit.triangle};
 }
 
 bool SurfaceTree::inside(const Eigen::Vector3d& point) const {
-  return winds_around(implementation_->tree, implementation_->tree.to_local(point));
+  return winds_around(*implementation_->tree, implementation_->to_local(point));
 }
 
 double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point) const {
@@ -40,12 +72,20 @@ double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point) const {
   return inside(point) ? distance : -distance;
 }
 
+double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point, const Ball& inner) const {
+  const double off_centre = (point - inner.centre).norm();
+  if (!(off_centre < inner.radius)) return inscribed_radius(point);
+  constexpr double slack = 1 + 1e-9;  // for rounding
+  return nearest(point, (inner.radius + off_centre) * slack).distance;
+}
+
 SurfaceTree::Ball SurfaceTree::inscribed_ball(const Eigen::Vector3d& point,
                                               const Eigen::Vector3d& inward_normal,
                                               double min_sine) const {
-  const WideTree& tree = implementation_->tree;
-  const double radius =
-      find_ball_radius(tree, tree.to_local(point), inward_normal, min_sine) / tree.scale;
+  const Implementation& here = *implementation_;
+  const double radius = find_ball_radius(*here.tree, here.to_local(point),
+                                         here.direction_to_local(inward_normal), min_sine) /
+                        here.scale;
   return {point + radius * inward_normal, radius};
 }
 

@@ -22,6 +22,11 @@ class SurfaceTree {
   SurfaceTree(const SurfaceTree&) = delete;
   SurfaceTree& operator=(const SurfaceTree&) = delete;
 
+  /// The same tree for the surface's copy at origin + scale * rotation * position (a similarity;
+  /// scale > 0). Shares the hierarchy with this one: no time, no memory.
+  [[nodiscard]] SurfaceTree in_frame(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin,
+                                     double scale) const;
+
   struct Nearest {
     Eigen::Vector3d point;  ///< the closest point of the surface
     double distance = std::numeric_limits<double>::infinity();  ///< >= 0, in model units
@@ -46,13 +51,15 @@ class SurfaceTree {
   /// direction.
   [[nodiscard]] bool inside(const Eigen::Vector3d& point) const;
 
-  /// Distance to the surface, positive inside and negative outside.
-  [[nodiscard]] double inscribed_radius(const Eigen::Vector3d& point) const;
-
   struct Ball {
     Eigen::Vector3d centre;
     double radius = 0;  ///< infinity if no surface point bounds the ball to less than D
   };
+  /// Distance to the surface, positive inside and negative outside.
+  [[nodiscard]] double inscribed_radius(const Eigen::Vector3d& point) const;
+  /// The same at half the cost for a point within a ball that lies inside the surface.
+  [[nodiscard]] double inscribed_radius(const Eigen::Vector3d& point, const Ball& inner) const;
+
   /// The largest ball inside the surface that touches it at `point`: r = min |e|^2 / (2 n.e) over
   /// surface points q, e = q - point, n the unit inward normal; q seen under less than
   /// asin(min_sine) above the tangent plane are skipped as noise (shrinking ball, Ma et al. 2012).
@@ -65,6 +72,7 @@ class SurfaceTree {
 
  private:
   struct Implementation;
+  explicit SurfaceTree(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;
 };
 

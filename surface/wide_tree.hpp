@@ -57,9 +57,6 @@ struct WideTree {
   [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
     return (point - centre) * scale;
   }
-  [[nodiscard]] Eigen::Vector3d to_model(const Eigen::Vector3d& local) const {
-    return local / scale + centre;
-  }
 };
 
 /// Boxes and slabs are wider than their triangles by this (local units): more than all rounding of
