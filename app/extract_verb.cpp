@@ -112,7 +112,8 @@ int run_extract(ExtractArguments arguments, Session& session) {
   std::vector<StageTime> times;
   const PolygonSoup soup =
       timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
-  const CleanSurface cleaned = timed(times, "clean", [&] { return clean(soup, monitor); });
+  const CleanSurface cleaned =
+      timed(times, "clean", [&] { return clean(soup, monitor, arguments.options.threads); });
   monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
   const Extraction extraction = extract(cleaned.surface, arguments.options, monitor);
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());

@@ -186,7 +186,8 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
     ComponentRecord record;
     record.vertices = static_cast<int>(vertices);
     record.genus = counted.genus[c];
-    const Canonical canonical = clock("normalise", [&] { return canonical_form(part.surface); });
+    const Canonical canonical =
+        clock("normalise", [&] { return canonical_form(part.surface, options.threads); });
     auto [skeleton, tree] =
         Pipeline(options, monitor, clock)
             .run(canonical.surface,

@@ -153,11 +153,11 @@ Positions Canonical::to_model(const Positions& positions) const {
   return (scale * (positions * rotation.transpose())).rowwise() + origin.transpose();
 }
 
-Canonical canonical_form(const Surface& surface) {
+Canonical canonical_form(const Surface& surface, int threads) {
   const auto vertices = static_cast<std::size_t>(surface.positions.rows());
   const std::size_t most_candidates =
       std::clamp<std::size_t>(vertices_to_compare / std::max<std::size_t>(vertices, 1), 1, 64);
-  const PrincipalFrame frame = principal_frame(surface, most_candidates);
+  const PrincipalFrame frame = principal_frame(surface, most_candidates, threads);
   Canonical result;
   result.origin = frame.origin;
   Posed best = posed(surface, frame, 0);

@@ -40,7 +40,7 @@ inline constexpr double canonical_step = 0x1p-22;
 /// their area or turn over; connectivity never changes. Coincident vertices stand in the order of
 /// the input.
 /// Precondition: at least one triangle of positive area. Sums are exact, hence free of the
-/// numbering. O(#V + #F).
-[[nodiscard]] Canonical canonical_form(const Surface& surface);
+/// numbering and of the number of threads (0 = one per core). O(#V + #F).
+[[nodiscard]] Canonical canonical_form(const Surface& surface, int threads = 0);
 
 }  // namespace curveskel

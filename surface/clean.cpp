@@ -13,6 +13,7 @@
 #include "surface/element_index.hpp"
 #include "surface/half_edges.hpp"
 #include "surface/orient.hpp"
+#include "surface/parallel.hpp"
 #include "surface/weld.hpp"
 
 namespace curveskel {
@@ -60,6 +61,18 @@ void drop_repeats(Draft& draft) {
   draft.fail("no face with three different vertices (" +
                  std::to_string(draft.changes.degenerate_faces_dropped) + " degenerate ones)",
              "a closed surface", "export the file again");
+}
+
+/// Drops repeats and pairs what is left; as most surfaces have none, both are begun at once.
+HalfEdges pair_without_repeats(Draft& draft, int threads) {
+  auto paired =
+      in_background(threads, [triangles = draft.surface.triangles, vertices = draft.vertices()] {
+        return pair_half_edges(triangles, vertices);
+      });
+  const Eigen::Index given = draft.surface.triangles.rows();
+  drop_repeats(draft);
+  if (draft.surface.triangles.rows() == given) return paired.get();
+  return pair_half_edges(draft.surface.triangles, draft.vertices());
 }
 
 /// Merges along the boundary alone: only there can merging close anything, and elsewhere it would
@@ -176,7 +189,7 @@ std::int64_t count_polygons_to_split(const PolygonSoup& soup) {
 
 }  // namespace
 
-CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor) {
+CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
   monitor.report("clean", 0);
   Draft draft{soup, {soup.positions, triangulate(soup)}, {}};
   draft.changes.polygons_triangulated = count_polygons_to_split(soup);
@@ -185,9 +198,8 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor) {
                "at most " + std::to_string(most_faces), "decimate the surface first");
   }
   monitor.report("clean", 0.2);
-  drop_repeats(draft);
+  HalfEdges half_edges = pair_without_repeats(draft, threads);
   monitor.report("clean", 0.4);
-  HalfEdges half_edges = pair_half_edges(draft.surface.triangles, draft.vertices());
   std::vector<std::int32_t> merged_into(at(draft.vertices()));
   std::iota(merged_into.begin(), merged_into.end(), 0);
   if (half_edges.boundary_edges > 0) {
@@ -199,9 +211,12 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor) {
   require_closed(draft, half_edges);
   monitor.report("clean", 0.8);
 
-  const Orientation orientation = orient(draft.surface.triangles, half_edges);
+  auto oriented = in_background(threads, [&half_edges, triangles = draft.surface.triangles] {
+    return orient(triangles, half_edges);
+  });
   const std::int32_t before_split = draft.vertices();
   draft.changes.vertices_split_off = split_umbrellas(draft.surface, half_edges);
+  const Orientation orientation = oriented.get();
   orient_consistently(draft, orientation);
   turn_outward(draft, orientation);
   const std::vector<std::int32_t> number = renumber(draft);

@@ -44,7 +44,8 @@ struct CleanSurface {
 /// make a manifold edge or vertex non-manifold), drops duplicate and degenerate faces and isolated
 /// vertices, orients each component consistently and outward.
 /// Throws Error(Fault::input) if the result is no closed orientable 2-manifold; the message names
-/// the first offending edge by its vertices (0-based, as in the file).
-[[nodiscard]] CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor);
+/// the first offending edge by its vertices (0-based, as in the file). `threads` as everywhere: 0 =
+/// one per core, the result does not depend on it.
+[[nodiscard]] CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads = 0);
 
 }  // namespace curveskel

@@ -25,6 +25,12 @@ class ExactSum {
     low_ += ((term - high) + low_anchor_) - low_anchor_;
   }
 
+  /// What another sum for the same terms and bound has taken in.
+  void add(const ExactSum& other) {
+    high_ += other.high_;
+    low_ += other.low_;
+  }
+
   [[nodiscard]] double value() const { return high_ + low_; }
 
  private:

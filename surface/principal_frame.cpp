@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "surface/exact_sum.hpp"
+#include "surface/parallel.hpp"
 
 namespace curveskel {
 namespace {
@@ -22,7 +24,7 @@ using CornerPoints = std::array<Eigen::Vector3d, 3>;
 
 class Pose {
  public:
-  explicit Pose(const Surface& surface) : surface_(surface) {
+  Pose(const Surface& surface, int threads) : surface_(surface), threads_(threads) {
     const Eigen::RowVector3d low = surface.positions.colwise().minCoeff();
     const Eigen::RowVector3d high = surface.positions.colwise().maxCoeff();
     middle_ = (low + (high - low) / 2).transpose();
@@ -95,30 +97,49 @@ class Pose {
     return p;
   }
 
-  ExactSum sum() const { return {1, 3 * static_cast<std::size_t>(surface_.triangles.rows())}; }
+  // Sums over the triangles of what add(index, sums) adds; exact, so how they are split is no
+  // matter.
+  template <std::size_t count, typename Add>
+  std::array<ExactSum, count> summed(const Add& add) const {
+    const auto triangles = static_cast<std::size_t>(surface_.triangles.rows());
+    const auto zero = [&]<std::size_t... each>(std::index_sequence<each...>) {
+      return std::array<ExactSum, count>{(static_cast<void>(each), ExactSum(1, 3 * triangles))...};
+    }
+    (std::make_index_sequence<count>());
+    constexpr std::size_t grain = 1 << 14;
+    std::vector<std::array<ExactSum, count>> parts((triangles + grain - 1) / grain, zero);
+    parallel_for(triangles, grain, threads_, [&](std::size_t begin, std::size_t end) {
+      auto part = zero;
+      for (std::size_t index = begin; index < end; ++index) add(index, part);
+      parts[begin / grain] = part;
+    });
+    auto all = zero;
+    for (const auto& part : parts) {
+      for (std::size_t i = 0; i < count; ++i) all[i].add(part[i]);
+    }
+    return all;
+  }
 
   // Area, centroid and covariance of the surface as a sheet of even thickness.
   void measure() {
-    std::array<ExactSum, 10> sums{sum(), sum(), sum(), sum(), sum(),
-                                  sum(), sum(), sum(), sum(), sum()};
-    sheets_.reserve(static_cast<std::size_t>(surface_.triangles.rows()));
-    for (Eigen::Index face = 0; face < surface_.triangles.rows(); ++face) {
-      const auto [p, q, r] = corners(face);
+    sheets_.resize(static_cast<std::size_t>(surface_.triangles.rows()));
+    const auto sums = summed<10>([&](std::size_t index, std::array<ExactSum, 10>& part_sums) {
+      const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
       const double part = (q - p).cross(r - p).norm() / 2;
       const Eigen::Vector3d s = p + q + r;
-      sheets_.push_back({s / 3, part});
-      sums[0].add(part);
+      sheets_[index] = {s / 3, part};
+      part_sums[0].add(part);
       for (std::size_t i = 0; i < 3; ++i) {
-        sums[1 + i].add(part / 3 * s(static_cast<Eigen::Index>(i)));
+        part_sums[1 + i].add(part / 3 * s(static_cast<Eigen::Index>(i)));
       }
       const double twelfth = part / 12;
       std::size_t next = 4;
       for (Eigen::Index i = 0; i < 3; ++i) {
         for (Eigen::Index j = i; j < 3; ++j) {
-          sums[next++].add(twelfth * (p(i) * p(j) + q(i) * q(j) + r(i) * r(j) + s(i) * s(j)));
+          part_sums[next++].add(twelfth * (p(i) * p(j) + q(i) * q(j) + r(i) * r(j) + s(i) * s(j)));
         }
       }
-    }
+    });
     const double area = sums[0].value();
     if (!(area > 0)) return;
     mean_ = Eigen::Vector3d(sums[1].value(), sums[2].value(), sums[3].value()) / area;
@@ -133,21 +154,20 @@ class Pose {
 
   // Third moment along each axis over the largest that the same areas allow.
   Eigen::Vector3d skewness(const Eigen::Matrix3d& axes) const {
-    std::array<ExactSum, 3> cubes{sum(), sum(), sum()};
-    std::array<ExactSum, 3> sizes{sum(), sum(), sum()};
-    for (const Sheet& sheet : sheets_) {
+    const auto sums = summed<6>([&](std::size_t index, std::array<ExactSum, 6>& part_sums) {
+      const Sheet& sheet = sheets_[index];
       const Eigen::Vector3d along = axes.transpose() * (sheet.centre - mean_);
       for (std::size_t k = 0; k < 3; ++k) {
         const double a = along(static_cast<Eigen::Index>(k));
         const double cube = sheet.area * a * a * a / 8;  // |a| < 2
-        cubes[k].add(cube);
-        sizes[k].add(std::abs(cube));
+        part_sums[k].add(cube);
+        part_sums[3 + k].add(std::abs(cube));
       }
-    }
+    });
     Eigen::Vector3d ratios = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      const double size = sizes[k].value();
-      if (size > 0) ratios(static_cast<Eigen::Index>(k)) = cubes[k].value() / size;
+      const double size = sums[3 + k].value();
+      if (size > 0) ratios(static_cast<Eigen::Index>(k)) = sums[k].value() / size;
     }
     return ratios;
   }
@@ -195,6 +215,7 @@ class Pose {
   };
 
   const Surface& surface_;
+  int threads_;
   Eigen::Vector3d middle_;
   double unit_ = 1;
   Positions points_;  // about the middle of the bounding box at first, then about the centroid
@@ -205,8 +226,8 @@ class Pose {
 
 }  // namespace
 
-PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates) {
-  return Pose(surface).frame(most_candidates);
+PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates, int threads) {
+  return Pose(surface, threads).frame(most_candidates);
 }
 
 }  // namespace curveskel

@@ -20,6 +20,7 @@ struct PrincipalFrame {
 /// along the axis that is settled, and of these to those with the longest edges.
 /// At most `most_candidates`; up to these the result is free of the surface's numbering.
 /// O(#V + #F).
-[[nodiscard]] PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates);
+[[nodiscard]] PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates,
+                                             int threads = 0);
 
 }  // namespace curveskel
