@@ -43,8 +43,10 @@ Solution FlowSystem::solve(const ContractingSurface& surface) {
   assembly_.assemble(
       triangulation_.weights(surface.mesh, surface.positions, flow_mollify, max_edge_weight),
       surface.mesh.vertices(), laplacian_);
-  const Eigen::VectorXd loss = surface.initial_areas.cwiseQuotient(
-      surface.vertex_areas().cwiseMax(surface.initial_areas / max_area_loss));
+  // 1 where there was no area to lose.
+  const Eigen::ArrayXd initial = surface.initial_areas.array();
+  const Eigen::ArrayXd present = surface.vertex_areas().array().max(initial / max_area_loss);
+  const Eigen::VectorXd loss = (initial > 0).select(initial / present, 1);
   switch (options_.flow) {
     case Flow::medial:
       return solve_medial(surface, loss);

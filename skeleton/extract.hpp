@@ -51,7 +51,9 @@ struct Extraction {
 };
 
 /// normalise -> coarsen -> fair -> contract -> surgery -> embed -> certify, each component on its
-/// own. Precondition: a clean surface (see Surface).
+/// own. Precondition: a clean surface (see Surface). The certificate of a single component is taken
+/// against its canonical form in the model's frame, which may differ from the surface by
+/// `canonical_step` / 2 of D per coordinate; that of several against the surface itself.
 /// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
 [[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
                                  const Monitor& monitor);

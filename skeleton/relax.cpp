@@ -135,7 +135,7 @@ void update_radii(Rest& rest, const SurfaceTree& tree, const std::vector<Point>&
 
 /// Moves the inner points of one strand in turn, each half-way to the centre of its cross-section
 /// and half-way to the middle of its neighbours.
-/// Those whose neighbourhood moved by less than a thousandth of the radius last time are at rest.
+/// Those whose neighbourhood moved by less than 0.3 % of the radius last time are at rest.
 void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tree,
                   const RelaxOptions& options, Rest& rest) {
   const auto line = network.polyline(strand);
@@ -150,7 +150,7 @@ void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tre
     double stir = last_move[i];
     if (i > 0) stir = std::max(stir, last_move[i - 1]);
     if (i + 1 < points.size()) stir = std::max(stir, last_move[i + 1]);
-    if (stir < 1e-3 * radius[i + 1]) continue;
+    if (stir < 3e-3 * radius[i + 1]) continue;
     last_move[i] = 0;
     const Point& before = i > 0 ? points[i - 1] : line.front();
     const Point& after = i + 1 < points.size() ? points[i + 1] : line.back();
@@ -204,6 +204,13 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
     hub_radius.push_back(hub.alive ? tree.inscribed_radius(hub.position) : 0);
   }
   std::vector<Rest> rest(network.strands.size());
+  std::vector<std::size_t> longest_first;  // so that no core ends up with a long one alone
+  for (std::size_t s = 0; s < network.strands.size(); ++s) {
+    if (network.strands[s].alive) longest_first.push_back(s);
+  }
+  std::stable_sort(longest_first.begin(), longest_first.end(), [&](std::size_t a, std::size_t b) {
+    return network.strands[a].points.size() > network.strands[b].points.size();
+  });
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t s = 0; s < network.strands.size(); ++s) {
       Strand& strand = network.strands[s];
@@ -211,10 +218,10 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
       turn_half_way_round(network, strand);
       rest[s] = {};
     }
-    parallel_for(network.strands.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        Strand& strand = network.strands[s];
-        if (strand.alive) relax_strand(network, strand, tree, options, rest[s]);
+    parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t s = longest_first[i];
+        relax_strand(network, network.strands[s], tree, options, rest[s]);
       }
     });
     if (!options.covered) relax_hubs(network, tree, hub_radius, options.keep_junction);

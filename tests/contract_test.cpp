@@ -56,6 +56,20 @@ void add_components(const std::string& name, const Surface& whole, int target_ve
   }
 }
 
+/// Every 50th vertex's one-ring drawn together into a point: vertices without any area.
+Surface with_collapsed_one_rings(Surface surface) {
+  const Positions given = surface.positions;
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (surface.triangles(f, k) % 50 != 0) continue;
+      for (const int v : surface.triangles.row(f)) {
+        surface.positions.row(v) = given.row(surface.triangles(f, k));
+      }
+    }
+  }
+  return surface;
+}
+
 const std::vector<Case>& shape_cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
@@ -64,6 +78,7 @@ const std::vector<Case>& shape_cases() {
     }
     const auto y = shapes::tube_union("", shapes::star(3, 6, 1));
     add_components("y, noisy", shapes::noisy(y, 0.1, 3).surface, 2500, list);
+    add_components("y, collapsed one-rings", with_collapsed_one_rings(y.surface), 1 << 20, list);
     add_components("y, renumbered", shapes::renumbered(y, 3).surface, 2500, list);
     return list;
   }();
