@@ -104,8 +104,8 @@ Monitor Session::monitor() const {
 int run_command_line(int argc, char** argv) {
   Terminal terminal;
   CLI::App program("Curve skeletons of triangle surfaces.", "curveskel");
-  const std::array verbs{add_extract(program), add_contract(program), add_evaluate(program),
-                         add_devices(program)};
+  const std::array verbs{add_extract(program), add_contract(program), add_fair(program),
+                         add_evaluate(program), add_devices(program)};
   program.require_subcommand(1);
   program.set_version_flag("--version", program_and_version());
   program.footer(exit_codes);

@@ -37,6 +37,7 @@ class UsageError : public std::runtime_error {
 
 [[nodiscard]] Verb add_extract(CLI::App& program);
 [[nodiscard]] Verb add_contract(CLI::App& program);
+[[nodiscard]] Verb add_fair(CLI::App& program);
 [[nodiscard]] Verb add_evaluate(CLI::App& program);
 [[nodiscard]] Verb add_devices(CLI::App& program);
 

@@ -1,4 +1,4 @@
-"""curveskel contract, evaluate and devices."""
+"""curveskel contract, fair, evaluate and devices."""
 
 import json
 import struct
@@ -45,6 +45,49 @@ class Contract(CommandLineTest):
     def test_both_flows(self):
         for flow in ("medial", "paper"):
             self.run_ok("contract", Y, "-o", f"{flow}.ply", "--flow", flow, cwd=self.folder)
+
+
+class Fair(CommandLineTest):
+    def test_keeps_the_vertices_and_faces_of_the_file_and_its_volume(self):
+        vertices, faces = TORUS.read_text().split("\n", 2)[1].split()[:2]
+        result = self.run_ok("fair", TORUS, "-o", "x.ply", "--iterations", "5", cwd=self.folder)
+        self.assertIn("moved", result.out.decode())
+        counts, positions = ply(self.folder / "x.ply")
+        self.assertEqual(counts, {"vertex": int(vertices), "face": int(faces)})
+        self.assertAlmostEqual(extent(positions), 8, delta=0.1)
+
+    def test_no_iteration_changes_nothing(self):
+        self.run_ok("fair", Y, "-o", "0.off", "--iterations", "0", cwd=self.folder)
+        self.run_ok("fair", self.folder / "0.off", "-o", "1.off", "--iterations", "0",
+                    cwd=self.folder)
+        self.assertEqual((self.folder / "0.off").read_bytes().splitlines()[2:],
+                         (self.folder / "1.off").read_bytes().splitlines()[2:])
+
+    def test_methods_and_thread_counts_agree(self):
+        for name, arguments in (("host", ["--threads", "1"]), ("again", ["--threads", "2"]),
+                                ("cpu", ["--method", "cpu"])):
+            self.run_ok("fair", TORUS, "-o", f"{name}.ply", *arguments, cwd=self.folder)
+        self.assertEqual((self.folder / "host.ply").read_bytes(),
+                         (self.folder / "again.ply").read_bytes())
+        for p, q in zip(ply(self.folder / "host.ply")[1], ply(self.folder / "cpu.ply")[1]):
+            for a, b in zip(p, q):
+                self.assertAlmostEqual(a, b, delta=1e-9)
+
+    def test_an_open_surface_keeps_its_boundary(self):
+        square = "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n" \
+                 "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
+        (self.folder / "pyramid.off").write_text(square)
+        result = self.run_ok("fair", "pyramid.off", "-o", "x.ply", cwd=self.folder)
+        self.assertIn("boundaries held", result.err)
+        positions = ply(self.folder / "x.ply")[1]
+        self.assertEqual(positions[:4], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
+        self.assertLess(positions[4][2], 1)
+
+    def test_a_missing_device_is_named(self):
+        result = run("fair", TORUS, "-o", "x.ply", "--method", "opencl", cwd=self.folder)
+        if result.code != 0:
+            self.assertEqual(result.code, 4)
+            self.assertIn("host", result.err)
 
 
 class Evaluate(CommandLineTest):
