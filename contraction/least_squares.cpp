@@ -16,6 +16,8 @@ std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver) {
       return make_cholesky();
     case Solver::sparse_qr:
       return make_sparse_qr();
+    case Solver::dense_qr:
+      return make_dense_qr();
   }
   return nullptr;
 }

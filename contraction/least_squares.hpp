@@ -11,12 +11,13 @@
 
 namespace curveskel {
 
-enum class Solver { automatic, cholesky, sparse_qr };
+enum class Solver { automatic, cholesky, sparse_qr, dense_qr };
 
-inline constexpr NameTable<Solver, 3> solvers{{
+inline constexpr NameTable<Solver, 4> solvers{{
     {Solver::automatic, "auto", "chosen by the size of the system"},
     {Solver::cholesky, "cholesky", "sparse Cholesky of the normal equations (CHOLMOD)"},
     {Solver::sparse_qr, "sparse-qr", "sparse QR (SuiteSparseQR)"},
+    {Solver::dense_qr, "dense-qr", "dense Householder QR (Eigen), the paper's method 1"},
 }};
 
 /// What `auto` stands for; a pure function of the size.

@@ -20,5 +20,6 @@ class LeastSquaresBackend {
 
 [[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_cholesky();
 [[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_sparse_qr();
+[[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_dense_qr();
 
 }  // namespace curveskel

@@ -160,7 +160,8 @@ TEST_P(EverySolver, RefusesShapesThatDoNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LeastSquares, EverySolver,
-                         testing::Values(Solver::automatic, Solver::cholesky, Solver::sparse_qr),
+                         testing::Values(Solver::automatic, Solver::cholesky, Solver::sparse_qr,
+                                         Solver::dense_qr),
                          [](const auto& each) {
                            std::string name(name_of(solvers, each.param));
                            std::erase(name, '-');
@@ -176,6 +177,14 @@ TEST(Cholesky, RefusesAMatrixThatIsNotDefinite) {
   expect_solver_error(
       [&] { (void)LeastSquares(Solver::cholesky).solve_definite(h, Positions::Ones(3, 3)); },
       "not positive definite");
+}
+
+TEST(DenseQr, RefusesWhatDoesNotFitBeforeItAllocates) {
+  SparseMatrix huge(400000, 400000);  // 1.3 TB
+  huge.setIdentity();
+  expect_solver_error(
+      [&] { (void)LeastSquares(Solver::dense_qr).solve(huge, Positions::Ones(400000, 3)); },
+      "use at most");
 }
 
 TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {

@@ -8,4 +8,4 @@ shift
 cmake --preset dev >/dev/null
 ninja -C build/dev -j "$(packages/jobs)" "${@/%/_test}"
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-printf '%s\n' "$@" | xargs -P "$(nproc)" -I {} "build/dev/bin/{}_test" --gtest_brief=1
+printf '%s\n' "$@" | xargs -P "$(nproc)" -I {} env "build/dev/bin/{}_test" --gtest_brief=1
