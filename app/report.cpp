@@ -80,8 +80,12 @@ Json to_json(const ExtractOptions& o) {
        {{"detail", o.embed.detail},
         {"merge", o.embed.merge},
         {"straight", o.embed.straight},
+        {"straight_at_last", o.embed.straight_at_last},
+        {"first_rounds", o.embed.first_rounds},
         {"relax_rounds", o.embed.relax_rounds},
+        {"smooth_rounds", o.embed.smooth_rounds},
         {"keep_radius", o.embed.keep_radius},
+        {"tip_reach", o.embed.tip_reach},
         {"tip_gap", o.embed.tip_gap}}},
       {"certificate", to_json(o.certificate)}};
 }

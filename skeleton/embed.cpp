@@ -68,25 +68,31 @@ void merge_junctions(Network& network, const SurfaceTree& tree, double factor) {
   }
 }
 
-/// Drops the points of each strand that lie in the ball of its junction, so that it leaves
-/// straight.
-void straighten_at_junctions(Network& network, const SurfaceTree& tree, double share) {
+/// Drops the points of each strand that lie within `share` of the ball of its junction, so that it
+/// leaves straight. Where the strand is `covered` by balls that overlap, it stays so.
+void straighten_at_junctions(Network& network, const SurfaceTree& tree, double share,
+                             bool covered) {
+  const auto overlaps = [&](const Point& junction, double radius, const Point& p) {
+    return (p - junction).norm() <= radius + tree.inscribed_radius(p);
+  };
   for (Strand& strand : network.strands) {
     if (!strand.alive) continue;
-    const auto reach_of = [&](int hub) {
-      if (network.degree(hub) < 3) return 0.0;
-      return share * std::max(0.0, tree.inscribed_radius(network.hubs[at(hub)].position));
-    };
-    const Point& from = network.hubs[at(strand.from)].position;
-    const Point& to = network.hubs[at(strand.to)].position;
-    const double from_reach = reach_of(strand.from);
-    const double to_reach = reach_of(strand.to);
-    const std::size_t least = strand.from == strand.to ? 2 : 0;
+    const std::size_t least = strand.from == strand.to ? 2 : covered ? 1 : 0;
     auto& points = strand.points;
-    std::size_t begin = 0;
-    while (points.size() - begin > least && (points[begin] - from).norm() < from_reach) ++begin;
-    points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(begin));
-    while (points.size() > least && (points.back() - to).norm() < to_reach) points.pop_back();
+    for (const int hub : {strand.from, strand.to}) {
+      if (network.degree(hub) >= 3) {
+        const Point& junction = network.hubs[at(hub)].position;
+        const double radius = std::max(0.0, tree.inscribed_radius(junction));
+        const std::size_t most = points.size() - std::min(least, points.size());
+        std::size_t within = 0;
+        while (within < most && (points[within] - junction).norm() < share * radius) ++within;
+        if (covered) {
+          while (within > 0 && !overlaps(junction, radius, points[within])) --within;
+        }
+        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(within));
+      }
+      std::reverse(points.begin(), points.end());  // twice in all
+    }
   }
 }
 
@@ -144,10 +150,10 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree, const Inscr
   centring.keep = options.keep_radius;
   centring.rounds = options.first_rounds;
   do {
-    straighten_at_junctions(network, tree, options.straight);
+    straighten_at_junctions(network, tree, options.straight, false);
     resample(network, tree);
     relax(network, tree, centring, threads);
-    straighten_at_junctions(network, tree, options.straight);
+    straighten_at_junctions(network, tree, options.straight, false);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
@@ -162,6 +168,7 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree, const Inscr
   centring.covered = true;
   centring.rounds = options.smooth_rounds;
   relax(network, tree, centring, threads);
+  straighten_at_junctions(network, tree, options.straight_at_last, true);
   monitor.report("embed", 0.9);
 
   NetworkNodes nodes = nodes_of_network(network, graph.groups);

@@ -11,15 +11,16 @@
 namespace curveskel {
 
 struct EmbedOptions {
-  double detail = 0.5;       ///< 0..1: how blunt a branch may be and stay; 1 keeps nearly all
-  double merge = 1;          ///< junctions nearer than this x the inscribed radius become one
-  double straight = 0.5;     ///< of a junction's inscribed radius: branches run straight within it
-  int first_rounds = 3;      ///< of centring and smoothing before tips and spurs are judged
-  int relax_rounds = 10;     ///< of centring and smoothing
-  int smooth_rounds = 8;     ///< the same, within what is known to be inside
-  double keep_radius = 0.8;  ///< share of its inscribed radius that a moved point must keep
-  double tip_reach = 1.5;    ///< what ends within this x the local radius is cut back first
-  double tip_gap = 1.25;     ///< tips grow until the surface ends within this x the local radius
+  double detail = 0.5;    ///< 0..1: how blunt a branch may be and stay; 1 keeps nearly all
+  double merge = 1;       ///< junctions nearer than this x the inscribed radius become one
+  double straight = 0.5;  ///< of a junction's inscribed radius: branches run straight within it
+  double straight_at_last = 0.9;  ///< the same, once everything has found its place
+  int first_rounds = 3;           ///< of centring and smoothing before tips and spurs are judged
+  int relax_rounds = 10;          ///< of centring and smoothing
+  int smooth_rounds = 8;          ///< the same, within what is known to be inside
+  double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
+  double tip_reach = 1.5;         ///< what ends within this x the local radius is cut back first
+  double tip_gap = 1.25;  ///< tips grow until the surface ends within this x the local radius
 };
 
 /// The slenderness below which `detail` prunes a branch: 3 at 0, 1.5 at 0.5, 0 at 1.

@@ -208,6 +208,24 @@ TEST_P(Arms, AreTheNumberOfTips) {
                                         shapes::star(GetParam(), 8, 0.8), {0.25, 1.7});
   expect_its_graph(star, extract(star.surface, {}, {}).skeleton);
 }
+TEST_P(Arms, LeaveTheirJunctionWithoutAHook) {
+  const Shape star = shapes::tube_union("star", shapes::star(GetParam(), 8, 0.8), {0.25, 1.7});
+  const CurveSkeleton skeleton = extract(star.surface, {}, {}).skeleton;
+  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()), 0);
+  for (const int node : skeleton.edges.reshaped()) ++degree[static_cast<std::size_t>(node)];
+  int checked = 0;
+  for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+    for (int end = 0; end < 2; ++end) {
+      const int hub = skeleton.edges(e, end);
+      if (degree[static_cast<std::size_t>(hub)] < 3) continue;
+      const int next = skeleton.edges(e, 1 - end);
+      const double length = (skeleton.nodes.row(hub) - skeleton.nodes.row(next)).norm();
+      EXPECT_GE(length, 0.89 * skeleton.radii[hub]) << "edge " << e;
+      ++checked;
+    }
+  }
+  EXPECT_GE(checked, 3);
+}
 INSTANTIATE_TEST_SUITE_P(Stars, Arms, testing::Range(3, 11));
 
 class Sides : public testing::TestWithParam<int> {};
