@@ -85,6 +85,19 @@ void read_row(Values& values, PlyPlace& place, const std::vector<FaceRole>& role
   }
 }
 
+/// Room for triangles, the most common polygons, if the rest of the file can hold as many.
+template <typename Values>
+void reserve_triangles(const Values& values, const PlyElement& element,
+                       const std::vector<FaceRole>& roles, PolygonSoup& soup) {
+  const auto polygon = std::find(roles.begin(), roles.end(), FaceRole::polygon);
+  if (polygon == roles.end()) return;
+  const PlyProperty& property =
+      element.properties[static_cast<std::size_t>(polygon - roles.begin())];
+  if (!values.may_hold(property.type, 3 * element.count)) return;
+  soup.corners.reserve(soup.corners.size() + 3 * static_cast<std::size_t>(element.count));
+  soup.offsets.reserve(soup.offsets.size() + static_cast<std::size_t>(element.count));
+}
+
 template <typename Values>
 void read_elements(Values values, const PlyHeader& header, PolygonSoup& soup,
                    const Monitor& monitor) {
@@ -92,6 +105,7 @@ void read_elements(Values values, const PlyHeader& header, PolygonSoup& soup,
     if (element.properties.empty()) continue;
     std::vector<FaceRole> roles;
     for (const auto& property : element.properties) roles.push_back(face_role(element, property));
+    reserve_triangles(values, element, roles, soup);
     PlyPlace place{&element, nullptr, 0};
     for (; place.row < element.count; ++place.row) {
       if (place.row % rows_per_report == 0) monitor.report("read", values.fraction());
