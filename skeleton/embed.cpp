@@ -134,9 +134,9 @@ void keep_simple(Network& network) {
 
 double slenderness_limit(double detail) { return detail < 0.5 ? 3 - 3 * detail : 3 * (1 - detail); }
 
-CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
-                    const VertexGraph& graph, const EmbedOptions& options, int threads,
-                    const Monitor& monitor) {
+Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
+                const VertexGraph& graph, const EmbedOptions& options, int threads,
+                const Monitor& monitor) {
   monitor.report("embed", 0);
   Network network = network_of_graph(graph, positions_from_balls(surface, balls, graph));
   const Regions regions = regions_of(surface, graph);
@@ -161,13 +161,22 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree, const Inscr
   centring.rounds = options.relax_rounds;
   relax(network, tree, centring, threads);
   monitor.report("embed", 0.6);
+  return network;
+}
 
+CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
+                     const InscribedBalls& balls, const VertexGraph& graph,
+                     const EmbedOptions& options, int threads, const Monitor& monitor) {
+  while (prune_spurs(network, tree, 1)) {
+  }
   keep_simple(network);
   keep_inside(network, surface, balls, graph, tree);
   thin_out(network, tree);
-  centring.covered = true;
-  centring.rounds = options.smooth_rounds;
-  relax(network, tree, centring, threads);
+  RelaxOptions smoothing;
+  smoothing.keep = options.keep_radius;
+  smoothing.covered = true;
+  smoothing.rounds = options.smooth_rounds;
+  relax(network, tree, smoothing, threads);
   straighten_at_junctions(network, tree, options.straight_at_last, true);
   monitor.report("embed", 0.9);
 

@@ -3,6 +3,7 @@
 
 #include "skeleton/circles.hpp"
 #include "skeleton/curve_skeleton.hpp"
+#include "skeleton/network.hpp"
 #include "surface/inscribed_balls.hpp"
 #include "surface/monitor.hpp"
 #include "surface/surface.hpp"
@@ -26,12 +27,21 @@ struct EmbedOptions {
 /// The slenderness below which `detail` prunes a branch: 3 at 0, 1.5 at 0.5, 0 at 1.
 [[nodiscard]] double slenderness_limit(double detail);
 
-/// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
-/// junctions, grows the tips, centres and smooths, and keeps every edge inside.
+/// The first half: places the graph's nodes from the inscribed balls of the surface's vertices,
+/// prunes, merges junctions, grows the tips, centres and smooths.
 /// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
-/// surface itself or a finer one. Radii are the distances to the tree's surface.
-[[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
-                                  const InscribedBalls& balls, const VertexGraph& graph,
-                                  const EmbedOptions& options, int threads, const Monitor& monitor);
+/// surface itself. Time is spent in rays against the tree, so that a coarse surface pays.
+[[nodiscard]] Network lay_out(const Surface& surface, const SurfaceTree& tree,
+                              const InscribedBalls& balls, const VertexGraph& graph,
+                              const EmbedOptions& options, int threads, const Monitor& monitor);
+
+/// The second half: what lay_out gave, within the surface that counts. Every edge is brought
+/// inside, spurs of that surface go, all is smoothed once more where it stays inside.
+/// `tree` is over the surface or the finer one that it was coarsened from; the radii are distances
+/// to the tree's surface. The rest as in lay_out.
+[[nodiscard]] CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
+                                   const InscribedBalls& balls, const VertexGraph& graph,
+                                   const EmbedOptions& options, int threads,
+                                   const Monitor& monitor);
 
 }  // namespace curveskel
