@@ -11,6 +11,7 @@
 
 #include "surface/measures.hpp"
 #include "surface/morton.hpp"
+#include "surface/parallel.hpp"
 #include "surface/principal_frame.hpp"
 
 namespace curveskel {
@@ -77,33 +78,51 @@ class Order {
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor> round_;  // of coincident vertices
 };
 
+using Face = std::array<std::int32_t, 3>;
+
+// Renumbered, smallest vertex first.
+std::vector<Face> renumbered(const Triangles& triangles, const Eigen::VectorXi& place,
+                             int threads) {
+  std::vector<Face> faces(static_cast<std::size_t>(triangles.rows()));
+  parallel_for(faces.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto row = triangles.row(static_cast<Eigen::Index>(f));
+      faces[f] = {place(row(0)), place(row(1)), place(row(2))};
+      std::rotate(faces[f].begin(), std::min_element(faces[f].begin(), faces[f].end()),
+                  faces[f].end());
+    }
+  });
+  return faces;
+}
+
 // Renumbered, smallest vertex first, rows in lexicographic order.
-Triangles canonical_triangles(const Triangles& triangles, const Eigen::VectorXi& place) {
-  using Face = std::array<std::int32_t, 3>;
-  const auto count = static_cast<std::size_t>(triangles.rows());
-  std::vector<Face> faces(count);
-  std::vector<std::uint32_t> begin(static_cast<std::size_t>(place.size()) + 1, 0);
-  for (std::size_t f = 0; f < count; ++f) {
-    const auto row = triangles.row(static_cast<Eigen::Index>(f));
-    faces[f] = {place(row(0)), place(row(1)), place(row(2))};
-    std::rotate(faces[f].begin(), std::min_element(faces[f].begin(), faces[f].end()),
-                faces[f].end());
-    ++begin[static_cast<std::size_t>(faces[f][0]) + 1];
-  }
+Triangles canonical_triangles(const Triangles& triangles, const Eigen::VectorXi& place,
+                              int threads) {
+  const std::vector<Face> faces = renumbered(triangles, place, threads);
+  const auto vertices = static_cast<std::size_t>(place.size());
+  std::vector<std::uint32_t> begin(vertices + 2, 0);  // shifted by one while filled
+  for (const Face& face : faces) ++begin[static_cast<std::size_t>(face[0]) + 2];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Face> sorted(count);
-  for (const Face& face : faces) sorted[begin[static_cast<std::size_t>(face[0])]++] = face;
-  // begin[v] is now the end of v's faces.
-  auto first = sorted.begin();
-  for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
-    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(begin[v]);
-    std::sort(first, end);
-    first = end;
-  }
+  std::vector<Face> sorted(faces.size());
   Triangles result(triangles.rows(), 3);
-  for (std::size_t f = 0; f < count; ++f) {
-    result.row(static_cast<Eigen::Index>(f)) << sorted[f][0], sorted[f][1], sorted[f][2];
-  }
+  // Each range reads all faces, so there are no more of them than cores.
+  const std::size_t ranges = thread_count(threads);
+  const std::size_t grain = (vertices + ranges - 1) / ranges;
+  parallel_for(vertices, grain, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t row = begin[first + 1];
+    for (const Face& face : faces) {
+      const auto v = static_cast<std::size_t>(face[0]);
+      if (v >= first && v < last) sorted[begin[v + 1]++] = face;
+    }
+    for (std::size_t v = first; v < last; ++v) {
+      const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
+      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(row), end);
+      for (; row < begin[v + 1]; ++row) {
+        result.row(static_cast<Eigen::Index>(row)) << sorted[row][0], sorted[row][1],
+            sorted[row][2];
+      }
+    }
+  });
   return result;
 }
 
@@ -185,7 +204,8 @@ Canonical canonical_form(const Surface& surface, int threads) {
     result.vertex_of_input(input) = static_cast<int>(v);
     result.surface.positions.row(v) = canonical_step * best.steps.row(input).cast<double>();
   }
-  result.surface.triangles = canonical_triangles(surface.triangles, result.vertex_of_input);
+  result.surface.triangles =
+      canonical_triangles(surface.triangles, result.vertex_of_input, threads);
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include "surface/orient.hpp"
 #include "surface/parallel.hpp"
 #include "surface/weld.hpp"
+#include "surface/whole.hpp"
 
 namespace curveskel {
 namespace {
@@ -117,10 +118,10 @@ void orient_consistently(Draft& draft, const Orientation& orientation) {
   }
 }
 
-void turn_outward(Draft& draft, const Orientation& orientation) {
+void turn_outward(Draft& draft, const Orientation& orientation, int threads) {
   // A sheet in rounded double coordinates has some 1e-17 of its area times its extent.
   constexpr double least_volume = 1e-10;
-  const auto sums = component_sums(draft.surface, orientation);
+  const auto sums = component_sums(draft.surface, orientation, threads);
   for (const ComponentSums& sum : sums) {
     if (std::abs(sum.volume) > least_volume * sum.area) {
       draft.changes.components_turned += sum.volume < 0 ? 1 : 0;
@@ -187,6 +188,38 @@ std::int64_t count_polygons_to_split(const PolygonSoup& soup) {
   return count;
 }
 
+Orientation orientation_of_whole(const Surface& surface, const Topology& whole) {
+  Orientation orientation;
+  orientation.components = whole.components();
+  orientation.component_of_face.resize(at(surface.triangles.rows()));
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    orientation.component_of_face[at(f)] = whole.component_of_vertex[surface.triangles(f, 0)];
+  }
+  return orientation;
+}
+
+/// Closes, splits and orients; the vertices that it merges are noted.
+Orientation mend(Draft& draft, std::vector<std::int32_t>& merged_into, const Monitor& monitor,
+                 int threads) {
+  HalfEdges half_edges = pair_without_repeats(draft, threads);
+  monitor.report("clean", 0.4);
+  if (half_edges.boundary_edges > 0) {
+    merged_into = close_seams(draft, half_edges.vertex_on_boundary);
+    drop_repeats(draft);
+    monitor.report("clean", 0.6);
+    half_edges = pair_half_edges(draft.surface.triangles, draft.vertices());
+  }
+  require_closed(draft, half_edges);
+  monitor.report("clean", 0.8);
+  auto oriented = in_background(threads, [&half_edges, triangles = draft.surface.triangles] {
+    return orient(triangles, half_edges);
+  });
+  draft.changes.vertices_split_off = split_umbrellas(draft.surface, half_edges);
+  Orientation orientation = oriented.get();
+  orient_consistently(draft, orientation);
+  return orientation;
+}
+
 }  // namespace
 
 CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
@@ -198,27 +231,17 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads)
                "at most " + std::to_string(most_faces), "decimate the surface first");
   }
   monitor.report("clean", 0.2);
-  HalfEdges half_edges = pair_without_repeats(draft, threads);
-  monitor.report("clean", 0.4);
   std::vector<std::int32_t> merged_into(at(draft.vertices()));
   std::iota(merged_into.begin(), merged_into.end(), 0);
-  if (half_edges.boundary_edges > 0) {
-    merged_into = close_seams(draft, half_edges.vertex_on_boundary);
-    drop_repeats(draft);
-    monitor.report("clean", 0.6);
-    half_edges = pair_half_edges(draft.surface.triangles, draft.vertices());
-  }
-  require_closed(draft, half_edges);
-  monitor.report("clean", 0.8);
-
-  auto oriented = in_background(threads, [&half_edges, triangles = draft.surface.triangles] {
-    return orient(triangles, half_edges);
-  });
   const std::int32_t before_split = draft.vertices();
-  draft.changes.vertices_split_off = split_umbrellas(draft.surface, half_edges);
-  const Orientation orientation = oriented.get();
-  orient_consistently(draft, orientation);
-  turn_outward(draft, orientation);
+  Orientation orientation;
+  if (const auto whole = topology_if_whole(draft.surface, threads)) {
+    orientation = orientation_of_whole(draft.surface, *whole);
+  } else {
+    orientation = mend(draft, merged_into, monitor, threads);
+  }
+  monitor.report("clean", 0.9);
+  turn_outward(draft, orientation, threads);
   const std::vector<std::int32_t> number = renumber(draft);
 
   CleanSurface result;

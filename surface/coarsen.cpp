@@ -20,7 +20,7 @@ using Index = std::int32_t;
 
 constexpr const char* stage_name = "coarsen";
 constexpr std::size_t part_size = 16384;  // vertices; such a part fits the second-level cache
-constexpr std::size_t parts_leave = 4;    // times the target, before the last collapses
+constexpr std::size_t parts_leave = 2;    // times the target, before the last collapses
 
 // Vertices along a Morton curve, equal cells in the given order: neighbours in space become
 // neighbours in memory, and ties are broken by place rather than by numbering.

@@ -1,11 +1,15 @@
 #include "surface/orient.hpp"
 
-#include "surface/element_index.hpp"
-
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "surface/element_index.hpp"
+#include "surface/parallel.hpp"
 
 namespace curveskel {
+
 std::int64_t split_umbrellas(Surface& surface, const HalfEdges& half_edges) {
   std::int32_t* const corner = surface.triangles.data();
   const auto corners = static_cast<std::int32_t>(surface.triangles.size());
@@ -83,41 +87,82 @@ Orientation orient(const Triangles& triangles, const HalfEdges& half_edges) {
   return result;
 }
 
-std::vector<ComponentSums> component_sums(const Surface& surface, const Orientation& orientation) {
-  struct Box {
-    Eigen::RowVector3d low;
-    Eigen::RowVector3d high;
+namespace {
+
+constexpr std::size_t sum_grain = 1 << 14;  // faces
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct ComponentBox {
+  Eigen::RowVector3d low = Eigen::RowVector3d::Constant(infinity);
+  Eigen::RowVector3d high = Eigen::RowVector3d::Constant(-infinity);
+};
+
+/// Calls add(face, part) for every face, where part is that of the face's component in one of
+/// several lists, then join(whole, part) in the order of the faces. The lists depend on the surface
+/// alone.
+template <typename Part, typename Add, typename Join>
+std::vector<Part> for_components(std::size_t faces, const Orientation& orientation, int threads,
+                                 const Add& add, const Join& join) {
+  struct Run {
+    std::int32_t component;
+    Part part;
   };
-  std::vector<ComponentSums> sums(at(orientation.components));
-  std::vector<Box> boxes(sums.size());
-  const auto faces = static_cast<std::int32_t>(surface.triangles.rows());
-  for (std::int32_t f = 0; f < faces; ++f) {
-    const std::size_t component = at(orientation.component_of_face[at(f)]);
-    Box& box = boxes[component];
-    if (sums[component].first_face < 0) {
-      sums[component].first_face = f;
-      box.low = box.high = surface.positions.row(surface.triangles(f, 0));
+  std::vector<std::vector<Run>> lists((faces + sum_grain - 1) / sum_grain);
+  parallel_for(faces, sum_grain, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run> runs;
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::int32_t component = orientation.component_of_face[f];
+      if (runs.empty() || runs.back().component != component) runs.push_back({component, {}});
+      add(static_cast<std::int32_t>(f), runs.back().part);
     }
-    for (int k = 0; k < 3; ++k) {
-      box.low = box.low.cwiseMin(surface.positions.row(surface.triangles(f, k)));
-      box.high = box.high.cwiseMax(surface.positions.row(surface.triangles(f, k)));
-    }
+    lists[begin / sum_grain] = std::move(runs);
+  });
+  std::vector<Part> whole(at(orientation.components));
+  for (const auto& runs : lists) {
+    for (const Run& run : runs) join(whole[at(run.component)], run.part);
   }
-  for (std::int32_t f = 0; f < faces; ++f) {
-    const std::size_t component = at(orientation.component_of_face[at(f)]);
-    const Box& box = boxes[component];
-    const double extent = (box.high - box.low).maxCoeff();
-    if (!(extent > 0)) continue;
-    const auto corner = [&](int k) -> Eigen::Vector3d {
-      return (surface.positions.row(surface.triangles(f, k)) - box.low).transpose() / extent;
-    };
-    const Eigen::Vector3d a = corner(0);
-    const Eigen::Vector3d b = corner(1);
-    const Eigen::Vector3d c = corner(2);
-    sums[component].area += (b - a).cross(c - a).norm() / 2;
-    sums[component].volume += a.dot(b.cross(c)) / 6;
-  }
-  return sums;
+  return whole;
+}
+
+}  // namespace
+
+std::vector<ComponentSums> component_sums(const Surface& surface, const Orientation& orientation,
+                                          int threads) {
+  const std::size_t faces = at(surface.triangles.rows());
+  const auto boxes = for_components<ComponentBox>(
+      faces, orientation, threads,
+      [&](std::int32_t f, ComponentBox& box) {
+        for (int k = 0; k < 3; ++k) {
+          box.low = box.low.cwiseMin(surface.positions.row(surface.triangles(f, k)));
+          box.high = box.high.cwiseMax(surface.positions.row(surface.triangles(f, k)));
+        }
+      },
+      [](ComponentBox& whole, const ComponentBox& part) {
+        whole.low = whole.low.cwiseMin(part.low);
+        whole.high = whole.high.cwiseMax(part.high);
+      });
+  return for_components<ComponentSums>(
+      faces, orientation, threads,
+      [&](std::int32_t f, ComponentSums& sums) {
+        if (sums.first_face < 0) sums.first_face = f;
+        const ComponentBox& box = boxes[at(orientation.component_of_face[at(f)])];
+        const double extent = (box.high - box.low).maxCoeff();
+        if (!(extent > 0)) return;
+        const auto corner = [&](int k) -> Eigen::Vector3d {
+          return (surface.positions.row(surface.triangles(f, k)) - box.low).transpose() / extent;
+        };
+        const Eigen::Vector3d a = corner(0);
+        const Eigen::Vector3d b = corner(1);
+        const Eigen::Vector3d c = corner(2);
+        sums.area += (b - a).cross(c - a).norm() / 2;
+        sums.volume += a.dot(b.cross(c)) / 6;
+      },
+      [](ComponentSums& whole, const ComponentSums& part) {
+        if (whole.first_face < 0) whole.first_face = part.first_face;
+        whole.area += part.area;
+        whole.volume += part.volume;
+      });
 }
 
 }  // namespace curveskel

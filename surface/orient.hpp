@@ -32,8 +32,9 @@ struct ComponentSums {
   double volume = 0;  ///< signed, positive when outward
 };
 
-/// O(#V + #F).
+/// The same for any number of threads. O(#V + #F).
 [[nodiscard]] std::vector<ComponentSums> component_sums(const Surface& surface,
-                                                        const Orientation& orientation);
+                                                        const Orientation& orientation,
+                                                        int threads);
 
 }  // namespace curveskel

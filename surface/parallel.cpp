@@ -8,14 +8,17 @@
 
 namespace curveskel {
 
+std::size_t thread_count(int threads) {
+  return static_cast<std::size_t>(threads > 0 ? threads
+                                              : std::max(1U, std::thread::hardware_concurrency()));
+}
+
 void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = (count + grain - 1) / grain;
-  const auto cores = static_cast<std::size_t>(
-      threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()));
-  const std::size_t workers = std::min(cores, chunks);
+  const std::size_t workers = std::min(thread_count(threads), chunks);
 
   std::vector<std::exception_ptr> failures(chunks);
   std::atomic<std::size_t> next{0};

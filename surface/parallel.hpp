@@ -8,6 +8,9 @@
 
 namespace curveskel {
 
+/// How many threads `threads` stands for: itself, or one per core if it is 0.
+[[nodiscard]] std::size_t thread_count(int threads);
+
 /// Calls body(begin, end) on disjoint ranges that cover [0, count), from at most `threads` threads
 /// (0 = one per core, the calling one among them). The ranges depend on count and grain alone. The
 /// body must write only to places that its own range owns. The first exception, in the order of the
