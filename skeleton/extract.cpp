@@ -58,14 +58,15 @@ class Pipeline {
     if (options_.fairing) {
       source = clock_("fair", [&] { return fair(canonical, options_.fair, monitor_); });
     }
+    auto planted = in_background(options_.threads, [&] { return SurfaceTree(canonical); });
     Coarsened working = clock_("coarsen", [&] { return at_resolution(source, resolution); });
     record.working_vertices = static_cast<int>(working.surface.positions.rows());
-    // Only the last stages need the canonical surface's own tree.
-    auto planted = in_background(options_.threads, [&] { return SurfaceTree(canonical); });
-
-    const auto working_tree = clock_("balls", [&] { return SurfaceTree(working.surface); });
+    auto rough_planted =
+        in_background(options_.threads, [&] { return SurfaceTree(working.surface); });
+    auto tree = clock_("balls", [&] { return planted.get(); });
     auto balls = clock_("balls", [&] {
-      return inscribed_balls(working.surface, working_tree, options_.threads);
+      if (!options_.fairing) return inscribed_balls(working.surface, tree, options_.threads);
+      return inscribed_balls(working.surface, SurfaceTree(source), options_.threads);
     });
 
     std::optional<VertexGraph> graph = graph_by_contraction(working.surface, balls, record);
@@ -74,15 +75,15 @@ class Pipeline {
       for (int& v : working.vertex_of_input) v = bands.vertex_of_input[v];
       working.surface = std::move(bands.surface);
       graph = std::move(bands.graph);
-      balls = inscribed_balls(working.surface, working_tree, options_.threads);
+      balls = inscribed_balls(working.surface, tree, options_.threads);
       record.bands = true;
     }
 
+    // Most of the embedding's rays go against the working surface, which fits the cache.
     Network network = clock_("embed", [&] {
-      return lay_out(working.surface, working_tree, balls, *graph, options_.embed,
+      return lay_out(working.surface, rough_planted.get(), balls, *graph, options_.embed,
                      options_.threads, monitor_);
     });
-    auto tree = clock_("embed", [&] { return planted.get(); });
     CurveSkeleton skeleton = clock_("embed", [&] {
       return settle(std::move(network), working.surface, tree, balls, *graph, options_.embed,
                     options_.threads, monitor_);

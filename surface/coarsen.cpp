@@ -21,6 +21,7 @@ using Index = std::int32_t;
 constexpr const char* stage_name = "coarsen";
 constexpr std::size_t part_size = 16384;  // vertices; such a part fits the second-level cache
 constexpr std::size_t parts_leave = 2;    // times the target, before the last collapses
+constexpr std::size_t parts_pay = 8;      // times the target: surfaces at least as fine
 
 // Vertices along a Morton curve, equal cells in the given order: neighbours in space become
 // neighbours in memory, and ties are broken by place rather than by numbering.
@@ -186,7 +187,7 @@ Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const M
   const auto follow = [&place](const std::vector<Index>& next) {
     for (Index& v : place) v = next[static_cast<std::size_t>(v)];
   };
-  if (count > 2 * parts_leave * target && count > 2 * part_size) {
+  if (count > parts_pay * target && count > 2 * part_size) {
     follow(coarsen_parts(patch, parts_leave * target, options.threads, monitor));
   } else {
     for (const auto& face : patch.faces) add_planes(patch, face);
