@@ -181,10 +181,8 @@ void measure_coverage(const Subject& subject, const Positions& vertices, const M
   }
   const SequenceTree balls = ball_tree(subject, 1);
   const SequenceTree wide_balls = ball_tree(subject, coverage_factor);
-  const auto gap = [&](const SequenceTree& tree, const Vector3d& v, double factor) {
-    return tree.minimum(v, 0, [&](std::size_t i) {
-      return (v - subject.samples[i].position).norm() - factor * std::max(0.0, subject.radius[i]);
-    });
+  const auto gap = [&](std::size_t i, const Vector3d& v, double factor) {
+    return (v - subject.samples[i].position).norm() - factor * std::max(0.0, subject.radius[i]);
   };
   const Eigen::Index stride = (vertices.rows() + most_vertices - 1) / most_vertices;
   const auto chosen = static_cast<std::size_t>((vertices.rows() + stride - 1) / stride);
@@ -194,8 +192,16 @@ void measure_coverage(const Subject& subject, const Positions& vertices, const M
   parallel_for(chosen, 256, subject.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3d v = vertices.row(static_cast<Eigen::Index>(i) * stride);
-      covered[i] = gap(wide_balls, v, coverage_factor) <= 0 ? 1 : 0;
-      uncovered[i] = std::max(0.0, gap(balls, v, 1));
+      // Looking for the nearest ball mostly meets one that covers the vertex.
+      bool met = false;
+      uncovered[i] = std::max(0.0, balls.minimum(v, 0, [&](std::size_t sample) {
+        met = met || gap(sample, v, coverage_factor) <= 0;
+        return gap(sample, v, 1);
+      }));
+      met = met || wide_balls.minimum(v, 0, [&](std::size_t sample) {
+        return gap(sample, v, coverage_factor);
+      }) <= 0;
+      covered[i] = met ? 1 : 0;
     }
   });
   const auto number = std::count(covered.begin(), covered.end(), 1);

@@ -167,17 +167,17 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
 CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
                      const InscribedBalls& balls, const VertexGraph& graph,
                      const EmbedOptions& options, int threads, const Monitor& monitor) {
-  while (prune_spurs(network, tree, 1)) {
-  }
-  keep_simple(network);
-  keep_inside(network, surface, balls, graph, tree);
-  thin_out(network, tree);
   RelaxOptions smoothing;
   smoothing.keep = options.keep_radius;
   smoothing.covered = true;
   smoothing.rounds = options.smooth_rounds;
-  relax(network, tree, smoothing, threads);
-  straighten_at_junctions(network, tree, options.straight_at_last, true);
+  do {
+    keep_simple(network);
+    keep_inside(network, surface, balls, graph, tree);
+    thin_out(network, tree);
+    relax(network, tree, smoothing, threads);
+    straighten_at_junctions(network, tree, options.straight_at_last, true);
+  } while (prune_spurs(network, tree, 1));
   monitor.report("embed", 0.9);
 
   NetworkNodes nodes = nodes_of_network(network, graph.groups);

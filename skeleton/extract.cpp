@@ -54,20 +54,35 @@ class Pipeline {
   };
 
   Result run(const Surface& canonical, int resolution, ComponentRecord& record) {
-    Surface source = canonical;
+    Surface faired;
     if (options_.fairing) {
-      source = clock_("fair", [&] { return fair(canonical, options_.fair, monitor_); });
+      faired = clock_("fair", [&] { return fair(canonical, options_.fair, monitor_); });
     }
-    auto planted = in_background(options_.threads, [&] { return SurfaceTree(canonical); });
-    Coarsened working = clock_("coarsen", [&] { return at_resolution(source, resolution); });
+    const Surface& source = options_.fairing ? faired : canonical;
+    CoarsenOptions coarsening;
+    coarsening.target_vertices = resolution;
+    // The surface's own tree takes as long as coarsening it; where the halfway surface can stand in
+    // for it, it grows beside the stages that leave a core idle.
+    const bool has_halfway = coarsens_in_parts(source.positions.rows(), coarsening);
+    const auto grow = [&](const Surface& surface) {
+      return in_background(options_.threads, [&surface] { return SurfaceTree(surface); });
+    };
+    std::future<SurfaceTree> growing;
+    if (!has_halfway) growing = grow(canonical);
+    Coarsened working = clock_("coarsen", [&] { return at_resolution(source, coarsening); });
+    if (has_halfway) growing = grow(canonical);
     record.working_vertices = static_cast<int>(working.surface.positions.rows());
-    auto rough_planted =
-        in_background(options_.threads, [&] { return SurfaceTree(working.surface); });
-    auto tree = clock_("balls", [&] { return planted.get(); });
-    auto balls = clock_("balls", [&] {
-      if (!options_.fairing) return inscribed_balls(working.surface, tree, options_.threads);
-      return inscribed_balls(working.surface, SurfaceTree(source), options_.threads);
+
+    const SurfaceTree rough = clock_("balls", [&] { return SurfaceTree(working.surface); });
+    std::optional<SurfaceTree> fine;
+    const SurfaceTree near = clock_("balls", [&] {
+      if (has_halfway) return SurfaceTree(working.halfway);
+      if (options_.fairing) return SurfaceTree(source);
+      fine = growing.get();
+      return fine->in_frame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), 1);
     });
+    auto balls =
+        clock_("balls", [&] { return inscribed_balls(working.surface, near, options_.threads); });
 
     std::optional<VertexGraph> graph = graph_by_contraction(working.surface, balls, record);
     if (!graph) {
@@ -75,15 +90,16 @@ class Pipeline {
       for (int& v : working.vertex_of_input) v = bands.vertex_of_input[v];
       working.surface = std::move(bands.surface);
       graph = std::move(bands.graph);
-      balls = inscribed_balls(working.surface, tree, options_.threads);
+      balls = inscribed_balls(working.surface, near, options_.threads);
       record.bands = true;
     }
 
     // Most of the embedding's rays go against the working surface, which fits the cache.
     Network network = clock_("embed", [&] {
-      return lay_out(working.surface, rough_planted.get(), balls, *graph, options_.embed,
-                     options_.threads, monitor_);
+      return lay_out(working.surface, rough, balls, *graph, options_.embed, options_.threads,
+                     monitor_);
     });
+    SurfaceTree tree = clock_("embed", [&] { return fine ? std::move(*fine) : growing.get(); });
     CurveSkeleton skeleton = clock_("embed", [&] {
       return settle(std::move(network), working.surface, tree, balls, *graph, options_.embed,
                     options_.threads, monitor_);
@@ -97,17 +113,12 @@ class Pipeline {
   }
 
  private:
-  Coarsened at_resolution(const Surface& source, int resolution) const {
-    const int least = options_.least_resolution;
-    if (source.positions.rows() < least) {
-      Surface finer = refine(source, least);
-      return {std::move(finer),
-              Eigen::VectorXi::LinSpaced(source.positions.rows(), 0,
-                                         static_cast<int>(source.positions.rows()) - 1)};
-    }
-    CoarsenOptions coarsening;
-    coarsening.target_vertices = resolution;
-    return coarsen(source, coarsening, monitor_);
+  Coarsened at_resolution(const Surface& source, const CoarsenOptions& coarsening) const {
+    const auto vertices = static_cast<int>(source.positions.rows());
+    if (vertices >= options_.least_resolution) return coarsen(source, coarsening, monitor_);
+    return {refine(source, options_.least_resolution),
+            Eigen::VectorXi::LinSpaced(vertices, 0, vertices - 1),
+            {}};
   }
 
   std::optional<VertexGraph> graph_by_contraction(const Surface& working,

@@ -163,7 +163,27 @@ std::vector<Index> coarsen_parts(Patch& whole, std::size_t target, int threads,
   return place;
 }
 
+Surface surface_of(const Patch& patch) {
+  Surface surface;
+  surface.positions.resize(static_cast<Eigen::Index>(patch.vertices.size()), 3);
+  for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
+    surface.positions.row(static_cast<Eigen::Index>(v)) = patch.vertices[v].position.transpose();
+  }
+  surface.triangles.resize(static_cast<Eigen::Index>(patch.faces.size()), 3);
+  for (std::size_t f = 0; f < patch.faces.size(); ++f) {
+    surface.triangles.row(static_cast<Eigen::Index>(f)) << patch.faces[f][0], patch.faces[f][1],
+        patch.faces[f][2];
+  }
+  return surface;
+}
+
 }  // namespace
+
+bool coarsens_in_parts(Eigen::Index vertices, const CoarsenOptions& options) {
+  const auto count = static_cast<std::size_t>(vertices);
+  const auto target = static_cast<std::size_t>(std::max(options.target_vertices, 0));
+  return count > parts_pay * target && count > 2 * part_size;
+}
 
 Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const Monitor& monitor) {
   monitor.report(stage_name, 0);
@@ -187,8 +207,9 @@ Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const M
   const auto follow = [&place](const std::vector<Index>& next) {
     for (Index& v : place) v = next[static_cast<std::size_t>(v)];
   };
-  if (count > parts_pay * target && count > 2 * part_size) {
+  if (coarsens_in_parts(surface.positions.rows(), options)) {
     follow(coarsen_parts(patch, parts_leave * target, options.threads, monitor));
+    result.halfway = surface_of(patch);
   } else {
     for (const auto& face : patch.faces) add_planes(patch, face);
   }
@@ -199,16 +220,7 @@ Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const M
                                        static_cast<double>(start - target));
   }));
 
-  result.surface.positions.resize(static_cast<Eigen::Index>(patch.vertices.size()), 3);
-  for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
-    result.surface.positions.row(static_cast<Eigen::Index>(v)) =
-        patch.vertices[v].position.transpose();
-  }
-  result.surface.triangles.resize(static_cast<Eigen::Index>(patch.faces.size()), 3);
-  for (std::size_t f = 0; f < patch.faces.size(); ++f) {
-    result.surface.triangles.row(static_cast<Eigen::Index>(f)) << patch.faces[f][0],
-        patch.faces[f][1], patch.faces[f][2];
-  }
+  result.surface = surface_of(patch);
   result.vertex_of_input =
       Eigen::Map<const Eigen::VectorXi>(place.data(), surface.positions.rows());
   monitor.report(stage_name, 1);

@@ -16,7 +16,11 @@ struct CoarsenOptions {
 struct Coarsened {
   Surface surface;
   Eigen::VectorXi vertex_of_input;  ///< #V of the input: the vertex that it was merged into
+  Surface halfway;  ///< finer than `surface`: what the parts left; empty without parts
 };
+
+/// Whether a surface with so many vertices is collapsed in parts first.
+[[nodiscard]] bool coarsens_in_parts(Eigen::Index vertices, const CoarsenOptions& options);
 
 /// Edge collapse by quadric error (Garland and Heckbert 1997) in passes without a heap, under the
 /// link condition, so the genus of every component is kept. Far too fine surfaces are collapsed in

@@ -69,6 +69,12 @@ Topology topology(const Surface& surface) {
 
 std::vector<Component> split_components(const Surface& surface, const Topology& topology) {
   std::vector<Component> components(static_cast<std::size_t>(topology.components()));
+  if (components.size() == 1) {
+    components[0].surface = surface;
+    components[0].vertex_in_whole.resize(static_cast<std::size_t>(surface.positions.rows()));
+    std::iota(components[0].vertex_in_whole.begin(), components[0].vertex_in_whole.end(), 0);
+    return components;
+  }
   for (std::size_t i = 0; i < components.size(); ++i) {
     components[i].vertex_in_whole.reserve(static_cast<std::size_t>(topology.vertices[i]));
     components[i].surface.positions.resize(topology.vertices[i], 3);
