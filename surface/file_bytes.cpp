@@ -3,22 +3,29 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
-#include <memory>
 #include <system_error>
+
+#include "surface/gunzip.hpp"
 
 namespace curveskel {
 namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1} << 22;
 
-struct CloseZipped {
-  void operator()(gzFile_s* file) const { gzclose_r(file); }
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+ private:
+  int descriptor_;
 };
 
 std::string system_message(int error) { return std::generic_category().message(error); }
@@ -40,45 +47,32 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
     file.fail("that it cannot be opened (" + system_message(errno) + ")", "a readable file",
               "check the name and the permissions");
   }
+  const OpenFile open(descriptor);
   struct stat status = {};
   const bool known = ::fstat(descriptor, &status) == 0;
   if (known && S_ISDIR(status.st_mode)) {
-    ::close(descriptor);
     file.fail("a directory", "a surface file", "name a file in it");
   }
-  // zlib hands through what is not gzipped, straight into our memory.
-  const std::unique_ptr<gzFile_s, CloseZipped> zipped(gzdopen(descriptor, "rb"));
-  if (!zipped) {
-    ::close(descriptor);
-    file.fail("no memory for zlib", "a few kilobytes", "close other programs");
-  }
-
   const auto size = known && S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   std::size_t used = 0;
-  file.content.resize(size + 1);  // one more, so that a plain file's end shows without growing
+  file.content.resize(size + 1);  // one more, so that the end shows without growing
   for (;;) {
     if (used == file.content.size()) file.content.resize(2 * used);
     const std::size_t wanted = std::min(chunk_bytes, file.content.size() - used);
-    const int got = gzread(zipped.get(), file.content.data() + used, static_cast<unsigned>(wanted));
+    const auto got = ::read(descriptor, file.content.data() + used, wanted);
+    if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      int code = Z_OK;
-      const std::string reason = gzerror(zipped.get(), &code);
       file.fail("that reading breaks off after " + std::to_string(used) + " bytes (" +
-                    (code == Z_ERRNO ? system_message(errno) : reason) + ")",
-                "an intact file", "fetch or pack it again");
+                    system_message(errno) + ")",
+                "an intact file", "fetch it again");
     }
     if (got == 0) break;
     used += static_cast<std::size_t>(got);
     monitor.report("read", 0);
   }
-  int code = Z_OK;
-  gzerror(zipped.get(), &code);
-  if (code == Z_BUF_ERROR) {
-    file.fail("the end of the gzipped data after " + std::to_string(used) + " unzipped bytes",
-              "a complete gzip file", "it is truncated: fetch or pack it again");
-  }
   file.content.resize(used);
-  if (used == 0) file.fail("0 bytes", "a surface", "export or fetch the file again");
+  if (is_gzipped(file.content)) gunzip(file, monitor);
+  if (file.content.empty()) file.fail("0 bytes", "a surface", "export or fetch the file again");
   return file;
 }
 

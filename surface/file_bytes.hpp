@@ -18,8 +18,7 @@ struct FileBytes {
                          std::string_view remedy) const;
 };
 
-/// Reads in one go, through zlib if the content is gzipped (several gzip members in a row count as
-/// one file).
+/// Reads in one go and unzips what is gzipped (several gzip members in a row count as one file).
 /// Throws Error(Fault::input) for what is missing, unreadable, a directory, empty or broken.
 [[nodiscard]] FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor);
 
