@@ -130,10 +130,6 @@ void keep_simple(Network& network) {
   }
 }
 
-}  // namespace
-
-double slenderness_limit(double detail) { return detail < 0.5 ? 3 - 3 * detail : 3 * (1 - detail); }
-
 Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
                 const VertexGraph& graph, const EmbedOptions& options, int threads,
                 const Monitor& monitor) {
@@ -189,6 +185,18 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
   }
   monitor.report("embed", 1);
   return std::move(nodes.skeleton);
+}
+
+}  // namespace
+
+double slenderness_limit(double detail) { return detail < 0.5 ? 3 - 3 * detail : 3 * (1 - detail); }
+
+CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
+                    const std::function<const SurfaceTree&()>& finer, const InscribedBalls& balls,
+                    const VertexGraph& graph, const EmbedOptions& options, int threads,
+                    const Monitor& monitor) {
+  Network network = lay_out(surface, tree, balls, graph, options, threads, monitor);
+  return settle(std::move(network), surface, finer(), balls, graph, options, threads, monitor);
 }
 
 }  // namespace curveskel

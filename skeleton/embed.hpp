@@ -1,9 +1,10 @@
 // Where the nodes go: central, inside, smooth; without spurs.
 #pragma once
 
+#include <functional>
+
 #include "skeleton/circles.hpp"
 #include "skeleton/curve_skeleton.hpp"
-#include "skeleton/network.hpp"
 #include "surface/inscribed_balls.hpp"
 #include "surface/monitor.hpp"
 #include "surface/surface.hpp"
@@ -27,21 +28,16 @@ struct EmbedOptions {
 /// The slenderness below which `detail` prunes a branch: 3 at 0, 1.5 at 0.5, 0 at 1.
 [[nodiscard]] double slenderness_limit(double detail);
 
-/// The first half: places the graph's nodes from the inscribed balls of the surface's vertices,
-/// prunes, merges junctions, grows the tips, centres and smooths.
+/// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
+/// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge
+/// inside the surface of `finer`, prunes what is a spur there and smooths once more.
 /// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
-/// surface itself. Time is spent in rays against the tree, so that a coarse surface pays.
-[[nodiscard]] Network lay_out(const Surface& surface, const SurfaceTree& tree,
-                              const InscribedBalls& balls, const VertexGraph& graph,
-                              const EmbedOptions& options, int threads, const Monitor& monitor);
-
-/// The second half: what lay_out gave, within the surface that counts. Every edge is brought
-/// inside, spurs of that surface go, all is smoothed once more where it stays inside.
-/// `tree` is over the surface or the finer one that it was coarsened from; the radii are distances
-/// to the tree's surface. The rest as in lay_out.
-[[nodiscard]] CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
-                                   const InscribedBalls& balls, const VertexGraph& graph,
-                                   const EmbedOptions& options, int threads,
-                                   const Monitor& monitor);
+/// surface itself, `finer` gives a tree over the one that it was coarsened from, or `tree`. It is
+/// called once, half-way, so that the tree may grow till then. Radii are the distances to its
+/// surface. Most of the time is spent in rays against `tree`: a coarse surface pays.
+[[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
+                                  const std::function<const SurfaceTree&()>& finer,
+                                  const InscribedBalls& balls, const VertexGraph& graph,
+                                  const EmbedOptions& options, int threads, const Monitor& monitor);
 
 }  // namespace curveskel

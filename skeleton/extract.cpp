@@ -95,21 +95,20 @@ class Pipeline {
     }
 
     // Most of the embedding's rays go against the working surface, which fits the cache.
-    Network network = clock_("embed", [&] {
-      return lay_out(working.surface, rough, balls, *graph, options_.embed, options_.threads,
-                     monitor_);
-    });
-    SurfaceTree tree = clock_("embed", [&] { return fine ? std::move(*fine) : growing.get(); });
     CurveSkeleton skeleton = clock_("embed", [&] {
-      return settle(std::move(network), working.surface, tree, balls, *graph, options_.embed,
-                    options_.threads, monitor_);
+      const auto finer = [&]() -> const SurfaceTree& {
+        if (!fine) fine = growing.get();
+        return *fine;
+      };
+      return embed(working.surface, rough, finer, balls, *graph, options_.embed, options_.threads,
+                   monitor_);
     });
     Eigen::VectorXi node_of_vertex(canonical.positions.rows());
     for (Eigen::Index v = 0; v < node_of_vertex.size(); ++v) {
       node_of_vertex[v] = skeleton.node_of_vertex[working.vertex_of_input[v]];
     }
     skeleton.node_of_vertex = std::move(node_of_vertex);
-    return {std::move(skeleton), std::move(tree)};
+    return {std::move(skeleton), std::move(*fine)};
   }
 
  private:
