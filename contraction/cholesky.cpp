@@ -46,7 +46,7 @@ class Cholesky final : public LeastSquaresBackend {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  Solution solve(const SparseMatrix& a, const Positions& b) override {
+  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
     const SparseMatrix transposed = a.transpose();
     const SparseMatrix normal = transposed * a;
     factorize(normal);
@@ -59,7 +59,8 @@ class Cholesky final : public LeastSquaresBackend {
     return solution;
   }
 
-  Solution solve_definite(const SparseMatrix& h, const Positions& r) override {
+  Solution solve_definite(const SparseMatrix& h, const Positions& r,
+                          const Monitor& /*monitor*/) override {
     factorize(h);
     Solution solution;
     solution.x = back_substitute(r);

@@ -151,7 +151,7 @@ Contraction contract(const Surface& surface, const Positions& centres,
   for (int iteration = 0, idle = 0; iteration < options.max_iterations && !stop; ++iteration) {
     const auto begin = Clock::now();
     monitor.report("contract", progress);
-    const Solution solution = flow.solve(state);
+    const Solution solution = flow.solve(state, monitor);
     monitor.report("contract", progress);
     const Extent before = now;
     if (!go_towards(state, solution.x, now)) {

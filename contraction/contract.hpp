@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,7 @@ inline constexpr NameTable<Stop, 4> stops{{
 struct ContractionOptions {
   Flow flow = Flow::medial;
   Solver solver = Solver::automatic;
+  std::filesystem::path program_cache;  ///< see SolverOptions
   int max_iterations = 40;
   double contraction_weight = 3;    ///< medial: w_L of the first iteration; unit-free
   double contraction_growth = 2;    ///< s_L: factor on w_L (medial) or W_L (paper) per iteration

@@ -30,6 +30,13 @@ SparseMatrix stacked(double first, const SparseMatrix& laplacian, const Eigen::V
   return a;
 }
 
+SolverOptions solver_options(const ContractionOptions& options) {
+  SolverOptions result;
+  result.solver = options.solver;
+  result.program_cache = options.program_cache;
+  return result;
+}
+
 }  // namespace
 
 FlowSystem::FlowSystem(const ContractionOptions& options, double mean_face_area)
@@ -37,9 +44,9 @@ FlowSystem::FlowSystem(const ContractionOptions& options, double mean_face_area)
       weight_(options.flow == Flow::medial ? options.contraction_weight
                                            : options.paper_weight * std::sqrt(mean_face_area)),
       pull_(options.medial_weight * options.medial_weight),
-      solver_(options.solver) {}
+      solver_(solver_options(options)) {}
 
-Solution FlowSystem::solve(const ContractingSurface& surface) {
+Solution FlowSystem::solve(const ContractingSurface& surface, const Monitor& monitor) {
   assembly_.assemble(
       triangulation_.weights(surface.mesh, surface.positions, flow_mollify, max_edge_weight),
       surface.mesh.vertices(), laplacian_);
@@ -49,28 +56,30 @@ Solution FlowSystem::solve(const ContractingSurface& surface) {
   const Eigen::VectorXd loss = (initial > 0).select(initial / present, 1);
   switch (options_.flow) {
     case Flow::medial:
-      return solve_medial(surface, loss);
+      return solve_medial(surface, loss, monitor);
     case Flow::paper:
-      return solve_paper(surface, loss);
+      return solve_paper(surface, loss, monitor);
   }
   return {};
 }
 
 /// (diag(A0/A + W_M^2) - w_L L) X' = (A0/A) X + W_M^2 C.
-Solution FlowSystem::solve_medial(const ContractingSurface& surface, const Eigen::VectorXd& loss) {
+Solution FlowSystem::solve_medial(const ContractingSurface& surface, const Eigen::VectorXd& loss,
+                                  const Monitor& monitor) {
   laplacian_ *= -weight_;
   laplacian_.diagonal() += (loss.array() + pull_).matrix();
   const Positions right = loss.asDiagonal() * surface.positions + pull_ * surface.centres;
-  return solver_.solve_definite(laplacian_, right);
+  return solver_.solve_definite(laplacian_, right, monitor);
 }
 
 /// min ||W_L L X'||^2 + ||W_H (X' - X)||^2 with W_H = W_H0 sqrt(A0/A): eq. 3 of the paper.
-Solution FlowSystem::solve_paper(const ContractingSurface& surface, const Eigen::VectorXd& loss) {
+Solution FlowSystem::solve_paper(const ContractingSurface& surface, const Eigen::VectorXd& loss,
+                                 const Monitor& monitor) {
   const Eigen::VectorXd attraction = options_.attraction_weight * loss.cwiseSqrt();
   const Eigen::Index n = attraction.size();
   Positions right = Positions::Zero(2 * n, 3);
   right.bottomRows(n) = attraction.asDiagonal() * surface.positions;
-  return solver_.solve(stacked(weight_, laplacian_, attraction), right);
+  return solver_.solve(stacked(weight_, laplacian_, attraction), right, monitor);
 }
 
 void FlowSystem::accepted() {

@@ -18,7 +18,7 @@ class FlowSystem {
   /// `mean_face_area` of the surface at the start, for the paper's W_L.
   FlowSystem(const ContractionOptions& options, double mean_face_area);
 
-  [[nodiscard]] Solution solve(const ContractingSurface& surface);
+  [[nodiscard]] Solution solve(const ContractingSurface& surface, const Monitor& monitor);
 
   /// Adapts the weights for the next iteration: more contraction, and after a rejected one less
   /// pull, because wrong centres are what makes a surface grow.
@@ -29,9 +29,9 @@ class FlowSystem {
 
  private:
   [[nodiscard]] Solution solve_medial(const ContractingSurface& surface,
-                                      const Eigen::VectorXd& loss);
-  [[nodiscard]] Solution solve_paper(const ContractingSurface& surface,
-                                     const Eigen::VectorXd& loss);
+                                      const Eigen::VectorXd& loss, const Monitor& monitor);
+  [[nodiscard]] Solution solve_paper(const ContractingSurface& surface, const Eigen::VectorXd& loss,
+                                     const Monitor& monitor);
   void grow();
 
   const ContractionOptions& options_;

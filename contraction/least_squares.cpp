@@ -9,7 +9,7 @@
 namespace curveskel {
 namespace {
 
-std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver) {
+std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver, const SolverOptions& options) {
   switch (solver) {
     case Solver::automatic:
     case Solver::cholesky:
@@ -18,6 +18,18 @@ std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver) {
       return make_sparse_qr();
     case Solver::dense_qr:
       return make_dense_qr();
+    case Solver::vcl_qr:
+      return make_vcl_qr();
+    case Solver::vcl_lsm:
+      return make_vcl_lsm();
+    case Solver::cg:
+      return make_cg(options);
+    case Solver::gauss_seidel:
+      return make_gauss_seidel(options);
+    case Solver::jor:
+      return make_jacobi(options, true);
+    case Solver::jacobi:
+      return make_jacobi(options, false);
   }
   return nullptr;
 }
@@ -53,14 +65,14 @@ Solver choose_solver(Solver wanted, int /*unknowns*/) {
 }
 
 struct LeastSquares::Implementation {
-  Solver wanted = Solver::automatic;
+  SolverOptions options;
   Solver used = Solver::automatic;
   std::unique_ptr<LeastSquaresBackend> backend;
 
   LeastSquaresBackend& backend_for(int unknowns) {
-    const Solver chosen = choose_solver(wanted, unknowns);
+    const Solver chosen = choose_solver(options.solver, unknowns);
     if (!backend || chosen != used) {
-      backend = make_backend(chosen);
+      backend = make_backend(chosen, options);
       used = chosen;
     }
     return *backend;
@@ -68,8 +80,13 @@ struct LeastSquares::Implementation {
 };
 
 LeastSquares::LeastSquares(Solver solver) : implementation_(std::make_unique<Implementation>()) {
-  implementation_->wanted = solver;
+  implementation_->options.solver = solver;
   implementation_->used = solver;
+}
+LeastSquares::LeastSquares(const SolverOptions& options)
+    : implementation_(std::make_unique<Implementation>()) {
+  implementation_->options = options;
+  implementation_->used = options.solver;
 }
 LeastSquares::~LeastSquares() = default;
 LeastSquares::LeastSquares(LeastSquares&&) noexcept = default;
@@ -77,12 +94,12 @@ LeastSquares& LeastSquares::operator=(LeastSquares&&) noexcept = default;
 
 Solver LeastSquares::solver() const { return implementation_->used; }
 
-Solution LeastSquares::solve(const SparseMatrix& a, const Positions& b) {
+Solution LeastSquares::solve(const SparseMatrix& a, const Positions& b, const Monitor& monitor) {
   require(a.rows() >= a.cols() && a.cols() > 0 && b.rows() == a.rows(), a, b,
           "at least as many rows as columns, and as many right-hand rows");
   SparseMatrix copy;
-  Solution solution =
-      implementation_->backend_for(static_cast<int>(a.cols())).solve(compressed(a, copy), b);
+  Solution solution = implementation_->backend_for(static_cast<int>(a.cols()))
+                          .solve(compressed(a, copy), b, monitor);
   require_finite(solution, solver());
   const Positions difference = a * solution.x - b;
   const Positions gradient = a.transpose() * difference;
@@ -91,12 +108,13 @@ Solution LeastSquares::solve(const SparseMatrix& a, const Positions& b) {
   return solution;
 }
 
-Solution LeastSquares::solve_definite(const SparseMatrix& h, const Positions& r) {
+Solution LeastSquares::solve_definite(const SparseMatrix& h, const Positions& r,
+                                      const Monitor& monitor) {
   require(h.rows() == h.cols() && h.cols() > 0 && r.rows() == h.rows(), h, r,
           "a square matrix, and as many right-hand rows");
   SparseMatrix copy;
   Solution solution = implementation_->backend_for(static_cast<int>(h.cols()))
-                          .solve_definite(compressed(h, copy), r);
+                          .solve_definite(compressed(h, copy), r, monitor);
   require_finite(solution, solver());
   const Positions difference = h * solution.x - r;
   solution.residual = ratio(difference.norm(), r.norm());

@@ -3,25 +3,54 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <filesystem>
 #include <memory>
 
 #include "contraction/laplacian.hpp"
+#include "surface/monitor.hpp"
 #include "surface/names.hpp"
 #include "surface/surface.hpp"
 
 namespace curveskel {
 
-enum class Solver { automatic, cholesky, sparse_qr, dense_qr };
+enum class Solver {
+  automatic,
+  cholesky,
+  sparse_qr,
+  dense_qr,
+  vcl_qr,
+  vcl_lsm,
+  cg,
+  gauss_seidel,
+  jor,
+  jacobi
+};
 
-inline constexpr NameTable<Solver, 4> solvers{{
-    {Solver::automatic, "auto", "chosen by the size of the system"},
+inline constexpr NameTable<Solver, 10> solvers{{
+    {Solver::automatic, "auto", "cholesky, the fastest and most robust at every size"},
     {Solver::cholesky, "cholesky", "sparse Cholesky of the normal equations (CHOLMOD)"},
     {Solver::sparse_qr, "sparse-qr", "sparse QR (SuiteSparseQR)"},
     {Solver::dense_qr, "dense-qr", "dense Householder QR (Eigen), the paper's method 1"},
+    {Solver::vcl_qr, "vcl-qr",
+     "dense QR on the OpenCL device (ViennaCL), Q and R brought to the host: method 2"},
+    {Solver::vcl_lsm, "vcl-lsm", "dense QR on the OpenCL device without forming Q: method 3"},
+    {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device (ViennaCL)"},
+    {Solver::gauss_seidel, "gauss-seidel",
+     "Gauss-Seidel by graph colouring on the OpenCL device; slow under strong contraction"},
+    {Solver::jor, "jor", "extrapolated Jacobi; millions of iterations under strong contraction"},
+    {Solver::jacobi, "jacobi", "Jacobi: diverges wherever anything contracts, and says so"},
 }};
 
-/// What `auto` stands for; a pure function of the size.
+/// What `auto` stands for; a pure function of the size. Cholesky was the fastest at every size from
+/// 648 to 200,000 unknowns (docs/method.md, "Solvers"), so for now it is the answer to all.
 [[nodiscard]] Solver choose_solver(Solver wanted, int unknowns);
+
+struct SolverOptions {
+  Solver solver = Solver::automatic;
+  double tolerance = 1e-10;             ///< iterative ones: stop at this Solution::residual
+  int most_iterations = 1000000;        ///< iterative ones: give up where more would be needed
+  std::filesystem::path program_cache;  ///< folder for compiled kernels; empty = compile each time
+};
 
 struct Solution {
   Positions x;          ///< n x 3
@@ -33,17 +62,22 @@ struct Solution {
 class LeastSquares {
  public:
   explicit LeastSquares(Solver solver);
+  explicit LeastSquares(const SolverOptions& options);
   ~LeastSquares();
   LeastSquares(LeastSquares&&) noexcept;
   LeastSquares& operator=(LeastSquares&&) noexcept;
 
   /// min ||A X - B||, A m x n with m >= n and full column rank, B m x 3.
-  /// Throws Error(Fault::solver) when the factorisation fails.
-  [[nodiscard]] Solution solve(const SparseMatrix& a, const Positions& b);
+  /// Throws Error(Fault::solver) when the factorisation fails, when an iteration diverges or would
+  /// need more than the options allow, and when a dense system does not fit in memory;
+  /// Error(Fault::device) when no OpenCL device can do it; Cancelled when the monitor stops it.
+  [[nodiscard]] Solution solve(const SparseMatrix& a, const Positions& b,
+                               const Monitor& monitor = {});
 
   /// The square case H X = R with H symmetric positive definite, n x n (both triangles stored);
   /// residual = ||H X - R|| / ||R||. For normal equations that are known in closed form.
-  [[nodiscard]] Solution solve_definite(const SparseMatrix& h, const Positions& r);
+  [[nodiscard]] Solution solve_definite(const SparseMatrix& h, const Positions& r,
+                                        const Monitor& monitor = {});
 
   [[nodiscard]] Solver solver() const;
 

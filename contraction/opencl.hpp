@@ -81,6 +81,7 @@ class Session {
   void launch(const Kernel& kernel, std::size_t global, std::size_t local) const;
   void finish() const;
 
+  [[nodiscard]] void* id() const { return id_; }                  ///< cl_device_id
   [[nodiscard]] void* context() const { return context_.get(); }  ///< cl_context
   [[nodiscard]] void* queue() const { return queue_.get(); }      ///< cl_command_queue
 

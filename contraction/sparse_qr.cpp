@@ -27,7 +27,7 @@ class SparseQr final : public LeastSquaresBackend {
   SparseQr(const SparseQr&) = delete;
   SparseQr& operator=(const SparseQr&) = delete;
 
-  Solution solve(const SparseMatrix& a, const Positions& b) override {
+  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
     const bool known = same_pattern(a);
     if (!known) {
       outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
@@ -62,8 +62,9 @@ class SparseQr final : public LeastSquaresBackend {
     return solution;
   }
 
-  Solution solve_definite(const SparseMatrix& h, const Positions& r) override {
-    return solve(h, r);
+  Solution solve_definite(const SparseMatrix& h, const Positions& r,
+                          const Monitor& monitor) override {
+    return solve(h, r, monitor);
   }
 
  private:

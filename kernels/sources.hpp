@@ -5,6 +5,9 @@
 
 namespace curveskel {
 
+/// One colour of a sweep; double precision.
+extern const std::string_view gauss_seidel_source;
+
 /// One work-item per vertex, any valence; see the file for macros and arguments.
 extern const std::string_view one_ring_stream_source;
 

@@ -91,11 +91,11 @@ namespace {
 
 constexpr std::size_t sum_grain = 1 << 14;  // faces
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct ComponentBox {
-  Eigen::RowVector3d low = Eigen::RowVector3d::Constant(infinity);
-  Eigen::RowVector3d high = Eigen::RowVector3d::Constant(-infinity);
+  Eigen::RowVector3d low = Eigen::RowVector3d::Constant(unbounded);
+  Eigen::RowVector3d high = Eigen::RowVector3d::Constant(-unbounded);
 };
 
 /// Calls add(face, part) for every face, where part is that of the face's component in one of

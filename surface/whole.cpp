@@ -1,6 +1,7 @@
 #include "surface/whole.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -82,9 +83,10 @@ class Pairing {
   template <typename Body>
   void each_half_edge(const Body& body) const {
     for (std::int32_t f = 0; f < faces_; ++f) {
-      const std::int32_t a = corner_[3 * f];
-      const std::int32_t b = corner_[3 * f + 1];
-      const std::int32_t c = corner_[3 * f + 2];
+      const std::int32_t* const corner = corner_ + 3 * std::ptrdiff_t{f};
+      const std::int32_t a = corner[0];
+      const std::int32_t b = corner[1];
+      const std::int32_t c = corner[2];
       body(3 * f, a, b);
       body(3 * f + 1, b, c);
       body(3 * f + 2, c, a);

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "contraction/device.hpp"
+#include "contraction/spectrum.hpp"
 #include "meshes/shapes.hpp"
 #include "surface/error.hpp"
 
@@ -66,7 +70,46 @@ const std::vector<System>& systems() {
 
 SparseMatrix normal_matrix(const System& system) { return system.a.transpose() * system.a; }
 
-class EverySolver : public testing::TestWithParam<Solver> {};
+bool needs_device(Solver solver) {
+  switch (solver) {
+    case Solver::automatic:
+    case Solver::cholesky:
+    case Solver::sparse_qr:
+    case Solver::dense_qr:
+    case Solver::jor:
+    case Solver::jacobi:
+      return false;
+    case Solver::vcl_qr:
+    case Solver::vcl_lsm:
+    case Solver::cg:
+    case Solver::gauss_seidel:
+      return true;
+  }
+  return false;
+}
+
+bool has_device() {
+  const auto all = devices();
+  return std::any_of(all.begin(), all.end(), [](const Device& d) { return d.double_precision; });
+}
+
+std::string test_name(const testing::TestParamInfo<Solver>& each) {
+  std::string name(name_of(solvers, each.param));
+  std::erase(name, '-');
+  return name;
+}
+
+class SolverTest : public testing::TestWithParam<Solver> {
+ protected:
+  void SetUp() override {
+    if (needs_device(GetParam()) && !has_device()) {
+      GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+    }
+  }
+};
+
+/// The direct ones.
+class EverySolver : public SolverTest {};
 
 TEST_P(EverySolver, AgreesWithDenseQr) {
   LeastSquares solver(GetParam());
@@ -161,12 +204,121 @@ TEST_P(EverySolver, RefusesShapesThatDoNotFit) {
 
 INSTANTIATE_TEST_SUITE_P(LeastSquares, EverySolver,
                          testing::Values(Solver::automatic, Solver::cholesky, Solver::sparse_qr,
-                                         Solver::dense_qr),
-                         [](const auto& each) {
-                           std::string name(name_of(solvers, each.param));
-                           std::erase(name, '-');
-                           return name;
-                         });
+                                         Solver::dense_qr, Solver::vcl_qr, Solver::vcl_lsm),
+                         test_name);
+
+/// Those that may not get there, and must say so.
+class EveryIteration : public SolverTest {};
+
+TEST_P(EveryIteration, IsRightOrSaysWhyNot) {
+  int solved = 0;
+  LeastSquares solver(GetParam());
+  for (const auto& system : systems()) {
+    const Eigen::MatrixXd expected =
+        Eigen::MatrixXd(system.a).colPivHouseholderQr().solve(Eigen::MatrixXd(system.b));
+    try {
+      const Solution solution = solver.solve(system.a, system.b);
+      EXPECT_LE(solution.residual, 2e-10) << system.name;
+      EXPECT_LE((solution.x - expected).norm(), 1e-4 * expected.norm()) << system.name;
+      EXPECT_GT(solution.iterations, 0) << system.name;
+      ++solved;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::solver) << system.name;
+      EXPECT_NE(std::string(error.what()).find("use the solver cholesky"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_GT(solved, 0);
+}
+
+TEST_P(EveryIteration, ConvergesWhereHardlyAnythingContracts) {
+  const System weak = stacked("weak", shapes::torus(3, 1, 12).surface, 0.05);
+  const Eigen::MatrixXd expected =
+      Eigen::MatrixXd(weak.a).colPivHouseholderQr().solve(Eigen::MatrixXd(weak.b));
+  LeastSquares solver(GetParam());
+  const Solution solution = solver.solve(weak.a, weak.b);
+  EXPECT_LE((solution.x - expected).norm(), 1e-8 * expected.norm());
+  const SparseMatrix h = normal_matrix(weak);
+  const Positions right = weak.a.transpose() * weak.b;
+  EXPECT_LE((solver.solve_definite(h, right).x - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST_P(EveryIteration, GivesTheSameBytesAgain) {
+  const System weak = stacked("weak", shapes::torus(3, 1, 12).surface, 0.05);
+  const Solution once = LeastSquares(GetParam()).solve(weak.a, weak.b);
+  const Solution again = LeastSquares(GetParam()).solve(weak.a, weak.b);
+  EXPECT_EQ(once.x, again.x);
+  EXPECT_EQ(once.iterations, again.iterations);
+}
+
+TEST_P(EveryIteration, GivesUpAtItsLimitAndStopsWhenAsked) {
+  const System system = stacked("some", shapes::torus(3, 1, 12).surface, 0.05);
+  SolverOptions options;
+  options.solver = GetParam();
+  options.most_iterations = 3;
+  options.tolerance = 1e-15;
+  expect_solver_error([&] { (void)LeastSquares(options).solve(system.a, system.b); }, "iterations");
+  std::stop_source source;
+  source.request_stop();
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  EXPECT_THROW((void)LeastSquares(GetParam()).solve(system.a, system.b, monitor), Cancelled);
+}
+
+TEST_P(EveryIteration, RefusesAMatrixWithoutFullRank) {
+  SparseMatrix a(6, 3);
+  for (int i = 0; i < 6; ++i) {
+    a.insert(i, 0) = 1 + i;
+    a.insert(i, 1) = 1;
+  }  // the third column is empty
+  a.makeCompressed();
+  expect_solver_error([&] { (void)LeastSquares(GetParam()).solve(a, Positions::Ones(6, 3)); },
+                      "not positive definite");
+}
+
+INSTANTIATE_TEST_SUITE_P(LeastSquares, EveryIteration,
+                         testing::Values(Solver::cg, Solver::gauss_seidel, Solver::jor,
+                                         Solver::jacobi),
+                         test_name);
+
+TEST(Jacobi, DivergesWhereSomethingContractsAndSaysSo) {
+  for (const double contraction : {10.0, 100.0, 1000.0}) {
+    const System strong = stacked("strong", shapes::torus(3, 1, 12).surface, contraction);
+    expect_solver_error([&] { (void)LeastSquares(Solver::jacobi).solve(strong.a, strong.b); },
+                        "diverges: the spectral radius");
+  }
+}
+
+TEST(Jor, TellsThatMillionsOfIterationsWouldBeNeeded) {
+  const System strong = stacked("strong", shapes::torus(3, 1, 12).surface, 1e4);
+  expect_solver_error([&] { (void)LeastSquares(Solver::jor).solve(strong.a, strong.b); },
+                      "million iterations are needed");
+}
+
+TEST(ConjugateGradients, SolveWhatContractsStrongly) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  for (const double contraction : {10.0, 1000.0}) {
+    const System strong = stacked("strong", shapes::torus(3, 1, 12).surface, contraction);
+    const Solution solution = LeastSquares(Solver::cg).solve(strong.a, strong.b);
+    EXPECT_LE(solution.residual, 1e-10) << contraction;
+  }
+}
+
+TEST(JacobiSpectrum, IsThatOfADenseSolver) {
+  for (const double contraction : {0.1, 10.0}) {
+    const System system = stacked("", shapes::torus(3, 1, 12).surface, contraction);
+    const SparseMatrix h = normal_matrix(system);
+    const Eigen::VectorXd scale = h.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * Eigen::MatrixXd(h) * scale.asDiagonal();
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    const Spectrum found = jacobi_spectrum(h, 60, {});
+    EXPECT_LE(found.largest, values.maxCoeff() * (1 + 1e-12));
+    EXPECT_GE(found.largest, values.maxCoeff() * 0.98);
+    EXPECT_GE(found.least, values.minCoeff() * (1 - 1e-9));
+  }
+}
 
 TEST(Cholesky, RefusesAMatrixThatIsNotDefinite) {
   SparseMatrix h(3, 3);
