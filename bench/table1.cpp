@@ -1,0 +1,247 @@
+// The paper's table and figure: global and local methods on closed surfaces of 648, 1416, 5664 and
+// 14952 vertices; preprocessing, iteration and overall times (3 global or 30 local iterations).
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/log_plot.hpp"
+#include "bench/paper_flow.hpp"
+#include "contraction/fair.hpp"
+#include "contraction/least_squares.hpp"
+#include "surface/error.hpp"
+
+namespace curveskel::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<int, 4> sizes{648, 1416, 5664, 14952};
+constexpr int global_iterations = 3;
+constexpr int local_iterations = 30;
+constexpr double paper_weight = 1e3;  // W_L of the first iteration / sqrt(mean face area)
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Cell {
+  double preprocessing = 0;  // seconds
+  double iteration = 0;
+  double overall = 0;
+  double residual = 0;  // the largest; global only
+  bool predicted = false;
+  std::string failure;  // empty = none
+};
+
+struct Method {
+  std::string name;
+  std::string paper;  // its name there, empty for those beyond it
+  double order;       // of the iteration's cost in the number of vertices, for predictions
+  std::function<Cell(const Surface&)> run;
+};
+
+Cell run_global(Solver solver, const Surface& surface) {
+  {  // Drivers, kernels and threads are started by a small system.
+    const PaperFlow small(wavy_ring(12, 8), 1);
+    const auto system = small.system();
+    (void)LeastSquares(solver).solve(system.a, system.b);
+  }
+  Cell cell;
+  const double start = seconds_now();
+  PaperFlow flow(surface, paper_weight);
+  LeastSquares least_squares(solver);
+  const double prepared = seconds_now();
+  for (int k = 0; k < global_iterations; ++k) {
+    const auto system = flow.system();
+    const Solution solution = least_squares.solve(system.a, system.b);
+    flow.accept(solution.x);
+    cell.residual = std::max(cell.residual, solution.residual);
+  }
+  const double end = seconds_now();
+  cell.preprocessing = prepared - start;
+  cell.iteration = (end - prepared) / global_iterations;
+  cell.overall = end - start;
+  return cell;
+}
+
+double time_fairing(const Surface& surface, FairOptions options, int iterations) {
+  options.iterations = iterations;
+  const double start = seconds_now();
+  (void)fair(surface, options, {});
+  return seconds_now() - start;
+}
+
+Cell run_local(const FairOptions& options, const Surface& surface) {
+  (void)time_fairing(surface, options, 1);
+  // What a run costs beside its iterations is the difference of two runs.
+  double once = 1e300;
+  double all = 1e300;
+  for (int repeat = 0; repeat < 5 && all > (repeat == 0 ? 0 : 1); ++repeat) {
+    once = std::min(once, time_fairing(surface, options, 1));
+    all = std::min(all, time_fairing(surface, options, local_iterations));
+  }
+  Cell cell;
+  cell.iteration = std::max(0.0, all - once) / (local_iterations - 1);
+  cell.preprocessing = std::max(0.0, once - cell.iteration);
+  cell.overall = all;
+  return cell;
+}
+
+std::vector<Method> methods() {
+  std::vector<Method> all;
+  const auto global = [&](Solver solver, const std::string& paper, double order) {
+    all.push_back({std::string(name_of(solvers, solver)), paper, order,
+                   [solver](const Surface& s) { return run_global(solver, s); }});
+  };
+  global(Solver::dense_qr, "1 Global CPU", 3);
+  global(Solver::vcl_qr, "2 VCL-QR", 3);
+  global(Solver::vcl_lsm, "3 VCL-LSM", 3);
+  global(Solver::cholesky, "", 1.5);
+  global(Solver::sparse_qr, "", 1.5);
+  global(Solver::cg, "", 2);
+  global(Solver::gauss_seidel, "", 2);
+  global(Solver::jor, "", 2);
+  global(Solver::jacobi, "", 2);
+  const auto local = [&](FairMethod method, const std::string& paper) {
+    FairOptions options;
+    options.method = method;
+    options.volume = VolumeRule::keep;
+    all.push_back({"fair " + std::string(name_of(fair_methods, method)), paper, 1,
+                   [options](const Surface& s) { return run_local(options, s); }});
+  };
+  local(FairMethod::cpu, "4 Local CPU");
+  local(FairMethod::opencl, "");
+  local(FairMethod::host, "");
+  return all;
+}
+
+/// The row of one method; what would take longer than `most_seconds` is predicted.
+std::vector<Cell> run_row(const Method& method, double most_seconds) {
+  std::vector<Cell> row;
+  for (const int size : sizes) {
+    if (!row.empty() && row.back().failure.empty()) {
+      const double growth =
+          std::pow(static_cast<double>(size) / sizes[row.size() - 1], method.order);
+      if (row.back().overall * growth > most_seconds) {
+        Cell guess = row.back();
+        guess.preprocessing *= growth;
+        guess.iteration *= growth;
+        guess.overall *= growth;
+        guess.predicted = true;
+        row.push_back(guess);
+        continue;
+      }
+    }
+    Cell cell;
+    try {
+      cell = method.run(surface_of_table(size));
+    } catch (const Error& error) {
+      cell.failure = error.what();
+    }
+    std::cerr << fmt::format(
+        "{:<14} {:>6}  {}\n", method.name, size,
+        cell.failure.empty() ? fmt::format("{:.4g} s", cell.overall) : cell.failure);
+    row.push_back(std::move(cell));
+  }
+  return row;
+}
+
+std::string cell_words(const Cell& cell, double value) {
+  if (!cell.failure.empty()) return "no";
+  return cell.predicted ? fmt::format("*{:.3g}*", value) : fmt::format("{:.3g}", value);
+}
+
+std::string markdown(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows) {
+  std::string text =
+      "Seconds: preprocessing / one iteration / overall. *Slanted*: predicted from the size "
+      "before, "
+      "not run. no: refused or failed, see below.\n\n| method | in the paper |";
+  for (const int size : sizes) text += fmt::format(" {} |", size);
+  text += "\n|---|---|---|---|---|---|\n";
+  std::string reasons;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    text += fmt::format("| `{}` | {} |", all[m].name, all[m].paper);
+    for (const Cell& cell : rows[m]) {
+      text += cell.failure.empty()
+                  ? fmt::format(" {} / {} / {} |", cell_words(cell, cell.preprocessing),
+                                cell_words(cell, cell.iteration), cell_words(cell, cell.overall))
+                  : " no |";
+    }
+    text += "\n";
+    const auto failed = std::find_if(rows[m].begin(), rows[m].end(),
+                                     [](const Cell& c) { return !c.failure.empty(); });
+    if (failed != rows[m].end()) reasons += fmt::format("- {}\n", failed->failure);
+  }
+  return text + "\n" + reasons;
+}
+
+std::string csv(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows) {
+  std::string text =
+      "method,paper,vertices,preprocessing_s,iteration_s,overall_s,residual,predicted,failure\n";
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const Cell& c = rows[m][i];
+      text += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{},\"{}\"\n", all[m].name,
+                          all[m].paper, sizes[i], c.preprocessing, c.iteration, c.overall,
+                          c.residual, c.predicted ? 1 : 0, c.failure);
+    }
+  }
+  return text;
+}
+
+std::string plot(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows,
+                 const std::string& title, double Cell::*value) {
+  std::vector<Series> series;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    Series s;
+    s.name = all[m].name;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (!rows[m][i].failure.empty() || !(rows[m][i].*value > 0)) continue;
+      s.x.push_back(sizes[i]);
+      s.y.push_back(rows[m][i].*value);
+      s.predicted.push_back(rows[m][i].predicted);
+    }
+    if (!s.x.empty()) series.push_back(std::move(s));
+  }
+  return log_log_plot(title, "vertices", "seconds", series);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("The paper's methods and those beyond them on surfaces of the paper's sizes");
+  double most_seconds = 60;
+  fs::path folder = "table1";
+  app.add_option("--cell-seconds", most_seconds, "a cell that would take longer is predicted")
+      ->capture_default_str();
+  app.add_option("-o,--output", folder, "folder for table1.csv, table1.md and the plots")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const auto all = methods();
+  std::vector<std::vector<Cell>> rows;
+  for (const Method& method : all) rows.push_back(run_row(method, most_seconds));
+  fs::create_directories(folder);
+  std::ofstream(folder / "table1.csv") << csv(all, rows);
+  std::ofstream(folder / "table1.md") << markdown(all, rows);
+  std::ofstream(folder / "preprocessing.svg")
+      << plot(all, rows, "Preprocessing", &Cell::preprocessing);
+  std::ofstream(folder / "iteration.svg") << plot(all, rows, "One iteration", &Cell::iteration);
+  std::ofstream(folder / "overall.svg")
+      << plot(all, rows, "Overall: 3 global or 30 local iterations", &Cell::overall);
+  std::cout << markdown(all, rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace curveskel::bench
+
+int main(int argc, char** argv) { return curveskel::bench::run(argc, argv); }
