@@ -5,11 +5,21 @@
 #include "app/command_line.hpp"
 #include "app/verbs.hpp"
 #include "contraction/device.hpp"
+#include "contraction/fair.hpp"
 
 namespace curveskel {
 namespace {
 
 const char* yes_no(bool yes) { return yes ? "yes" : "no"; }
+
+/// "opencl, opencl-transfer", or "none".
+std::string fairing_methods(const Device& device, bool double_precision) {
+  std::string text;
+  for (const FairMethod method : fair_methods_on(device, double_precision)) {
+    text += (text.empty() ? "" : ", ") + std::string(name_of(fair_methods, method));
+  }
+  return text.empty() ? "none" : text;
+}
 
 int run_devices(Session& session) {
   const std::vector<Device> found = devices();
@@ -24,10 +34,12 @@ int run_devices(Session& session) {
     text += fmt::format(
         "{}\n  platform          {}\n  version           {}, driver {}\n"
         "  kind              {}, {} compute units, {:.1f} GiB\n"
-        "  double precision  {}\n  GL sharing        {}\n",
+        "  double precision  {}\n  GL sharing        {}\n"
+        "  fair, single      {}\n  fair, double      {}\n",
         device.name, device.platform, device.version, device.driver, device.gpu ? "GPU" : "CPU",
         device.compute_units, static_cast<double>(device.memory_bytes) / (1024.0 * 1024.0 * 1024.0),
-        yes_no(device.double_precision), yes_no(device.gl_sharing));
+        yes_no(device.double_precision), yes_no(device.gl_sharing), fairing_methods(device, false),
+        fairing_methods(device, true));
   }
   session.terminal.result(text);
   return ExitCode::done;

@@ -121,13 +121,17 @@ Verb add_fair(CLI::App& program) {
   add_number(*parser, "--iterations", options.iterations, 0, 1000000, "of the flow");
   add_number(*parser, "--smoothing", options.smoothing, 0.0, 1e6,
              "mu = W_L / W_H of each patch: 0.5 to 2 takes noise away");
+  add_number(*parser, "--rings", options.rings, 1, 1000000,
+             "K: a vertex's patch has the vertices within K edges");
+  add_choice(*parser, "--local-solver", options.local_solver, local_solvers,
+             "how the centre of a patch is found");
   add_choice(*parser, "--volume", options.volume, volume_rules, "what becomes of the volume");
   add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
   add_number(*parser, "--threads", options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  parser->footer(meanings("Methods", fair_methods) + meanings("Volume", volume_rules) +
-                 meanings("Precision", precisions));
+  parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +
+                 meanings("Volume", volume_rules) + meanings("Precision", precisions));
   return {parser, [arguments](Session& session) { return run_fair(*arguments, session); }};
 }
 

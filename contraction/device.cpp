@@ -5,11 +5,6 @@
 namespace curveskel {
 namespace {
 
-bool serves(const Device& device, const DeviceNeeds& needs) {
-  return (!needs.double_precision || device.double_precision) &&
-         (!needs.gl_sharing || device.gl_sharing);
-}
-
 std::string missing(const Device& device, const DeviceNeeds& needs) {
   std::string text;
   if (needs.double_precision && !device.double_precision) text = "cl_khr_fp64";
@@ -20,6 +15,11 @@ std::string missing(const Device& device, const DeviceNeeds& needs) {
 }
 
 }  // namespace
+
+bool serves(const Device& device, const DeviceNeeds& needs) {
+  return (!needs.double_precision || device.double_precision) &&
+         (!needs.gl_sharing || device.gl_sharing);
+}
 
 std::size_t choose_device(const std::vector<Device>& candidates, const DeviceNeeds& needs,
                           std::string_view purpose, std::string_view remedy) {

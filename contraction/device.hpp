@@ -29,6 +29,9 @@ struct DeviceNeeds {
   bool gl_sharing = false;
 };
 
+/// Whether the device has what is needed. Pure.
+[[nodiscard]] bool serves(const Device& device, const DeviceNeeds& needs);
+
 /// The index in `candidates` of the device to run on: the first GPU that has what is needed, else
 /// the first device that has. Pure. Throws Error(Fault::device) when there is none, which names
 /// what was found, what `purpose` ("the method opencl in double precision") lacks, and `remedy`.

@@ -1,26 +1,46 @@
 #include "contraction/fair.hpp"
 
 #include <cmath>
+#include <string>
 
+#include "contraction/fairing_device.hpp"
 #include "contraction/local_flow.hpp"
 #include "contraction/restore_volume.hpp"
+#include "surface/error.hpp"
 #include "surface/measures.hpp"
 
 namespace curveskel {
 namespace {
 
+[[noreturn]] void refuse_interop(const FairOptions& options) {
+  const Device device = devices().at(fairing_device(options));
+  throw Error(Fault::device,
+              "the method opencl-interop was asked for and this build has none, though device '" +
+                  device.name + "' offers cl_khr_gl_sharing; use the method opencl");
+}
+
 std::unique_ptr<LocalFlow> make_flow(const Surface& surface, const OneRings& rings,
                                      const FairOptions& options) {
+  const bool closed_form = options.rings == 1 && options.local_solver == LocalSolver::closed;
+  const auto on_device = [&] {
+    return closed_form ? make_opencl_flow(surface, rings, options)
+                       : make_opencl_patch_flow(surface, rings, options);
+  };
   switch (choose_fair_method(options.method)) {
     case FairMethod::cpu:
       return make_cpu_flow(surface, rings, options);
     case FairMethod::opencl:
-      return make_opencl_flow(surface, rings, options);
+      return on_device();
+    case FairMethod::opencl_transfer:
+      return make_transfer_flow(on_device());
+    case FairMethod::opencl_interop:
+      refuse_interop(options);
     case FairMethod::automatic:
     case FairMethod::host:
       break;
   }
-  return make_host_flow(surface, rings, options);
+  return closed_form ? make_host_flow(surface, rings, options)
+                     : make_patch_flow(surface, rings, options);
 }
 
 }  // namespace
@@ -30,6 +50,10 @@ FairMethod choose_fair_method(FairMethod wanted) {
 }
 
 Surface fair(const Surface& surface, const FairOptions& options, const Monitor& monitor) {
+  if (options.rings < 1) {
+    throw Error(Fault::input, "patches of " + std::to_string(options.rings) +
+                                  " rings were asked for; 1 or more are needed");
+  }
   monitor.report("fair", 0);
   const double diagonal = bounding_box_diagonal(surface.positions);
   if (options.iterations <= 0 || !(diagonal > 0)) return surface;

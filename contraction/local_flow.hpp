@@ -17,6 +17,8 @@ class LocalFlow {
   /// Moves all vertices at once, `iterations` times.
   virtual void advance(int iterations, const Monitor& monitor) = 0;
   [[nodiscard]] virtual Positions positions() = 0;
+  /// Copies the positions, as they are, from the device to the host and back. Nothing on a host.
+  virtual void copy_through_host() {}
 };
 
 /// Positions are expected near the origin with a bounding-box diagonal of about 1; all methods
@@ -30,5 +32,14 @@ class LocalFlow {
 [[nodiscard]] std::unique_ptr<LocalFlow> make_opencl_flow(const Surface& surface,
                                                           const OneRings& rings,
                                                           const FairOptions& options);
+/// As in `make_host_flow`, by a QR per patch: any number of rings.
+[[nodiscard]] std::unique_ptr<LocalFlow> make_patch_flow(const Surface& surface,
+                                                         const OneRings& rings,
+                                                         const FairOptions& options);
+[[nodiscard]] std::unique_ptr<LocalFlow> make_opencl_patch_flow(const Surface& surface,
+                                                                const OneRings& rings,
+                                                                const FairOptions& options);
+/// The flow of `resident`, with `copy_through_host` after every iteration.
+[[nodiscard]] std::unique_ptr<LocalFlow> make_transfer_flow(std::unique_ptr<LocalFlow> resident);
 
 }  // namespace curveskel

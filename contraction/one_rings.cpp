@@ -1,14 +1,6 @@
 #include "contraction/one_rings.hpp"
 
 namespace curveskel {
-namespace {
-
-/// Per vertex the faces that it is a corner of, as corners 3 f + k.
-struct CornersByVertex {
-  std::vector<std::int64_t> start;
-  std::vector<std::int32_t> corner;
-};
-
 CornersByVertex corners_by_vertex(const Triangles& triangles, Eigen::Index vertices) {
   CornersByVertex corners;
   corners.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
@@ -24,8 +16,6 @@ CornersByVertex corners_by_vertex(const Triangles& triangles, Eigen::Index verti
   }
   return corners;
 }
-
-}  // namespace
 
 OneRings one_rings(const Triangles& triangles, Eigen::Index vertices) {
   const CornersByVertex corners = corners_by_vertex(triangles, vertices);

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "contraction/fairing_device.hpp"
 #include "contraction/local_flow.hpp"
 #include "contraction/opencl.hpp"
 #include "kernels/sources.hpp"
@@ -9,21 +10,14 @@
 namespace curveskel {
 namespace {
 
-std::size_t device_for(const FairOptions& options) {
-  return choose_device(
-      devices(), {.double_precision = options.double_precision},
-      options.double_precision ? "the method opencl in double precision" : "the method opencl",
-      options.double_precision ? "use single precision or the method host" : "use the method host");
-}
-
 template <typename Real>
 class OpenClFlow final : public LocalFlow {
  public:
   OpenClFlow(const Surface& surface, const OneRings& rings, const FairOptions& options)
-      : session_(device_for(options)),
+      : session_(fairing_device(options)),
         vertices_(static_cast<int>(surface.positions.rows())),
         stream_(build(options).kernel("one_ring_stream")) {
-    const std::vector<Real> packed = pack(surface.positions);
+    const std::vector<Real> packed = pack_positions<Real>(surface.positions);
     now_ = session_.upload(packed);
     next_ = session_.upload(packed);
     start_ = session_.upload(std::vector<int>(rings.start.begin(), rings.start.end()));
@@ -46,26 +40,16 @@ class OpenClFlow final : public LocalFlow {
   Positions positions() override {
     std::vector<Real> packed(4 * static_cast<std::size_t>(vertices_));
     session_.read(now_, packed.data(), packed.size() * sizeof(Real));
-    Positions result(vertices_, 3);
-    for (Eigen::Index v = 0; v < vertices_; ++v) {
-      for (int k = 0; k < 3; ++k) {
-        result(v, k) = static_cast<double>(packed[static_cast<std::size_t>(4 * v + k)]);
-      }
-    }
-    return result;
+    return unpack_positions(packed);
+  }
+
+  void copy_through_host() override {
+    std::vector<Real> packed(4 * static_cast<std::size_t>(vertices_));
+    session_.read(now_, packed.data(), packed.size() * sizeof(Real));
+    session_.write(now_, packed.data(), packed.size() * sizeof(Real));
   }
 
  private:
-  static std::vector<Real> pack(const Positions& positions) {
-    std::vector<Real> packed(4 * static_cast<std::size_t>(positions.rows()), 0);
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-      for (int k = 0; k < 3; ++k) {
-        packed[static_cast<std::size_t>(4 * v + k)] = static_cast<Real>(positions(v, k));
-      }
-    }
-    return packed;
-  }
-
   opencl::Program build(const FairOptions& options) {
     const std::string stored = sizeof(Real) == sizeof(float) ? "float" : "double";
     const std::string real = session_.device().double_precision ? "double" : "float";

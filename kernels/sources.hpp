@@ -11,4 +11,7 @@ extern const std::string_view gauss_seidel_source;
 /// One work-item per vertex, any valence; see the file for macros and arguments.
 extern const std::string_view one_ring_stream_source;
 
+/// One work-item per patch, a QR each; see the file for macros and arguments.
+extern const std::string_view patch_qr_source;
+
 }  // namespace curveskel
