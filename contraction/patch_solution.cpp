@@ -84,18 +84,18 @@ Eigen::RowVector3d centre_step_by_qr(const Patch& patch, const Positions& positi
     system.row(row).tail<3>() = relative.row(column + 1 == n ? 0 : column + 1);
   };
   enter(n, 0);
-  Eigen::RowVectorXd products(n + 3);
+  Eigen::VectorXd reflector(n + 1);
   for (Eigen::Index j = 0;; ++j) {
-    auto reflector = system.col(j);
-    const double norm = reflector.norm();  // >= 1, as the identity is below
-    const double pivot = reflector(j);
+    const double norm = system.col(j).norm();  // >= 1, as the identity is below
+    const double pivot = system(j, j);
     const double diagonal = pivot > 0 ? -norm : norm;
-    reflector(j) -= diagonal;
-    reflector /= norm;
-    const Eigen::Index left = n + 2 - j;
-    products.tail(left).noalias() = reflector.transpose() * system.rightCols(left);
-    products.tail(left) /= 1 + std::abs(pivot) / norm;
-    system.rightCols(left).noalias() -= reflector * products.tail(left);
+    reflector = system.col(j) / norm;
+    reflector(j) -= diagonal / norm;
+    const double factor = 1 / (1 + std::abs(pivot) / norm);
+    for (Eigen::Index k = j + 1; k < n + 3; ++k) {
+      const double product = factor * reflector.dot(system.col(k));
+      system.col(k) -= product * reflector;
+    }
     if (j == n - 1) return system.row(j).tail<3>() / diagonal;
     enter(j, j + 1);
   }

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "contraction/fair.hpp"
 #include "contraction/opencl.hpp"
 #include "surface/error.hpp"
 
@@ -76,6 +77,31 @@ TEST(ChooseDevice, SaysWhatIsMissingAndWhatToDo) {
   const std::string headless =
       message_of_choice({named("Chip 7", true, false, false)}, {.gl_sharing = true});
   EXPECT_TRUE(holds(headless, "cl_khr_gl_sharing")) << headless;
+}
+
+TEST(FairMethods, EachNeedsWhatTheDeviceMustHave) {
+  using Methods = std::vector<FairMethod>;
+  const Methods plain{FairMethod::opencl, FairMethod::opencl_transfer};
+  const Methods all{FairMethod::opencl, FairMethod::opencl_transfer, FairMethod::opencl_interop};
+  EXPECT_EQ(fair_methods_on(named("single", true, false, false), false), plain);
+  EXPECT_EQ(fair_methods_on(named("single", true, false, false), true), Methods());
+  EXPECT_EQ(fair_methods_on(named("double", false, true, false), true), plain);
+  EXPECT_EQ(fair_methods_on(named("graphics", true, false, true), false), all);
+  EXPECT_EQ(fair_methods_on(named("graphics", true, false, true), true), Methods());
+  EXPECT_EQ(fair_methods_on(named("both", true, true, true), true), all);
+}
+
+TEST(Session, ABrokenKernelIsADeviceFaultWithTheCompilersLog) {
+  if (devices().empty()) GTEST_SKIP() << "no OpenCL device on this machine";
+  const opencl::Session session(0);
+  try {
+    (void)session.build("__kernel void broken(__global int* x) { x[0] = no_such_name; }", "", {});
+    FAIL() << "it was built";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::device);
+    EXPECT_TRUE(holds(error.what(), "no_such_name")) << error.what();
+    EXPECT_TRUE(holds(error.what(), session.device().name)) << error.what();
+  }
 }
 
 }  // namespace

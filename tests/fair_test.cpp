@@ -8,42 +8,14 @@
 #include <numbers>
 #include <stop_token>
 
-#include "contraction/device.hpp"
-#include "meshes/shapes.hpp"
 #include "surface/measures.hpp"
 #include "surface/topology.hpp"
+#include "tests/faired.hpp"
 
 namespace curveskel {
 namespace {
 
 using shapes::Shape;
-
-std::vector<Shape> families() {
-  const auto tube = shapes::tube("tube", shapes::s_curve(6, 2), shapes::wavy(0.5, 0.1, 3), 14);
-  const auto ball = shapes::ellipsoid({1, 1.5, 2}, 3);
-  const auto box = shapes::box({1, 2, 3}, 8);
-  return {tube,
-          shapes::noisy(tube, 0.02, 1),
-          ball,
-          shapes::noisy(ball, 0.02, 2),
-          box,
-          shapes::renumbered(shapes::torus(2, 0.6, 12), 3),
-          shapes::linked_rings(2, 0.4, 10),
-          shapes::cone(1, 2, 40)};
-}
-
-double largest_difference(const Surface& a, const Surface& b) {
-  return (a.positions - b.positions).rowwise().norm().maxCoeff() /
-         bounding_box_diagonal(b.positions);
-}
-
-FairOptions with(FairMethod method, int iterations, bool double_precision = false) {
-  FairOptions options;
-  options.method = method;
-  options.iterations = iterations;
-  options.double_precision = double_precision;
-  return options;
-}
 
 double mean_normal_error_degrees(const Surface& surface, const Surface& clean) {
   double sum = 0;
@@ -63,11 +35,8 @@ double mean_normal_error_degrees(const Surface& surface, const Surface& clean) {
   return sum / weight * 180 / std::numbers::pi;
 }
 
-#define SKIP_WITHOUT_DEVICE() \
-  if (devices().empty()) GTEST_SKIP() << "no OpenCL device on this machine"
-
 TEST(Fair, HostClosedFormIsTheQrSolution) {
-  for (const Shape& shape : families()) {
+  for (const Shape& shape : noisy_and_clean_shapes()) {
     for (const double smoothing : {0.1, 1.0, 30.0}) {
       FairOptions options = with(FairMethod::cpu, 1);
       options.smoothing = smoothing;
@@ -83,7 +52,7 @@ TEST(Fair, HostClosedFormIsTheQrSolution) {
 
 TEST(Fair, DeviceAgreesWithTheReferenceAfterTenIterations) {
   SKIP_WITHOUT_DEVICE();
-  for (const Shape& shape : families()) {
+  for (const Shape& shape : noisy_and_clean_shapes()) {
     const Surface reference = fair(shape.surface, with(FairMethod::cpu, 10), {});
     const Surface single = fair(shape.surface, with(FairMethod::opencl, 10), {});
     const Surface twice = fair(shape.surface, with(FairMethod::opencl, 10, true), {});

@@ -83,6 +83,29 @@ class Fair(CommandLineTest):
         self.assertEqual(positions[:4], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
         self.assertLess(positions[4][2], 1)
 
+    def test_larger_patches_move_more_and_both_local_solvers_agree(self):
+        moved = []
+        for name, arguments in (("closed", ["--rings", "1"]), ("two", ["--rings", "2"]),
+                                ("qr", ["--local-solver", "qr"])):
+            self.run_ok("fair", TORUS, "-o", f"{name}.ply", "--volume", "keep", *arguments,
+                        cwd=self.folder)
+            moved.append(ply(self.folder / f"{name}.ply")[1])
+        closed, two, qr = moved
+        self.assertLess(extent(two), extent(closed))
+        for p, q in zip(closed, qr):
+            for a, b in zip(p, q):
+                self.assertAlmostEqual(a, b, delta=1e-9)
+        self.refused(2, "fair", TORUS, "-o", "x.ply", "--rings", "0", says=["--rings", "from 1"],
+                     cwd=self.folder)
+
+    def test_interop_is_refused_with_the_extension_and_the_method_that_works(self):
+        result = run("devices")
+        says = ["opencl-interop", "opencl"]
+        if result.code == 0:
+            says.append("cl_khr_gl_sharing")
+        self.refused(4, "fair", TORUS, "-o", "x.ply", "--method", "opencl-interop", says=says,
+                     cwd=self.folder)
+
     def test_a_missing_device_is_named(self):
         result = run("fair", TORUS, "-o", "x.ply", "--method", "opencl", cwd=self.folder)
         if result.code != 0:
@@ -121,6 +144,7 @@ class Devices(CommandLineTest):
         result = run("devices")
         if result.code == 0:
             self.assertIn("double precision", result.out.decode())
+            self.assertRegex(result.out.decode(), "fair, single +opencl, opencl-transfer")
         else:
             self.assertEqual(result.code, 4)
             self.assertIn("install", result.err)
