@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "contraction/fairing_device.hpp"
 #include "contraction/local_flow.hpp"
 #include "contraction/restore_volume.hpp"
 #include "surface/error.hpp"
@@ -11,13 +10,6 @@
 
 namespace curveskel {
 namespace {
-
-[[noreturn]] void refuse_interop(const FairOptions& options) {
-  const Device device = devices().at(fairing_device(options));
-  throw Error(Fault::device,
-              "the method opencl-interop was asked for and this build has none, though device '" +
-                  device.name + "' offers cl_khr_gl_sharing; use the method opencl");
-}
 
 std::unique_ptr<LocalFlow> make_flow(const Surface& surface, const OneRings& rings,
                                      const FairOptions& options) {
@@ -30,11 +22,10 @@ std::unique_ptr<LocalFlow> make_flow(const Surface& surface, const OneRings& rin
     case FairMethod::cpu:
       return make_cpu_flow(surface, rings, options);
     case FairMethod::opencl:
+    case FairMethod::opencl_interop:
       return on_device();
     case FairMethod::opencl_transfer:
       return make_transfer_flow(on_device());
-    case FairMethod::opencl_interop:
-      refuse_interop(options);
     case FairMethod::automatic:
     case FairMethod::host:
       break;
@@ -65,6 +56,7 @@ Surface fair(const Surface& surface, const FairOptions& options, const Monitor& 
   Surface result{(surface.positions.rowwise() - origin) * scale, surface.triangles};
   const Positions before = result.positions;
   const OneRings rings = one_rings(result.triangles, result.positions.rows());
+  if (rings.neighbours.empty()) return surface;
 
   const auto flow = make_flow(result, rings, options);
   flow->advance(options.iterations, monitor);

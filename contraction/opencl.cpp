@@ -190,7 +190,7 @@ Kernel Program::kernel(const char* name) const {
   return Kernel({raw, clReleaseKernel});
 }
 
-Session::Session(std::size_t index) {
+Session::Session(std::size_t index, std::span<const std::intptr_t> properties) {
   const std::vector<Found> found = find_devices();
   if (index >= found.size()) {
     throw Error(Fault::device, "OpenCL device " + std::to_string(index) + " was asked for and " +
@@ -201,7 +201,12 @@ Session::Session(std::size_t index) {
   device_ = describe(found[index].platform, id);
   id_ = id;
   cl_int code = CL_SUCCESS;
-  cl_context raw_context = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code);
+  std::vector<cl_context_properties> context_properties{
+      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(found[index].platform)};
+  context_properties.insert(context_properties.end(), properties.begin(), properties.end());
+  context_properties.push_back(0);
+  cl_context raw_context =
+      clCreateContext(context_properties.data(), 1, &id, nullptr, nullptr, &code);
   check(code, "creating a context", device_.name);
   context_ = {raw_context, clReleaseContext};
   cl_command_queue raw_queue = clCreateCommandQueue(raw_context, id, 0, &code);

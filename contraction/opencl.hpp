@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -52,8 +54,8 @@ class Program {
 /// the device and OpenCL's error.
 class Session {
  public:
-  /// `index` into devices().
-  explicit Session(std::size_t index);
+  /// `index` into devices(); `properties` of the context, as pairs of OpenCL's names and values.
+  explicit Session(std::size_t index, std::span<const std::intptr_t> properties = {});
 
   [[nodiscard]] const Device& device() const { return device_; }
 

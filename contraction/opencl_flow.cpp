@@ -5,6 +5,7 @@
 #include "contraction/fairing_device.hpp"
 #include "contraction/local_flow.hpp"
 #include "contraction/opencl.hpp"
+#include "contraction/position_memory.hpp"
 #include "kernels/sources.hpp"
 
 namespace curveskel {
@@ -14,53 +15,49 @@ template <typename Real>
 class OpenClFlow final : public LocalFlow {
  public:
   OpenClFlow(const Surface& surface, const OneRings& rings, const FairOptions& options)
-      : session_(fairing_device(options)),
+      : memory_(place_positions(options, pack_positions<Real>(surface.positions))),
         vertices_(static_cast<int>(surface.positions.rows())),
         stream_(build(options).kernel("one_ring_stream")) {
-    const std::vector<Real> packed = pack_positions<Real>(surface.positions);
-    now_ = session_.upload(packed);
-    next_ = session_.upload(packed);
-    start_ = session_.upload(std::vector<int>(rings.start.begin(), rings.start.end()));
-    ring_ = session_.upload(rings.neighbours);
+    const opencl::Session& session = memory_.session;
+    start_ = session.upload(std::vector<int>(rings.start.begin(), rings.start.end()));
+    ring_ = session.upload(rings.neighbours);
     smoothing_ = static_cast<Real>(options.smoothing);
   }
 
   void advance(int iterations, const Monitor& monitor) override {
     for (int iteration = 0; iteration < iterations; ++iteration) {
       monitor.report("fair", static_cast<double>(iteration) / iterations);
-      stream_.set(now_, next_, start_, ring_, 0, vertices_, smoothing_);
+      acquire(memory_);
+      stream_.set(memory_.now, memory_.next, start_, ring_, 0, vertices_, smoothing_);
       constexpr std::size_t group = 64;
       const auto groups = (static_cast<std::size_t>(vertices_) + group - 1) / group;
-      session_.launch(stream_, groups * group, group);
-      std::swap(now_, next_);
+      memory_.session.launch(stream_, groups * group, group);
+      release(memory_);
+      std::swap(memory_.now, memory_.next);
     }
-    session_.finish();
+    memory_.session.finish();
   }
 
   Positions positions() override {
-    std::vector<Real> packed(4 * static_cast<std::size_t>(vertices_));
-    session_.read(now_, packed.data(), packed.size() * sizeof(Real));
-    return unpack_positions(packed);
+    return unpack_positions(read_positions<Real>(memory_, vertices_));
   }
 
   void copy_through_host() override {
-    std::vector<Real> packed(4 * static_cast<std::size_t>(vertices_));
-    session_.read(now_, packed.data(), packed.size() * sizeof(Real));
-    session_.write(now_, packed.data(), packed.size() * sizeof(Real));
+    write_positions(memory_, read_positions<Real>(memory_, vertices_));
   }
 
  private:
   opencl::Program build(const FairOptions& options) {
     const std::string stored = sizeof(Real) == sizeof(float) ? "float" : "double";
-    const std::string real = session_.device().double_precision ? "double" : "float";
-    return session_.build(one_ring_stream_source, "-DREAL=" + real + " -DSTORED=" + stored,
-                          options.program_cache);
+    const std::string real = memory_.session.device().double_precision ? "double" : "float";
+    return memory_.session.build(one_ring_stream_source, "-DREAL=" + real + " -DSTORED=" + stored,
+                                 options.program_cache);
   }
 
-  opencl::Session session_;
+  PositionMemory memory_;
   int vertices_;
   opencl::Kernel stream_;
-  opencl::Buffer now_, next_, start_, ring_;
+  opencl::Buffer start_, ring_;
   Real smoothing_ = 1;
 };
 

@@ -10,6 +10,7 @@
 #include "contraction/local_flow.hpp"
 #include "contraction/opencl.hpp"
 #include "contraction/patch_solution.hpp"
+#include "contraction/position_memory.hpp"
 #include "kernels/sources.hpp"
 #include "surface/error.hpp"
 
@@ -70,48 +71,43 @@ template <typename Real>
 class OpenClPatchFlow final : public LocalFlow {
  public:
   OpenClPatchFlow(const Surface& surface, const OneRings& rings, const FairOptions& options)
-      : session_(fairing_device(options)),
+      : memory_(place_positions(options, pack_positions<Real>(surface.positions))),
         options_(options),
         vertices_(surface.positions.rows()),
         corners_(corners_by_vertex(surface.triangles, vertices_)),
         patches_(surface.triangles, corners_, options.rings),
         smoothing_(static_cast<Real>(options.smoothing)) {
-    const std::vector<Real> packed = pack_positions<Real>(surface.positions);
-    now_ = session_.upload(packed);
-    next_ = session_.upload(packed);
     place_all(rings);
   }
 
   void advance(int iterations, const Monitor& monitor) override {
     for (int iteration = 0; iteration < iterations; ++iteration) {
       monitor.report("fair", static_cast<double>(iteration) / iterations);
-      move_giants_on_host(monitor);
+      const std::vector<Real> giants = giants_moved_on_host(monitor);
+      acquire(memory_);
+      put_giants(giants);
       move_giants_in_closed_form();
       for (std::size_t i = 0; i < batches_.size(); ++i) {
         launch(batches_[i]);
-        session_.finish();
+        session().finish();
         const double part = static_cast<double>(i + 1) / static_cast<double>(batches_.size());
         monitor.report("fair", (iteration + part) / iterations);
       }
-      std::swap(now_, next_);
+      release(memory_);
+      std::swap(memory_.now, memory_.next);
     }
-    session_.finish();
+    session().finish();
   }
 
-  Positions positions() override { return unpack_positions(read()); }
+  Positions positions() override {
+    return unpack_positions(read_positions<Real>(memory_, vertices_));
+  }
 
   void copy_through_host() override {
-    const std::vector<Real> packed = read();
-    session_.write(now_, packed.data(), packed.size() * sizeof(Real));
+    write_positions(memory_, read_positions<Real>(memory_, vertices_));
   }
 
  private:
-  std::vector<Real> read() const {
-    std::vector<Real> packed(4 * static_cast<std::size_t>(vertices_));
-    if (!packed.empty()) session_.read(now_, packed.data(), packed.size() * sizeof(Real));
-    return packed;
-  }
-
   /// Decides for every vertex how it is moved, and uploads what that takes.
   void place_all(const OneRings& rings) {
     std::array<std::vector<PatchSize>, slot_classes.size()> by_class;
@@ -125,7 +121,7 @@ class OpenClPatchFlow final : public LocalFlow {
         by_class[class_of(size.vertices)].push_back(size);
       } else if (options_.rings == 1) {
         const std::vector<int> start{0, static_cast<int>(ring.size())};
-        giant_rings_.push_back({centre, session_.upload(start), session_.upload(ring)});
+        giant_rings_.push_back({centre, session().upload(start), session().upload(ring)});
       } else {
         on_host_.push_back(centre);
       }
@@ -139,8 +135,8 @@ class OpenClPatchFlow final : public LocalFlow {
     if (!giant_rings_.empty()) stream_.emplace(build_stream().kernel("one_ring_stream"));
     if (!on_host_.empty()) {
       if (!kernels_[0]) build_class(0);
-      giants_ = session_.upload(on_host_);
-      giant_values_ = session_.allocate(4 * on_host_.size() * sizeof(Real));
+      giants_ = session().upload(on_host_);
+      giant_values_ = session().allocate(4 * on_host_.size() * sizeof(Real));
     }
   }
 
@@ -151,19 +147,19 @@ class OpenClPatchFlow final : public LocalFlow {
       for (const PatchSize& size : sizes) indices += size.vertices + 3 * size.triangles + 2;
     }
     const std::size_t needed = indices * sizeof(int) + workspace_limit();
-    if (needed > session_.device().memory_bytes / 2) {
+    if (needed > session().device().memory_bytes / 2) {
       constexpr std::size_t mebibyte = std::size_t{1} << 20U;
       throw Error(Fault::device,
                   "the patches of " + std::to_string(options_.rings) + " rings need " +
                       std::to_string(needed / mebibyte) + " MiB on OpenCL device '" +
-                      session_.device().name + "', which has " +
-                      std::to_string(session_.device().memory_bytes / mebibyte) +
+                      session().device().name + "', which has " +
+                      std::to_string(session().device().memory_bytes / mebibyte) +
                       " and lends half; use fewer rings, or the method host, which keeps none");
     }
   }
 
   [[nodiscard]] std::size_t workspace_limit() const {
-    return std::min(largest_workspace_bytes, session_.device().memory_bytes / 16);
+    return std::min(largest_workspace_bytes, session().device().memory_bytes / 16);
   }
 
   void make_batches(std::size_t slot_class, const std::vector<PatchSize>& sizes) {
@@ -172,11 +168,11 @@ class OpenClPatchFlow final : public LocalFlow {
     double operations = 0;
     std::size_t largest = 0;
     const auto close = [&] {
-      batches_.push_back({slot_class, static_cast<int>(indices.patches()),
-                          static_cast<int>(column_vectors(largest)),
-                          session_.upload(indices.vertex_start), session_.upload(indices.vertices),
-                          session_.upload(indices.triangle_start),
-                          session_.upload(indices.triangles)});
+      batches_.push_back(
+          {slot_class, static_cast<int>(indices.patches()),
+           static_cast<int>(column_vectors(largest)), session().upload(indices.vertex_start),
+           session().upload(indices.vertices), session().upload(indices.triangle_start),
+           session().upload(indices.triangles)});
       workspace_bytes_ =
           std::max(workspace_bytes_, bytes_in_workspace(slot_class, indices.patches(), largest));
       indices = {};
@@ -195,7 +191,7 @@ class OpenClPatchFlow final : public LocalFlow {
       operations += 2 * n * n * (n + 5);
     }
     close();
-    if (slot_classes[slot_class] == 0) workspace_ = session_.allocate(workspace_bytes_);
+    if (slot_classes[slot_class] == 0) workspace_ = session().allocate(workspace_bytes_);
   }
 
   static std::size_t bytes_in_workspace(std::size_t slot_class, std::size_t patches,
@@ -209,28 +205,29 @@ class OpenClPatchFlow final : public LocalFlow {
     opencl::Kernel& kernel = *kernels_[batch.slot_class];
     const bool in_workspace = slot_classes[batch.slot_class] == 0;
     if (in_workspace) {
-      kernel.set(now_, next_, batch.vertex_start, batch.vertices, batch.triangle_start,
-                 batch.triangles, batch.patches, smoothing_, workspace_, batch.vectors);
+      kernel.set(memory_.now, memory_.next, batch.vertex_start, batch.vertices,
+                 batch.triangle_start, batch.triangles, batch.patches, smoothing_, workspace_,
+                 batch.vectors);
     } else {
-      kernel.set(now_, next_, batch.vertex_start, batch.vertices, batch.triangle_start,
-                 batch.triangles, batch.patches, smoothing_);
+      kernel.set(memory_.now, memory_.next, batch.vertex_start, batch.vertices,
+                 batch.triangle_start, batch.triangles, batch.patches, smoothing_);
     }
     // A processor has no use for groups where each item has so much to do.
-    const std::size_t group = in_workspace && !session_.device().gpu ? 1 : 32;
+    const std::size_t group = in_workspace && !session().device().gpu ? 1 : 32;
     const auto groups = (static_cast<std::size_t>(batch.patches) + group - 1) / group;
-    session_.launch(kernel, groups * group, group);
+    session().launch(kernel, groups * group, group);
   }
 
   void move_giants_in_closed_form() {
     for (const GiantRing& giant : giant_rings_) {
-      stream_->set(now_, next_, giant.start, giant.ring, static_cast<int>(giant.centre), 1,
-                   smoothing_);
-      session_.launch(*stream_, 1, 1);
+      stream_->set(memory_.now, memory_.next, giant.start, giant.ring,
+                   static_cast<int>(giant.centre), 1, smoothing_);
+      session().launch(*stream_, 1, 1);
     }
   }
 
-  void move_giants_on_host(const Monitor& monitor) {
-    if (on_host_.empty()) return;
+  std::vector<Real> giants_moved_on_host(const Monitor& monitor) {
+    if (on_host_.empty()) return {};
     const Positions now = positions();
     Positions moved(static_cast<Eigen::Index>(on_host_.size()), 3);
     for (std::size_t i = 0; i < on_host_.size(); ++i) {
@@ -239,30 +236,36 @@ class OpenClPatchFlow final : public LocalFlow {
       moved.row(static_cast<Eigen::Index>(i)) =
           now.row(v) + centre_step(patches_.of(v), now, options_.smoothing);
     }
-    const std::vector<Real> packed = pack_positions<Real>(moved);
-    session_.write(giant_values_, packed.data(), packed.size() * sizeof(Real));
-    place_->set(next_, giants_, giant_values_, static_cast<int>(on_host_.size()));
-    session_.launch(*place_, on_host_.size(), 0);
+    return pack_positions<Real>(moved);
+  }
+
+  void put_giants(const std::vector<Real>& moved) {
+    if (moved.empty()) return;
+    session().write(giant_values_, moved.data(), moved.size() * sizeof(Real));
+    place_->set(memory_.next, giants_, giant_values_, static_cast<int>(on_host_.size()));
+    session().launch(*place_, on_host_.size(), 0);
   }
 
   void build_class(std::size_t slot_class) {
     const opencl::Program program =
-        session_.build(patch_qr_source,
-                       "-DREAL=" + real() + " -DSLOTS=" + std::to_string(slot_classes[slot_class]),
-                       options_.program_cache);
+        session().build(patch_qr_source,
+                        "-DREAL=" + real() + " -DSLOTS=" + std::to_string(slot_classes[slot_class]),
+                        options_.program_cache);
     kernels_[slot_class].emplace(program.kernel("patch_qr"));
     place_.emplace(program.kernel("place"));
   }
 
   opencl::Program build_stream() const {
-    const std::string arithmetic = session_.device().double_precision ? "double" : "float";
-    return session_.build(one_ring_stream_source, "-DREAL=" + arithmetic + " -DSTORED=" + real(),
-                          options_.program_cache);
+    const std::string arithmetic = session().device().double_precision ? "double" : "float";
+    return session().build(one_ring_stream_source, "-DREAL=" + arithmetic + " -DSTORED=" + real(),
+                           options_.program_cache);
   }
+
+  [[nodiscard]] const opencl::Session& session() const { return memory_.session; }
 
   static std::string real() { return sizeof(Real) == sizeof(float) ? "float" : "double"; }
 
-  opencl::Session session_;
+  PositionMemory memory_;
   const FairOptions& options_;
   Eigen::Index vertices_;
   CornersByVertex corners_;
@@ -272,7 +275,7 @@ class OpenClPatchFlow final : public LocalFlow {
   std::vector<Batch> batches_;
   std::vector<GiantRing> giant_rings_;
   std::vector<std::int32_t> on_host_;
-  opencl::Buffer now_, next_, workspace_, giants_, giant_values_;
+  opencl::Buffer workspace_, giants_, giant_values_;
   std::size_t workspace_bytes_ = 0;
   Real smoothing_ = 1;
 };
