@@ -6,6 +6,8 @@
 #include "contraction/local_flow.hpp"
 #include "contraction/opencl.hpp"
 #include "contraction/position_memory.hpp"
+#include "contraction/wide_flow.hpp"
+#include "contraction/wide_slices.hpp"
 #include "kernels/sources.hpp"
 
 namespace curveskel {
@@ -65,8 +67,18 @@ class OpenClFlow final : public LocalFlow {
 
 std::unique_ptr<LocalFlow> make_opencl_flow(const Surface& surface, const OneRings& rings,
                                             const FairOptions& options) {
-  if (options.double_precision)
+  if (options.double_precision) {
     return std::make_unique<OpenClFlow<double>>(surface, rings, options);
+  }
+  // OpenGL draws the vertices in their own order, which the wide kernel changes.
+  if (options.method == FairMethod::opencl_interop) {
+    return std::make_unique<OpenClFlow<float>>(surface, rings, options);
+  }
+  const std::size_t device = fairing_device(options);
+  constexpr std::size_t usual_valence = 6;
+  if (local_kernel(devices()[device].gpu, false, usual_valence) == LocalKernel::wide) {
+    return make_wide_flow(surface, rings, options, device);
+  }
   return std::make_unique<OpenClFlow<float>>(surface, rings, options);
 }
 

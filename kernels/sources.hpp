@@ -10,6 +10,8 @@ extern const std::string_view gauss_seidel_source;
 
 /// One work-item per vertex, any valence; see the file for macros and arguments.
 extern const std::string_view one_ring_stream_source;
+/// 16 vertices per work-item, one to a vector lane, rings of limited length, single precision.
+extern const std::string_view one_ring_wide_source;
 
 /// One work-item per patch, a QR each; see the file for macros and arguments.
 extern const std::string_view patch_qr_source;
