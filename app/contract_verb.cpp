@@ -10,6 +10,7 @@
 
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
@@ -147,6 +148,7 @@ Verb add_contract(CLI::App& program) {
       ->required()
       ->type_name("OUT.ply");
   add_choice(*parser, "--flow", arguments->options.flow, flows, "contraction flow");
+  arguments->options.program_cache = kernel_cache();
   add_choice(*parser, "--solver", arguments->options.solver, solvers, "least-squares back end");
   add_number(*parser, "--iterations", arguments->options.max_iterations, 1, 1000000, "at most");
   parser

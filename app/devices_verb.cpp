@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/verbs.hpp"
 #include "contraction/device.hpp"
+#include "contraction/least_squares.hpp"
 #include "contraction/fair.hpp"
 
 namespace curveskel {
@@ -21,6 +22,16 @@ std::string fairing_methods(const Device& device, bool double_precision) {
   return text.empty() ? "none" : text;
 }
 
+/// Those that need a device and can use this one.
+std::string solvers_on(const Device& device) {
+  std::string text;
+  for (const auto& entry : solvers) {
+    if (!needs_device(entry.value) || !device.double_precision) continue;
+    text += (text.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return text.empty() ? "none: they need double precision" : text;
+}
+
 int run_devices(Session& session) {
   const std::vector<Device> found = devices();
   if (found.empty()) {
@@ -35,11 +46,11 @@ int run_devices(Session& session) {
         "{}\n  platform          {}\n  version           {}, driver {}\n"
         "  kind              {}, {} compute units, {:.1f} GiB\n"
         "  double precision  {}\n  GL sharing        {}\n"
-        "  fair, single      {}\n  fair, double      {}\n",
+        "  fair, single      {}\n  fair, double      {}\n  solvers           {}\n",
         device.name, device.platform, device.version, device.driver, device.gpu ? "GPU" : "CPU",
         device.compute_units, static_cast<double>(device.memory_bytes) / (1024.0 * 1024.0 * 1024.0),
         yes_no(device.double_precision), yes_no(device.gl_sharing), fairing_methods(device, false),
-        fairing_methods(device, true));
+        fairing_methods(device, true), solvers_on(device));
   }
   session.terminal.result(text);
   return ExitCode::done;

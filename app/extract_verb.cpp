@@ -8,6 +8,7 @@
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
@@ -179,6 +180,8 @@ Verb add_extract(CLI::App& program) {
       ->add_option("--report", arguments->report, "what was changed, decided and measured, as JSON")
       ->type_name("FILE.json");
   add_choice(*parser, "--flow", options.contraction.flow, flows, "contraction flow");
+  options.contraction.program_cache = kernel_cache();
+  options.fair.program_cache = kernel_cache();
   add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
   parser
       ->add_option_function<std::string>(

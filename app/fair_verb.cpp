@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
@@ -36,14 +36,6 @@ struct FairArguments {
   bool quiet = false;
   FairOptions options;
 };
-
-/// Where compiled kernels are kept (XDG base directories); empty without a home.
-fs::path kernel_cache() {
-  const char* const cache = std::getenv("XDG_CACHE_HOME");
-  if (cache != nullptr && *cache == '/') return fs::path(cache) / "curveskel";
-  const char* const home = std::getenv("HOME");
-  return home != nullptr && *home == '/' ? fs::path(home) / ".cache" / "curveskel" : fs::path();
-}
 
 /// What is closed is faired as one closed surface, seams or not. Anything else is faired as it is
 /// in the file: its boundaries and seams stay where they are.

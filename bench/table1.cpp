@@ -121,6 +121,8 @@ std::vector<Method> methods() {
                    [options](const Surface& s) { return run_local(options, s); }});
   };
   local(FairMethod::cpu, "4 Local CPU");
+  local(FairMethod::opencl_transfer, "5 OCL transfer");
+  local(FairMethod::opencl_interop, "6 OCL interop");
   local(FairMethod::opencl, "");
   local(FairMethod::host, "");
   return all;

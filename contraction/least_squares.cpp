@@ -60,6 +60,24 @@ void require_finite(const Solution& solution, Solver solver) {
 
 }  // namespace
 
+bool needs_device(Solver solver) {
+  switch (solver) {
+    case Solver::vcl_qr:
+    case Solver::vcl_lsm:
+    case Solver::cg:
+    case Solver::gauss_seidel:
+      return true;
+    case Solver::automatic:
+    case Solver::cholesky:
+    case Solver::sparse_qr:
+    case Solver::dense_qr:
+    case Solver::jor:
+    case Solver::jacobi:
+      return false;
+  }
+  return false;
+}
+
 Solver choose_solver(Solver wanted, int /*unknowns*/) {
   return wanted == Solver::automatic ? Solver::cholesky : wanted;
 }

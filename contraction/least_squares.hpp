@@ -45,6 +45,9 @@ inline constexpr NameTable<Solver, 10> solvers{{
 /// 648 to 200,000 unknowns (docs/method.md, "Solvers"), so for now it is the answer to all.
 [[nodiscard]] Solver choose_solver(Solver wanted, int unknowns);
 
+/// Whether the solver runs on an OpenCL device, which must then offer double precision.
+[[nodiscard]] bool needs_device(Solver solver);
+
 struct SolverOptions {
   Solver solver = Solver::automatic;
   double tolerance = 1e-10;             ///< iterative ones: stop at this Solution::residual

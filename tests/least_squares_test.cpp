@@ -70,24 +70,6 @@ const std::vector<System>& systems() {
 
 SparseMatrix normal_matrix(const System& system) { return system.a.transpose() * system.a; }
 
-bool needs_device(Solver solver) {
-  switch (solver) {
-    case Solver::automatic:
-    case Solver::cholesky:
-    case Solver::sparse_qr:
-    case Solver::dense_qr:
-    case Solver::jor:
-    case Solver::jacobi:
-      return false;
-    case Solver::vcl_qr:
-    case Solver::vcl_lsm:
-    case Solver::cg:
-    case Solver::gauss_seidel:
-      return true;
-  }
-  return false;
-}
-
 bool has_device() {
   const auto all = devices();
   return std::any_of(all.begin(), all.end(), [](const Device& d) { return d.double_precision; });

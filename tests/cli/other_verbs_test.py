@@ -1,6 +1,7 @@
 """curveskel contract, fair, evaluate and devices."""
 
 import json
+import os
 import struct
 import unittest
 
@@ -45,6 +46,27 @@ class Contract(CommandLineTest):
     def test_both_flows(self):
         for flow in ("medial", "paper"):
             self.run_ok("contract", Y, "-o", f"{flow}.ply", "--flow", flow, cwd=self.folder)
+
+
+    def test_jacobi_says_that_it_diverges(self):
+        self.refused(5, "contract", Y, "-o", "x.ply", "--flow", "paper", "--solver", "jacobi",
+                     says=["diverges", "spectral radius", "cholesky"], cwd=self.folder)
+
+    def test_solvers_on_a_device_work_or_say_what_is_missing(self):
+        for solver in ("vcl-lsm", "cg", "gauss-seidel"):
+            result = run("contract", Y, "-o", "x.ply", "--solver", solver, "--iterations", "1",
+                         cwd=self.folder)
+            if result.code != 0:
+                self.assertEqual(result.code, 4)
+                self.assertIn("use the solver cholesky", result.err)
+
+    def test_without_a_driver_what_needs_one_is_refused(self):
+        environment = dict(os.environ, OCL_ICD_VENDORS="/nonexistent")
+        for arguments in (("contract", Y, "-o", "x.ply", "--solver", "gauss-seidel"),
+                          ("contract", Y, "-o", "x.ply", "--solver", "vcl-qr"),
+                          ("fair", Y, "-o", "x.ply", "--method", "opencl")):
+            self.refused(4, *arguments, says=["no", "device", "found", "pocl-opencl-icd"],
+                         cwd=self.folder, env=environment)
 
 
 class Fair(CommandLineTest):
@@ -145,6 +167,7 @@ class Devices(CommandLineTest):
         if result.code == 0:
             self.assertIn("double precision", result.out.decode())
             self.assertRegex(result.out.decode(), "fair, single +opencl, opencl-transfer")
+            self.assertRegex(result.out.decode(), "solvers +(vcl-qr, vcl-lsm, cg|none)")
         else:
             self.assertEqual(result.code, 4)
             self.assertIn("install", result.err)
