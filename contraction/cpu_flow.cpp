@@ -18,7 +18,7 @@ class CpuFlow final : public LocalFlow {
         now_(surface.positions) {}
 
   void advance(int iterations, const Monitor& monitor) override {
-    constexpr std::size_t vertices_per_report = 1024;
+    constexpr std::size_t vertices_per_report = 64;
     for (int iteration = 0; iteration < iterations; ++iteration) {
       next_ = now_;
       for (std::size_t v = 0; v < rings_.vertices(); ++v) {

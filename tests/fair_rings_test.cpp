@@ -122,7 +122,7 @@ TEST(FairRings, OneRingByQrIsTheClosedForm) {
 TEST(FairRings, DeviceAgreesWithTheReferenceAfterTenIterations) {
   SKIP_WITHOUT_DEVICE();
   const std::vector<Shape> all = noisy_and_clean_shapes();
-  for (std::size_t i = 1; i < all.size(); i += 2) {  // half of them, as K = 3 takes its time
+  for (const std::size_t i : {1U, 3U, 5U}) {  // a few, as the reference takes its time at K = 3
     const Shape& shape = all[i];
     for (const int rings : {1, 2, 3}) {
       const Surface reference = fair(shape.surface, with_rings(FairMethod::host, rings, 10), {});
