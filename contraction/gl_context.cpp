@@ -52,6 +52,8 @@ Function* procedure(GetProcAddress* get, const char* name) {
   return reinterpret_cast<Function*>(get(name));
 }
 
+}  // namespace
+
 struct Egl {
   void* library = egl_library();
   GetProcAddress* get = function_in<GetProcAddress>(library, "eglGetProcAddress");
@@ -77,8 +79,6 @@ struct Egl {
     return function_in<void*(void*)>(library, "eglGetDisplay")(nullptr);
   }
 };
-
-}  // namespace
 
 struct GlContext::State {
   Egl egl;
