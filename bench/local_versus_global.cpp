@@ -56,25 +56,24 @@ Series global_series(const Surface& surface) {
   return series;
 }
 
-// The plot's area in the picture; the ratio on a logarithmic axis that ends at 10^-decades.
+// The plot's area in the picture.
 constexpr double left = 70;
 constexpr double top = 20;
 constexpr double width = 520;
 constexpr double height = 300;
-constexpr double decades = 4;
 
 double x_of(std::size_t iteration, std::size_t iterations) {
   return left + width * static_cast<double>(iteration) / static_cast<double>(iterations);
 }
-double y_of(double ratio) { return top - height * std::log10(ratio) / decades; }
+double y_of(double ratio) { return top + height * (1 - ratio); }
 
 std::string axes(std::size_t iterations) {
   std::string svg;
-  for (int decade = 0; decade <= static_cast<int>(decades); ++decade) {
-    const double y = y_of(std::pow(10, -decade));
+  for (int fifth = 0; fifth <= 5; ++fifth) {
+    const double y = y_of(fifth / 5.0);
     svg += fmt::format("<path class=\"grid\" d=\"M{:.0f} {:.0f}h520\"/>", left, y) +
            fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"end\">", left - 8, y + 4) +
-           fmt::format("{:.4g}</text>\n", std::pow(10, -decade));
+           fmt::format("{:.1f}</text>\n", fifth / 5.0);
   }
   for (std::size_t i = 0; i <= iterations; i += 5) {
     svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">",
@@ -90,19 +89,15 @@ std::string axes(std::size_t iterations) {
 }
 
 std::string curve(const Series& series, std::size_t iterations) {
-  const double least = std::pow(10, -decades);
+  const std::size_t last = std::min(series.volume_ratios.size() - 1, iterations);
   std::string path;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < series.volume_ratios.size() && i <= iterations; ++i) {
-    path += (i == 0 ? 'M' : 'L') + fmt::format("{:.1f} {:.1f}", x_of(i, iterations),
-                                               y_of(std::max(series.volume_ratios[i], least)));
-    last = i;
-    if (series.volume_ratios[i] < least) break;
+  for (std::size_t i = 0; i <= last; ++i) {
+    path += (i == 0 ? 'M' : 'L') +
+            fmt::format("{:.1f} {:.1f}", x_of(i, iterations), y_of(series.volume_ratios[i]));
   }
-  const double end = std::max(series.volume_ratios[last], least);
+  const double end = std::min(y_of(series.volume_ratios[last]), top + height - 10);
   return "<path stroke=\"" + series.colour + "\" d=\"" + path + "\"/>\n" +
-         fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" ", x_of(last, iterations) + 6,
-                     y_of(end) + 4) +
+         fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" ", x_of(last, iterations) + 6, end + 4) +
          "fill=\"" + series.colour + "\">" + series.name + "</text>\n";
 }
 
