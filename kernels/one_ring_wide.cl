@@ -113,17 +113,16 @@ static void move(__global const float4* now, __global const float4* own, __globa
     const int16 padding = vload16(i, at) == vload16(i + 1, at);
     const vectors there = i + 1 < last ? minus(gather(now, at + 16 * (i + 1)), centre) : end;
     const corners after = cotangents(here, there, half_smoothing);
-    right = times(following, right);
-    right.re += after.second + before.first;
-    held = times(following, held);
-    held.im += 1;
+    const complex fresh_right = {after.second + before.first, 0}, fresh_held = {0, 1};
+    right = add_times(fresh_right, following, right);
+    held = add_times(fresh_held, following, held);
     float16 to_next = after.centre;
     if (i + 1 == last) {
       to_last.re += to_next;
       to_next = 0;
     }
-    const complex pivot = {to_next + to_last.re + right.re + held.re,
-                           to_last.im + right.im + held.im};
+    const complex pivot = {(to_next + to_last.re) + (right.re + held.re),
+                           to_last.im + (right.im + held.im)};
     const float16 scale = select(1 / (pivot.re * pivot.re + pivot.im * pivot.im),
                                  (float16)0, padding);
     const complex inverse = {scale * pivot.re, -scale * pivot.im};
