@@ -18,7 +18,7 @@ namespace {
 using StoredPosition = std::array<float, 4>;
 
 constexpr std::size_t places_per_range = 16384;
-constexpr std::size_t slices_per_item = 8;
+constexpr std::size_t slices_per_item = 2;
 
 class WideFlow final : public LocalFlow {
  public:

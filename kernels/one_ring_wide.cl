@@ -5,7 +5,7 @@
 // that large weights cancel nowhere.
 //
 // LARGEST_RING     the longest ring of a slice
-// SLICES_PER_ITEM  taken in turn by a work-item, so that they share its private memory
+// SLICES_PER_ITEM  taken in turn by a work-item
 
 typedef struct {
   float16 re, im;
@@ -42,23 +42,26 @@ static vectors minus(vectors a, vectors b) {
 // The halves of a and b, alternating, within each quarter of the registers: elements of 4 bytes and
 // of 8.
 static float16 low(float16 a, float16 b) {
-  return (float16)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd);
+  return (float16)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc,
+                   b.sc, a.sd, b.sd);
 }
 static float16 high(float16 a, float16 b) {
-  return (float16)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se, b.se, a.sf, b.sf);
+  return (float16)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se,
+                   b.se, a.sf, b.sf);
 }
 static float16 low_pairs(float16 a, float16 b) {
-  return (float16)(a.s0, a.s1, b.s0, b.s1, a.s4, a.s5, b.s4, b.s5, a.s8, a.s9, b.s8, b.s9, a.sc, a.sd, b.sc, b.sd);
+  return (float16)(a.s0, a.s1, b.s0, b.s1, a.s4, a.s5, b.s4, b.s5, a.s8, a.s9, b.s8, b.s9, a.sc,
+                   a.sd, b.sc, b.sd);
 }
 static float16 high_pairs(float16 a, float16 b) {
-  return (float16)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se, a.sf, b.se, b.sf);
+  return (float16)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se,
+                   a.sf, b.se, b.sf);
 }
 
 // Positions 4 q .. 4 q + 3 in quarter q of a .. d, to the coordinates of position i in lane i.
 static vectors transposed(float16 a, float16 b, float16 c, float16 d) {
   const float16 ab = low(a, b), cd = low(c, d);
-  const vectors result = {low_pairs(ab, cd), high_pairs(ab, cd),
-                          low_pairs(high(a, b), high(c, d))};
+  const vectors result = {low_pairs(ab, cd), high_pairs(ab, cd), low_pairs(high(a, b), high(c, d))};
   return result;
 }
 
@@ -74,10 +77,22 @@ static void scatter(float16 x, float16 y, float16 z, __global float4* to) {
   const float16 xy_high = high(x, y), z_high = high(z, (float16)0);
   const float16 a = low_pairs(xy_low, z_low), b = high_pairs(xy_low, z_low);
   const float16 c = low_pairs(xy_high, z_high), d = high_pairs(xy_high, z_high);
-  to[0] = a.s0123; to[1] = b.s0123; to[2] = c.s0123; to[3] = d.s0123;
-  to[4] = a.s4567; to[5] = b.s4567; to[6] = c.s4567; to[7] = d.s4567;
-  to[8] = a.s89ab; to[9] = b.s89ab; to[10] = c.s89ab; to[11] = d.s89ab;
-  to[12] = a.scdef; to[13] = b.scdef; to[14] = c.scdef; to[15] = d.scdef;
+  to[0] = a.s0123;
+  to[1] = b.s0123;
+  to[2] = c.s0123;
+  to[3] = d.s0123;
+  to[4] = a.s4567;
+  to[5] = b.s4567;
+  to[6] = c.s4567;
+  to[7] = d.s4567;
+  to[8] = a.s89ab;
+  to[9] = b.s89ab;
+  to[10] = c.s89ab;
+  to[11] = d.s89ab;
+  to[12] = a.scdef;
+  to[13] = b.scdef;
+  to[14] = c.scdef;
+  to[15] = d.scdef;
 }
 
 // Half the smoothing times the cotangents of the faces (centre, first, second) at their corners, in
@@ -123,8 +138,8 @@ static void move(__global const float4* now, __global const float4* own, __globa
     }
     const complex pivot = {(to_next + to_last.re) + (right.re + held.re),
                            to_last.im + (right.im + held.im)};
-    const float16 scale = select(1 / (pivot.re * pivot.re + pivot.im * pivot.im),
-                                 (float16)0, padding);
+    const float16 scale =
+        select(1 / (pivot.re * pivot.re + pivot.im * pivot.im), (float16)0, padding);
     const complex inverse = {scale * pivot.re, -scale * pivot.im};
     following.re = to_next * inverse.re;
     following.im = to_next * inverse.im;
@@ -153,8 +168,8 @@ static void move(__global const float4* now, __global const float4* own, __globa
   vectors re = {weight.re * end.x, weight.re * end.y, weight.re * end.z};
   vectors im = {weight.im * end.x, weight.im * end.y, weight.im * end.z};
   for (int i = last - 1; i >= 0; --i) {
-    weight = add_times(add_times(rows[i].right, rows[i].last, last_weight), rows[i].following,
-                       weight);
+    weight =
+        add_times(add_times(rows[i].right, rows[i].last, last_weight), rows[i].following, weight);
     const vectors position = rows[i].position;
     re.x += weight.re * position.x;
     re.y += weight.re * position.y;
@@ -163,8 +178,7 @@ static void move(__global const float4* now, __global const float4* own, __globa
     im.y += weight.im * position.y;
     im.z += weight.im * position.z;
   }
-  const float16 over =
-      1 / (centre_held.re * centre_held.re + centre_held.im * centre_held.im);
+  const float16 over = 1 / (centre_held.re * centre_held.re + centre_held.im * centre_held.im);
   const float16 of_re = over * centre_held.im;
   const float16 of_im = -over * centre_held.re;
   const float16 x = centre.x + (of_re * re.x + of_im * im.x);
