@@ -81,7 +81,7 @@ Surface normalised(Surface surface) {
   return surface;
 }
 
-/// Level sets, whose valences are 4 to 10, with vertices in random order.
+/// Level sets, whose valences are 4 to 8, with vertices in random order.
 std::vector<NamedSurface> generated() {
   std::vector<NamedSurface> surfaces;
   const auto add = [&](double spacing, int subdivisions) {

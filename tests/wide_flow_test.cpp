@@ -34,7 +34,7 @@ std::vector<Shape> families() {
           torus,
           opened(shapes::noisy(torus, 0.01, 9), 7),
           shapes::linked_rings(2, 0.4, 10),
-          shapes::tube_union("Y", shapes::star(3, 4, 0.5)),  // valences 4 to 10
+          shapes::tube_union("Y", shapes::star(3, 4, 0.5)),  // valences 4 to 8
           shapes::cone(1, 2, 20),
           shapes::cone(1, 2, 40)};
 }
