@@ -313,12 +313,13 @@ TEST(Cholesky, RefusesAMatrixThatIsNotDefinite) {
       "not positive definite");
 }
 
-TEST(DenseQr, RefusesWhatDoesNotFitBeforeItAllocates) {
+TEST(DenseSolvers, RefuseWhatDoesNotFitBeforeTheyAllocate) {
   SparseMatrix huge(400000, 400000);  // 1.3 TB
   huge.setIdentity();
-  expect_solver_error(
-      [&] { (void)LeastSquares(Solver::dense_qr).solve(huge, Positions::Ones(400000, 3)); },
-      "use at most");
+  for (const Solver solver : {Solver::dense_qr, Solver::vcl_qr, Solver::vcl_lsm}) {
+    expect_solver_error([&] { (void)LeastSquares(solver).solve(huge, Positions::Ones(400000, 3)); },
+                        "use at most");
+  }
 }
 
 TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {
