@@ -5,8 +5,8 @@
 #include "app/command_line.hpp"
 #include "app/verbs.hpp"
 #include "contraction/device.hpp"
-#include "contraction/least_squares.hpp"
 #include "contraction/fair.hpp"
+#include "contraction/least_squares.hpp"
 
 namespace curveskel {
 namespace {
