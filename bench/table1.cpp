@@ -60,7 +60,10 @@ Cell run_global(Solver solver, const Surface& surface) {
   Cell cell;
   const double start = seconds_now();
   PaperFlow flow(surface, paper_weight);
-  LeastSquares least_squares(solver);
+  SolverOptions options;
+  options.solver = solver;
+  options.most_iterations = 20000;  // of the iterative ones: minutes, not hours
+  LeastSquares least_squares(options);
   const double prepared = seconds_now();
   for (int k = 0; k < global_iterations; ++k) {
     const auto system = flow.system();

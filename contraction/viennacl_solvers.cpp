@@ -1,5 +1,6 @@
 // The paper's methods 2 and 3, and conjugate gradients, on the OpenCL device through ViennaCL.
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -163,6 +164,8 @@ class ConjugateGradients final : public LeastSquaresBackend {
     const vcl::SparseRows rows = rows_of(system.h);
     const vcl::SparseRows root_rows = root.cols() > 0 ? rows_of(root) : vcl::SparseRows{};
     const auto stop = [&] { return monitor.stop.stop_requested(); };
+    // As small a residual as rounding H X allows.
+    const auto rounding = [&] { return 1e-14 * system.h.norm() * solution.x.norm() / size; };
     // What the recurrence believes and what the host finds part ways: some rounds of refinement.
     constexpr int most_rounds = 5;
     double before = std::numeric_limits<double>::infinity();
@@ -186,7 +189,7 @@ class ConjugateGradients final : public LeastSquaresBackend {
     }
     const Positions rest = system.r - system.h * solution.x;
     const double residual = rest.norm() / size;
-    if (residual <= options_.tolerance) return solution;
+    if (residual <= std::max(options_.tolerance, rounding())) return solution;
     throw Error(Fault::solver, "cg: residual " + rounded_number(residual) + " after " +
                                    std::to_string(solution.iterations) +
                                    " iterations and no better any more, " +
