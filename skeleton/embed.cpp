@@ -173,6 +173,7 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
     thin_out(network, tree);
     relax(network, tree, smoothing, threads);
     straighten_at_junctions(network, tree, options.straight_at_last, true);
+    lengthen_short_leaves(network, tree);
   } while (prune_spurs(network, tree, 1));
   monitor.report("embed", 0.9);
 
