@@ -130,6 +130,7 @@ void keep_simple(Network& network) {
   }
 }
 
+/// Within the coarsened surface, whose tree is quick to ask: all that takes many rays.
 Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
                 const VertexGraph& graph, const EmbedOptions& options, int threads,
                 const Monitor& monitor) {
@@ -160,6 +161,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
   return network;
 }
 
+/// Within the surface that counts: what must hold there, and the last smoothing.
 CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
                      const InscribedBalls& balls, const VertexGraph& graph,
                      const EmbedOptions& options, int threads, const Monitor& monitor) {

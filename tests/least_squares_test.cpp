@@ -161,13 +161,18 @@ void expect_solver_error(const Solve& solve, const std::string& said) {
   }
 }
 
-TEST_P(EverySolver, RefusesAMatrixWithoutFullRank) {
+SparseMatrix without_full_rank() {
   SparseMatrix a(6, 3);
   for (int i = 0; i < 6; ++i) {
     a.insert(i, 0) = 1 + i;
     a.insert(i, 1) = 1;
   }  // the third column is empty
   a.makeCompressed();
+  return a;
+}
+
+TEST_P(EverySolver, RefusesAMatrixWithoutFullRank) {
+  const SparseMatrix a = without_full_rank();
   LeastSquares solver(GetParam());
   expect_solver_error([&] { (void)solver.solve(a, Positions::Ones(6, 3)); }, "3");
   // The solver is still of use afterwards.
@@ -248,12 +253,7 @@ TEST_P(EveryIteration, GivesUpAtItsLimitAndStopsWhenAsked) {
 }
 
 TEST_P(EveryIteration, RefusesAMatrixWithoutFullRank) {
-  SparseMatrix a(6, 3);
-  for (int i = 0; i < 6; ++i) {
-    a.insert(i, 0) = 1 + i;
-    a.insert(i, 1) = 1;
-  }  // the third column is empty
-  a.makeCompressed();
+  const SparseMatrix a = without_full_rank();
   expect_solver_error([&] { (void)LeastSquares(GetParam()).solve(a, Positions::Ones(6, 3)); },
                       "not positive definite");
 }
