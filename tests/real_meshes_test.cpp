@@ -185,6 +185,14 @@ std::string identifier(const testing::TestParamInfo<std::string>& entry) {
 }
 INSTANTIATE_TEST_SUITE_P(Shared, RealMesh, testing::ValuesIn(listed_meshes()), identifier);
 
+// A short leaf is no spur as long as it can be prolonged: a thumb was lost that way.
+TEST(RealMeshes, TheArmadilloKeepsEveryFinger) {
+  const auto file = meshes / "armadillo-43k.ply";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const Surface surface = clean(read_polygons(file, {}), {}).surface;
+  EXPECT_GE(extract(surface, {}, {}).certificate.tips, 18);
+}
+
 TEST(RealMeshes, AreThere) {
   if (!std::filesystem::exists(meshes / "INDEX.csv"))
     GTEST_SKIP() << "no shared meshes at " << meshes << ": nothing of the real kind was tested";
