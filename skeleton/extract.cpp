@@ -238,7 +238,7 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
   // way through.
   ExtractOptions gentler = options;
   gentler.fairing = true;
-  gentler.fair.iterations = 10;
+  gentler.fair.iterations = 30;
   std::optional<Extraction> faired;
   try {
     faired = extract_once(surface, gentler, monitor);
@@ -247,8 +247,9 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
   }
   if (faired->certificate.inside_fraction <= result.certificate.inside_fraction) return result;
   faired->times.insert(faired->times.begin(), result.times.begin(), result.times.end());
-  monitor.say("the curve left the surface, so it was extracted again from the faired surface (10 "
-              "iterations)");
+  monitor.say(
+      "the curve left the surface, so it was extracted again from the faired surface (30 "
+      "iterations)");
   faired->faired_again = true;
   return std::move(*faired);
 }

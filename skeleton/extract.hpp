@@ -25,8 +25,8 @@ struct ExtractOptions {
   /// the curve goes on to it, see `reach_openings`.
   std::vector<std::vector<std::int32_t>> openings;
   FairOptions fair;
-  /// If the certificate finds too much outside: extract once more with ten iterations of fairing,
-  /// and keep the better one.
+  /// If the certificate finds too much outside: extract once more with thirty iterations of
+  /// fairing, and keep the better one.
   bool fair_if_outside = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;
