@@ -95,6 +95,9 @@ struct TubeUnionOptions {
 /// most 4; radius between `radius` and 1.5 `radius`.
 [[nodiscard]] CurveSkeleton random_graph(std::uint64_t seed, int nodes, int loops, double radius);
 
+/// The tubes round a random graph of 9 to 13 nodes and 0 to 3 loops; "random-seed-N".
+[[nodiscard]] Shape random_tubes(int seed);
+
 // ---- Changes that must not matter, or little ----------------------------------------------------
 
 [[nodiscard]] Shape scaled(Shape shape, double factor);

@@ -157,6 +157,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
+  merge_junctions(network, tree, options.merge);  // centred, they may have come together
   centring.rounds = options.relax_rounds;
   relax(network, tree, centring, threads);
   monitor.report("embed", 0.6);
