@@ -20,9 +20,12 @@ namespace {
 
 /// A component's share of the working vertices. So that no number of components makes the work grow
 /// faster than the surface, what each is sure of falls where there are many of them.
-WorkingSize working_size(const ExtractOptions& options, int vertices, const Topology& whole) {
+/// What it may have grows with its handles: with fewer each, surgery finds no way to cut them.
+WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
+                         const Topology& whole) {
   constexpr int sure_in_all = 200000;
   constexpr int fewest = 200;  // few enough for any number, enough for the simplest of shapes
+  constexpr int per_handle = 32;
   WorkingSize size;
   size.least =
       std::min(options.least_resolution, std::max(fewest, sure_in_all / whole.components()));
@@ -30,7 +33,7 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, const Topo
   if (options.resolution <= 0) return size;
   const auto all = static_cast<double>(whole.component_of_vertex.size());
   const double share = double(options.resolution) * double(vertices) / all;
-  size.most = std::max(size.least, static_cast<int>(std::lround(share)));
+  size.most = std::max({size.least, static_cast<int>(std::lround(share)), per_handle * genus});
   return size;
 }
 
@@ -43,7 +46,7 @@ std::vector<Contribution> contributions_of(const std::vector<Component>& parts,
   std::vector<Contribution> all(parts.size());
   std::vector<std::size_t> side_by_side;
   const auto size_of = [&](std::size_t c) {
-    return working_size(options, counted.vertices[c], counted);
+    return working_size(options, counted.vertices[c], counted.genus[c], counted);
   };
   const bool on_host = options.contraction.solver == Solver::automatic ||
                        options.contraction.solver == Solver::cholesky;

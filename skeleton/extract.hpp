@@ -16,7 +16,8 @@
 namespace curveskel {
 
 struct ExtractOptions {
-  int resolution = 8000;  ///< working vertices for the whole surface; 0 = all that there are
+  /// Working vertices for the whole surface, but 32 for each handle of a component; 0 = all.
+  int resolution = 8000;
   /// Working vertices for each component; fewer are refined. Of more than 133 components each is
   /// sure of fewer, 200,000 over their number, but never of fewer than 200.
   int least_resolution = 1500;

@@ -237,6 +237,10 @@ TEST(TopologyLaw, ManyAndThinHandles) {
   expect_law(lattice(2));
   expect_law(lattice(3));
   expect_law(ball_with_thin_handles());
+  // Its handles need more than the 8,000 working vertices that are usual.
+  const Extraction found = expect_law(shapes::subdivided(shapes::sieve(20)));
+  EXPECT_GE(found.components.front().working_vertices, 32 * 400);
+  EXPECT_FALSE(found.components.front().bands);
 }
 
 TEST(TopologyLaw, NestedShells) {
