@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "skeleton/raw_graph.hpp"
+#include "surface/json_depth.hpp"
 
 namespace curveskel {
 namespace {
@@ -16,6 +17,11 @@ using nlohmann::json;
 class JsonGraph {
  public:
   explicit JsonGraph(const FileBytes& file) : file_(file) {
+    const int depth = json_depth(file.content);
+    if (depth > deepest_json) {  // dump(), for messages, recurses
+      fail("arrays and objects nested " + std::to_string(depth) + " deep",
+           "at most " + std::to_string(deepest_json));
+    }
     try {
       root_ = json::parse(file.content);
     } catch (const json::parse_error& error) {
