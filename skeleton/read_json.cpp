@@ -24,10 +24,12 @@ class JsonGraph {
     }
     try {
       root_ = json::parse(file.content);
-    } catch (const json::parse_error& error) {
-      const std::string_view what =
-          error.what();  // "[json...] parse error at line 3, column 7: ..."
-      file.fail(what.substr(std::min(what.find("at line"), what.size())), "JSON",
+    } catch (const json::exception& error) {
+      // "[json...] parse error at line 3, column 7: ...", or of a number that no double holds
+      // "[json...] number overflow parsing ..."
+      const std::string_view what = error.what();
+      const std::size_t words = std::min(what.find("at line"), what.find("number overflow"));
+      file.fail(what.substr(std::min(words, what.size())), "JSON",
                 "correct it or export the file again");
     }
   }

@@ -306,6 +306,7 @@ TEST(BadSkeletonFiles, AreNamedWithTheLineTheValueAndTheNeed) {
       {"a.json", "{\"nodes\": [[0, 0, 0]],\n \"edges\": [[0, 1]]}", {"edge 0", "0 to 0"}},
       {"a.json", "{\"nodes\": [[0, 0]], \"edges\": []}", {"[0,0]", "node 0", "[x, y, z]"}},
       {"a.json", "{\"nodes\": [\n}", {"line 2", "JSON"}},
+      {"a.json", R"({"nodes": [[0,0,1e999]], "edges": []})", {"number overflow", "1e999"}},
       {"a.json", R"({"nodes": [[0,0,0]], "edges": [], "radii": [1, 2]})", {"2 radii", "(1)"}},
       {"a.vtp", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>", {"line 1", "UnstructuredGrid"}},
       {"a.vtp", "<VTKFile type=\"PolyData\">\n<PolyData></Poly>", {"line 2", "</Poly>"}},
