@@ -1,8 +1,8 @@
 // The whole library in one include: a triangle surface in, its curve skeleton out.
 //
 //   using namespace curveskel;
-//   const CleanSurface clean_surface = clean(read_polygons("model.obj", {}), {});
-//   const Extraction extraction = extract(clean_surface.surface, ExtractOptions{}, Monitor{});
+//   const RepairedSurface repaired = repair(read_polygons("model.obj", {}), {}, {});
+//   const Extraction extraction = extract(repaired.surface, ExtractOptions{}, Monitor{});
 //   extraction.skeleton.nodes;   // #N by 3
 #pragma once
 
@@ -23,6 +23,7 @@
 #include "surface/monitor.hpp"
 #include "surface/names.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 #include "surface/surface.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "surface/names.hpp"
+#include "surface/repair.hpp"
 
 namespace curveskel {
 
@@ -53,5 +54,11 @@ CLI::Option* add_number(CLI::App& parser, const std::string& flag, Number& value
       ->capture_default_str()
       ->check(CLI::Validator(within, ""));
 }
+
+/// --components and --min-size.
+void add_repair(CLI::App& parser, RepairOptions& options);
+
+/// --time-limit, in seconds; 0 = none.
+void add_time_limit(CLI::App& parser, double& seconds);
 
 }  // namespace curveskel

@@ -46,6 +46,13 @@ int run(const Verb& verb, Terminal& terminal) {
     terminal.error(error.what());
     return ExitCode::usage;
   } catch (const Cancelled&) {
+    if (interruption.reached_limit() > 0) {
+      terminal.error(
+          fmt::format("the time limit of {:g} s was reached, nothing was written; allow "
+                      "more, or a coarser --resolution",
+                      interruption.reached_limit()));
+      return ExitCode::solver;
+    }
     terminal.error("interrupted");
     return interruption.exit_code();
   } catch (const std::bad_alloc&) {

@@ -15,9 +15,9 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "contraction/contract.hpp"
-#include "surface/clean.hpp"
 #include "surface/inscribed_balls.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
 #include "surface/write_surface.hpp"
@@ -33,6 +33,8 @@ struct ContractArguments {
   fs::path frames;
   bool quiet = false;
   int threads = 0;
+  double time_limit_seconds = 0;
+  RepairOptions repair;
   ContractionOptions options;
 };
 
@@ -89,13 +91,14 @@ int run_contract(const ContractArguments& arguments, Session& session) {
   check_outputs({arguments.output}, arguments.mesh);
   if (!arguments.frames.empty()) make_folder(arguments.frames);
 
+  session.interruption.limit(arguments.time_limit_seconds);
   Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
-  const CleanSurface cleaned = clean(soup, monitor);
-  Positions contracted(cleaned.surface.positions.rows(), 3);
+  const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  Positions contracted(repaired.surface.positions.rows(), 3);
   std::vector<Frames> frames;
   std::string text;
-  const auto components = split_components(cleaned.surface, topology(cleaned.surface));
+  const auto components = split_components(repaired.surface, topology(repaired.surface));
   for (const auto& [surface, vertex_in_whole] : components) {
     frames.emplace_back();
     if (!arguments.frames.empty()) {
@@ -113,10 +116,10 @@ int run_contract(const ContractArguments& arguments, Session& session) {
     text += outcome(result, static_cast<int>(frames.size()) - 1);
   }
 
-  // The file's own vertices and faces, so that the two line up; what `clean` dropped stays put.
+  // The file's own vertices and faces, so that the two line up; what `repair` dropped stays put.
   Surface written{soup.positions, triangulate(soup)};
   for (Eigen::Index v = 0; v < written.positions.rows(); ++v) {
-    const int vertex = cleaned.vertex_of_input[v];
+    const int vertex = repaired.vertex_of_input[v];
     if (vertex >= 0) written.positions.row(v) = contracted.row(vertex);
   }
   const std::string provenance =
@@ -158,6 +161,8 @@ Verb add_contract(CLI::App& program) {
       ->type_name("DIR");
   add_number(*parser, "--threads", arguments->threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers));
   return {parser, [arguments](Session& session) { return run_contract(*arguments, session); }};

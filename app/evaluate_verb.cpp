@@ -13,8 +13,9 @@
 #include "app/verbs.hpp"
 #include "skeleton/certificate.hpp"
 #include "skeleton/skeleton_files.hpp"
-#include "surface/clean.hpp"
+#include "surface/measures.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 
 namespace curveskel {
 namespace {
@@ -22,8 +23,12 @@ namespace {
 struct EvaluateArguments {
   std::filesystem::path mesh;
   std::filesystem::path skeleton;
+  std::filesystem::path against;
   std::string json;
   bool quiet = false;
+  bool strict = false;
+  double time_limit_seconds = 0;
+  RepairOptions repair;
   CertificateOptions options;
 };
 
@@ -35,22 +40,45 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   }
   if (arguments.json == "-") session.terminal.keep_output_clean();
 
+  session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();
   const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
-  const CleanSurface cleaned = clean(read_polygons(arguments.mesh, monitor), monitor);
-  const Certificate certificate = evaluate(cleaned.surface, skeleton, arguments.options, monitor);
+  const Surface surface = repair(read_polygons(arguments.mesh, monitor), arguments.repair, monitor,
+                                 arguments.options.threads)
+                              .surface;
+  Evaluation evaluation;
+  evaluation.options = arguments.options;
+  evaluation.certificate = evaluate(surface, skeleton, arguments.options, monitor);
+  const Certificate& certificate = evaluation.certificate;
+  if (!arguments.against.empty()) {
+    const double diagonal = bounding_box_diagonal(surface.positions);
+    evaluation.against = arguments.against.filename().string();
+    evaluation.hausdorff_distance =
+        hausdorff_distance(skeleton, read_skeleton(arguments.against),
+                           arguments.options.sample_spacing * diagonal) /
+        diagonal;
+  }
 
   session.terminal.end_progress();
   if (!arguments.json.empty()) {
-    write_outputs({{arguments.json, evaluation_json(arguments.mesh.filename().string(),
-                                                    arguments.skeleton.filename().string(),
-                                                    certificate, arguments.options)}},
-                  session);
+    write_outputs(
+        {{arguments.json, evaluation_json(arguments.mesh.filename().string(),
+                                          arguments.skeleton.filename().string(), evaluation)}},
+        session);
   }
   if (!arguments.quiet) {
-    session.terminal.result(certificate_table(certificate, arguments.options));
+    std::string text = certificate_table(certificate, arguments.options);
+    if (!evaluation.against.empty()) {
+      text += fmt::format("  distance         {:>10.4f} D, Hausdorff, to {}\n",
+                          evaluation.hausdorff_distance, evaluation.against);
+    }
+    session.terminal.result(text);
   }
-  return ExitCode::done;
+  if (!arguments.strict || (certificate.topology_correct() && certificate.inside_enough)) {
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failures(certificate, arguments.options));
+  return ExitCode::solver;
 }
 
 }  // namespace
@@ -69,6 +97,14 @@ Verb add_evaluate(CLI::App& program) {
       ->type_name("");
   parser->add_option("--json", arguments->json, "the certificate as JSON; - is standard output")
       ->type_name("FILE");
+  parser
+      ->add_option("--against", arguments->against,
+                   "another skeleton file: the Hausdorff distance to it")
+      ->type_name("SKELETON");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("--strict", arguments->strict,
+                   "a failed certificate (topology or inside) is an error, exit 5");
   add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -14,8 +14,8 @@
 #include "app/verbs.hpp"
 #include "skeleton/extract.hpp"
 #include "skeleton/skeleton_files.hpp"
-#include "surface/clean.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 
 namespace curveskel {
 namespace {
@@ -28,7 +28,10 @@ struct ExtractArguments {
   std::optional<SkeletonFormat> format;
   std::string report;
   bool quiet = false;
+  bool strict = false;
+  double time_limit_seconds = 0;
   int fair_iterations = 0;
+  RepairOptions repair;
   ExtractOptions options;
 };
 
@@ -41,9 +44,10 @@ auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
   return result;
 }
 
-/// From vertices of the clean surface to those of the file.
-Eigen::VectorXi node_of_file_vertex(const CleanSurface& cleaned, const CurveSkeleton& skeleton) {
-  return cleaned.vertex_of_input.unaryExpr(
+/// From vertices of the repaired surface to those of the file.
+Eigen::VectorXi node_of_file_vertex(const RepairedSurface& repaired,
+                                    const CurveSkeleton& skeleton) {
+  return repaired.vertex_of_input.unaryExpr(
       [&](int vertex) { return vertex < 0 ? -1 : skeleton.node_of_vertex[vertex]; });
 }
 
@@ -52,15 +56,18 @@ std::string count_of(Eigen::Index count, const std::string& one, const std::stri
 }
 
 std::string summary(const ExtractArguments& arguments, const ExtractionRecord& record) {
-  const auto& [skeleton, components, certificate, times] = record.extraction;
-  const Surface& surface = record.cleaned.surface;
+  const CurveSkeleton& skeleton = record.extraction.skeleton;
+  const Certificate& certificate = record.extraction.certificate;
+  const Surface& surface = record.repaired.surface;
   std::string text =
       fmt::format("{}: {}, {}; {}, genus {}\n", arguments.mesh.filename().string(),
                   count_of(surface.positions.rows(), "vertex", "vertices"),
                   count_of(surface.triangles.rows(), "triangle"),
                   count_of(certificate.components_of_surface, "component"), certificate.genus);
-  for (const std::string& line : record.cleaned.changes.lines)
+  for (const std::string& line : record.repaired.changes.lines)
     text += fmt::format("  changed: {}\n", line);
+  for (const std::string& line : record.repaired.repairs.lines)
+    text += fmt::format("  repaired: {}\n", line);
   for (const std::string& line : record.notes) text += fmt::format("  {}\n", line);
   text += fmt::format("skeleton: {}, {}\n", count_of(skeleton.nodes.rows(), "node"),
                       count_of(skeleton.edges.rows(), "edge"));
@@ -83,7 +90,7 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
                                        const ExtractionRecord& record,
                                        const CurveSkeleton& skeleton, Session& session) {
   SkeletonContext context;
-  context.surface = &record.cleaned.surface;
+  context.surface = &record.repaired.surface;
   context.provenance = program_and_version() + ", " + arguments.mesh.filename().string();
   context.report_json = result_json(record);
   std::vector<OutputFile> files;
@@ -107,21 +114,26 @@ int run_extract(ExtractArguments arguments, Session& session) {
   arguments.options.fair.threads = arguments.options.threads;
   arguments.options.certificate.threads = arguments.options.threads;
 
+  session.interruption.limit(arguments.time_limit_seconds);
+
   std::vector<std::string> notes;
   Monitor monitor = session.monitor();
   monitor.note = nullptr;  // the summary has these
   std::vector<StageTime> times;
   const PolygonSoup soup =
       timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
-  const CleanSurface cleaned =
-      timed(times, "clean", [&] { return clean(soup, monitor, arguments.options.threads); });
+  const RepairedSurface repaired = timed(times, "repair", [&] {
+    return repair(soup, arguments.repair, monitor, arguments.options.threads);
+  });
+  arguments.options.openings = repaired.openings;
   monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
-  const Extraction extraction = extract(cleaned.surface, arguments.options, monitor);
+  const Extraction extraction = extract(repaired.surface, arguments.options, monitor);
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());
 
   CurveSkeleton skeleton = extraction.skeleton;
-  skeleton.node_of_vertex = node_of_file_vertex(cleaned, extraction.skeleton);
-  const ExtractionRecord record{soup, cleaned, arguments.options, extraction, notes};
+  skeleton.node_of_vertex = node_of_file_vertex(repaired, extraction.skeleton);
+  const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
+                                extraction, notes};
   auto files = timed(times, "write",
                      [&] { return format_outputs(arguments, formats, record, skeleton, session); });
   if (!arguments.report.empty()) {
@@ -137,7 +149,8 @@ int run_extract(ExtractArguments arguments, Session& session) {
     session.terminal.result(text + time_line(times));
   }
   const std::string failed = failures(extraction.certificate, arguments.options.certificate);
-  if (extraction.certificate.topology_correct()) {
+  const bool inside_needed = arguments.strict && !extraction.certificate.inside_enough;
+  if (extraction.certificate.topology_correct() && !inside_needed) {
     if (!failed.empty()) session.terminal.warn(failed);
     return ExitCode::done;
   }
@@ -204,6 +217,10 @@ Verb add_extract(CLI::App& program) {
              "iterations of fairing before the contraction, for noisy surfaces");
   add_number(*parser, "--threads", options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("--strict", arguments->strict,
+                   "a skeleton that leaves the surface is an error, too (exit 5), not a warning");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers) +
                  meanings("Formats", skeleton_formats));

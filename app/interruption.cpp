@@ -6,8 +6,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <initializer_list>
 
+#include "app/command_line.hpp"
 #include "surface/error.hpp"
 
 namespace curveskel {
@@ -47,6 +49,7 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
+  timer_ = {};
   watcher_.request_stop();
   sem_post(&arrived);
   watcher_.join();
@@ -70,13 +73,34 @@ void Interruption::watch(const std::stop_token& finished) {
   }
   if (finished.stop_requested()) return;
   stop_.request_stop();
-  std::unique_lock lock(mutex_);
-  ended_.wait_for(lock, finished, 800ms, [] { return false; });
+  end_process_soon(finished, "\ncurveskel: interrupted\n", exit_code());
+}
+
+void Interruption::limit(double seconds) {
+  if (seconds <= 0) return;
+  timer_ = std::jthread([this, seconds](const std::stop_token& finished) {
+    {
+      std::unique_lock lock(mutex_);
+      ended_.wait_for(lock, finished, std::chrono::duration<double>(seconds), [] { return false; });
+    }
+    if (finished.stop_requested()) return;
+    reached_limit_ = seconds;
+    stop_.request_stop();
+    end_process_soon(finished, "\ncurveskel: the time limit was reached\n", ExitCode::solver);
+  });
+}
+
+/// Unless the stage obeys first.
+void Interruption::end_process_soon(const std::stop_token& finished, const char* message,
+                                    int exit_code) {
+  {
+    std::unique_lock lock(mutex_);
+    ended_.wait_for(lock, finished, 800ms, [] { return false; });
+  }
   if (finished.stop_requested()) return;
   [[maybe_unused]] const auto writing = hold();  // NOLINT(clang-analyzer-deadcode.DeadStores)
-  constexpr char message[] = "\ncurveskel: interrupted\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
-  _exit(exit_code());
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  _exit(exit_code);
 }
 
 }  // namespace curveskel

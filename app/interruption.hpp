@@ -1,6 +1,7 @@
 // Ctrl-C and termination: a polite request to the running stage, and a second later the end.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
@@ -21,6 +22,10 @@ class Interruption {
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
   /// 128 + the signal's number, once there was one.
   [[nodiscard]] int exit_code() const;
+  /// From now on at most so many seconds, then it is as if a signal came; 0 = no limit.
+  void limit(double seconds);
+  /// The limit that was reached, in seconds; 0 = none was.
+  [[nodiscard]] double reached_limit() const { return reached_limit_; }
   /// Throws Cancelled if a stop was requested.
   void check() const;
   /// While held, the process does not end halfway through a file.
@@ -28,12 +33,15 @@ class Interruption {
 
  private:
   void watch(const std::stop_token& finished);
+  void end_process_soon(const std::stop_token& finished, const char* message, int exit_code);
 
   std::stop_source stop_;
   std::mutex writing_;
   std::mutex mutex_;
   std::condition_variable_any ended_;
+  std::atomic<double> reached_limit_ = 0;
   std::jthread watcher_;
+  std::jthread timer_;
 };
 
 }  // namespace curveskel

@@ -46,6 +46,33 @@ Json to_json(const Changes& c) {
           {"lines", c.lines}};
 }
 
+Json to_json(const Repairs& r) {
+  return {{"vertices_joined", r.vertices_joined},
+          {"vertices_copied", r.vertices_copied},
+          {"holes_closed", r.holes_closed},
+          {"longest_hole", r.longest_hole},
+          {"faces_added", r.faces_added},
+          {"vertices_added", r.vertices_added},
+          {"copies_dropped", r.copies_dropped},
+          {"crumbs_dropped", r.crumbs_dropped},
+          {"specks_dropped", r.specks_dropped},
+          {"sheets_dropped", r.sheets_dropped},
+          {"not_chosen", r.not_chosen},
+          {"faces_wrapped", r.faces_wrapped},
+          {"wrap_opening", r.wrap_opening},
+          {"wrap_distance", r.wrap_distance},
+          {"wrap_mean_distance", r.wrap_mean_distance},
+          {"lines", r.lines}};
+}
+
+Json to_json(const RepairOptions& o) {
+  return {{"join_distance", o.join_distance},
+          {"least_area", o.least_area},
+          {"components", o.components},
+          {"most_added_area", o.most_added_area},
+          {"least_crumb", o.least_crumb}};
+}
+
 Json to_json(const ContractionOptions& o) {
   return {{"flow", name_of(flows, o.flow)},
           {"solver", name_of(solvers, o.solver)},
@@ -72,6 +99,7 @@ Json to_json(const ExtractOptions& o) {
   return {
       {"resolution", o.resolution},
       {"least_resolution", o.least_resolution},
+      {"fair_if_outside", o.fair_if_outside},
       {"fair", o.fairing ? to_json(o.fair) : Json(nullptr)},
       {"contraction", to_json(o.contraction)},
       {"surgery",
@@ -111,25 +139,29 @@ Json to_json(const ComponentRecord& c, bool with_times) {
 }
 
 Json to_json(const ExtractionRecord& record, bool with_times) {
-  const Surface& surface = record.cleaned.surface;
+  const Surface& surface = record.repaired.surface;
   Json components = Json::array();
   for (const ComponentRecord& component : record.extraction.components) {
     components.push_back(to_json(component, with_times));
   }
+  Json parameters = {{"repair", to_json(record.repair_options)}};
+  parameters.update(to_json(record.options));
   return {{"program", program_and_version()},
           {"input",
            {{"file", record.soup.file.filename().string()},
             {"format", name_of(surface_formats, record.soup.format)},
             {"vertices", record.soup.positions.rows()},
             {"polygons", record.soup.offsets.size() - 1}}},
-          {"changes", to_json(record.cleaned.changes)},
+          {"changes", to_json(record.repaired.changes)},
+          {"repairs", to_json(record.repaired.repairs)},
           {"surface",
            {{"vertices", surface.positions.rows()},
             {"triangles", surface.triangles.rows()},
             {"components", record.extraction.certificate.components_of_surface},
             {"genus", record.extraction.certificate.genus}}},
-          {"parameters", to_json(record.options)},
+          {"parameters", std::move(parameters)},
           {"components", std::move(components)},
+          {"faired_again", record.extraction.faired_again},
           {"notes", record.notes},
           {"skeleton",
            {{"nodes", record.extraction.skeleton.nodes.rows()},
@@ -167,12 +199,16 @@ std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
 }
 
 std::string evaluation_json(const std::string& surface_file, const std::string& skeleton_file,
-                            const Certificate& certificate, const CertificateOptions& options) {
-  const Json json = {{"program", program_and_version()},
-                     {"surface", surface_file},
-                     {"skeleton", skeleton_file},
-                     {"parameters", to_json(options)},
-                     {"certificate", to_json(certificate)}};
+                            const Evaluation& evaluation) {
+  Json json = {{"program", program_and_version()},
+               {"surface", surface_file},
+               {"skeleton", skeleton_file},
+               {"parameters", to_json(evaluation.options)},
+               {"certificate", to_json(evaluation.certificate)}};
+  if (!evaluation.against.empty()) {
+    json["against"] = {{"skeleton", evaluation.against},
+                       {"hausdorff_distance", evaluation.hausdorff_distance}};
+  }
   return text_of(json, 2) + "\n";
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "skeleton/extract.hpp"
-#include "surface/clean.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 
 namespace curveskel {
 
@@ -16,7 +16,8 @@ namespace curveskel {
 /// What one extraction was, for its reports.
 struct ExtractionRecord {
   const PolygonSoup& soup;
-  const CleanSurface& cleaned;
+  const RepairedSurface& repaired;
+  const RepairOptions& repair_options;
   const ExtractOptions& options;
   const Extraction& extraction;
   const std::vector<std::string>& notes;  ///< what the stages said on the way
@@ -34,11 +35,18 @@ struct RunRecord {
 /// The same and the run: times, threads, peak memory, outputs. Ends with a newline.
 [[nodiscard]] std::string report_json(const ExtractionRecord& record, const RunRecord& run);
 
+/// What `evaluate` found out about a skeleton file.
+struct Evaluation {
+  Certificate certificate;
+  CertificateOptions options;
+  std::string against;            ///< the other skeleton's file, empty = none
+  double hausdorff_distance = 0;  ///< to that one, of the surface's D
+};
+
 /// Certificate of a skeleton file against a surface file. Ends with a newline.
 [[nodiscard]] std::string evaluation_json(const std::string& surface_file,
                                           const std::string& skeleton_file,
-                                          const Certificate& certificate,
-                                          const CertificateOptions& options);
+                                          const Evaluation& evaluation);
 
 /// The largest resident memory of the process so far.
 [[nodiscard]] std::size_t peak_memory_bytes();

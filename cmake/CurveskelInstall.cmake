@@ -10,6 +10,7 @@ set(CURVESKEL_PUBLIC_HEADERS
   surface/monitor.hpp
   surface/names.hpp
   surface/read.hpp
+  surface/repair.hpp
   surface/surface.hpp
   surface/topology.hpp
   surface/tree.hpp

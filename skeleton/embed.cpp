@@ -176,8 +176,10 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
     keep_simple(network);
     keep_inside(network, surface, balls, graph, tree);
     thin_out(network, tree);
+    cut_detours(network, tree);
     relax(network, tree, smoothing, threads);
     straighten_at_junctions(network, tree, options.straight_at_last, true);
+    cut_detours(network, tree);
     lengthen_short_leaves(network, tree);
   } while (prune_spurs(network, tree, 1));
   monitor.report("embed", 0.9);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "skeleton/contribution.hpp"
+#include "skeleton/openings.hpp"
 #include "skeleton/stage_clock.hpp"
 #include "surface/measures.hpp"
 #include "surface/parallel.hpp"
@@ -105,9 +106,9 @@ CurveSkeleton joined(const std::vector<Contribution>& contributions,
   return whole;
 }
 
-}  // namespace
-
-Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
+/// As the options say.
+Extraction extract_once(const Surface& surface, const ExtractOptions& options,
+                        const Monitor& monitor) {
   Extraction result;
   StageClock clock(result.times);
   const Topology counted = clock("normalise", [&] { return topology(surface); });
@@ -128,11 +129,39 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
   if (parts.size() == 1) tree_of_all = std::move(contributions.front().tree);
   result.certificate = clock("certify", [&] {
     if (planted.valid()) tree_of_all = planted.get();
+    reach_openings(result.skeleton, surface, *tree_of_all, options.openings);
     return evaluate({surface.positions, *tree_of_all, bounding_box_diagonal(surface.positions),
                      counted.components(), counted.total_genus()},
                     result.skeleton, options.certificate, monitor);
   });
   return result;
+}
+
+}  // namespace
+
+Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
+  Extraction result = extract_once(surface, options, monitor);
+  if (result.certificate.inside_enough || options.fairing || !options.fair_if_outside) {
+    return result;
+  }
+  // Noise as thick as the limbs turns them inside out here and there; without it the curve has a
+  // way through.
+  ExtractOptions gentler = options;
+  gentler.fairing = true;
+  gentler.fair.iterations = 30;
+  std::optional<Extraction> faired;
+  try {
+    faired = extract_once(surface, gentler, monitor);
+  } catch (const Error&) {
+    return result;  // what is too thin to be faired is no noise
+  }
+  if (faired->certificate.inside_fraction <= result.certificate.inside_fraction) return result;
+  faired->times.insert(faired->times.begin(), result.times.begin(), result.times.end());
+  monitor.say(
+      "the curve left the surface, so it was extracted again from the faired surface (30 "
+      "iterations)");
+  faired->faired_again = true;
+  return std::move(*faired);
 }
 
 }  // namespace curveskel

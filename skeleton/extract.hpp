@@ -1,6 +1,7 @@
 // The whole way from a clean surface to its certified curve skeleton.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,13 @@ struct ExtractOptions {
   int least_resolution = 1500;
   int threads = 0;       ///< 0 = one per core; the result does not depend on it
   bool fairing = false;  ///< clean the input by `fair` first
+  /// Vertices round each hole that was closed (RepairedSurface::openings): where a tip faces one,
+  /// the curve goes on to it, see `reach_openings`.
+  std::vector<std::vector<std::int32_t>> openings;
   FairOptions fair;
+  /// If the certificate finds too much outside: extract once more with thirty iterations of
+  /// fairing, and keep the better one.
+  bool fair_if_outside = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;
   EmbedOptions embed;
@@ -51,6 +58,7 @@ struct Extraction {
   std::vector<ComponentRecord> components;  ///< in the order of `topology`
   Certificate certificate;
   std::vector<StageTime> times;  ///< in the order of the stages, summed over the components
+  bool faired_again = false;     ///< see ExtractOptions::fair_if_outside
 };
 
 /// normalise -> coarsen -> fair -> contract -> surgery -> embed -> certify, each component on its

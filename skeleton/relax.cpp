@@ -272,4 +272,30 @@ void thin_out(Network& network, const SurfaceTree& tree) {
   }
 }
 
+void cut_detours(Network& network, const SurfaceTree& tree) {
+  constexpr double reach = 0.9;   // of the smaller ball
+  constexpr double detour = 1.4;  // of the chord
+  for (Strand& strand : network.strands) {
+    if (!strand.alive || strand.from == strand.to || strand.points.size() < 2) continue;
+    const auto line = network.polyline(strand);
+    const auto radii = radii_at(tree, line);
+    std::vector<Point> kept;
+    std::size_t here = 0;
+    while (here + 1 < line.size()) {
+      std::size_t next = here + 1;
+      double length = (line[next] - line[here]).norm();
+      for (std::size_t there = here + 2; there < line.size(); ++there) {
+        length += (line[there] - line[there - 1]).norm();
+        if (length > 4 * std::max(radii[here], 0.0)) break;
+        const double chord = (line[there] - line[here]).norm();
+        const bool in_both = chord < reach * std::min(radii[here], radii[there]);
+        if (in_both && length > detour * chord) next = there;
+      }
+      here = next;
+      if (here + 1 < line.size()) kept.push_back(line[here]);
+    }
+    strand.points = std::move(kept);
+  }
+}
+
 }  // namespace curveskel

@@ -43,4 +43,9 @@ void centre_junctions(Network& network, const SurfaceTree& tree);
 /// neighbours overlap without them.
 void thin_out(Network& network, const SurfaceTree& tree);
 
+/// Takes the chord wherever the strand goes a detour within its own ball: between two points that
+/// lie in each other's balls it need not be longer than 1.4 chords. The chord lies in a ball, so
+/// inside.
+void cut_detours(Network& network, const SurfaceTree& tree);
+
 }  // namespace curveskel

@@ -160,26 +160,6 @@ std::vector<std::int32_t> renumber(Draft& draft) {
   return number;
 }
 
-void describe(Changes& changes, const Monitor& monitor) {
-  const auto line = [&](std::int64_t count, const std::string& one, const std::string& many,
-                        const std::string& what) {
-    if (count == 0) return;
-    changes.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
-    monitor.say(changes.lines.back());
-  };
-  line(changes.polygons_triangulated, "polygon", "polygons", "triangulated");
-  line(changes.vertices_merged, "vertex", "vertices", "merged with another at the same position");
-  line(changes.degenerate_faces_dropped, "degenerate face", "degenerate faces",
-       "dropped (repeated corner)");
-  line(changes.duplicate_faces_dropped, "duplicate face", "duplicate faces",
-       "dropped (same three vertices)");
-  line(changes.isolated_vertices_dropped, "isolated vertex", "isolated vertices", "dropped");
-  line(changes.vertices_split_off, "copy of a vertex", "copies of vertices",
-       "made where parts of the surface touch in a point (bow-tie)");
-  line(changes.faces_flipped, "face", "faces", "flipped to agree with the neighbours");
-  line(changes.components_turned, "component", "components", "turned from inward to outward");
-}
-
 std::int64_t count_polygons_to_split(const PolygonSoup& soup) {
   std::int64_t count = 0;
   for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
@@ -222,6 +202,26 @@ Orientation mend(Draft& draft, std::vector<std::int32_t>& merged_into, const Mon
 
 }  // namespace
 
+void describe_changes(Changes& changes, const Monitor& monitor) {
+  const auto line = [&](std::int64_t count, const std::string& one, const std::string& many,
+                        const std::string& what) {
+    if (count == 0) return;
+    changes.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
+    monitor.say(changes.lines.back());
+  };
+  line(changes.polygons_triangulated, "polygon", "polygons", "triangulated");
+  line(changes.vertices_merged, "vertex", "vertices", "merged with another at the same position");
+  line(changes.degenerate_faces_dropped, "degenerate face", "degenerate faces",
+       "dropped (repeated corner)");
+  line(changes.duplicate_faces_dropped, "duplicate face", "duplicate faces",
+       "dropped (same three vertices)");
+  line(changes.isolated_vertices_dropped, "isolated vertex", "isolated vertices", "dropped");
+  line(changes.vertices_split_off, "copy of a vertex", "copies of vertices",
+       "made where parts of the surface touch in a point (bow-tie)");
+  line(changes.faces_flipped, "face", "faces", "flipped to agree with the neighbours");
+  line(changes.components_turned, "component", "components", "turned from inward to outward");
+}
+
 CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
   monitor.report("clean", 0);
   Draft draft{soup, {soup.positions, triangulate(soup)}, {}};
@@ -250,7 +250,8 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads)
     result.vertex_of_input[v] = number[at(merged_into[at(v)])];
     draft.changes.isolated_vertices_dropped += result.vertex_of_input[v] < 0 ? 1 : 0;
   }
-  describe(draft.changes, monitor);
+  describe_changes(draft.changes, monitor);
+  result.components = orientation.components;
   result.surface = std::move(draft.surface);
   result.changes = std::move(draft.changes);
   monitor.report("clean", 1);

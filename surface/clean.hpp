@@ -27,9 +27,13 @@ struct Changes {
   std::vector<std::string> lines;
 };
 
+/// Fills `lines` from the counts and says each.
+void describe_changes(Changes& changes, const Monitor& monitor);
+
 struct CleanSurface {
   Surface surface;
   Eigen::VectorXi vertex_of_input;  ///< #V of the file; index into surface, -1 = dropped
+  int components = 0;
   Changes changes;
 };
 

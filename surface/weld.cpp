@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "surface/buckets.hpp"
 #include "surface/element_index.hpp"
@@ -109,6 +111,36 @@ std::vector<std::int32_t> coincident_vertices(const Positions& positions,
       if (site == begin || site->position != site[-1].position) continue;
       first[at(site->vertex)] = first[at(site[-1].vertex)];
     }
+  }
+  return first;
+}
+
+std::vector<std::int32_t> nearby_vertices(const Positions& positions,
+                                          const std::vector<bool>& among, double distance) {
+  std::vector<std::int32_t> first(at(positions.rows()));
+  std::iota(first.begin(), first.end(), 0);
+  if (positions.rows() == 0) return first;
+  const Eigen::RowVector3d origin = positions.colwise().minCoeff();
+  const auto cell_key = [](const Eigen::RowVector3d& cell) {
+    return scattered({{cell.x(), cell.y(), cell.z()}, 0});
+  };
+  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> standing;  // cell -> vertices
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(positions.rows()); ++v) {
+    if (!among[at(v)]) continue;
+    const Eigen::RowVector3d cell = ((positions.row(v) - origin) / distance).array().floor();
+    std::int32_t nearest = v;
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const Eigen::RowVector3d step(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+      const auto found = standing.find(cell_key(cell + step));
+      if (found == standing.end()) continue;
+      for (const std::int32_t other : found->second) {
+        if ((positions.row(other) - positions.row(v)).norm() <= distance) {
+          nearest = std::min(nearest, other);
+        }
+      }
+    }
+    if (nearest == v) standing[cell_key(cell)].push_back(v);
+    first[at(v)] = nearest;
   }
   return first;
 }

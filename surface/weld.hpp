@@ -22,4 +22,11 @@ std::int64_t drop_duplicate_faces(Triangles& triangles, std::int32_t vertices);
 [[nodiscard]] std::vector<std::int32_t> coincident_vertices(const Positions& positions,
                                                             const std::vector<bool>& among);
 
+/// For each vertex the first one before it that lies within `distance` (model units) and stands for
+/// itself; only vertices marked in `among` count, the others stay themselves. O(#V) unless many lie
+/// that near.
+[[nodiscard]] std::vector<std::int32_t> nearby_vertices(const Positions& positions,
+                                                        const std::vector<bool>& among,
+                                                        double distance);
+
 }  // namespace curveskel

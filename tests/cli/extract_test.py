@@ -81,7 +81,7 @@ class Report(CommandLineTest):
         self.assertEqual(report["certificate"]["components"], 2)
         self.assertEqual(report["certificate"]["cycle_rank"], 2)
         self.assertTrue(report["certificate"]["topology_correct"])
-        self.assertEqual([time["stage"] for time in report["times"]][:2], ["read", "clean"])
+        self.assertEqual([time["stage"] for time in report["times"]][:2], ["read", "repair"])
         self.assertGreater(report["peak_memory_bytes"], 1000000)
         self.assertEqual(report["outputs"], ["rings.obj"])
 
@@ -96,6 +96,56 @@ class SameBytes(CommandLineTest):
             for name in FORMATS:
                 data = (self.folder / f"{run}.{name}").read_bytes()
                 self.assertEqual(data, written.setdefault(name, data), f"{name}, {threads} threads")
+
+
+def torus_without(folder, faces, name="open.off"):
+    """The torus without its last faces."""
+    lines = TORUS.read_text().split("\n")
+    counts = next(i for i, line in enumerate(lines) if line[:1].isdigit())
+    vertices, all_faces, _ = map(int, lines[counts].split())
+    body = [line for line in lines[counts + 1:] if line.strip()]
+    mesh = folder / name
+    mesh.write_text("\n".join(["OFF", f"{vertices} {all_faces - faces} 0", *body[:-faces]]) + "\n")
+    return mesh, vertices
+
+
+class Repair(CommandLineTest):
+    def test_a_hole_is_closed_and_said(self):
+        mesh, vertices = torus_without(self.folder, 1)
+        result = self.run_ok("extract", mesh, "-o", "x.json", "--report", "r.json", "--strict",
+                             cwd=self.folder)
+        self.assertIn("repaired: 1 hole closed", result.out.decode())
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["repairs"]["holes_closed"], 1)
+        skeleton = json.loads((self.folder / "x.json").read_text())
+        self.assertEqual(len(skeleton["node_of_vertex"]), vertices)
+        self.assertGreaterEqual(min(skeleton["node_of_vertex"]), 0)
+        self.assertTrue(report["certificate"]["topology_correct"])
+
+    def test_components_and_sizes_are_chosen(self):
+        for arguments, components in (((), 2), (("--components", "largest"), 1),
+                                      (("--components", "1"), 1), (("--components", "9"), 2),
+                                      (("--min-size", "0.5"), 2)):
+            self.run_ok("extract", LINKED_RINGS, "-o", "x.obj", "--report", "r.json", *arguments,
+                        cwd=self.folder)
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertEqual(report["surface"]["components"], components, arguments)
+
+    def test_a_sheet_is_refused(self):
+        sheet = self.folder / "sheet.off"
+        sheet.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+        self.refused(3, "extract", sheet, "-o", "x.obj", says=["encloses nothing", "Solidify"],
+                     cwd=self.folder)
+
+
+class TimeLimit(CommandLineTest):
+    def test_ends_the_run_and_leaves_nothing(self):
+        mesh = write_torus(self.folder / "torus.ply", 1500, 400)
+        self.refused(5, "extract", mesh, "-o", "x.obj", "--resolution", "full", "--time-limit",
+                     "0.5", says=["the time limit"], cwd=self.folder)
+
+    def test_does_not_matter_when_it_is_not_reached(self):
+        self.run_ok("extract", Y, "-o", "x.obj", "--time-limit", "300", cwd=self.folder)
 
 
 class Messages(CommandLineTest):

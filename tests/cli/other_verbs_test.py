@@ -155,6 +155,30 @@ class Evaluate(CommandLineTest):
         result = self.run_ok("evaluate", LINKED_RINGS, "y.obj", cwd=self.folder)
         self.assertIn("WRONG", result.out.decode())
 
+    def test_strict_makes_a_failed_certificate_an_error(self):
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        self.run_ok("evaluate", Y, "y.obj", "--strict", cwd=self.folder)
+        result = run("evaluate", LINKED_RINGS, "y.obj", "--strict", cwd=self.folder)
+        self.assertEqual(result.code, 5, result.err)
+        self.assertIn("the certificate failed", result.err)
+
+    def test_against_another_skeleton_gives_the_distance(self):
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        moved = [line if not line.startswith("v ") else
+                 " ".join(["v", *(str(float(x) + (0.1 if i == 0 else 0))
+                                  for i, x in enumerate(line.split()[1:]))])
+                 for line in (self.folder / "y.obj").read_text().splitlines()]
+        (self.folder / "moved.obj").write_text("\n".join(moved) + "\n")
+        distances = []
+        for other in ("y.obj", "moved.obj"):
+            self.run_ok("evaluate", Y, "y.obj", "--against", other, "--json", "e.json",
+                        cwd=self.folder)
+            found = json.loads((self.folder / "e.json").read_text())["against"]
+            self.assertEqual(found["skeleton"], other)
+            distances.append(found["hausdorff_distance"])
+        self.assertAlmostEqual(distances[0], 0, places=9)
+        self.assertGreater(distances[1], 0.001)
+
     def test_json_on_standard_output(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
         result = self.run_ok("evaluate", Y, "y.obj", "--json", "-", cwd=self.folder)

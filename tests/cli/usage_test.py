@@ -1,5 +1,6 @@
 """What the program says when it is asked, and when it is asked wrongly."""
 
+import os
 import unittest
 
 from program import TORUS, Y, CommandLineTest, run
@@ -80,15 +81,16 @@ class WrongFiles(CommandLineTest):
                           ("evaluate", "no.off", "skeleton.obj"), ("evaluate", TORUS, "no.off")):
             self.refused(INPUT, *arguments, says=["no.off"], cwd=self.folder)
 
-    def test_a_surface_with_a_hole_is_an_input_fault_that_names_the_edge(self):
-        mesh = self.folder / "open.off"
-        lines = TORUS.read_text().split("\n")
-        counts = next(i for i, line in enumerate(lines) if line[:1].isdigit())
-        vertices, faces, _ = map(int, lines[counts].split())
-        body = [line for line in lines[counts + 1:] if line.strip()]
-        mesh.write_text("\n".join(["OFF", f"{vertices} {faces - 1} 0"] + body[:-1]) + "\n")
-        self.refused(INPUT, "extract", mesh, "-o", "x.obj", says=["open.off", "edge"],
+    def test_a_directory_and_an_unreadable_file_are_input_faults(self):
+        (self.folder / "folder.off").mkdir()
+        self.refused(INPUT, "extract", "folder.off", "-o", "x.obj", says=["directory"],
                      cwd=self.folder)
+        secret = self.folder / "secret.off"
+        secret.write_text("OFF\n")
+        secret.chmod(0)
+        if not os.access(secret, os.R_OK):
+            self.refused(INPUT, "extract", secret, "-o", "x.obj", says=["secret.off"],
+                         cwd=self.folder)
 
     def test_a_missing_folder_is_an_output_fault_before_any_work(self):
         self.refused(OUTPUT, "extract", TORUS, "-o", "no/x.obj", says=["no"], cwd=self.folder)

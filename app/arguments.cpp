@@ -1,0 +1,30 @@
+#include "app/arguments.hpp"
+
+namespace curveskel {
+
+void add_repair(CLI::App& parser, RepairOptions& options) {
+  const auto set_components = [&options](const std::string& text) {
+    if (text == "all") {
+      options.components = 0;
+    } else if (text == "largest") {
+      options.components = 1;
+    } else if (!CLI::detail::lexical_cast(text, options.components) || options.components < 1) {
+      throw CLI::ValidationError("--components",
+                                 "needs all, largest or a number from 1 up, not " + text);
+    }
+  };
+  parser
+      .add_option_function<std::string>("--components", set_components,
+                                        "how many components, the largest by area first")
+      ->type_name("all|largest|N")
+      ->default_str("all");
+  add_number(parser, "--min-size", options.least_area, 0.0, 1.0,
+             "components with less area, of the largest one's, are left out");
+}
+
+void add_time_limit(CLI::App& parser, double& seconds) {
+  add_number(parser, "--time-limit", seconds, 0.0, 1e9,
+             "seconds, then it ends with exit 5 and writes nothing; 0 = none");
+}
+
+}  // namespace curveskel

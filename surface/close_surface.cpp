@@ -1,0 +1,145 @@
+#include "surface/close_surface.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <utility>
+
+#include "surface/element_index.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using ClosingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using HalfEdgeMesh = CGAL::Surface_mesh<ClosingKernel::Point_3>;
+using MeshVertex = HalfEdgeMesh::Vertex_index;
+using MeshFace = HalfEdgeMesh::Face_index;
+using MeshHalfEdge = HalfEdgeMesh::Halfedge_index;
+
+struct ClosingMesh {
+  HalfEdgeMesh mesh;
+  HalfEdgeMesh::Property_map<MeshVertex, std::int32_t> given;     // -1 = added
+  HalfEdgeMesh::Property_map<MeshFace, std::int32_t> given_face;  // -1 = added
+};
+
+/// The triangles with the vertices doubled where they would meet in no 2-manifold.
+ClosingMesh oriented_mesh(const Surface& surface, std::int64_t& vertices_copied) {
+  // CGAL's orienter only copies "points": numbers of vertices do for them.
+  std::vector<std::int32_t> vertex(at(surface.positions.rows()));
+  for (std::size_t v = 0; v < vertex.size(); ++v) vertex[v] = static_cast<std::int32_t>(v);
+  std::vector<std::array<std::size_t, 3>> faces(at(surface.triangles.rows()));
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) faces[at(f)][at(k)] = at(surface.triangles(f, k));
+  }
+  pmp::orient_polygon_soup(vertex, faces);
+  vertices_copied = static_cast<std::int64_t>(vertex.size()) - surface.positions.rows();
+
+  ClosingMesh result;
+  result.given = result.mesh.add_property_map<MeshVertex, std::int32_t>("v:given", -1).first;
+  result.given_face = result.mesh.add_property_map<MeshFace, std::int32_t>("f:given", -1).first;
+  std::vector<MeshVertex> mesh_vertex(vertex.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto& face = faces[f];
+    for (const std::size_t v : face) {
+      if (mesh_vertex[v] != HalfEdgeMesh::null_vertex()) continue;
+      const auto p = surface.positions.row(vertex[v]);
+      mesh_vertex[v] = result.mesh.add_vertex({p.x(), p.y(), p.z()});
+      result.given[mesh_vertex[v]] = vertex[v];
+    }
+    const MeshFace added =
+        result.mesh.add_face(mesh_vertex[face[0]], mesh_vertex[face[1]], mesh_vertex[face[2]]);
+    if (added != HalfEdgeMesh::null_face()) result.given_face[added] = static_cast<std::int32_t>(f);
+  }
+  return result;
+}
+
+/// Stitches copies of an edge to one another where that leaves a manifold.
+void stitch(HalfEdgeMesh& mesh) {
+  pmp::stitch_borders(mesh, CGAL::parameters::apply_per_connected_component(true));
+  pmp::stitch_borders(mesh);
+}
+
+/// A fan round the middle of the hole, for what no triangulation of its corners can fill.
+void fan(HalfEdgeMesh& mesh, const std::vector<MeshHalfEdge>& border) {
+  CGAL::Vector_3<ClosingKernel> sum(0, 0, 0);
+  for (const MeshHalfEdge h : border) sum = sum + (mesh.point(mesh.target(h)) - CGAL::ORIGIN);
+  const MeshVertex middle =
+      mesh.add_vertex(CGAL::ORIGIN + sum / static_cast<double>(border.size()));
+  for (const MeshHalfEdge h : border) mesh.add_face(mesh.source(h), mesh.target(h), middle);
+}
+
+void fill(ClosingMesh& closing, MeshHalfEdge at_hole) {
+  HalfEdgeMesh& mesh = closing.mesh;
+  std::vector<MeshHalfEdge> border;
+  for (const MeshHalfEdge h : CGAL::halfedges_around_face(at_hole, mesh)) border.push_back(h);
+  constexpr std::size_t most_by_cubic_algorithm = 500;
+  std::vector<MeshFace> faces;
+  std::vector<MeshVertex> vertices;
+  pmp::triangulate_and_refine_hole(
+      mesh, at_hole, std::back_inserter(faces), std::back_inserter(vertices),
+      CGAL::parameters::use_delaunay_triangulation(true).do_not_use_cubic_algorithm(
+          border.size() > most_by_cubic_algorithm));
+  if (faces.empty()) fan(mesh, border);
+}
+
+std::vector<MeshHalfEdge> border_cycles(const HalfEdgeMesh& mesh) {
+  std::vector<MeshHalfEdge> cycles;
+  pmp::extract_boundary_cycles(mesh, std::back_inserter(cycles));
+  return cycles;
+}
+
+/// Back to plain arrays; `holes` names the mesh's vertices so far.
+void to_arrays(const ClosingMesh& closing, ClosedParts& parts) {
+  const HalfEdgeMesh& mesh = closing.mesh;
+  std::vector<std::int32_t> number(mesh.num_vertices() + mesh.number_of_removed_vertices(), -1);
+  parts.surface.positions.resize(mesh.number_of_vertices(), 3);
+  for (const MeshVertex v : mesh.vertices()) {
+    const auto row = static_cast<std::int32_t>(parts.vertex_given.size());
+    const auto& p = mesh.point(v);
+    parts.surface.positions.row(row) << p.x(), p.y(), p.z();
+    parts.vertex_given.push_back(closing.given[v]);
+    number[at(std::int64_t{v})] = row;
+  }
+  parts.surface.triangles.resize(mesh.number_of_faces(), 3);
+  for (const MeshFace f : mesh.faces()) {
+    const auto row = static_cast<Eigen::Index>(parts.face_given.size());
+    int k = 0;
+    for (const MeshVertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
+      parts.surface.triangles(row, k++) = number[at(std::int64_t{v})];
+    }
+    parts.face_given.push_back(closing.given_face[f]);
+  }
+  for (auto& hole : parts.holes) {
+    for (std::int32_t& v : hole) v = number[at(v)];
+  }
+}
+
+}  // namespace
+
+ClosedParts close_surface(const Surface& given, const Monitor& monitor) {
+  ClosedParts parts;
+  monitor.report("repair", 0);
+  ClosingMesh closing = oriented_mesh(given, parts.vertices_copied);
+  monitor.report("repair", 0.2);
+  stitch(closing.mesh);
+  const auto cycles = border_cycles(closing.mesh);
+  for (std::size_t c = 0; c < cycles.size(); ++c) {
+    monitor.report("repair", 0.3 + 0.6 * double(c) / double(cycles.size()));
+    auto& hole = parts.holes.emplace_back();
+    for (const MeshHalfEdge h : CGAL::halfedges_around_face(cycles[c], closing.mesh)) {
+      hole.push_back(static_cast<std::int32_t>(closing.mesh.target(h)));
+    }
+    fill(closing, cycles[c]);
+  }
+  to_arrays(closing, parts);
+  monitor.report("repair", 0.9);
+  return parts;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,28 @@
+// From triangles that share edges anyhow to closed 2-manifolds: cut, stitched, holes filled.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct ClosedParts {
+  Surface surface;  ///< every edge has two faces, neighbours agree; components may lie inward
+  std::vector<std::int32_t> vertex_given;  ///< #V; where each comes from, -1 = added in a hole
+  std::vector<std::int32_t> face_given;    ///< #F; where each comes from, -1 = closes a hole
+  std::vector<std::vector<std::int32_t>> holes;  ///< the vertices round each hole that was closed
+  std::int64_t vertices_copied = 0;              ///< where the given faces met in no 2-manifold
+};
+
+/// Cuts the triangles apart along edges with three faces or more, at vertices with several
+/// umbrellas and where a one-sided surface cannot be oriented; stitches again what matches two by
+/// two, first within a component; fills each hole with triangles about as large as those around it
+/// (Liepa 2003). Positions of the given vertices stay. Precondition: no face with a repeated
+/// corner, no two faces with the same vertices. O(#F log #F) and, per hole of k edges, O(k^3) at
+/// worst for k <= 500, about O(k log k) beyond.
+[[nodiscard]] ClosedParts close_surface(const Surface& given, const Monitor& monitor);
+
+}  // namespace curveskel

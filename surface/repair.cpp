@@ -1,0 +1,517 @@
+#include "surface/repair.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "surface/close_surface.hpp"
+#include "surface/element_index.hpp"
+#include "surface/half_edges.hpp"
+#include "surface/measures.hpp"
+#include "surface/orient.hpp"
+#include "surface/select_components.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+#include "surface/weld.hpp"
+#include "surface/wrap.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The file's triangles after merging: rows of positions are still the file's vertices.
+struct Joined {
+  Surface surface;
+  std::vector<std::int32_t> merged_into;  // #V of the file
+};
+
+std::int32_t vertices_of(const Joined& joined) {
+  return static_cast<std::int32_t>(joined.surface.positions.rows());
+}
+
+void drop_repeats(Joined& joined, Changes& changes) {
+  changes.degenerate_faces_dropped += drop_degenerate_faces(joined.surface.triangles);
+  changes.duplicate_faces_dropped +=
+      drop_duplicate_faces(joined.surface.triangles, vertices_of(joined));
+}
+
+/// Returns how many vertices were merged.
+std::int64_t merge(Joined& joined, const std::vector<std::int32_t>& into) {
+  std::int64_t merged = 0;
+  for (std::size_t v = 0; v < into.size(); ++v) {
+    merged += into[v] != static_cast<std::int32_t>(v) ? 1 : 0;
+  }
+  for (std::int32_t& v : joined.merged_into) v = into[at(v)];
+  for (std::int32_t& corner : joined.surface.triangles.reshaped<Eigen::RowMajor>()) {
+    corner = into[at(corner)];
+  }
+  return merged;
+}
+
+std::vector<bool> on_boundary(const Joined& joined) {
+  return pair_half_edges(joined.surface.triangles, vertices_of(joined)).vertex_on_boundary;
+}
+
+/// Vertices of used faces only: a stray vertex far away sets no scale.
+double extent_of(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const std::int32_t v : surface.triangles.reshaped()) {
+    box.extend(surface.positions.row(v).transpose());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+Joined join(const PolygonSoup& soup, const RepairOptions& options, RepairedSurface& result) {
+  Joined joined{{soup.positions, triangulate(soup)}, {}};
+  joined.merged_into.resize(at(joined.surface.positions.rows()));
+  std::iota(joined.merged_into.begin(), joined.merged_into.end(), 0);
+  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
+    result.changes.polygons_triangulated += soup.offsets[p] - soup.offsets[p - 1] > 3 ? 1 : 0;
+  }
+  drop_repeats(joined, result.changes);
+  const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
+  result.changes.vertices_merged = merge(joined, exactly);
+  drop_repeats(joined, result.changes);
+  const double distance = options.join_distance * extent_of(joined.surface);
+  const auto open = on_boundary(joined);
+  if (distance > 0 && std::find(open.begin(), open.end(), true) != open.end()) {
+    const auto nearly = nearby_vertices(joined.surface.positions, open, distance);
+    result.repairs.vertices_joined = merge(joined, nearly);
+    drop_repeats(joined, result.changes);
+  }
+  return joined;
+}
+
+/// What one component of the closed parts is.
+struct Part {
+  double area = 0;
+  double added_area = 0;
+  double volume = 0;  // relative, see ComponentSums
+  bool is_body = false;
+  std::int64_t given_faces = 0;
+  std::int64_t faces_as_given = 0;  // same orientation as in the file
+};
+
+double face_area(const Surface& surface, Eigen::Index f) {
+  const Eigen::RowVector3d a = surface.positions.row(surface.triangles(f, 0));
+  const Eigen::RowVector3d ab = surface.positions.row(surface.triangles(f, 1)) - a;
+  const Eigen::RowVector3d ac = surface.positions.row(surface.triangles(f, 2)) - a;
+  return ab.cross(ac).norm() / 2;
+}
+
+struct JudgedParts {
+  Orientation orientation;
+  std::vector<Part> parts;
+};
+
+/// Whether the face runs through its corners in the given order.
+bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index f) {
+  const auto given = joined.surface.triangles.row(closed.face_given[at(f)]);
+  const auto position_of = [&](int corner) {
+    return closed.surface.positions.row(closed.surface.triangles(f, corner));
+  };
+  // Stitching may have put a coincident vertex in a corner's place, so positions are compared.
+  for (int turn = 0; turn < 3; ++turn) {
+    bool same = true;
+    for (int k = 0; k < 3; ++k) {
+      same = same && position_of((k + turn) % 3) == joined.surface.positions.row(given(k));
+    }
+    if (same) return true;
+  }
+  return false;
+}
+
+/// Whether a surface without boundary is one-sided to such an extent that cutting it open along the
+/// conflict would leave a shape of its own.
+bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
+  constexpr double small_cut = 0.05;  // of the vertices
+  const HalfEdges half_edges = pair_half_edges(joined.surface.triangles, vertices_of(joined));
+  if (half_edges.first_unpaired >= 0) return false;
+  return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
+         double(vertices_copied) > small_cut * double(vertices_of(joined));
+}
+
+JudgedParts judge(const ClosedParts& closed, const Joined& joined, const RepairOptions& options,
+                  int threads) {
+  const auto vertices = static_cast<std::int32_t>(closed.surface.positions.rows());
+  JudgedParts judged;
+  judged.orientation =
+      orient(closed.surface.triangles, pair_half_edges(closed.surface.triangles, vertices));
+  judged.parts.resize(at(judged.orientation.components));
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    Part& part = judged.parts[at(judged.orientation.component_of_face[at(f)])];
+    const double area = face_area(closed.surface, f);
+    part.area += area;
+    if (closed.face_given[at(f)] < 0) {
+      part.added_area += area;
+    } else {
+      ++part.given_faces;
+      part.faces_as_given += runs_as_given(closed, joined, f) ? 1 : 0;
+    }
+  }
+  constexpr double least_volume = 1e-10;  // as in `clean`
+  const auto sums = component_sums(closed.surface, judged.orientation, threads);
+  for (std::size_t c = 0; c < judged.parts.size(); ++c) {
+    Part& part = judged.parts[c];
+    part.volume = sums[c].volume;
+    part.is_body = std::abs(sums[c].volume) > least_volume * sums[c].area &&
+                   part.added_area <= options.most_added_area * part.area;
+  }
+  return judged;
+}
+
+/// The bodies alone, outward; every vertex keeps its number in the closed parts.
+Triangles outward_bodies(const ClosedParts& closed, const JudgedParts& judged, Changes& changes) {
+  for (const Part& part : judged.parts) {
+    if (!part.is_body) continue;
+    const bool inward = part.volume < 0;
+    const std::int64_t as_given =
+        inward ? part.given_faces - part.faces_as_given : part.faces_as_given;
+    const std::int64_t turned = part.given_faces - as_given;
+    changes.components_turned += turned > as_given ? 1 : 0;
+    changes.faces_flipped += std::min(turned, as_given);
+  }
+  Triangles result(closed.surface.triangles.rows(), 3);
+  Eigen::Index rows = 0;
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    const Part& part = judged.parts[at(judged.orientation.component_of_face[at(f)])];
+    if (!part.is_body) continue;
+    result.row(rows) = closed.surface.triangles.row(f);
+    if (part.volume < 0) std::swap(result(rows, 1), result(rows, 2));
+    ++rows;
+  }
+  result.conservativeResize(rows, 3);
+  return result;
+}
+
+/// The given faces that enclose nothing as they are.
+struct Sheets {
+  Surface surface;  // positions as joined
+  std::int64_t components = 0;
+  double area = 0;
+};
+
+Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joined& joined) {
+  Sheets sheets{{joined.surface.positions, {}}, 0, 0};
+  for (const Part& part : judged.parts) {
+    if (part.is_body) continue;
+    ++sheets.components;
+    sheets.area += part.area - part.added_area;
+  }
+  std::vector<std::int32_t> rows;
+  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
+    if (closed.face_given[f] < 0) continue;
+    if (!judged.parts[at(judged.orientation.component_of_face[f])].is_body) {
+      rows.push_back(closed.face_given[f]);
+    }
+  }
+  sheets.surface.triangles = joined.surface.triangles(rows, Eigen::all);
+  return sheets;
+}
+
+/// The components of a wrap that hold more than the wrap's own thickness on both sides of a sheet;
+/// none if the wrap has two sides for most of what it wraps.
+Surface solid_components(const Surface& wrapped, double offset, double given_area) {
+  constexpr double most_area = 1.5;  // of the area given; a sheet's wrap has twice as much
+  if (area(wrapped) > most_area * given_area) return {};
+  const Topology counted = topology(wrapped);
+  std::vector<Fate> fates(at(counted.components()), Fate::speck);
+  const auto parts = split_components(wrapped, counted);
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const bool solid = volume(parts[c].surface) > 2 * offset * area(parts[c].surface);
+    if (solid) fates[c] = Fate::kept;
+  }
+  Surface kept = wrapped;
+  keep_components(kept, counted, fates);
+  return kept;
+}
+
+/// The narrowest opening that encloses something. The widest, which costs least, goes first: what
+/// it cannot enclose none can.
+std::optional<Surface> wrapped_solid(const Surface& sheets, Repairs& repairs,
+                                     const Monitor& monitor) {
+  const double extent = extent_of(sheets);
+  constexpr double widest = 1.0 / 15;
+  const double offset = extent / 3000;
+  const double given_area = area(sheets);
+  if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
+  const auto solid_at = [&](double opening) {
+    repairs.wrap_opening = opening;
+    return solid_components(wrap(sheets, {opening * extent, offset}, monitor), offset, given_area);
+  };
+  Surface solid = solid_at(widest);
+  if (solid.triangles.rows() == 0) return std::nullopt;
+  repairs.faces_wrapped = sheets.triangles.rows();
+  for (const double opening : {1.0 / 100, 1.0 / 40}) {
+    Surface closer = solid_at(opening);
+    if (closer.triangles.rows() > 0) return closer;
+  }
+  repairs.wrap_opening = widest;
+  return solid;
+}
+
+void measure_wrap(const Surface& wrapped, const Surface& sheets, Repairs& repairs) {
+  const SurfaceTree tree(sheets);
+  double sum = 0;
+  double most = 0;
+  for (const auto& p : wrapped.positions.rowwise()) {
+    const double distance = tree.nearest(p.transpose()).distance;
+    sum += distance;
+    most = std::max(most, distance);
+  }
+  const double extent = extent_of(sheets);
+  repairs.wrap_distance = most / extent;
+  repairs.wrap_mean_distance = sum / double(wrapped.positions.rows()) / extent;
+}
+
+std::int32_t nearest_vertex(const Surface& surface, const SurfaceTree& tree,
+                            const Eigen::Vector3d& p) {
+  const auto corners = surface.triangles.row(tree.nearest(p).triangle);
+  Eigen::Index nearest = 0;
+  (surface.positions(corners.transpose(), Eigen::all).rowwise() - p.transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  return corners(nearest);
+}
+
+/// Which final vertex each vertex of the file became, while the surface is put together.
+class VertexMap {
+ public:
+  explicit VertexMap(const Joined& joined)
+      : joined_(joined), of_joined_(joined.merged_into.size(), -1) {}
+
+  void add_closed(const ClosedParts& closed, const std::vector<std::int32_t>& number) {
+    std::map<std::array<double, 3>, std::int32_t> at_position;
+    for (std::size_t v = closed.vertex_given.size(); v-- > 0;) {
+      if (closed.vertex_given[v] < 0 || number[v] < 0) continue;
+      of_joined_[at(closed.vertex_given[v])] = number[v];
+      at_position[position(closed.surface.positions.row(std::int64_t(v)))] = number[v];
+    }
+    // Stitching put one vertex in the place of several.
+    for (const std::int32_t v : joined_.surface.triangles.reshaped()) {
+      if (of_joined_[at(v)] >= 0) continue;
+      const auto found = at_position.find(position(joined_.surface.positions.row(v)));
+      if (found != at_position.end()) of_joined_[at(v)] = found->second;
+    }
+  }
+
+  void add_wrapped(const Surface& sheets, const Surface& wrapped, std::int32_t first_vertex) {
+    const SurfaceTree tree(wrapped);
+    for (const std::int32_t v : sheets.triangles.reshaped()) {
+      if (of_joined_[at(v)] >= 0) continue;
+      of_joined_[at(v)] = first_vertex + nearest_vertex(wrapped, tree, sheets.positions.row(v));
+    }
+  }
+
+  [[nodiscard]] Eigen::VectorXi of_file() const {
+    Eigen::VectorXi result(static_cast<Eigen::Index>(of_joined_.size()));
+    for (std::size_t v = 0; v < of_joined_.size(); ++v) {
+      result[static_cast<Eigen::Index>(v)] = of_joined_[at(joined_.merged_into[v])];
+    }
+    return result;
+  }
+
+ private:
+  static std::array<double, 3> position(const Eigen::RowVector3d& p) {
+    return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0.0 becomes 0.0
+  }
+  const Joined& joined_;
+  std::vector<std::int32_t> of_joined_;
+};
+
+/// Drops vertices without a face; returns the new number of each.
+std::vector<std::int32_t> drop_unused(Surface& surface) {
+  std::vector<std::int32_t> number(at(surface.positions.rows()), -1);
+  for (const std::int32_t v : surface.triangles.reshaped()) number[at(v)] = 0;
+  std::int32_t used = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    surface.positions.row(used) = surface.positions.row(std::int64_t(v));
+    number[v] = used++;
+  }
+  surface.positions.conservativeResize(used, 3);
+  for (std::int32_t& v : surface.triangles.reshaped<Eigen::RowMajor>()) v = number[at(v)];
+  return number;
+}
+
+void append_surface(Surface& surface, const Surface& more) {
+  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
+  const Eigen::Index faces = surface.triangles.rows();
+  surface.positions.conservativeResize(vertices + more.positions.rows(), 3);
+  surface.positions.bottomRows(more.positions.rows()) = more.positions;
+  surface.triangles.conservativeResize(faces + more.triangles.rows(), 3);
+  surface.triangles.bottomRows(more.triangles.rows()) = more.triangles.array() + vertices;
+}
+
+void count_holes(const ClosedParts& closed, const JudgedParts& judged,
+                 const std::vector<std::int32_t>& number, RepairedSurface& result) {
+  for (const auto& hole : closed.holes) {
+    std::vector<std::int32_t> opening;
+    for (const std::int32_t v : hole) opening.push_back(number[at(v)]);
+    if (std::find(opening.begin(), opening.end(), -1) != opening.end()) continue;
+    ++result.repairs.holes_closed;
+    result.repairs.longest_hole =
+        std::max(result.repairs.longest_hole, static_cast<std::int64_t>(opening.size()));
+    result.openings.push_back(std::move(opening));
+  }
+  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
+    const bool in_body = judged.parts[at(judged.orientation.component_of_face[f])].is_body;
+    result.repairs.faces_added += in_body && closed.face_given[f] < 0 ? 1 : 0;
+  }
+  for (std::size_t v = 0; v < closed.vertex_given.size(); ++v) {
+    result.repairs.vertices_added += number[v] >= 0 && closed.vertex_given[v] < 0 ? 1 : 0;
+  }
+}
+
+[[noreturn]] void refuse(const PolygonSoup& soup, const Sheets& sheets) {
+  const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  std::ostringstream found;
+  found << "a surface that encloses nothing: " << sheets.surface.triangles.rows() << " faces in "
+        << sheets.components << (sheets.components == 1 ? " part" : " parts")
+        << ", flat, or so open that closing would make up about half of the surface";
+  throw Error(Fault::input, file + ": found " + found.str() +
+                                ", needed a surface with an inside; give it thickness (Blender: "
+                                "the Solidify modifier) or close it first");
+}
+
+/// For what `clean` refuses. The refusal stands where there are no faces, or too many to count.
+RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
+                        const Monitor& monitor, int threads) {
+  constexpr std::int64_t most_corners = 2147483647 / 2;
+  if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
+  RepairedSurface result;
+  const Joined joined = join(soup, options, result);
+  if (joined.surface.triangles.rows() == 0) throw refusal;
+  const ClosedParts closed = close_surface(joined.surface, monitor);
+  result.repairs.vertices_copied = closed.vertices_copied;
+  JudgedParts judged = judge(closed, joined, options, threads);
+  if (is_one_sided(joined, closed.vertices_copied)) {
+    for (Part& part : judged.parts) part.is_body = false;
+  }
+  result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
+  const auto number = drop_unused(result.surface);
+  count_holes(closed, judged, number, result);
+  VertexMap vertex_map(joined);
+  vertex_map.add_closed(closed, number);
+
+  const Sheets sheets = sheets_of(closed, judged, joined);
+  const double all_area = area(joined.surface);
+  constexpr double negligible = 0.05;  // of the area
+  std::optional<Surface> wrapped;
+  if (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0) {
+    wrapped = wrapped_solid(sheets.surface, result.repairs, monitor);
+  }
+  if (wrapped) {
+    measure_wrap(*wrapped, sheets.surface, result.repairs);
+    vertex_map.add_wrapped(sheets.surface, *wrapped,
+                           static_cast<std::int32_t>(result.surface.positions.rows()));
+    append_surface(result.surface, *wrapped);
+  } else {
+    if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
+    result.repairs.sheets_dropped = sheets.components;
+  }
+  result.vertex_of_input = vertex_map.of_file();
+  return result;
+}
+
+void leave_out(RepairedSurface& result, const SelectionRules& rules) {
+  const Topology counted = topology(result.surface);
+  const auto fates = choose_components(result.surface, counted, rules);
+  const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
+  result.repairs.copies_dropped = count(Fate::copy);
+  result.repairs.crumbs_dropped = count(Fate::crumb);
+  result.repairs.specks_dropped = count(Fate::speck);
+  result.repairs.not_chosen = count(Fate::not_chosen);
+  if (count(Fate::kept) == counted.components()) return;
+  const Positions positions = result.surface.positions;
+  auto number = keep_components(result.surface, counted, fates);
+  if (result.repairs.crumbs_dropped > 0) {
+    const SurfaceTree tree(result.surface);
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+      if (fates[at(counted.component_of_vertex[v])] != Fate::crumb) continue;
+      number[at(v)] = nearest_vertex(result.surface, tree, positions.row(v));
+    }
+  }
+  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[at(v)];
+  std::erase_if(result.openings, [&](const auto& opening) {
+    return fates[at(counted.component_of_vertex[opening[0]])] != Fate::kept;
+  });
+  for (auto& opening : result.openings) {
+    for (std::int32_t& v : opening) v = number[at(v)];
+  }
+}
+
+std::string share_words(double share) {
+  std::ostringstream words;
+  words.precision(2);
+  words << share;
+  return words.str();
+}
+
+void describe(Repairs& repairs, const Monitor& monitor) {
+  const auto line = [&](std::int64_t count, const std::string& one, const std::string& many,
+                        const std::string& what) {
+    if (count == 0) return;
+    repairs.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
+    monitor.say(repairs.lines.back());
+  };
+  line(repairs.vertices_joined, "vertex", "vertices", "joined with one that nearly coincides");
+  line(repairs.vertices_copied, "copy of a vertex", "copies of vertices",
+       "made where faces met in no orientable 2-manifold");
+  line(repairs.holes_closed, "hole", "holes",
+       "closed with " + std::to_string(repairs.faces_added) + " faces and " +
+           std::to_string(repairs.vertices_added) + " vertices (the longest has " +
+           std::to_string(repairs.longest_hole) + " edges)");
+  line(repairs.faces_wrapped, "face", "faces",
+       "wrapped, as no closing of the holes gives them an inside; the wrap spans gaps up to " +
+           share_words(repairs.wrap_opening) + " D and lies " +
+           share_words(repairs.wrap_mean_distance) + " D from them in the mean, " +
+           share_words(repairs.wrap_distance) + " D at most");
+  line(repairs.copies_dropped, "component", "components", "left out as copies of another");
+  line(repairs.sheets_dropped, "open or flat part", "open or flat parts",
+       "left out, enclosing nothing");
+  line(repairs.crumbs_dropped, "crumb", "crumbs",
+       "left out (small pieces cut off a much larger one; their vertices follow its nearest)");
+  line(repairs.specks_dropped, "speck", "specks",
+       "left out (components with very little of the largest one's area; see --min-size)");
+  line(repairs.not_chosen, "smaller component", "smaller components", "left out as asked");
+}
+
+}  // namespace
+
+RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
+                       const Monitor& monitor, int threads) {
+  std::optional<RepairedSurface> result;
+  std::optional<Error> refusal;
+  bool has_one_component = false;
+  try {
+    CleanSurface cleaned = clean(soup, monitor, threads);
+    has_one_component = cleaned.components == 1;
+    result = {std::move(cleaned.surface),
+              std::move(cleaned.vertex_of_input),
+              std::move(cleaned.changes),
+              {},
+              {}};
+  } catch (const Error& error) {
+    refusal = error;  // what is wrong is found again, and mended, below
+  }
+  if (!result) {
+    result = rebuild(soup, *refusal, options, monitor, threads);
+    describe_changes(result->changes, monitor);
+  }
+  const bool was_cut = refusal.has_value();
+  if (!has_one_component) {
+    leave_out(*result, {options.least_area, was_cut ? options.least_crumb : 0, options.components});
+  }
+  describe(result->repairs, monitor);
+  if (refusal) monitor.report("repair", 1);
+  return std::move(*result);
+}
+
+}  // namespace curveskel

@@ -1,0 +1,71 @@
+// From whatever a file holds to a surface with an inside.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "surface/clean.hpp"
+#include "surface/monitor.hpp"
+#include "surface/read.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct RepairOptions {
+  /// Vertices on the boundary that lie nearer to each other become one, of D. Rounding tears a
+  /// surface by 1e-7 D.
+  double join_distance = 1e-6;
+  /// Components with less area are left out, of the largest component's area; 0 keeps all.
+  double least_area = 1e-4;
+  int components = 0;  ///< the largest by area that are kept; 0 = all
+  /// An open component is a sheet and no body when what closes it is more than this share of the
+  /// area of both. A half sphere has 1/3, a flat sheet 1/2.
+  double most_added_area = 0.45;
+  /// Where cutting what is no 2-manifold leaves pieces that touch, those with less area, of the
+  /// largest one's, are crumbs: left out, their vertices follow the nearest one that stays.
+  double least_crumb = 1e-2;
+};
+
+/// What was repaired beyond what `Changes` counts. `lines` says the same in words.
+struct Repairs {
+  std::int64_t vertices_joined = 0;  ///< with another that lay within the join distance
+  std::int64_t vertices_copied = 0;  ///< where faces met in no orientable 2-manifold
+  std::int64_t holes_closed = 0;
+  std::int64_t longest_hole = 0;  ///< edges round the longest of them
+  std::int64_t faces_added = 0;
+  std::int64_t vertices_added = 0;
+  std::int64_t copies_dropped = 0;  ///< components that coincide with an earlier one
+  std::int64_t crumbs_dropped = 0;  ///< small components cut off a much larger one
+  std::int64_t specks_dropped = 0;  ///< components below the least area
+  std::int64_t sheets_dropped = 0;  ///< components that enclose nothing
+  std::int64_t not_chosen = 0;      ///< components beyond the number wanted
+  std::int64_t faces_wrapped = 0;   ///< given faces that a wrap stands for
+  double wrap_opening = 0;          ///< widest gap that the wrap spans, of D
+  double wrap_distance = 0;         ///< greatest distance from the wrap to the faces given, of D
+  double wrap_mean_distance = 0;    ///< mean over the wrap's vertices, of D
+  std::vector<std::string> lines;
+};
+
+struct RepairedSurface {
+  Surface surface;
+  /// #V of the file; index into surface, -1 = dropped. A wrapped vertex has the nearest one of the
+  /// wrap. Vertices that closing a hole added are nobody's.
+  Eigen::VectorXi vertex_of_input;
+  Changes changes;
+  Repairs repairs;
+  /// The vertices of the surface round each hole that was closed, in order.
+  std::vector<std::vector<std::int32_t>> openings;
+};
+
+/// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is
+/// no orientable 2-manifold, closes holes (see `close_surface`), wraps what still encloses nothing
+/// (see `wrap`) if the wrap holds more than its own thickness. Then leaves out coincident copies of
+/// components, crumbs, specks, sheets, and all but the largest components if so wanted.
+/// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.
+/// Deterministic. As fast as `clean` for what is whole.
+[[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
+                                     const Monitor& monitor, int threads = 0);
+
+}  // namespace curveskel

@@ -1,0 +1,21 @@
+// A closed surface around anything, for what cannot be closed along its own edges.
+#pragma once
+
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct WrapOptions {
+  double opening = 0;  ///< alpha in model units: what is narrower is not entered; > 0
+  double offset = 0;   ///< distance of the wrap from the triangles in model units; > 0
+};
+
+/// Shrinks a closed 2-manifold onto the triangles from outside (alpha wrapping, Portaneri et al.
+/// 2022). Contains all of them; everything that an opening wider than alpha leads to is outside.
+/// Any triangles will do: crossing, doubled, with holes. Time and faces grow with area / alpha^2.
+/// Throws Cancelled on a stop.
+[[nodiscard]] Surface wrap(const Surface& triangles, const WrapOptions& options,
+                           const Monitor& monitor);
+
+}  // namespace curveskel
