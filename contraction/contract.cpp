@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -109,7 +110,12 @@ void check(const Surface& surface, const Positions& centres, const ContractionOp
 /// A surface whose volume is rounding noise has no inside to shrink.
 void check(const Extent& initial) {
   if (std::abs(initial.volume) > 1e-15) return;
-  throw Error(Fault::input, "the surface encloses no volume; a closed solid is needed");
+  std::ostringstream volume;
+  volume << std::abs(initial.volume);
+  throw Error(Fault::input, "the surface encloses no volume (" + volume.str() +
+                                " D^3, D = the diagonal of its bounding box), needed more than "
+                                "1e-15 D^3: thicken it, or remove vertices that lie far away from "
+                                "all others");
 }
 
 double fraction_done(const Step& step, const ContractionOptions& options) {

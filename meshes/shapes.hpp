@@ -64,6 +64,10 @@ using Profile = std::function<double(double t)>;         ///< radius at t, > 0
 /// Base circle of this radius at z = 0, apex at z = height with `neighbours` neighbours.
 [[nodiscard]] Shape cone(double radius, double height, int neighbours);
 
+/// A square plate of unit cubes with square holes, so many along each side and as wide as what is
+/// left between two of them: genus holes_along^2. No axis.
+[[nodiscard]] Shape sieve(int holes_along);
+
 /// The algebraic surface (x (x - 1)^2 (x - 2) + y^2)^2 + z^2 = 0.01, genus 2. `spacing` = edges.
 [[nodiscard]] Shape algebraic_double_torus(double spacing);
 
@@ -94,6 +98,9 @@ struct TubeUnionOptions {
 /// least four radii between edges that share no node, 75 degrees between those that do), degree at
 /// most 4; radius between `radius` and 1.5 `radius`.
 [[nodiscard]] CurveSkeleton random_graph(std::uint64_t seed, int nodes, int loops, double radius);
+
+/// The tubes round a random graph of 9 to 13 nodes and 0 to 3 loops; "random-seed-N".
+[[nodiscard]] Shape random_tubes(int seed);
 
 // ---- Changes that must not matter, or little ----------------------------------------------------
 

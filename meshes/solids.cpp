@@ -144,4 +144,42 @@ Shape algebraic_double_torus(double spacing) {
   return shape;
 }
 
+Shape sieve(int holes_along) {
+  const int side = 2 * holes_along + 1;
+  const auto solid = [&](int i, int j) {
+    return i >= 0 && j >= 0 && i < side && j < side && (i % 2 == 0 || j % 2 == 0);
+  };
+  Shape shape;
+  shape.name = "sieve";
+  shape.genus = shape.cycles = holes_along * holes_along;
+  shape.surface.positions.resize(2 * (side + 1) * (side + 1), 3);
+  const auto corner = [&](int i, int j, int top) { return (i * (side + 1) + j) * 2 + top; };
+  std::vector<std::array<int, 3>> faces;
+  const auto quad = [&](int a, int b, int c, int d) {
+    faces.push_back({a, b, c});
+    faces.push_back({a, c, d});
+  };
+  for (int i = 0; i <= side; ++i) {
+    for (int j = 0; j <= side; ++j) {
+      for (const int top : {0, 1}) shape.surface.positions.row(corner(i, j, top)) << i, j, top;
+      if (!solid(i, j)) continue;
+      quad(corner(i, j, 1), corner(i + 1, j, 1), corner(i + 1, j + 1, 1), corner(i, j + 1, 1));
+      quad(corner(i, j, 0), corner(i, j + 1, 0), corner(i + 1, j + 1, 0), corner(i + 1, j, 0));
+      const auto wall = [&](int i0, int j0, int i1, int j1) {
+        quad(corner(i0, j0, 0), corner(i1, j1, 0), corner(i1, j1, 1), corner(i0, j0, 1));
+      };
+      if (!solid(i, j - 1)) wall(i, j, i + 1, j);
+      if (!solid(i + 1, j)) wall(i + 1, j, i + 1, j + 1);
+      if (!solid(i, j + 1)) wall(i + 1, j + 1, i, j + 1);
+      if (!solid(i - 1, j)) wall(i, j + 1, i, j);
+    }
+  }
+  shape.surface.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    shape.surface.triangles.row(static_cast<Eigen::Index>(f)) << faces[f][0], faces[f][1],
+        faces[f][2];
+  }
+  return shape;
+}
+
 }  // namespace curveskel::shapes

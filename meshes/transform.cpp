@@ -96,31 +96,44 @@ Shape subdivided(Shape shape) {
 }
 
 Shape together(std::string name, const std::vector<Shape>& parts) {
-  Shape all = parts.front();
+  Shape all;
   all.name = std::move(name);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const Shape& part = parts[i];
-    const Eigen::Index vertices = all.surface.positions.rows();
-    const Eigen::Index faces = all.surface.triangles.rows();
-    const Eigen::Index nodes = all.axis.nodes.rows();
-    const Eigen::Index edges = all.axis.edges.rows();
-    all.surface.positions.conservativeResize(vertices + part.surface.positions.rows(), 3);
-    all.surface.positions.bottomRows(part.surface.positions.rows()) = part.surface.positions;
-    all.surface.triangles.conservativeResize(faces + part.surface.triangles.rows(), 3);
-    all.surface.triangles.bottomRows(part.surface.triangles.rows()) =
-        part.surface.triangles.array() + static_cast<std::int32_t>(vertices);
-    all.axis.nodes.conservativeResize(nodes + part.axis.nodes.rows(), 3);
-    all.axis.nodes.bottomRows(part.axis.nodes.rows()) = part.axis.nodes;
-    all.axis.radii.conservativeResize(nodes + part.axis.radii.size());
-    all.axis.radii.tail(part.axis.radii.size()) = part.axis.radii;
-    all.axis.edges.conservativeResize(edges + part.axis.edges.rows(), 2);
-    all.axis.edges.bottomRows(part.axis.edges.rows()) =
-        part.axis.edges.array() + static_cast<std::int32_t>(nodes);
+  all.components = all.tips = all.junctions = 0;
+  Eigen::Index vertices = 0;
+  Eigen::Index faces = 0;
+  Eigen::Index nodes = 0;
+  Eigen::Index edges = 0;
+  for (const Shape& part : parts) {
+    vertices += part.surface.positions.rows();
+    faces += part.surface.triangles.rows();
+    nodes += part.axis.nodes.rows();
+    edges += part.axis.edges.rows();
     all.genus += part.genus;
     all.components += part.components;
     all.cycles += part.cycles;
     all.tips = all.tips < 0 || part.tips < 0 ? -1 : all.tips + part.tips;
     all.junctions = all.junctions < 0 || part.junctions < 0 ? -1 : all.junctions + part.junctions;
+  }
+  all.surface.positions.resize(vertices, 3);
+  all.surface.triangles.resize(faces, 3);
+  all.axis.nodes.resize(nodes, 3);
+  all.axis.radii.resize(nodes);
+  all.axis.edges.resize(edges, 2);
+  vertices = faces = nodes = edges = 0;
+  for (const Shape& part : parts) {
+    const Surface& surface = part.surface;
+    const CurveSkeleton& axis = part.axis;
+    all.surface.positions.middleRows(vertices, surface.positions.rows()) = surface.positions;
+    all.surface.triangles.middleRows(faces, surface.triangles.rows()) =
+        surface.triangles.array() + static_cast<std::int32_t>(vertices);
+    all.axis.nodes.middleRows(nodes, axis.nodes.rows()) = axis.nodes;
+    all.axis.radii.segment(nodes, axis.radii.size()) = axis.radii;
+    all.axis.edges.middleRows(edges, axis.edges.rows()) =
+        axis.edges.array() + static_cast<std::int32_t>(nodes);
+    vertices += surface.positions.rows();
+    faces += surface.triangles.rows();
+    nodes += axis.nodes.rows();
+    edges += axis.edges.rows();
   }
   return all;
 }

@@ -167,4 +167,10 @@ Shape tube_union(std::string name, const CurveSkeleton& graph, const TubeUnionOp
   return shape;
 }
 
+Shape random_tubes(int seed) {
+  return tube_union("random-seed-" + std::to_string(seed),
+                    random_graph(static_cast<std::uint64_t>(seed), 9 + seed % 5, seed % 4, 1),
+                    {0.25, 1.7});
+}
+
 }  // namespace curveskel::shapes

@@ -17,6 +17,7 @@ namespace curveskel {
 namespace {
 
 constexpr int most_subdivisions = 6;
+constexpr Eigen::Index most_band_vertices = 4000000;  // after subdivision
 
 /// Shortest distances along edges (Dijkstra); ties by vertex.
 std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
@@ -125,7 +126,8 @@ BandGraph band_graph(const Surface& surface, const Monitor& monitor) {
   };
   auto value = edge_distances(surface, index, farthest(edge_distances(surface, index, 0)));
 
-  for (int level = 0; level <= most_subdivisions; ++level) {
+  int level = 0;
+  for (; level <= most_subdivisions; ++level) {
     monitor.report("surgery", level / (most_subdivisions + 1.0));
     double steepest = 0;
     for (const auto& [a, b] : index.edges) {
@@ -137,13 +139,14 @@ BandGraph band_graph(const Surface& surface, const Monitor& monitor) {
     result.graph = graph_of_groups(result.surface, components_of_bands(index, band));
     const auto genus = genus_of_groups(result.surface, result.graph);
     if (std::all_of(genus.begin(), genus.end(), [](int g) { return g == 0; })) return result;
+    if (4 * result.surface.positions.rows() > most_band_vertices) break;
     subdivide(result.surface, index, value);
     index = index_edges(result.surface.triangles);
   }
   throw Error(Fault::solver,
-              "no partition without handles was found after " + std::to_string(most_subdivisions) +
-                  " subdivisions; the surface has handles smaller than 1/64 of its edges' length: "
-                  "raise --resolution or repair the surface");
+              "no partition without handles was found after " + std::to_string(level) +
+                  " subdivisions; the surface has handles far smaller than its edges: raise "
+                  "--resolution or repair the surface");
 }
 
 }  // namespace curveskel

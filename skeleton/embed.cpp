@@ -43,28 +43,30 @@ std::vector<Point> positions_from_balls(const Surface& surface, const InscribedB
 
 /// Junctions that share most of one inscribed ball become one, at the larger ball.
 void merge_junctions(Network& network, const SurfaceTree& tree, double factor) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const auto ratio_of = [&](const Strand& strand) {
+    if (!strand.alive || strand.from == strand.to) return never;
+    if (network.degree(strand.from) < 3 || network.degree(strand.to) < 3) return never;
+    const double radius = std::max(tree.inscribed_radius(network.hubs[at(strand.from)].position),
+                                   tree.inscribed_radius(network.hubs[at(strand.to)].position));
+    return radius > 0 ? network.length(strand) / radius : never;
+  };
+  std::vector<double> ratio;
+  for (const Strand& strand : network.strands) ratio.push_back(ratio_of(strand));
   for (;;) {
-    double nearest = factor;
-    int best = -1;
-    for (int s = 0; s < static_cast<int>(network.strands.size()); ++s) {
-      const Strand& strand = network.strands[at(s)];
-      if (!strand.alive || strand.from == strand.to) continue;
-      if (network.degree(strand.from) < 3 || network.degree(strand.to) < 3) continue;
-      const double radius = std::max(tree.inscribed_radius(network.hubs[at(strand.from)].position),
-                                     tree.inscribed_radius(network.hubs[at(strand.to)].position));
-      if (radius <= 0) continue;
-      const double ratio = network.length(strand) / radius;
-      if (ratio < nearest) {
-        nearest = ratio;
-        best = s;
-      }
-    }
-    if (best < 0) return;
+    const auto least = std::min_element(ratio.begin(), ratio.end());
+    if (least == ratio.end() || !(*least < factor)) return;
+    const auto best = static_cast<int>(least - ratio.begin());
     const Strand& strand = network.strands[at(best)];
     const Point a = network.hubs[at(strand.from)].position;
     const Point b = network.hubs[at(strand.to)].position;
     const bool keep_from = tree.inscribed_radius(a) >= tree.inscribed_radius(b);
-    network.collapse(best, keep_from ? strand.from : strand.to, keep_from ? a : b);
+    const int into = keep_from ? strand.from : strand.to;
+    network.collapse(best, into, keep_from ? a : b);
+    *least = never;
+    for (const int s : network.hubs[at(into)].strands) {
+      ratio[at(s)] = ratio_of(network.strands[at(s)]);
+    }
   }
 }
 
@@ -155,6 +157,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
+  merge_junctions(network, tree, options.merge);  // centred, they may have come together
   centring.rounds = options.relax_rounds;
   relax(network, tree, centring, threads);
   monitor.report("embed", 0.6);

@@ -17,10 +17,13 @@
 namespace curveskel {
 
 struct ExtractOptions {
-  int resolution = 8000;        ///< working vertices for the whole surface; 0 = all that there are
-  int least_resolution = 1500;  ///< working vertices for each component; fewer are refined
-  int threads = 0;              ///< 0 = one per core; the result does not depend on it
-  bool fairing = false;         ///< clean the input by `fair` first
+  /// Working vertices for the whole surface, but 32 for each handle of a component; 0 = all.
+  int resolution = 8000;
+  /// Working vertices for each component; fewer are refined. Of more than 133 components each is
+  /// sure of fewer, 200,000 over their number, but never of fewer than 200.
+  int least_resolution = 1500;
+  int threads = 0;       ///< 0 = one per core; the result does not depend on it
+  bool fairing = false;  ///< clean the input by `fair` first
   /// Vertices round each hole that was closed (RepairedSurface::openings): where a tip faces one,
   /// the curve goes on to it, see `reach_openings`.
   std::vector<std::vector<std::int32_t>> openings;

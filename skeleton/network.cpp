@@ -13,25 +13,22 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+void attach(Hub& hub, int strand) {
+  const auto place = std::lower_bound(hub.strands.begin(), hub.strands.end(), strand);
+  if (place == hub.strands.end() || *place != strand) hub.strands.insert(place, strand);
+}
+
+void detach(Hub& hub, int strand) { std::erase(hub.strands, strand); }
+
 }  // namespace
 
 int Network::degree(int hub) const {
   int count = 0;
-  for (const Strand& strand : strands) {
-    if (strand.alive)
-      count += static_cast<int>(strand.from == hub) + static_cast<int>(strand.to == hub);
+  for (const int s : hubs[at(hub)].strands) {
+    const Strand& strand = strands[at(s)];
+    count += static_cast<int>(strand.from == hub) + static_cast<int>(strand.to == hub);
   }
   return count;
-}
-
-std::vector<int> Network::strands_at(int hub) const {
-  std::vector<int> found;
-  for (std::size_t s = 0; s < strands.size(); ++s) {
-    const Strand& strand = strands[s];
-    if (strand.alive && (strand.from == hub || strand.to == hub))
-      found.push_back(static_cast<int>(s));
-  }
-  return found;
 }
 
 bool Network::is_leaf(const Strand& strand) const {
@@ -75,6 +72,8 @@ void Network::prune(int strand) {
   append(hubs[at(base)].nodes, hubs[at(tip)].nodes);
   s.alive = false;
   hubs[at(tip)].alive = false;
+  hubs[at(tip)].strands.clear();
+  detach(hubs[at(base)], strand);
   if (degree(base) == 2) dissolve(base);
 }
 
@@ -86,15 +85,18 @@ void Network::collapse(int strand, int into, const Point& position) {
   s.alive = false;
   hubs[at(gone)].alive = false;
   hubs[at(into)].position = position;
-  for (Strand& other : strands) {
-    if (!other.alive) continue;
-    if (other.from == gone) other.from = into;
-    if (other.to == gone) other.to = into;
+  detach(hubs[at(into)], strand);
+  detach(hubs[at(gone)], strand);
+  for (const int other : hubs[at(gone)].strands) {
+    if (strands[at(other)].from == gone) strands[at(other)].from = into;
+    if (strands[at(other)].to == gone) strands[at(other)].to = into;
+    attach(hubs[at(into)], other);
   }
+  hubs[at(gone)].strands.clear();
 }
 
 void Network::dissolve(int hub) {
-  const auto around = strands_at(hub);
+  const std::vector<int> around = hubs[at(hub)].strands;
   if (around.size() != 2) return;  // a closed curve keeps its hub
   orient_from(around[1], hub);
   Strand& first = strands[at(around[0])];
@@ -107,6 +109,9 @@ void Network::dissolve(int hub) {
   first.to = second.to;
   second.alive = false;
   hubs[at(hub)].alive = false;
+  hubs[at(hub)].strands.clear();
+  detach(hubs[at(first.to)], around[1]);
+  attach(hubs[at(first.to)], around[0]);
 }
 
 Network network_of_graph(const VertexGraph& graph, const std::vector<Point>& positions) {
@@ -124,7 +129,7 @@ Network network_of_graph(const VertexGraph& graph, const std::vector<Point>& pos
   std::vector<char> used(at(nodes), 0);
   const auto make_hub = [&](int node) {
     hub_of_node[at(node)] = static_cast<int>(network.hubs.size());
-    network.hubs.push_back({positions[at(node)], {node}, true});
+    network.hubs.push_back({positions[at(node)], {node}});
   };
   const auto trace = [&](int start, int next) {
     Strand strand;
@@ -141,6 +146,9 @@ Network network_of_graph(const VertexGraph& graph, const std::vector<Point>& pos
       previous = std::exchange(node, following);
     }
     strand.to = hub_of_node[at(node)];
+    const auto index = static_cast<int>(network.strands.size());
+    attach(network.hubs[at(strand.from)], index);
+    attach(network.hubs[at(strand.to)], index);
     network.strands.push_back(std::move(strand));
   };
 

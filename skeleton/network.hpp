@@ -18,6 +18,7 @@ struct Hub {
   Point position = Point::Zero();
   std::vector<int> nodes;  ///< groups and circles of the graph that belong to it
   bool alive = true;
+  std::vector<int> strands{};  ///< the living ones that end here, ascending, each once
 };
 
 /// A curve from one hub to another, or back to the same.
@@ -29,14 +30,14 @@ struct Strand {
   bool alive = true;
 };
 
-/// Every change keeps the number of components and the cycle rank.
+/// Every change keeps the number of components and the cycle rank. Which strands end at which hubs
+/// changes by the functions below only.
 struct Network {
   std::vector<Hub> hubs;
   std::vector<Strand> strands;
 
-  [[nodiscard]] int degree(int hub) const;                   ///< a closed strand counts twice
-  [[nodiscard]] std::vector<int> strands_at(int hub) const;  ///< ascending, each once
-  [[nodiscard]] bool is_leaf(const Strand& strand) const;    ///< exactly one end is a tip
+  [[nodiscard]] int degree(int hub) const;                 ///< a closed strand counts twice
+  [[nodiscard]] bool is_leaf(const Strand& strand) const;  ///< exactly one end is a tip
   [[nodiscard]] int living_strands() const;
   [[nodiscard]] double length(const Strand& strand) const;
   [[nodiscard]] std::vector<Point> polyline(const Strand& strand) const;  ///< hubs included

@@ -39,7 +39,7 @@ bool prune_below(Network& network, double limit, const Measure& measure) {
     }
     if (worst < 0 || value[at(worst)] >= limit) break;
     const int base = base_of(network, network.strands[at(worst)]);
-    for (const int s : network.strands_at(base)) value[at(s)] = -1;
+    for (const int s : network.hubs[at(base)].strands) value[at(s)] = -1;
     network.prune(worst);
     any = true;
   }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "skeleton/raw_graph.hpp"
+#include "surface/json_depth.hpp"
 
 namespace curveskel {
 namespace {
@@ -16,12 +17,19 @@ using nlohmann::json;
 class JsonGraph {
  public:
   explicit JsonGraph(const FileBytes& file) : file_(file) {
+    const int depth = json_depth(file.content);
+    if (depth > deepest_json) {  // dump(), for messages, recurses
+      fail("arrays and objects nested " + std::to_string(depth) + " deep",
+           "at most " + std::to_string(deepest_json));
+    }
     try {
       root_ = json::parse(file.content);
-    } catch (const json::parse_error& error) {
-      const std::string_view what =
-          error.what();  // "[json...] parse error at line 3, column 7: ..."
-      file.fail(what.substr(std::min(what.find("at line"), what.size())), "JSON",
+    } catch (const json::exception& error) {
+      // "[json...] parse error at line 3, column 7: ...", or of a number that no double holds
+      // "[json...] number overflow parsing ..."
+      const std::string_view what = error.what();
+      const std::size_t words = std::min(what.find("at line"), what.find("number overflow"));
+      file.fail(what.substr(std::min(words, what.size())), "JSON",
                 "correct it or export the file again");
     }
   }

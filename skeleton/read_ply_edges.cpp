@@ -30,11 +30,12 @@ EdgeRole edge_role(const PlyElement& element, const PlyProperty& property) {
 
 const PlyElement& element_named(const FileBytes& file, const PlyHeader& header,
                                 std::string_view name) {
-  const auto found = std::find_if(header.elements.begin(), header.elements.end(),
-                                  [&](const PlyElement& element) { return element.name == name; });
-  if (found == header.elements.end()) {
-    file.fail("no element \"" + std::string(name) + "\"",
-              "the elements \"vertex\" and \"edge\" of a skeleton",
+  const auto named = [&](const PlyElement& element) { return element.name == name; };
+  const auto found = std::find_if(header.elements.begin(), header.elements.end(), named);
+  const auto count = std::count_if(header.elements.begin(), header.elements.end(), named);
+  if (count != 1) {
+    file.fail(std::to_string(count) + " elements \"" + std::string(name) + "\"",
+              "one each of the elements \"vertex\" and \"edge\" of a skeleton",
               "if this is a surface give the skeleton's file, else export it again");
   }
   return *found;

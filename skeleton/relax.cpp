@@ -87,11 +87,14 @@ Point straight_through(const Network& network, int hub, const SurfaceTree& tree)
     sum += radius * radius * p;
     weight += radius * radius;
   };
-  for (const Strand& strand : network.strands) {
-    if (!strand.alive) continue;
-    const auto line = network.polyline(strand);
-    if (strand.from == hub) add(line[1]);
-    if (strand.to == hub) add(line[line.size() - 2]);
+  const auto place = [&](int other) -> const Point& {
+    return network.hubs[static_cast<std::size_t>(other)].position;
+  };
+  for (const int s : network.hubs[static_cast<std::size_t>(hub)].strands) {
+    const Strand& strand = network.strands[static_cast<std::size_t>(s)];
+    const auto& points = strand.points;
+    if (strand.from == hub) add(points.empty() ? place(strand.to) : points.front());
+    if (strand.to == hub) add(points.empty() ? place(strand.from) : points.back());
   }
   return sum / weight;
 }

@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -9,6 +10,8 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "surface/json_depth.hpp"
 
 namespace curveskel {
 namespace {
@@ -27,7 +30,7 @@ bool buffer_exists(const std::string& path, void* /*access*/) {
                                                      ".webp", ".ktx2", ".basis"};
   std::error_code ignored;
   return std::find(pictures.begin(), pictures.end(), extension) == pictures.end() &&
-         std::filesystem::exists(path, ignored);
+         std::filesystem::is_regular_file(path, ignored);
 }
 
 bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
@@ -65,6 +68,21 @@ void check_chunks(const FileBytes& file) {
   }
 }
 
+/// tinygltf goes down into "extras" and extensions by recursion.
+void check_depth(const FileBytes& file, bool binary) {
+  std::string_view json(file.content);
+  if (binary) {
+    std::uint32_t length = 0;
+    if (json.size() < 20) return;  // the parser says so
+    std::memcpy(&length, json.data() + 12, sizeof length);
+    json = json.substr(20, length);
+  }
+  const int depth = json_depth(json);
+  if (depth <= deepest_json) return;
+  file.fail("JSON nested " + std::to_string(depth) + " deep",
+            "at most " + std::to_string(deepest_json), "export the file again");
+}
+
 std::optional<GltfNumbers::Type> number_type(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -89,6 +107,7 @@ std::optional<GltfNumbers::Type> number_type(int component_type) {
 tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
   const bool binary = file.content.starts_with("glTF");
   if (binary) check_chunks(file);
+  check_depth(file, binary);
   if (file.content.size() > 0xffffffffU) {
     file.fail(std::to_string(file.content.size()) + " bytes", "at most 4294967295",
               "convert it to binary PLY");

@@ -96,7 +96,12 @@ PolygonSoup read_ascii(const FileBytes& file, const Monitor& monitor) {
     if (row % rows_per_report == 0) monitor.report("read", text.fraction());
     const TextCursor start = text;
     const std::string word = lower_word(text);
-    if (word == "vertex") {
+    const bool in_facet = open == "endfacet";
+    const bool of_solid = word == "facet" || word == "solid" || word == "endsolid";
+    if (in_facet ? of_solid : word == "vertex") {
+      start.fail(in_facet ? "\"endfacet\" first" : "\"facet\" before \"vertex\"",
+                 "correct it or export the file again");
+    } else if (word == "vertex") {
       text.read_vertex(coordinates);
     } else if (word == "facet") {
       facet_begin = coordinates.size();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,24 +16,49 @@ namespace {
 
 using Index = std::int32_t;
 
-// The middle vertex of every side, -1 for a side that is not cut; slot 3 f + k is the side from
-// face f's corner k to the next. Appends the middles to the positions.
-std::vector<Index> cut_sides(Surface& surface, double longest) {
-  struct Side {
-    std::pair<Index, Index> ends;
-    std::size_t slot;
-  };
+// A side from face f's corner k to the next has the slot 3 f + k.
+struct Side {
+  std::pair<Index, Index> ends;
+  std::size_t slot;
+  double length;
+};
+
+std::vector<Side> sides_longer_than(const Surface& surface, double longest) {
   std::vector<Side> sides;
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Index a = surface.triangles(f, k);
       const Index b = surface.triangles(f, (k + 1) % 3);
       // Both directions give the same difference up to its sign, so both sides agree.
-      if ((surface.positions.row(a) - surface.positions.row(b)).norm() > longest) {
-        sides.push_back({std::minmax(a, b), static_cast<std::size_t>(3 * f + k)});
+      const double length = (surface.positions.row(a) - surface.positions.row(b)).norm();
+      if (length > longest) {
+        sides.push_back({std::minmax(a, b), static_cast<std::size_t>(3 * f + k), length});
       }
     }
   }
+  return sides;
+}
+
+// Leaves the longest of them, at most two for each vertex that there is room for; where more are
+// equally long, all of these.
+void keep_longest(std::vector<Side>& sides, std::size_t room) {
+  if (sides.size() / 2 <= room) return;
+  const auto first_out = sides.begin() + static_cast<std::ptrdiff_t>(2 * room);
+  std::nth_element(sides.begin(), first_out, sides.end(),
+                   [](const Side& a, const Side& b) { return a.length > b.length; });
+  const double bound = first_out->length;
+  const bool all_tie =
+      std::none_of(sides.begin(), first_out, [&](const Side& side) { return side.length > bound; });
+  std::erase_if(sides, [&](const Side& side) {
+    return all_tie ? side.length < bound : side.length <= bound;
+  });
+}
+
+// The middle vertex of every side, -1 for a side that is not cut, by slot. Appends the middles to
+// the positions.
+std::vector<Index> cut_sides(Surface& surface, double longest, std::size_t room) {
+  std::vector<Side> sides = sides_longer_than(surface, longest);
+  keep_longest(sides, room);
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tie(a.ends, a.slot) < std::tie(b.ends, b.slot);
   });
@@ -48,12 +74,13 @@ std::vector<Index> cut_sides(Surface& surface, double longest) {
   return middles;
 }
 
-}  // namespace
-
-Surface split_long_edges(const Surface& surface, double longest) {
+// As split_long_edges, but ends once there are `most_vertices`, the longest edges cut first.
+Surface split(const Surface& surface, double longest, std::size_t most_vertices) {
   Surface result = surface;
   for (;;) {
-    const std::vector<Index> middles = cut_sides(result, longest);
+    const auto vertices = static_cast<std::size_t>(result.positions.rows());
+    if (vertices >= most_vertices) return result;
+    const std::vector<Index> middles = cut_sides(result, longest, most_vertices - vertices);
     if (std::all_of(middles.begin(), middles.end(), [](Index m) { return m < 0; })) return result;
     std::vector<std::array<Index, 3>> faces;
     faces.reserve(middles.size());
@@ -103,14 +130,21 @@ Surface split_long_edges(const Surface& surface, double longest) {
   }
 }
 
+}  // namespace
+
+Surface split_long_edges(const Surface& surface, double longest) {
+  return split(surface, longest, std::numeric_limits<std::size_t>::max());
+}
+
 Surface refine(const Surface& surface, int least_vertices) {
   Surface result = surface;
   if (result.positions.rows() >= least_vertices) return result;
   // From four times the side of the equilateral triangles that would cover the surface with so many
-  // vertices: needles give more of them.
+  // vertices. Needles, whose area says nothing of their length, would give any number of them.
+  const auto most_vertices = 2 * static_cast<std::size_t>(least_vertices);
   double longest = 4 * std::sqrt(2 / std::sqrt(3.0) * area(surface) / least_vertices);
-  for (; result.positions.rows() < least_vertices; longest *= 0.85) {
-    result = split_long_edges(result, longest);
+  for (; result.positions.rows() < least_vertices && longest > 0; longest *= 0.85) {
+    result = split(result, longest, most_vertices);
   }
   return result;
 }

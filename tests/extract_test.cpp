@@ -26,8 +26,9 @@ namespace {
 using shapes::Shape;
 
 constexpr std::array known{
-    // Two forks where the graph has one.
-    Shortfall{"random-seed-18", "junctions off", 1},
+    // A bulge where four tubes meet counts as a branch, just.
+    Shortfall{"random-seed-71", "tips off", 1},
+    Shortfall{"random-seed-71", "furthest node / D", 0.026},
     Shortfall{"random", "moved by subdivision / D", 0.05},
 };
 
@@ -199,7 +200,7 @@ TEST_P(Genus, IsTheNumberOfCycles) {
   Shape ladder = shapes::tube_union("ladder", shapes::ladder(GetParam(), 5, 0.8), {0.25, 1.7});
   expect_its_graph(ladder, extract(ladder.surface, {}, {}).skeleton);
 }
-INSTANTIATE_TEST_SUITE_P(Handles, Genus, testing::Values(0, 1, 2, 3, 4, 6, 8, 10));
+INSTANTIATE_TEST_SUITE_P(Handles, Genus, testing::Range(0, 11));
 
 class Arms : public testing::TestWithParam<int> {};
 
@@ -242,18 +243,18 @@ INSTANTIATE_TEST_SUITE_P(Tubes, Sides, testing::Values(6, 8, 12, 24, 48, 96));
 class RandomGraph : public testing::TestWithParam<int> {};
 
 TEST_P(RandomGraph, ComesBackFromItsTubes) {
-  const int seed = GetParam();
-  const Shape shape = shapes::tube_union(
-      "random-seed-" + std::to_string(seed),
-      shapes::random_graph(static_cast<std::uint64_t>(seed), 9 + seed % 5, seed % 4, 1),
-      {0.25, 1.7});
+  const Shape shape = shapes::random_tubes(GetParam());
   const Extraction found = extract(shape.surface, {}, {});
   expect_its_graph(shape, found.skeleton);
-  EXPECT_LT(furthest_node(found.skeleton, shape.axis), 0.02 * diagonal(shape));
+  expect_at_most(known, shape.name, "furthest node / D",
+                 furthest_node(found.skeleton, shape.axis) / diagonal(shape), 0.02);
   EXPECT_EQ(found.certificate.inside_fraction, 1);
   EXPECT_EQ(found.certificate.spurs, 0);
 }
-INSTANTIATE_TEST_SUITE_P(Seed, RandomGraph, testing::Range(1, 21));
+INSTANTIATE_TEST_SUITE_P(Seed, RandomGraph, testing::Range(1, 41));
+// Those of the first 200 on which it has failed (bench/random_graphs runs them all).
+INSTANTIATE_TEST_SUITE_P(HardSeed, RandomGraph,
+                         testing::Values(52, 71, 80, 111, 113, 114, 125, 157, 190));
 
 // ---- What must not matter -----------------------------------------------------------------------
 

@@ -86,5 +86,23 @@ TEST(Refine, AnythingClosedGrowsFromATetrahedron) {
   EXPECT_EQ(topology(finer).genus, std::vector<int>{0});
 }
 
+TEST(Refine, NeedlesOfAnyLengthAreNotCutWithoutEnd) {
+  for (const double far : {1e3, 1e6, 1e12, 1e100}) {
+    Surface surface = families().front().surface;
+    surface.positions.row(0) << far, 0, 0;
+    const int least = static_cast<int>(surface.positions.rows()) + 500;
+    const Surface finer = refine(surface, least);
+    EXPECT_GE(finer.positions.rows(), least) << far;
+    EXPECT_LE(finer.positions.rows(), 2 * least + surface.positions.rows()) << far;
+    EXPECT_TRUE(closed(finer)) << far;
+  }
+}
+
+TEST(Refine, ASurfaceWithoutAreaIsLeftAlone) {
+  Surface surface = families().front().surface;
+  surface.positions.setZero();
+  EXPECT_EQ(refine(surface, 100000).positions.rows(), surface.positions.rows());
+}
+
 }  // namespace
 }  // namespace curveskel

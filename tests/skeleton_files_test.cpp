@@ -295,9 +295,18 @@ TEST(BadSkeletonFiles, AreNamedWithTheLineTheValueAndTheNeed) {
       {"a.ply",
        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
        {"\"edge\"", "\"vertex\""}},
+      {"a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+       "property float z\nelement edge 0\nproperty int vertex1\nproperty int vertex2\n"
+       "element edge 1\nproperty int colour\nend_header\n7\n",
+       {"2 elements \"edge\""}},
+      {"a.json",
+       R"({"nodes": [)" + std::string(100000, '[') + std::string(100000, ']') + "], \"edges\": []}",
+       {"nested 100002 deep"}},
       {"a.json", "{\"nodes\": [[0, 0, 0]],\n \"edges\": [[0, 1]]}", {"edge 0", "0 to 0"}},
       {"a.json", "{\"nodes\": [[0, 0]], \"edges\": []}", {"[0,0]", "node 0", "[x, y, z]"}},
       {"a.json", "{\"nodes\": [\n}", {"line 2", "JSON"}},
+      {"a.json", R"({"nodes": [[0,0,1e999]], "edges": []})", {"number overflow", "1e999"}},
       {"a.json", R"({"nodes": [[0,0,0]], "edges": [], "radii": [1, 2]})", {"2 radii", "(1)"}},
       {"a.vtp", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>", {"line 1", "UnstructuredGrid"}},
       {"a.vtp", "<VTKFile type=\"PolyData\">\n<PolyData></Poly>", {"line 2", "</Poly>"}},

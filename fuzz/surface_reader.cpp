@@ -1,0 +1,49 @@
+// Any bytes as a surface file: either an error about the input or polygons that hold together.
+// CURVESKEL_READER is the reader, see CMakeLists.txt.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "surface/error.hpp"
+#include "surface/formats.hpp"
+#include "surface/gunzip.hpp"
+
+namespace {
+
+using namespace curveskel;
+
+/// By content, unzipped where it is zipped, as files are read.
+[[maybe_unused]] PolygonSoup read_gzipped(FileBytes& file, const Monitor& monitor) {
+  if (is_gzipped(file.content)) gunzip(file, monitor);
+  if (file.content.empty()) throw Error(Fault::input, "empty");
+  return read_content(file, monitor);
+}
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check(const PolygonSoup& soup) {
+  require(soup.positions.allFinite());
+  require(!soup.offsets.empty() && soup.offsets.front() == 0);
+  require(soup.offsets.back() == static_cast<std::int64_t>(soup.corners.size()));
+  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
+    require(soup.offsets[p - 1] <= soup.offsets[p]);
+  }
+  for (const std::int32_t corner : soup.corners) {
+    require(corner >= 0 && corner < soup.positions.rows());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  FileBytes file{"/nonexistent/fuzzed", std::string(reinterpret_cast<const char*>(data), size)};
+  try {
+    check(CURVESKEL_READER(file, {}));
+  } catch (const Error& error) {
+    require(error.fault() == Fault::input);
+  }
+  return 0;
+}
