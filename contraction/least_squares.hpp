@@ -34,7 +34,7 @@ inline constexpr NameTable<Solver, 10> solvers{{
     {Solver::vcl_qr, "vcl-qr",
      "dense QR on the OpenCL device (ViennaCL), Q and R brought to the host: method 2"},
     {Solver::vcl_lsm, "vcl-lsm", "dense QR on the OpenCL device without forming Q: method 3"},
-    {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device (ViennaCL)"},
+    {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device"},
     {Solver::gauss_seidel, "gauss-seidel",
      "Gauss-Seidel by graph colouring on the OpenCL device; slow under strong contraction"},
     {Solver::jor, "jor", "extrapolated Jacobi; millions of iterations under strong contraction"},

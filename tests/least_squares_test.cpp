@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contraction/device.hpp"
+#include "contraction/householder_panel.hpp"
 #include "contraction/spectrum.hpp"
 #include "meshes/shapes.hpp"
 #include "surface/error.hpp"
@@ -283,6 +284,85 @@ TEST(ConjugateGradients, SolveWhatContractsStrongly) {
     const System strong = stacked("strong", shapes::torus(3, 1, 12).surface, contraction);
     const Solution solution = LeastSquares(Solver::cg).solve(strong.a, strong.b);
     EXPECT_LE(solution.residual, 1e-10) << contraction;
+  }
+}
+
+/// Eq. 3 on a surface whose attraction differs from vertex to vertex by `spread` at most, as where
+/// parts of it have collapsed.
+System unevenly_attracted(double contraction, double spread) {
+  System system = stacked("uneven", shapes::torus(3, 1, 12).surface, contraction);
+  const Eigen::Index n = system.a.cols();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double pull = std::pow(spread, 0.5 + 0.5 * std::sin(0.1 * static_cast<double>(j)));
+    system.a.coeffRef(n + j, j) = pull;
+    system.b.row(n + j) *= pull;
+  }
+  return system;
+}
+
+TEST(ConjugateGradients, NeedFewIterationsWhateverTheWeights) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  for (const double contraction : {0.1, 10.0, 1000.0}) {
+    for (const double spread : {1.0, 100.0, 1e4}) {
+      const System system = unevenly_attracted(contraction, spread);
+      const Solution solution = LeastSquares(Solver::cg).solve(system.a, system.b);
+      EXPECT_LE(solution.residual, 2e-10) << contraction << ", " << spread;
+      EXPECT_LE(solution.iterations, 40) << contraction << ", " << spread;
+    }
+  }
+}
+
+/// Of `rows` x `columns`, entries on and above the diagonal that `depth` rows below ends.
+System filled_down_to(int rows, int columns, int depth) {
+  System system{"filled", SparseMatrix(rows, columns), Positions(rows, 3)};
+  for (int j = 0; j < columns; ++j) {
+    for (int i = 0; i < rows && i <= j + depth; ++i) {
+      system.a.insert(i, j) = std::sin(1.0 + 7 * i + 13 * j + i * j) + (i == j ? 10 : 0);
+    }
+  }
+  for (int i = 0; i < rows; ++i) system.b.row(i) << std::sin(i), std::cos(3 * i), 0.1 * i;
+  system.a.makeCompressed();
+  return system;
+}
+
+TEST(VclLsm, TakesAnyShapeAndLeavesOutZerosOnly) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  LeastSquares solver(Solver::vcl_lsm);
+  for (const int columns : {1, 29, 31, 32, 33, 64, 95, 100}) {  // panels have 32
+    for (const int more_rows : {0, 1, 32, columns + 5}) {
+      for (const int depth : {0, 1, 40, 1000}) {
+        const System system = filled_down_to(columns + more_rows, columns, depth);
+        const Eigen::MatrixXd expected =
+            Eigen::MatrixXd(system.a).colPivHouseholderQr().solve(Eigen::MatrixXd(system.b));
+        const Positions found = solver.solve(system.a, system.b).x;
+        EXPECT_LE((found - expected).norm(), 1e-10 * expected.norm())
+            << system.a.rows() << " x " << columns << ", depth " << depth;
+      }
+    }
+  }
+}
+
+TEST(HouseholderPanel, ReflectsWhatStandsBesideIt) {
+  for (const int pivots : {0, 1, 5, 8}) {
+    constexpr std::size_t rows = 20;
+    constexpr std::size_t columns = 8;
+    Eigen::MatrixXd panel = Eigen::MatrixXd::NullaryExpr(
+        rows, columns, [](auto i, auto j) { return std::sin(1.0 + 3.0 * i + 7.0 * j * j); });
+    panel.col(1) = panel.col(0);  // of no rank
+    const Eigen::MatrixXd before = panel;
+    Eigen::MatrixXd v(rows, columns);
+    Eigen::MatrixXd w(columns, rows);
+    eliminate({panel.data(), rows, columns, rows}, static_cast<std::size_t>(pivots),
+              {v.data(), rows, columns, rows}, {w.data(), columns, rows, columns});
+    const Eigen::MatrixXd reflection = Eigen::MatrixXd::Identity(rows, rows) - v * w;
+    EXPECT_LE((reflection.transpose() * reflection - Eigen::MatrixXd::Identity(rows, rows)).norm(),
+              1e-13);
+    const Eigen::MatrixXd reflected = reflection * before;
+    for (int j = 0; j < static_cast<int>(columns); ++j) {
+      const int kept = j < pivots ? j + 1 : static_cast<int>(rows);
+      EXPECT_LE((panel.col(j).head(kept) - reflected.col(j).head(kept)).norm(), 1e-13) << j;
+      EXPECT_LE(reflected.col(j).tail(static_cast<int>(rows) - kept).norm(), 1e-13) << j;
+    }
   }
 }
 
