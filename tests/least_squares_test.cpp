@@ -402,14 +402,57 @@ TEST(DenseSolvers, RefuseWhatDoesNotFitBeforeTheyAllocate) {
   }
 }
 
+/// None, and all that devices may or may not have.
+std::vector<const Device*> any_device() {
+  static const std::vector<Device> kinds = [] {
+    std::vector<Device> all;
+    for (const bool gpu : {false, true}) {
+      for (const bool double_precision : {false, true}) {
+        for (const std::size_t gigabytes : {1U, 80U}) {
+          Device device;
+          device.gpu = gpu;
+          device.double_precision = double_precision;
+          device.memory_bytes = gigabytes << 30U;
+          all.push_back(device);
+        }
+      }
+    }
+    return all;
+  }();
+  std::vector<const Device*> result{nullptr};
+  for (const Device& kind : kinds) result.push_back(&kind);
+  return result;
+}
+
 TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {
   for (const auto& entry : solvers) {
     for (const int unknowns : {1, 1000, 1000000}) {
-      const Solver chosen = choose_solver(entry.value, unknowns);
-      EXPECT_NE(chosen, Solver::automatic);
-      if (entry.value != Solver::automatic) {
-        EXPECT_EQ(chosen, entry.value);
+      for (const Device* device : any_device()) {
+        const Solver chosen = choose_solver(entry.value, unknowns, device);
+        EXPECT_NE(chosen, Solver::automatic);
+        if (entry.value != Solver::automatic) {
+          EXPECT_EQ(chosen, entry.value);
+        }
       }
+    }
+  }
+}
+
+TEST(ChooseSolver, TakesWhatTheDeviceCanRun) {
+  for (const int unknowns : {1, 1000, 1000000}) {
+    for (const Device* device : any_device()) {
+      const Solver chosen = choose_solver(Solver::automatic, unknowns, device);
+      const bool can = device != nullptr && serves(*device, {.double_precision = true});
+      EXPECT_TRUE(can || !needs_device(chosen)) << name_of(solvers, chosen);
+      EXPECT_EQ(chosen, choose_solver(Solver::automatic, unknowns, device));
+    }
+  }
+}
+
+TEST(ChooseSolver, TakesWhatWasMeasuredToBeFastest) {
+  for (const int unknowns : {648, 1416, 5664, 14952, 200000}) {
+    for (const Device* device : any_device()) {
+      EXPECT_EQ(choose_solver(Solver::automatic, unknowns, device), Solver::cholesky);
     }
   }
 }
@@ -418,7 +461,7 @@ TEST(LeastSquares, SaysWhichSolverItUsed) {
   LeastSquares solver(Solver::automatic);
   (void)solver.solve(systems()[0].a, systems()[0].b);
   EXPECT_EQ(solver.solver(),
-            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols())));
+            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols()), nullptr));
 }
 
 }  // namespace
