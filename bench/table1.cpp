@@ -226,12 +226,18 @@ int run(int argc, char** argv) {
   CLI::App app("The paper's methods and those beyond them on surfaces of the paper's sizes");
   double most_seconds = 60;
   fs::path folder = "table1";
+  std::vector<std::string> only;
   app.add_option("--cell-seconds", most_seconds, "a cell that would take longer is predicted")
       ->capture_default_str();
   app.add_option("-o,--output", folder, "folder for table1.csv, table1.md and the plots")
       ->capture_default_str();
+  app.add_option("--only", only, "these rows, by their names (\"cg\", \"fair opencl\")");
   CLI11_PARSE(app, argc, argv);
-  const auto all = methods();
+  std::vector<Method> all = methods();
+  if (!only.empty()) {
+    std::erase_if(all,
+                  [&](const Method& method) { return std::ranges::count(only, method.name) == 0; });
+  }
   std::vector<std::vector<Cell>> rows;
   for (const Method& method : all) rows.push_back(run_row(method, most_seconds));
   fs::create_directories(folder);
