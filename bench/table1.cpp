@@ -248,6 +248,7 @@ int run(int argc, char** argv) {
                   [&](const Method& method) { return std::ranges::count(only, method.name) == 0; });
   }
   std::vector<std::vector<Cell>> rows;
+  rows.reserve(all.size());
   for (const Method& method : all) rows.push_back(run_row(method, most_seconds));
   fs::create_directories(folder);
   std::ofstream(folder / "table1.csv") << csv(all, rows);
