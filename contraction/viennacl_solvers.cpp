@@ -75,9 +75,11 @@ class VclLsm final : public LeastSquaresBackend {
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
       for (Eigen::Index k = 0; k < 3; ++k) stacked(at(i), at(a.cols() + k)) = b(i, k);
     }
-    monitor.report("contract", 0);
+    const auto heed_stop = [&] {
+      if (monitor.stop.stop_requested()) throw Cancelled();
+    };
     const vcl::Matrix reduced =
-        on_device("vcl-lsm", [&] { return vcl::reduced(stacked, at(a.cols())); });
+        on_device("vcl-lsm", [&] { return vcl::reduced(stacked, at(a.cols()), heed_stop); });
     const ColumnMajor all(reduced.entries.data(), a.cols(), a.cols() + 3);
     Solution solution;
     solution.x = solve_upper("vcl-lsm", all.leftCols(a.cols()), all.rightCols(3), a.rows());

@@ -342,6 +342,19 @@ TEST(VclLsm, TakesAnyShapeAndLeavesOutZerosOnly) {
   }
 }
 
+TEST(VclLsm, StopsWhenAsked) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  const System system = filled_down_to(100, 90, 10);
+  std::stop_source source;
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  LeastSquares solver(Solver::vcl_lsm);
+  const Solution before = solver.solve(system.a, system.b, monitor);
+  source.request_stop();
+  EXPECT_THROW((void)solver.solve(system.a, system.b, monitor), Cancelled);
+  EXPECT_EQ(solver.solve(system.a, system.b).x, before.x);  // of use afterwards
+}
+
 TEST(HouseholderPanel, ReflectsWhatStandsBesideIt) {
   for (const int pivots : {0, 1, 5, 8}) {
     constexpr std::size_t rows = 20;

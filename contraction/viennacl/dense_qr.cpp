@@ -139,7 +139,7 @@ void use(void* context, void* device, void* queue) {
   static_cast<void>(once);
 }
 
-Matrix reduced(const Matrix& a, std::size_t eliminated) {
+Matrix reduced(const Matrix& a, std::size_t eliminated, const std::function<void()>& before_panel) {
   const std::size_t rows = whole_tiles(a.rows);
   const std::size_t columns = whole_tiles(a.columns);
   const std::vector<std::size_t> depth = depths(a);
@@ -148,6 +148,7 @@ Matrix reduced(const Matrix& a, std::size_t eliminated) {
   Matrix result{eliminated, a.columns, std::vector<double>(eliminated * a.columns)};
   std::vector<double> panel(rows * tile), v, w;
   for (std::size_t first = 0; first < a.columns; first += tile) {
+    before_panel();
     matrix.read(first * rows, panel);
     const std::size_t end = std::min(first + tile, eliminated);
     if (first < end) {

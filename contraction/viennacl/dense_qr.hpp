@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace curveskel::vcl {
@@ -24,8 +25,10 @@ struct Matrix {
 /// The first `eliminated` rows of Q^T A, Q from the Householder QR of the first `eliminated`
 /// columns on the device (at most #rows): R and, in the other columns, Q^T times what they held. Q
 /// is not formed. Rows that no entry has reached yet are left out, which for eq. 3, [W_L L; W_H],
-/// saves two fifths of the work.
-[[nodiscard]] Matrix reduced(const Matrix& a, std::size_t eliminated);
+/// saves two fifths of the work. `before_panel` is called every few columns; what it throws ends
+/// the work.
+[[nodiscard]] Matrix reduced(const Matrix& a, std::size_t eliminated,
+                             const std::function<void()>& before_panel);
 
 struct Factors {
   Matrix q;  ///< rows x rows
