@@ -56,7 +56,7 @@ vcl::Matrix dense(const SparseMatrix& a, std::size_t more_columns) {
 /// X = R^-1 Y, both n rows.
 Positions solve_upper(const std::string& solver, const Eigen::Ref<const Eigen::MatrixXd>& r,
                       const Eigen::MatrixXd& y, Eigen::Index rows) {
-  const Eigen::VectorXd diagonal = r.diagonal().cwiseAbs();
+  const auto diagonal = r.diagonal().cwiseAbs();
   const double rounding = static_cast<double>(rows) * std::numeric_limits<double>::epsilon();
   if (!(diagonal.minCoeff() > rounding * diagonal.maxCoeff())) {
     throw Error(Fault::solver, solver + ": the matrix of " + std::to_string(rows) + " x " +
