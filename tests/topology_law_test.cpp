@@ -218,7 +218,8 @@ Shape crowd(int components) {
     Shape part =
         shapes::rotated(kinds[random.index(kinds.size())], {1, 2, 3}, random.uniform(0, 3));
     part = shapes::scaled(std::move(part), std::exp(random.uniform(-5, 0)));
-    parts.push_back(shapes::translated(std::move(part), Vector3d(4 * (c % 20), 4 * (c / 20), 0)));
+    const int row = c / 20;
+    parts.push_back(shapes::translated(std::move(part), Vector3d(4 * (c % 20), 4 * row, 0)));
   }
   return shapes::together("crowd-" + std::to_string(components), parts);
 }
