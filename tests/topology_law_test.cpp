@@ -280,6 +280,19 @@ TEST(TopologyLaw, ACrowdOfComponentsIsNotRefinedWithoutEnd) {
   EXPECT_LE(working_vertices(expect_law(crowd(300))), 300000);
 }
 
+TEST(TopologyLaw, ACrowdIsTheSameWithOneThreadOrThree) {
+  const Shape shape = crowd(24);
+  ExtractOptions options;
+  options.threads = 1;
+  const CurveSkeleton alone = extract(shape.surface, options, {}).skeleton;
+  options.threads = 3;
+  const CurveSkeleton together = extract(shape.surface, options, {}).skeleton;
+  EXPECT_EQ(alone.nodes, together.nodes);
+  EXPECT_EQ(alone.edges, together.edges);
+  EXPECT_EQ(alone.radii, together.radii);
+  EXPECT_EQ(alone.node_of_vertex, together.node_of_vertex);
+}
+
 TEST(TopologyLaw, AVertexThrownFarOutCostsNoMoreThanAnyOther) {
   Shape shape = shapes::torus(3, 1, 12);
   for (const double far : {1e3, 1e6}) {
