@@ -39,8 +39,10 @@ Shape crowd(int components) {
     const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
     Shape part = shapes::rotated(kinds[random.index(kinds.size())], axis, random.uniform(0, 3));
     part = shapes::scaled(std::move(part), std::exp(random.uniform(-3, 0)));
-    parts.push_back(shapes::translated(
-        std::move(part), 5.0 * Eigen::Vector3d(c % side, c / side % side, c / side / side)));
+    const int row = c / side;
+    const int layer = row / side;
+    parts.push_back(
+        shapes::translated(std::move(part), 5.0 * Eigen::Vector3d(c % side, row % side, layer)));
   }
   return shapes::together("crowd", parts);
 }

@@ -218,7 +218,8 @@ Shape crowd(int components) {
     Shape part =
         shapes::rotated(kinds[random.index(kinds.size())], {1, 2, 3}, random.uniform(0, 3));
     part = shapes::scaled(std::move(part), std::exp(random.uniform(-5, 0)));
-    parts.push_back(shapes::translated(std::move(part), Vector3d(4 * (c % 20), 4 * (c / 20), 0)));
+    const int row = c / 20;
+    parts.push_back(shapes::translated(std::move(part), Vector3d(4 * (c % 20), 4 * row, 0)));
   }
   return shapes::together("crowd-" + std::to_string(components), parts);
 }
@@ -277,6 +278,19 @@ int working_vertices(const Extraction& found) {
 
 TEST(TopologyLaw, ACrowdOfComponentsIsNotRefinedWithoutEnd) {
   EXPECT_LE(working_vertices(expect_law(crowd(300))), 300000);
+}
+
+TEST(TopologyLaw, ACrowdIsTheSameWithOneThreadOrThree) {
+  const Shape shape = crowd(24);
+  ExtractOptions options;
+  options.threads = 1;
+  const CurveSkeleton alone = extract(shape.surface, options, {}).skeleton;
+  options.threads = 3;
+  const CurveSkeleton together = extract(shape.surface, options, {}).skeleton;
+  EXPECT_EQ(alone.nodes, together.nodes);
+  EXPECT_EQ(alone.edges, together.edges);
+  EXPECT_EQ(alone.radii, together.radii);
+  EXPECT_EQ(alone.node_of_vertex, together.node_of_vertex);
 }
 
 TEST(TopologyLaw, AVertexThrownFarOutCostsNoMoreThanAnyOther) {
