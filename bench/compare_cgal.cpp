@@ -16,9 +16,10 @@
 #include "bench/cgal_skeleton.hpp"
 #include "skeleton/certificate.hpp"
 #include "skeleton/extract.hpp"
+#include "skeleton/picture.hpp"
 #include "skeleton/skeleton_files.hpp"
-#include "surface/clean.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 
 namespace curveskel::bench {
 namespace {
@@ -31,6 +32,7 @@ struct Options {
   fs::path csv;
   fs::path markdown;
   fs::path skeletons;
+  fs::path pictures;  // of this project's skeletons
   bool cgal_only = false;
   bool ours_only = false;
   int resolution = ExtractOptions{}.resolution;
@@ -93,6 +95,12 @@ Run timed(const std::string& program, const fs::path& file, const Surface& surfa
     std::ofstream out(options.skeletons / (run.file + "." + program + ".cgal"));
     out << format_skeleton(skeleton, SkeletonFormat::cgal, {});
   }
+  if (!options.pictures.empty() && program == "curveskel") {
+    fs::create_directories(options.pictures);
+    constexpr PictureOptions small{640, 480, 0};
+    std::ofstream out(options.pictures / (file.stem().stem().string() + ".png"), std::ios::binary);
+    out << png_picture(skeleton, surface, small);
+  }
   return run;
 }
 
@@ -101,7 +109,7 @@ Run run_ours(const fs::path& file, const Surface& surface, const Options& option
     ExtractOptions extraction;
     extraction.resolution = options.resolution;
     extraction.threads = options.threads;
-    return extract(clean(read_polygons(file, {}), {}).surface, extraction, {}).skeleton;
+    return extract(repair(read_polygons(file, {}), {}, {}).surface, extraction, {}).skeleton;
   });
 }
 
@@ -124,10 +132,18 @@ std::string csv_row(const Run& run) {
   return row.str();
 }
 
-std::string markdown_row(const Run& run, double ratio) {
+/// The file's name, linked to its picture as seen from the folder of the table.
+std::string linked_name(const Run& run, const Options& options) {
+  if (options.pictures.empty() || run.program != "curveskel") return run.file;
+  const fs::path picture = options.pictures / (fs::path(run.file).stem().stem().string() + ".png");
+  return "[" + run.file + "](" +
+         picture.lexically_relative(options.markdown.parent_path()).string() + ")";
+}
+
+std::string markdown_row(const Run& run, double ratio, const Options& options) {
   const Certificate& c = run.certificate;
   std::ostringstream row;
-  row << std::fixed << "| " << run.file << " | " << run.program << " | ";
+  row << std::fixed << "| " << linked_name(run, options) << " | " << run.program << " | ";
   if (!run.failure.empty()) {
     row << "failed: " << run.failure << " |";
     return row.str();
@@ -172,7 +188,7 @@ void compare(const Options& options) {
     (markdown = std::ofstream(options.markdown)) << markdown_head << '\n';
   for (const fs::path& file :
        options.files.empty() ? indexed_meshes(options.meshes) : options.files) {
-    const Surface surface = clean(read_polygons(file, {}), {}).surface;
+    const Surface surface = repair(read_polygons(file, {}), {}, {}).surface;
     std::cout << file.filename().string() << ": " << surface.positions.rows() << " vertices\n";
     std::vector<Run> runs;
     if (!options.cgal_only) runs.push_back(run_ours(file, surface, options));
@@ -181,7 +197,7 @@ void compare(const Options& options) {
     for (const Run& run : runs) {
       print(run);
       csv << csv_row(run) << std::endl;
-      markdown << markdown_row(run, &run == &runs.front() ? ratio : 0) << std::endl;
+      markdown << markdown_row(run, &run == &runs.front() ? ratio : 0, options) << std::endl;
     }
     if (ratio > 0) {
       std::cout << "  CGAL takes " << std::setprecision(1) << ratio << " times as long and "
@@ -204,6 +220,8 @@ int main(int argc, char** argv) {
   app.add_option("--csv", options.csv, "write a table, one row for each run");
   app.add_option("--markdown", options.markdown, "write a table for reading");
   app.add_option("--save-skeletons", options.skeletons, "folder for the skeletons as .cgal");
+  app.add_option("--pictures", options.pictures,
+                 "folder for a picture of each of curveskel's skeletons, linked from the table");
   app.add_option("--resolution", options.resolution, "working vertices of curveskel, 0 = full")
       ->capture_default_str();
   app.add_option("--threads", options.threads, "of curveskel, 0 = one per core")

@@ -15,7 +15,7 @@ class DenseQr final : public LeastSquaresBackend {
     require_memory("dense-qr", a, 1);  // the factors overwrite the matrix
     Eigen::MatrixXd dense = a;
     const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(dense);
-    const Eigen::VectorXd diagonal = qr.matrixQR().diagonal().cwiseAbs();
+    const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
     const double rounding = static_cast<double>(a.rows()) * std::numeric_limits<double>::epsilon();
     if (!(diagonal.minCoeff() > rounding * diagonal.maxCoeff())) {
       throw Error(Fault::solver, "dense-qr: the matrix of " + std::to_string(a.rows()) + " x " +

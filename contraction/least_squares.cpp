@@ -78,7 +78,7 @@ bool needs_device(Solver solver) {
   return false;
 }
 
-Solver choose_solver(Solver wanted, int /*unknowns*/) {
+Solver choose_solver(Solver wanted, int /*unknowns*/, const Device* /*device*/) {
   return wanted == Solver::automatic ? Solver::cholesky : wanted;
 }
 
@@ -88,7 +88,8 @@ struct LeastSquares::Implementation {
   std::unique_ptr<LeastSquaresBackend> backend;
 
   LeastSquaresBackend& backend_for(int unknowns) {
-    const Solver chosen = choose_solver(options.solver, unknowns);
+    // Drivers take 0.1 s to load, which no device makes up for so far: none is looked for.
+    const Solver chosen = choose_solver(options.solver, unknowns, nullptr);
     if (!backend || chosen != used) {
       backend = make_backend(chosen, options);
       used = chosen;

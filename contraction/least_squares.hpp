@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "contraction/device.hpp"
 #include "contraction/laplacian.hpp"
 #include "surface/monitor.hpp"
 #include "surface/names.hpp"
@@ -34,16 +35,18 @@ inline constexpr NameTable<Solver, 10> solvers{{
     {Solver::vcl_qr, "vcl-qr",
      "dense QR on the OpenCL device (ViennaCL), Q and R brought to the host: method 2"},
     {Solver::vcl_lsm, "vcl-lsm", "dense QR on the OpenCL device without forming Q: method 3"},
-    {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device (ViennaCL)"},
+    {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device"},
     {Solver::gauss_seidel, "gauss-seidel",
      "Gauss-Seidel by graph colouring on the OpenCL device; slow under strong contraction"},
     {Solver::jor, "jor", "extrapolated Jacobi; millions of iterations under strong contraction"},
     {Solver::jacobi, "jacobi", "Jacobi: diverges wherever anything contracts, and says so"},
 }};
 
-/// What `auto` stands for; a pure function of the size. Cholesky was the fastest at every size from
-/// 648 to 200,000 unknowns (docs/method.md, "Solvers"), so for now it is the answer to all.
-[[nodiscard]] Solver choose_solver(Solver wanted, int unknowns);
+/// What `auto` stands for: a pure function of the size and of the OpenCL device at hand (null =
+/// none). Never a solver that needs a device without one, or without double precision. Cholesky was
+/// the fastest at every size from 648 to 200,000 unknowns and beside every device that was
+/// measured, all of them processors (docs/benchmarks.md), so for now it is the answer to all.
+[[nodiscard]] Solver choose_solver(Solver wanted, int unknowns, const Device* device);
 
 /// Whether the solver runs on an OpenCL device, which must then offer double precision.
 [[nodiscard]] bool needs_device(Solver solver);

@@ -1,6 +1,7 @@
 // What every method of the local flow implements; one file per method.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "contraction/fair.hpp"
@@ -36,9 +37,12 @@ class LocalFlow {
 [[nodiscard]] std::unique_ptr<LocalFlow> make_patch_flow(const Surface& surface,
                                                          const OneRings& rings,
                                                          const FairOptions& options);
+/// On the device, in at most `memory_bytes` of it beside the positions (0 = half of what it has).
+/// Throws Error(Fault::device) when the patches need more.
 [[nodiscard]] std::unique_ptr<LocalFlow> make_opencl_patch_flow(const Surface& surface,
                                                                 const OneRings& rings,
-                                                                const FairOptions& options);
+                                                                const FairOptions& options,
+                                                                std::size_t memory_bytes = 0);
 /// The flow of `resident`, with `copy_through_host` after every iteration.
 [[nodiscard]] std::unique_ptr<LocalFlow> make_transfer_flow(std::unique_ptr<LocalFlow> resident);
 

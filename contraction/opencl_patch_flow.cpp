@@ -70,9 +70,11 @@ struct GiantRing {
 template <typename Real>
 class OpenClPatchFlow final : public LocalFlow {
  public:
-  OpenClPatchFlow(const Surface& surface, const OneRings& rings, const FairOptions& options)
+  OpenClPatchFlow(const Surface& surface, const OneRings& rings, const FairOptions& options,
+                  std::size_t memory_bytes)
       : memory_(place_positions(options, pack_positions<Real>(surface.positions))),
         options_(options),
+        lent_bytes_(memory_bytes > 0 ? memory_bytes : session().device().memory_bytes / 2),
         vertices_(surface.positions.rows()),
         corners_(corners_by_vertex(surface.triangles, vertices_)),
         patches_(surface.triangles, corners_, options.rings),
@@ -147,14 +149,13 @@ class OpenClPatchFlow final : public LocalFlow {
       for (const PatchSize& size : sizes) indices += size.vertices + 3 * size.triangles + 2;
     }
     const std::size_t needed = indices * sizeof(int) + workspace_limit();
-    if (needed > session().device().memory_bytes / 2) {
+    if (needed > lent_bytes_) {
       constexpr std::size_t mebibyte = std::size_t{1} << 20U;
-      throw Error(Fault::device,
-                  "the patches of " + std::to_string(options_.rings) + " rings need " +
-                      std::to_string(needed / mebibyte) + " MiB on OpenCL device '" +
-                      session().device().name + "', which has " +
-                      std::to_string(session().device().memory_bytes / mebibyte) +
-                      " and lends half; use fewer rings, or the method host, which keeps none");
+      throw Error(Fault::device, "the patches of " + std::to_string(options_.rings) +
+                                     " rings need " + std::to_string(needed / mebibyte) +
+                                     " MiB on OpenCL device '" + session().device().name +
+                                     "', which lends " + std::to_string(lent_bytes_ / mebibyte) +
+                                     "; use fewer rings, or the method host, which keeps none");
     }
   }
 
@@ -267,6 +268,7 @@ class OpenClPatchFlow final : public LocalFlow {
 
   PositionMemory memory_;
   const FairOptions& options_;
+  std::size_t lent_bytes_;
   Eigen::Index vertices_;
   CornersByVertex corners_;
   PatchFinder patches_;
@@ -283,11 +285,12 @@ class OpenClPatchFlow final : public LocalFlow {
 }  // namespace
 
 std::unique_ptr<LocalFlow> make_opencl_patch_flow(const Surface& surface, const OneRings& rings,
-                                                  const FairOptions& options) {
+                                                  const FairOptions& options,
+                                                  std::size_t memory_bytes) {
   if (options.double_precision) {
-    return std::make_unique<OpenClPatchFlow<double>>(surface, rings, options);
+    return std::make_unique<OpenClPatchFlow<double>>(surface, rings, options, memory_bytes);
   }
-  return std::make_unique<OpenClPatchFlow<float>>(surface, rings, options);
+  return std::make_unique<OpenClPatchFlow<float>>(surface, rings, options, memory_bytes);
 }
 
 }  // namespace curveskel

@@ -5,6 +5,9 @@
 
 namespace curveskel {
 
+/// Steps of conjugate gradients and of the iteration that preconditions it; double precision.
+extern const std::string_view conjugate_gradients_source;
+
 /// One colour of a sweep; double precision.
 extern const std::string_view gauss_seidel_source;
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "surface/gunzip.hpp"
+#include "surface/memory.hpp"
 
 namespace curveskel {
 namespace {
@@ -55,6 +56,8 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
   }
   const auto size = known && S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   std::size_t used = 0;
+  require_memory(2 * static_cast<double>(size), available_memory_bytes(), path.string(),
+                 Fault::input, "decimate it on a larger machine first");
   file.content.resize(size + 1);  // one more, so that the end shows without growing
   for (;;) {
     if (used == file.content.size()) file.content.resize(2 * used);

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "surface/memory.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -46,7 +48,15 @@ bool is_gzipped(const std::string& content) { return content.starts_with("\x1f\x
 
 void gunzip(FileBytes& file, const Monitor& monitor) {
   std::string zipped = std::move(file.content);
-  file.content.assign(std::max(stated_size(zipped), zipped.size()) + 1, '\0');
+  const auto require = [&](std::size_t bytes) {
+    // The content, and the surface in it, which takes about as much again.
+    require_memory(2 * static_cast<double>(bytes), available_memory_bytes(),
+                   file.path.string() + ", unzipped", Fault::input,
+                   "it is too large for this machine, or no honest file");
+  };
+  const std::size_t stated = std::max(stated_size(zipped), zipped.size()) + 1;
+  require(stated);
+  file.content.assign(stated, '\0');
   std::size_t read = 0;
   std::size_t used = 0;
   while (std::string_view(zipped).substr(read).starts_with("\x1f\x8b")) {
@@ -54,7 +64,10 @@ void gunzip(FileBytes& file, const Monitor& monitor) {
     isal_inflate_init(&state);
     state.crc_flag = ISAL_GZIP;
     while (state.block_state != ISAL_BLOCK_FINISH) {
-      if (used == file.content.size()) file.content.resize(2 * used);
+      if (used == file.content.size()) {
+        require(2 * used);
+        file.content.resize(2 * used);
+      }
       const std::size_t given = std::min(stretch_bytes, zipped.size() - read);
       const std::size_t room = std::min(stretch_bytes, file.content.size() - used);
       state.next_in = reinterpret_cast<std::uint8_t*>(zipped.data()) + read;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "contraction/contract.hpp"
+#include "contraction/local_flow.hpp"
 #include "contraction/patch_solution.hpp"
 #include "surface/clean.hpp"
 #include "surface/error.hpp"
@@ -142,6 +143,47 @@ TEST(FairRings, PatchesOfAnySizeWillDo) {
     const Surface host = fair(cone.surface, with_rings(FairMethod::host, 2, 1), {});
     const Surface device = fair(cone.surface, with_rings(FairMethod::opencl, 2, 1, true), {});
     EXPECT_LT(largest_difference(device, host), 1e-12) << sides;
+  }
+}
+
+/// What the patches of all vertices take on the device, the workspace in full.
+std::size_t bytes_on_device(const Surface& surface, int rings, const Device& device) {
+  const auto corners = corners_by_vertex(surface.triangles, surface.positions.rows());
+  PatchFinder finder(surface.triangles, corners, rings);
+  std::size_t indices = 0;
+  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+    const Patch& patch = finder.of(static_cast<std::int32_t>(v));
+    indices += patch.vertices.size() + 3 * patch.triangles.size() + 2;
+  }
+  return indices * sizeof(int) + std::min(std::size_t{1} << 28U, device.memory_bytes / 16);
+}
+
+TEST(FairRings, PatchesThatFillTheDeviceAreRefused) {
+  SKIP_WITHOUT_DEVICE();
+  Surface surface = shapes::ellipsoid({1, 1.5, 2}, 3).surface;
+  surface.positions /= bounding_box_diagonal(surface.positions);
+  const OneRings around = one_rings(surface.triangles, surface.positions.rows());
+  const std::vector<Device> found = devices();
+  const Device& device = found[choose_device(found, {}, "this test", "")];
+  const auto placed = [&](int rings, std::size_t memory_bytes) {
+    const FairOptions options = with_rings(FairMethod::opencl, rings, 1);
+    (void)make_opencl_patch_flow(surface, around, options, memory_bytes);
+  };
+  const std::size_t enough = bytes_on_device(surface, 2, device);
+  EXPECT_NO_THROW(placed(1, enough));
+  EXPECT_NO_THROW(placed(2, enough));
+  EXPECT_THROW(placed(2, enough - 1), Error);
+  try {
+    placed(3, enough);
+    FAIL() << "more rings were placed in the memory of fewer";
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(error.fault(), Fault::device);
+    for (const std::string& said :
+         {std::string("patches of 3 rings"), device.name, std::string("use fewer rings"),
+          std::string("the method host"), std::to_string(enough >> 20U)}) {
+      EXPECT_NE(message.find(said), std::string::npos) << said << " is not in: " << message;
+    }
   }
 }
 

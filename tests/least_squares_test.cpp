@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contraction/device.hpp"
+#include "contraction/householder_panel.hpp"
 #include "contraction/spectrum.hpp"
 #include "meshes/shapes.hpp"
 #include "surface/error.hpp"
@@ -286,6 +287,98 @@ TEST(ConjugateGradients, SolveWhatContractsStrongly) {
   }
 }
 
+/// Eq. 3 on a surface whose attraction differs from vertex to vertex by `spread` at most, as where
+/// parts of it have collapsed.
+System unevenly_attracted(double contraction, double spread) {
+  System system = stacked("uneven", shapes::torus(3, 1, 12).surface, contraction);
+  const Eigen::Index n = system.a.cols();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double pull = std::pow(spread, 0.5 + 0.5 * std::sin(0.1 * static_cast<double>(j)));
+    system.a.coeffRef(n + j, j) = pull;
+    system.b.row(n + j) *= pull;
+  }
+  return system;
+}
+
+TEST(ConjugateGradients, NeedFewIterationsWhateverTheWeights) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  for (const double contraction : {0.1, 10.0, 1000.0}) {
+    for (const double spread : {1.0, 100.0, 1e4}) {
+      const System system = unevenly_attracted(contraction, spread);
+      const Solution solution = LeastSquares(Solver::cg).solve(system.a, system.b);
+      EXPECT_LE(solution.residual, 2e-10) << contraction << ", " << spread;
+      EXPECT_LE(solution.iterations, 40) << contraction << ", " << spread;
+    }
+  }
+}
+
+/// Of `rows` x `columns`, entries on and above the diagonal that `depth` rows below ends.
+System filled_down_to(int rows, int columns, int depth) {
+  System system{"filled", SparseMatrix(rows, columns), Positions(rows, 3)};
+  for (int j = 0; j < columns; ++j) {
+    for (int i = 0; i < rows && i <= j + depth; ++i) {
+      system.a.insert(i, j) = std::sin(1.0 + 7 * i + 13 * j + i * j) + (i == j ? 10 : 0);
+    }
+  }
+  for (int i = 0; i < rows; ++i) system.b.row(i) << std::sin(i), std::cos(3 * i), 0.1 * i;
+  system.a.makeCompressed();
+  return system;
+}
+
+TEST(VclLsm, TakesAnyShapeAndLeavesOutZerosOnly) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  LeastSquares solver(Solver::vcl_lsm);
+  for (const int columns : {1, 29, 31, 32, 33, 64, 95, 100}) {  // panels have 32
+    for (const int more_rows : {0, 1, 32, columns + 5}) {
+      for (const int depth : {0, 1, 40, 1000}) {
+        const System system = filled_down_to(columns + more_rows, columns, depth);
+        const Eigen::MatrixXd expected =
+            Eigen::MatrixXd(system.a).colPivHouseholderQr().solve(Eigen::MatrixXd(system.b));
+        const Positions found = solver.solve(system.a, system.b).x;
+        EXPECT_LE((found - expected).norm(), 1e-10 * expected.norm())
+            << system.a.rows() << " x " << columns << ", depth " << depth;
+      }
+    }
+  }
+}
+
+TEST(VclLsm, StopsWhenAsked) {
+  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  const System system = filled_down_to(100, 90, 10);
+  std::stop_source source;
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  LeastSquares solver(Solver::vcl_lsm);
+  const Solution before = solver.solve(system.a, system.b, monitor);
+  source.request_stop();
+  EXPECT_THROW((void)solver.solve(system.a, system.b, monitor), Cancelled);
+  EXPECT_EQ(solver.solve(system.a, system.b).x, before.x);  // of use afterwards
+}
+
+TEST(HouseholderPanel, ReflectsWhatStandsBesideIt) {
+  for (const int pivots : {0, 1, 5, 8}) {
+    constexpr std::size_t rows = 20;
+    constexpr std::size_t columns = 8;
+    Eigen::MatrixXd panel = Eigen::MatrixXd::NullaryExpr(
+        rows, columns, [](auto i, auto j) { return std::sin(1.0 + 3.0 * i + 7.0 * j * j); });
+    panel.col(1) = panel.col(0);  // of no rank
+    const Eigen::MatrixXd before = panel;
+    Eigen::MatrixXd v(rows, columns);
+    Eigen::MatrixXd w(columns, rows);
+    eliminate({panel.data(), rows, columns, rows}, static_cast<std::size_t>(pivots),
+              {v.data(), rows, columns, rows}, {w.data(), columns, rows, columns});
+    const Eigen::MatrixXd reflection = Eigen::MatrixXd::Identity(rows, rows) - v * w;
+    EXPECT_LE((reflection.transpose() * reflection - Eigen::MatrixXd::Identity(rows, rows)).norm(),
+              1e-13);
+    const Eigen::MatrixXd reflected = reflection * before;
+    for (int j = 0; j < static_cast<int>(columns); ++j) {
+      const int kept = j < pivots ? j + 1 : static_cast<int>(rows);
+      EXPECT_LE((panel.col(j).head(kept) - reflected.col(j).head(kept)).norm(), 1e-13) << j;
+      EXPECT_LE(reflected.col(j).tail(static_cast<int>(rows) - kept).norm(), 1e-13) << j;
+    }
+  }
+}
+
 TEST(JacobiSpectrum, IsThatOfADenseSolver) {
   for (const double contraction : {0.1, 10.0}) {
     const System system = stacked("", shapes::torus(3, 1, 12).surface, contraction);
@@ -322,14 +415,57 @@ TEST(DenseSolvers, RefuseWhatDoesNotFitBeforeTheyAllocate) {
   }
 }
 
+/// None, and all that devices may or may not have.
+std::vector<const Device*> any_device() {
+  static const std::vector<Device> kinds = [] {
+    std::vector<Device> all;
+    for (const bool gpu : {false, true}) {
+      for (const bool double_precision : {false, true}) {
+        for (const std::size_t gigabytes : {1U, 80U}) {
+          Device device;
+          device.gpu = gpu;
+          device.double_precision = double_precision;
+          device.memory_bytes = gigabytes << 30U;
+          all.push_back(device);
+        }
+      }
+    }
+    return all;
+  }();
+  std::vector<const Device*> result{nullptr};
+  for (const Device& kind : kinds) result.push_back(&kind);
+  return result;
+}
+
 TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {
   for (const auto& entry : solvers) {
     for (const int unknowns : {1, 1000, 1000000}) {
-      const Solver chosen = choose_solver(entry.value, unknowns);
-      EXPECT_NE(chosen, Solver::automatic);
-      if (entry.value != Solver::automatic) {
-        EXPECT_EQ(chosen, entry.value);
+      for (const Device* device : any_device()) {
+        const Solver chosen = choose_solver(entry.value, unknowns, device);
+        EXPECT_NE(chosen, Solver::automatic);
+        if (entry.value != Solver::automatic) {
+          EXPECT_EQ(chosen, entry.value);
+        }
       }
+    }
+  }
+}
+
+TEST(ChooseSolver, TakesWhatTheDeviceCanRun) {
+  for (const int unknowns : {1, 1000, 1000000}) {
+    for (const Device* device : any_device()) {
+      const Solver chosen = choose_solver(Solver::automatic, unknowns, device);
+      const bool can = device != nullptr && serves(*device, {.double_precision = true});
+      EXPECT_TRUE(can || !needs_device(chosen)) << name_of(solvers, chosen);
+      EXPECT_EQ(chosen, choose_solver(Solver::automatic, unknowns, device));
+    }
+  }
+}
+
+TEST(ChooseSolver, TakesWhatWasMeasuredToBeFastest) {
+  for (const int unknowns : {648, 1416, 5664, 14952, 200000}) {
+    for (const Device* device : any_device()) {
+      EXPECT_EQ(choose_solver(Solver::automatic, unknowns, device), Solver::cholesky);
     }
   }
 }
@@ -338,7 +474,7 @@ TEST(LeastSquares, SaysWhichSolverItUsed) {
   LeastSquares solver(Solver::automatic);
   (void)solver.solve(systems()[0].a, systems()[0].b);
   EXPECT_EQ(solver.solver(),
-            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols())));
+            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols()), nullptr));
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ def default_signals():
 def start(*arguments, **options):
     """A running program, its output and messages in pipes."""
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    return subprocess.Popen([PROGRAM, *map(str, arguments)], preexec_fn=default_signals,
-                            **{**pipes, **options})
+    return subprocess.Popen([PROGRAM, *map(str, arguments)],
+                            **{**pipes, "preexec_fn": default_signals, **options})
 
 
 class Result:

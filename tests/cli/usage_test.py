@@ -1,6 +1,8 @@
 """What the program says when it is asked, and when it is asked wrongly."""
 
+import gzip
 import os
+import resource
 import unittest
 
 from program import TORUS, Y, CommandLineTest, run
@@ -91,6 +93,19 @@ class WrongFiles(CommandLineTest):
         if not os.access(secret, os.R_OK):
             self.refused(INPUT, "extract", secret, "-o", "x.obj", says=["secret.off"],
                          cwd=self.folder)
+
+    def test_a_file_that_unzips_to_more_than_the_memory_is_an_input_fault(self):
+        packed = bytearray(gzip.compress(os.urandom(3 << 20)))
+        packed[-4:] = (0xF0000000).to_bytes(4, "little")  # the size that it claims
+        (self.folder / "bomb.ply.gz").write_bytes(packed)
+
+        def with_little_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        result = run("extract", "bomb.ply.gz", "-o", "x.obj", cwd=self.folder,
+                     preexec_fn=with_little_memory)
+        self.assertEqual(result.code, INPUT, result.err)
+        self.assertIn("memory left", result.err)
 
     def test_a_missing_folder_is_an_output_fault_before_any_work(self):
         self.refused(OUTPUT, "extract", TORUS, "-o", "no/x.obj", says=["no"], cwd=self.folder)
