@@ -152,7 +152,7 @@ Shape sieve(int holes_along) {
   Shape shape;
   shape.name = "sieve";
   shape.genus = shape.cycles = holes_along * holes_along;
-  shape.surface.positions.resize(2 * (side + 1) * (side + 1), 3);
+  shape.surface.positions.resize(Eigen::Index{2} * (side + 1) * (side + 1), 3);
   const auto corner = [&](int i, int j, int top) { return (i * (side + 1) + j) * 2 + top; };
   std::vector<std::array<int, 3>> faces;
   const auto quad = [&](int a, int b, int c, int d) {
