@@ -41,14 +41,23 @@ struct ContractArguments {
 /// A component's surface before the first and after each iteration.
 using Frames = std::vector<Surface>;
 
-void append(Surface& whole, const Surface& part) {
-  const Eigen::Index vertices = whole.positions.rows();
-  const Eigen::Index triangles = whole.triangles.rows();
-  whole.positions.conservativeResize(vertices + part.positions.rows(), 3);
-  whole.positions.bottomRows(part.positions.rows()) = part.positions;
-  whole.triangles.conservativeResize(triangles + part.triangles.rows(), 3);
-  whole.triangles.bottomRows(part.triangles.rows()) =
-      part.triangles.array() + static_cast<int>(vertices);
+Surface together(const std::vector<const Surface*>& parts) {
+  Eigen::Index vertices = 0;
+  Eigen::Index triangles = 0;
+  for (const Surface* part : parts) {
+    vertices += part->positions.rows();
+    triangles += part->triangles.rows();
+  }
+  Surface whole{Positions(vertices, 3), Triangles(triangles, 3)};
+  vertices = triangles = 0;
+  for (const Surface* part : parts) {
+    whole.positions.middleRows(vertices, part->positions.rows()) = part->positions;
+    whole.triangles.middleRows(triangles, part->triangles.rows()) =
+        part->triangles.array() + static_cast<int>(vertices);
+    vertices += part->positions.rows();
+    triangles += part->triangles.rows();
+  }
+  return whole;
 }
 
 /// Frame k has every component after its iteration k, or its last one.
@@ -58,8 +67,10 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
   for (const Frames& frames : components) count = std::max(count, frames.size());
   std::vector<OutputFile> files;
   for (std::size_t k = 0; k < count; ++k) {
-    Surface whole;
-    for (const Frames& frames : components) append(whole, frames[std::min(k, frames.size() - 1)]);
+    std::vector<const Surface*> parts;
+    for (const Frames& frames : components)
+      parts.push_back(&frames[std::min(k, frames.size() - 1)]);
+    const Surface whole = together(parts);
     files.push_back({(folder / fmt::format("{:04}.ply", k)).string(),
                      format_surface(whole, SurfaceFormat::ply, provenance)});
   }
