@@ -53,10 +53,10 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (!arguments.against.empty()) {
     const double diagonal = bounding_box_diagonal(surface.positions);
     evaluation.against = arguments.against.filename().string();
-    evaluation.hausdorff_distance =
-        hausdorff_distance(skeleton, read_skeleton(arguments.against),
-                           arguments.options.sample_spacing * diagonal) /
-        diagonal;
+    const CurveSkeleton other = read_skeleton(arguments.against);
+    const double spacing = arguments.options.sample_spacing * diagonal;
+    evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
+    evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
   }
 
   session.terminal.end_progress();
@@ -69,8 +69,9 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (!arguments.quiet) {
     std::string text = certificate_table(certificate, arguments.options);
     if (!evaluation.against.empty()) {
-      text += fmt::format("  distance         {:>10.4f} D, Hausdorff, to {}\n",
-                          evaluation.hausdorff_distance, evaluation.against);
+      text +=
+          fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
+                      evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
     }
     session.terminal.result(text);
   }

@@ -34,6 +34,7 @@ struct FairArguments {
   fs::path mesh;
   std::string output;
   bool quiet = false;
+  double time_limit_seconds = 0;
   FairOptions options;
 };
 
@@ -77,6 +78,7 @@ int run_fair(const FairArguments& arguments, Session& session) {
   const SurfaceFormat format = format_of(arguments.output, surface_formats);
   check_outputs({arguments.output}, arguments.mesh);
 
+  session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
   const Surface result = faired(soup, arguments.options, monitor);
@@ -121,6 +123,7 @@ Verb add_fair(CLI::App& program) {
   add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
   add_number(*parser, "--threads", options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
+  add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +
                  meanings("Volume", volume_rules) + meanings("Precision", precisions));

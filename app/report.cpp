@@ -207,7 +207,8 @@ std::string evaluation_json(const std::string& surface_file, const std::string& 
                {"certificate", to_json(evaluation.certificate)}};
   if (!evaluation.against.empty()) {
     json["against"] = {{"skeleton", evaluation.against},
-                       {"hausdorff_distance", evaluation.hausdorff_distance}};
+                       {"hausdorff_distance", evaluation.hausdorff_distance},
+                       {"mean_distance", evaluation.mean_distance}};
   }
   return text_of(json, 2) + "\n";
 }

@@ -41,6 +41,7 @@ struct Evaluation {
   CertificateOptions options;
   std::string against;            ///< the other skeleton's file, empty = none
   double hausdorff_distance = 0;  ///< to that one, of the surface's D
+  double mean_distance = 0;       ///< the same in the mean
 };
 
 /// Certificate of a skeleton file against a surface file. Ends with a newline.

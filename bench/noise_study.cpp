@@ -69,22 +69,26 @@ void study(const std::filesystem::path& file, const std::vector<int>& iterations
   const Surface clean_surface = clean(read_polygons(file, {}), {}).surface;
   const double diagonal = bounding_box_diagonal(clean_surface.positions);
   const Skeleton wanted = skeleton_of(clean_surface, 0);
-  const auto distance = [&](const Skeleton& found) {
-    return hausdorff_distance(found.curve, wanted.curve, diagonal / 400) / diagonal;
+  // Hausdorff, and the mean in thousandths of D.
+  const auto distances = [&](const Skeleton& found) {
+    const double spacing = diagonal / 400;
+    return fmt::format("{:.4f}, {:.1f}",
+                       hausdorff_distance(found.curve, wanted.curve, spacing) / diagonal,
+                       1000 * mean_distance(found.curve, wanted.curve, spacing) / diagonal);
   };
   for (const double percent : {0.2, 0.5, 1.0}) {
     const Surface noisy = with_noise(clean_surface, percent / 100 * diagonal);
     const Skeleton unfaired = skeleton_of(noisy, 0);
-    std::string row = fmt::format("| {} | {} | {:.1f} | {:.4f} ({}, {}) |", file.stem().string(),
+    std::string row = fmt::format("| {} | {} | {:.1f} | {} ({}, {}) |", file.stem().string(),
                                   percent, mean_normal_error_degrees(noisy, clean_surface),
-                                  distance(unfaired), unfaired.tips, wanted.tips);
+                                  distances(unfaired), unfaired.tips, wanted.tips);
     for (const int n : iterations) {
       FairOptions options;
       options.iterations = n;
       const Skeleton faired = skeleton_of(noisy, n);
-      row += fmt::format(" {:.1f} | {:.4f} ({}) |",
+      row += fmt::format(" {:.1f} | {} ({}) |",
                          mean_normal_error_degrees(fair(noisy, options, {}), clean_surface),
-                         distance(faired), faired.tips);
+                         distances(faired), faired.tips);
     }
     std::cout << row << "\n" << std::flush;
   }

@@ -68,4 +68,9 @@ struct CertifiedSurface {
 [[nodiscard]] double hausdorff_distance(const CurveSkeleton& a, const CurveSkeleton& b,
                                         double spacing);
 
+/// The mean over the length of one of the distance to the other, averaged over both directions:
+/// what a branch more or less does to it goes with the branch's length. Infinite if one of them is
+/// empty.
+[[nodiscard]] double mean_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing);
+
 }  // namespace curveskel

@@ -62,7 +62,21 @@ double farthest(const CurveSkeleton& from, const Segments& to, double spacing) {
   return largest;
 }
 
+double mean(const CurveSkeleton& from, const Segments& to, double spacing) {
+  double sum = 0;
+  double length = 0;
+  for (const CurveSample& sample : sample_branches(from, branches(from), spacing, spacing)) {
+    sum += sample.length * to.distance(sample.position);
+    length += sample.length;
+  }
+  return length > 0 ? sum / length : farthest(from, to, spacing);
+}
+
 }  // namespace
+
+double mean_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing) {
+  return (mean(a, Segments(b), spacing) + mean(b, Segments(a), spacing)) / 2;
+}
 
 double hausdorff_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing) {
   const Segments segments_of_a(a);

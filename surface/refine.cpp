@@ -74,13 +74,13 @@ std::vector<Index> cut_sides(Surface& surface, double longest, std::size_t room)
   return middles;
 }
 
-// As split_long_edges, but ends once there are `most_vertices`, the longest edges cut first.
-Surface split(const Surface& surface, double longest, std::size_t most_vertices) {
+// As split_long_edges, but ends once there are `vertices_enough`, the longest edges cut first.
+Surface split(const Surface& surface, double longest, std::size_t vertices_enough) {
   Surface result = surface;
   for (;;) {
     const auto vertices = static_cast<std::size_t>(result.positions.rows());
-    if (vertices >= most_vertices) return result;
-    const std::vector<Index> middles = cut_sides(result, longest, most_vertices - vertices);
+    if (vertices >= vertices_enough) return result;
+    const std::vector<Index> middles = cut_sides(result, longest, vertices_enough - vertices);
     if (std::all_of(middles.begin(), middles.end(), [](Index m) { return m < 0; })) return result;
     std::vector<std::array<Index, 3>> faces;
     faces.reserve(middles.size());
@@ -141,10 +141,10 @@ Surface refine(const Surface& surface, int least_vertices) {
   if (result.positions.rows() >= least_vertices) return result;
   // From four times the side of the equilateral triangles that would cover the surface with so many
   // vertices. Needles, whose area says nothing of their length, would give any number of them.
-  const auto most_vertices = 2 * static_cast<std::size_t>(least_vertices);
+  const auto vertices_enough = 2 * static_cast<std::size_t>(least_vertices);
   double longest = 4 * std::sqrt(2 / std::sqrt(3.0) * area(surface) / least_vertices);
   for (; result.positions.rows() < least_vertices && longest > 0; longest *= 0.85) {
-    result = split(result, longest, most_vertices);
+    result = split(result, longest, vertices_enough);
   }
   return result;
 }

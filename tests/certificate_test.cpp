@@ -274,6 +274,7 @@ TEST(Certificate, StopsWhenAsked) {
 TEST(Hausdorff, OfAMovedCurveIsAtMostTheMove) {
   const CurveSkeleton graph = shapes::random_graph(3, 12, 2, 0.05);
   EXPECT_LT(hausdorff_distance(graph, graph, 0.01), 1e-12);
+  EXPECT_LT(mean_distance(graph, graph, 0.01), 1e-12);
   const Vector3d offset(0.01, 0.02, -0.005);
   const double distance = hausdorff_distance(graph, moved(graph, offset), 0.01);
   EXPECT_LE(distance, offset.norm() * (1 + 1e-12));
@@ -285,8 +286,10 @@ TEST(Hausdorff, LooksBothWays) {
   const CurveSkeleton longer = chain({{0, 0, 0}, {3, 0, 0}});
   EXPECT_NEAR(hausdorff_distance(line, longer, 0.01), 2, 1e-12);
   EXPECT_NEAR(hausdorff_distance(longer, line, 0.01), 2, 1e-12);
+  EXPECT_NEAR(mean_distance(line, longer, 0.001), 1.0 / 3, 1e-3);  // 0 there, 2/3 back
   EXPECT_NEAR(hausdorff_distance(line, chain({{0, 1, 0}}), 0.01), std::sqrt(2.0), 1e-12);
   EXPECT_TRUE(std::isinf(hausdorff_distance(line, {}, 0.01)));
+  EXPECT_TRUE(std::isinf(mean_distance(line, {}, 0.01)));
 }
 
 TEST(Hausdorff, SeesTheMiddleOfLongEdges) {

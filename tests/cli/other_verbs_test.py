@@ -176,6 +176,7 @@ class Evaluate(CommandLineTest):
             found = json.loads((self.folder / "e.json").read_text())["against"]
             self.assertEqual(found["skeleton"], other)
             distances.append(found["hausdorff_distance"])
+            self.assertLessEqual(found["mean_distance"], found["hausdorff_distance"] + 1e-12)
         self.assertAlmostEqual(distances[0], 0, places=9)
         self.assertGreater(distances[1], 0.001)
 
