@@ -68,6 +68,7 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
   std::vector<OutputFile> files;
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<const Surface*> parts;
+    parts.reserve(components.size());
     for (const Frames& frames : components)
       parts.push_back(&frames[std::min(k, frames.size() - 1)]);
     const Surface whole = together(parts);

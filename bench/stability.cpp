@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ Surface with_noise(const Surface& given, double sigma) {
   for (Eigen::Index v = 0; v < given.positions.rows(); ++v) {
     const double u = (double(random() >> 11U) + 0.5) / 9007199254740992.0;
     const double w = double(random() >> 11U) / 9007199254740992.0;
-    const double deviate = std::sqrt(-2 * std::log(u)) * std::cos(2 * EIGEN_PI * w);
+    const double deviate = std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * w);
     result.positions.row(v) += sigma * deviate * normals.row(v);
   }
   return result;

@@ -353,6 +353,7 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
                  const std::vector<std::int32_t>& number, RepairedSurface& result) {
   for (const auto& hole : closed.holes) {
     std::vector<std::int32_t> opening;
+    opening.reserve(hole.size());
     for (const std::int32_t v : hole) opening.push_back(number[at(v)]);
     if (std::find(opening.begin(), opening.end(), -1) != opening.end()) continue;
     ++result.repairs.holes_closed;

@@ -130,8 +130,8 @@ std::vector<std::int32_t> nearby_vertices(const Positions& positions,
     const Eigen::RowVector3d cell = ((positions.row(v) - origin) / distance).array().floor();
     std::int32_t nearest = v;
     for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const Eigen::RowVector3d step(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
-      const auto found = standing.find(cell_key(cell + step));
+      const Eigen::RowVector3i step(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+      const auto found = standing.find(cell_key(cell + step.cast<double>()));
       if (found == standing.end()) continue;
       for (const std::int32_t other : found->second) {
         if ((positions.row(other) - positions.row(v)).norm() <= distance) {

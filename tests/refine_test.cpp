@@ -93,7 +93,7 @@ TEST(Refine, NeedlesOfAnyLengthAreNotCutWithoutEnd) {
     const int least = static_cast<int>(surface.positions.rows()) + 500;
     const Surface finer = refine(surface, least);
     EXPECT_GE(finer.positions.rows(), least) << far;
-    EXPECT_LE(finer.positions.rows(), 2 * least + surface.positions.rows()) << far;
+    EXPECT_LE(finer.positions.rows(), 2 * Eigen::Index{least} + surface.positions.rows()) << far;
     EXPECT_TRUE(closed(finer)) << far;
   }
 }

@@ -274,15 +274,15 @@ TEST(Repairing, StopsWhenAsked) {
 // ---- What encloses nothing ----------------------------------------------------------------------
 
 /// A square cut into n x n x 2 triangles, bent over a circle round the y axis by this angle.
-PolygonSoup bent_square(int n, double angle) {
+PolygonSoup bent_square(std::int32_t n, double angle) {
   PolygonSoup soup;
-  soup.positions.resize((n + 1) * (n + 1), 3);
+  soup.positions.resize(Eigen::Index{n + 1} * (n + 1), 3);
   soup.offsets = {0};
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
       const double x = double(i) / n - 0.5;
       const double bend = angle * x;
-      soup.positions.row(i * (n + 1) + j) << (angle > 0 ? std::sin(bend) / angle : x),
+      soup.positions.row(Eigen::Index{i} * (n + 1) + j) << (angle > 0 ? std::sin(bend) / angle : x),
           double(j) / n, (angle > 0 ? std::cos(bend) / angle : 0);
       if (i == n || j == n) continue;
       const std::int32_t first = i * (n + 1) + j;
