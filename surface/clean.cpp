@@ -141,25 +141,6 @@ void turn_outward(Draft& draft, const Orientation& orientation, int threads) {
   }
 }
 
-/// Drops the vertices without a face, keeps the order of the others. Returns the new index of each.
-std::vector<std::int32_t> renumber(Draft& draft) {
-  std::vector<std::int32_t> number(at(draft.vertices()), -1);
-  for (const std::int32_t corner : draft.surface.triangles.reshaped<Eigen::RowMajor>()) {
-    number[at(corner)] = 0;
-  }
-  std::int32_t used = 0;
-  for (std::int32_t v = 0; v < draft.vertices(); ++v) {
-    if (number[at(v)] < 0) continue;
-    draft.surface.positions.row(used) = draft.surface.positions.row(v);
-    number[at(v)] = used++;
-  }
-  draft.surface.positions.conservativeResize(used, 3);
-  for (std::int32_t& corner : draft.surface.triangles.reshaped<Eigen::RowMajor>()) {
-    corner = number[at(corner)];
-  }
-  return number;
-}
-
 std::int64_t count_polygons_to_split(const PolygonSoup& soup) {
   std::int64_t count = 0;
   for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
@@ -242,7 +223,7 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads)
   }
   monitor.report("clean", 0.9);
   turn_outward(draft, orientation, threads);
-  const std::vector<std::int32_t> number = renumber(draft);
+  const std::vector<std::int32_t> number = drop_unused_vertices(draft.surface);
 
   CleanSurface result;
   result.vertex_of_input.resize(before_split);

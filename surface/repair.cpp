@@ -13,79 +13,17 @@
 #include "surface/close_surface.hpp"
 #include "surface/element_index.hpp"
 #include "surface/half_edges.hpp"
+#include "surface/join_soup.hpp"
 #include "surface/measures.hpp"
 #include "surface/orient.hpp"
 #include "surface/select_components.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
 #include "surface/weld.hpp"
-#include "surface/wrap.hpp"
+#include "surface/wrap_solid.hpp"
 
 namespace curveskel {
 namespace {
-
-/// The file's triangles after merging: rows of positions are still the file's vertices.
-struct Joined {
-  Surface surface;
-  std::vector<std::int32_t> merged_into;  // #V of the file
-};
-
-std::int32_t vertices_of(const Joined& joined) {
-  return static_cast<std::int32_t>(joined.surface.positions.rows());
-}
-
-void drop_repeats(Joined& joined, Changes& changes) {
-  changes.degenerate_faces_dropped += drop_degenerate_faces(joined.surface.triangles);
-  changes.duplicate_faces_dropped +=
-      drop_duplicate_faces(joined.surface.triangles, vertices_of(joined));
-}
-
-/// Returns how many vertices were merged.
-std::int64_t merge(Joined& joined, const std::vector<std::int32_t>& into) {
-  std::int64_t merged = 0;
-  for (std::size_t v = 0; v < into.size(); ++v) {
-    merged += into[v] != static_cast<std::int32_t>(v) ? 1 : 0;
-  }
-  for (std::int32_t& v : joined.merged_into) v = into[at(v)];
-  for (std::int32_t& corner : joined.surface.triangles.reshaped<Eigen::RowMajor>()) {
-    corner = into[at(corner)];
-  }
-  return merged;
-}
-
-std::vector<bool> on_boundary(const Joined& joined) {
-  return pair_half_edges(joined.surface.triangles, vertices_of(joined)).vertex_on_boundary;
-}
-
-/// Vertices of used faces only: a stray vertex far away sets no scale.
-double extent_of(const Surface& surface) {
-  Eigen::AlignedBox3d box;
-  for (const std::int32_t v : surface.triangles.reshaped()) {
-    box.extend(surface.positions.row(v).transpose());
-  }
-  return box.isEmpty() ? 0 : box.diagonal().norm();
-}
-
-Joined join(const PolygonSoup& soup, const RepairOptions& options, RepairedSurface& result) {
-  Joined joined{{soup.positions, triangulate(soup)}, {}};
-  joined.merged_into.resize(at(joined.surface.positions.rows()));
-  std::iota(joined.merged_into.begin(), joined.merged_into.end(), 0);
-  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
-    result.changes.polygons_triangulated += soup.offsets[p] - soup.offsets[p - 1] > 3 ? 1 : 0;
-  }
-  drop_repeats(joined, result.changes);
-  const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
-  result.changes.vertices_merged = merge(joined, exactly);
-  drop_repeats(joined, result.changes);
-  const double distance = options.join_distance * extent_of(joined.surface);
-  const auto open = on_boundary(joined);
-  if (distance > 0 && std::find(open.begin(), open.end(), true) != open.end()) {
-    const auto nearly = nearby_vertices(joined.surface.positions, open, distance);
-    result.repairs.vertices_joined = merge(joined, nearly);
-    drop_repeats(joined, result.changes);
-  }
-  return joined;
-}
 
 /// What one component of the closed parts is.
 struct Part {
@@ -130,10 +68,11 @@ bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index
 /// conflict would leave a shape of its own.
 bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
   constexpr double small_cut = 0.05;  // of the vertices
-  const HalfEdges half_edges = pair_half_edges(joined.surface.triangles, vertices_of(joined));
+  const HalfEdges half_edges = pair_half_edges(
+      joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
   if (half_edges.first_unpaired >= 0) return false;
   return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
-         double(vertices_copied) > small_cut * double(vertices_of(joined));
+         double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
 }
 
 JudgedParts judge(const ClosedParts& closed, const Joined& joined, const RepairOptions& options,
@@ -214,61 +153,6 @@ Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joi
   return sheets;
 }
 
-/// The components of a wrap that hold more than the wrap's own thickness on both sides of a sheet;
-/// none if the wrap has two sides for most of what it wraps.
-Surface solid_components(const Surface& wrapped, double offset, double given_area) {
-  constexpr double most_area = 1.5;  // of the area given; a sheet's wrap has twice as much
-  if (area(wrapped) > most_area * given_area) return {};
-  const Topology counted = topology(wrapped);
-  std::vector<Fate> fates(at(counted.components()), Fate::speck);
-  const auto parts = split_components(wrapped, counted);
-  for (std::size_t c = 0; c < parts.size(); ++c) {
-    const bool solid = volume(parts[c].surface) > 2 * offset * area(parts[c].surface);
-    if (solid) fates[c] = Fate::kept;
-  }
-  Surface kept = wrapped;
-  keep_components(kept, counted, fates);
-  return kept;
-}
-
-/// The narrowest opening that encloses something. The widest, which costs least, goes first: what
-/// it cannot enclose none can.
-std::optional<Surface> wrapped_solid(const Surface& sheets, Repairs& repairs,
-                                     const Monitor& monitor) {
-  const double extent = extent_of(sheets);
-  constexpr double widest = 1.0 / 15;
-  const double offset = extent / 3000;
-  const double given_area = area(sheets);
-  if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
-  const auto solid_at = [&](double opening) {
-    repairs.wrap_opening = opening;
-    return solid_components(wrap(sheets, {opening * extent, offset}, monitor), offset, given_area);
-  };
-  Surface solid = solid_at(widest);
-  if (solid.triangles.rows() == 0) return std::nullopt;
-  repairs.faces_wrapped = sheets.triangles.rows();
-  for (const double opening : {1.0 / 100, 1.0 / 40}) {
-    Surface closer = solid_at(opening);
-    if (closer.triangles.rows() > 0) return closer;
-  }
-  repairs.wrap_opening = widest;
-  return solid;
-}
-
-void measure_wrap(const Surface& wrapped, const Surface& sheets, Repairs& repairs) {
-  const SurfaceTree tree(sheets);
-  double sum = 0;
-  double most = 0;
-  for (const auto& p : wrapped.positions.rowwise()) {
-    const double distance = tree.nearest(p.transpose()).distance;
-    sum += distance;
-    most = std::max(most, distance);
-  }
-  const double extent = extent_of(sheets);
-  repairs.wrap_distance = most / extent;
-  repairs.wrap_mean_distance = sum / double(wrapped.positions.rows()) / extent;
-}
-
 std::int32_t nearest_vertex(const Surface& surface, const SurfaceTree& tree,
                             const Eigen::Vector3d& p) {
   const auto corners = surface.triangles.row(tree.nearest(p).triangle);
@@ -325,21 +209,6 @@ class VertexMap {
   std::vector<std::int32_t> of_joined_;
 };
 
-/// Drops vertices without a face; returns the new number of each.
-std::vector<std::int32_t> drop_unused(Surface& surface) {
-  std::vector<std::int32_t> number(at(surface.positions.rows()), -1);
-  for (const std::int32_t v : surface.triangles.reshaped()) number[at(v)] = 0;
-  std::int32_t used = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    surface.positions.row(used) = surface.positions.row(std::int64_t(v));
-    number[v] = used++;
-  }
-  surface.positions.conservativeResize(used, 3);
-  for (std::int32_t& v : surface.triangles.reshaped<Eigen::RowMajor>()) v = number[at(v)];
-  return number;
-}
-
 void append_surface(Surface& surface, const Surface& more) {
   const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
   const Eigen::Index faces = surface.triangles.rows();
@@ -387,7 +256,8 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   constexpr std::int64_t most_corners = 2147483647 / 2;
   if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
   RepairedSurface result;
-  const Joined joined = join(soup, options, result);
+  const Joined joined =
+      join_soup(soup, options.join_distance, result.changes, result.repairs.vertices_joined);
   if (joined.surface.triangles.rows() == 0) throw refusal;
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
@@ -396,7 +266,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
     for (Part& part : judged.parts) part.is_body = false;
   }
   result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
-  const auto number = drop_unused(result.surface);
+  const auto number = drop_unused_vertices(result.surface);
   count_holes(closed, judged, number, result);
   VertexMap vertex_map(joined);
   vertex_map.add_closed(closed, number);
@@ -404,15 +274,18 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   const Sheets sheets = sheets_of(closed, judged, joined);
   const double all_area = area(joined.surface);
   constexpr double negligible = 0.05;  // of the area
-  std::optional<Surface> wrapped;
+  std::optional<WrappedSolid> wrapped;
   if (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0) {
-    wrapped = wrapped_solid(sheets.surface, result.repairs, monitor);
+    wrapped = wrap_solid(sheets.surface, monitor);
   }
   if (wrapped) {
-    measure_wrap(*wrapped, sheets.surface, result.repairs);
-    vertex_map.add_wrapped(sheets.surface, *wrapped,
+    result.repairs.faces_wrapped = sheets.surface.triangles.rows();
+    result.repairs.wrap_opening = wrapped->opening;
+    result.repairs.wrap_distance = wrapped->distance;
+    result.repairs.wrap_mean_distance = wrapped->mean_distance;
+    vertex_map.add_wrapped(sheets.surface, wrapped->surface,
                            static_cast<std::int32_t>(result.surface.positions.rows()));
-    append_surface(result.surface, *wrapped);
+    append_surface(result.surface, wrapped->surface);
   } else {
     if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
     result.repairs.sheets_dropped = sheets.components;

@@ -145,4 +145,18 @@ std::vector<std::int32_t> nearby_vertices(const Positions& positions,
   return first;
 }
 
+std::vector<std::int32_t> drop_unused_vertices(Surface& surface) {
+  std::vector<std::int32_t> number(at(surface.positions.rows()), -1);
+  for (const std::int32_t v : surface.triangles.reshaped()) number[at(v)] = 0;
+  std::int32_t used = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    surface.positions.row(used) = surface.positions.row(std::int64_t(v));
+    number[v] = used++;
+  }
+  surface.positions.conservativeResize(used, 3);
+  for (std::int32_t& v : surface.triangles.reshaped<Eigen::RowMajor>()) v = number[at(v)];
+  return number;
+}
+
 }  // namespace curveskel

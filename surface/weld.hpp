@@ -29,4 +29,8 @@ std::int64_t drop_duplicate_faces(Triangles& triangles, std::int32_t vertices);
                                                         const std::vector<bool>& among,
                                                         double distance);
 
+/// Drops the vertices without a face, keeps the order of the others. Returns the new index of each,
+/// -1 = dropped. O(#V + #F).
+std::vector<std::int32_t> drop_unused_vertices(Surface& surface);
+
 }  // namespace curveskel

@@ -120,6 +120,7 @@ TEST_P(AnyShape, LosesAFinAndNothingElse) {
   const RepairedSurface result = repair(soup, {}, {});
   expect_the_shape(result, 1e-12);
   EXPECT_EQ(result.repairs.sheets_dropped, 1);
+  EXPECT_EQ(result.repairs.wrap_opening, 0);
   EXPECT_EQ(result.vertex_of_input[tip], -1);
   EXPECT_EQ(result.surface.positions.rows(), shape().surface.positions.rows());
 }
@@ -177,6 +178,15 @@ TEST(Repairing, ATubeOpenAtBothEnds) {
       EXPECT_NEAR(std::abs(result.surface.positions(v, 0)), 2.5, 0.15);
     }
   }
+}
+
+TEST(Repairing, CountsTheVerticesThatNoFaceUses) {
+  PolygonSoup soup = soup_of(shapes::torus(3, 1, 16).surface);
+  soup.positions.conservativeResize(soup.positions.rows() + 5, 3);
+  soup.positions.bottomRows(5).setConstant(7);
+  EXPECT_EQ(repair(soup, {}, {}).changes.isolated_vertices_dropped, 5);
+  const PolygonSoup open = with_polygons(soup, [](std::size_t p) { return p > 0; });
+  EXPECT_EQ(repair(open, {}, {}).changes.isolated_vertices_dropped, 5);
 }
 
 TEST(Repairing, BoxesThatShareAnEdgeComeApart) {
