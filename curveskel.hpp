@@ -15,6 +15,7 @@
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/extract.hpp"
 #include "skeleton/skeleton_files.hpp"
+#include "skeleton/view.hpp"
 #include "surface/clean.hpp"
 #include "surface/coarsen.hpp"
 #include "surface/error.hpp"

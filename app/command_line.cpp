@@ -2,9 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "app/arguments.hpp"
 #include "app/report.hpp"
@@ -108,16 +109,14 @@ Monitor Session::monitor() const {
   return monitor;
 }
 
-int run_command_line(int argc, char** argv) {
+int run_program(CLI::App& program, const std::vector<Verb>& verbs,
+                const std::vector<std::string>& arguments) {
   Terminal terminal;
-  CLI::App program("Curve skeletons of triangle surfaces.", "curveskel");
-  const std::array verbs{add_extract(program), add_contract(program), add_fair(program),
-                         add_evaluate(program), add_devices(program)};
   program.require_subcommand(1);
   program.set_version_flag("--version", program_and_version());
   program.footer(exit_codes);
   try {
-    program.parse(argc, argv);
+    program.parse(std::vector(arguments.rbegin(), arguments.rend()));  // CLI11 starts at the back
   } catch (const CLI::Success& success) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {

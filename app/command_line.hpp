@@ -1,6 +1,11 @@
 // The command line: verbs, exit codes, and what a person sees when something is wrong.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "app/verbs.hpp"
+
 namespace curveskel {
 
 /// Scripts rely on these; they never change.
@@ -15,7 +20,9 @@ struct ExitCode {
   static constexpr int interrupted = 130;  ///< by Ctrl-C
 };
 
-/// Parses, runs the verb and returns the exit code. Nothing is thrown.
-[[nodiscard]] int run_command_line(int argc, char** argv);
+/// Parses the arguments (without the program's name), runs the verb and returns the exit code.
+/// Nothing is thrown.
+[[nodiscard]] int run_program(CLI::App& program, const std::vector<Verb>& verbs,
+                              const std::vector<std::string>& arguments);
 
 }  // namespace curveskel

@@ -28,6 +28,7 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/extract.hpp
   skeleton/skeleton_files.hpp
   skeleton/surgery.hpp
+  skeleton/view.hpp
 )
 target_sources(curveskel PUBLIC FILE_SET HEADERS
   BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${CURVESKEL_PUBLIC_HEADERS})

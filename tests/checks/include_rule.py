@@ -14,6 +14,7 @@ BELOW = {
     "skeleton": {"surface", "kernels", "contraction"},
     "rig": {"surface", "kernels", "contraction", "skeleton"},
     "app": {"surface", "kernels", "contraction", "skeleton", "rig"},
+    "viewer": {"surface", "kernels", "contraction", "skeleton", "rig", "app"},
 }
 OWN = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 FOREIGN = re.compile(r"^\s*#\s*include\s+<([^>]+)>")

@@ -1,0 +1,81 @@
+#include "viewer/recording.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace curveskel::viewer {
+namespace {
+
+std::size_t bytes_of(const Moment& moment) {
+  if (!moment.surface) return 0;
+  const ShownSurface& surface = *moment.surface;
+  return surface.positions.size() * (sizeof(glm::vec3) + sizeof(std::uint32_t)) +
+         surface.triangles.size() * sizeof(glm::uvec3);
+}
+
+void append(ShownSurface& whole, const ShownSurface& part) {
+  const auto first = static_cast<unsigned>(whole.positions.size());
+  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+  whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
+  std::transform(part.triangles.begin(), part.triangles.end(),
+                 std::back_inserter(whole.triangles),
+                 [&](const glm::uvec3& triangle) { return triangle + first; });
+}
+
+}  // namespace
+
+std::string title_of(const Moment& moment) {
+  if (moment.stage == "input" || moment.stage == "skeleton") return moment.stage;
+  const std::string name = moment.stage == "fair"       ? "fairing"
+                           : moment.stage == "contract" ? "contraction"
+                                                        : moment.stage;
+  return name + " " + std::to_string(moment.iteration);
+}
+
+Recording::Recording() { moments_.push_back({.stage = "input", .surface = {}, .skeleton = {}}); }
+
+void Recording::add(Moment moment) {
+  bytes_ += bytes_of(moment);
+  moments_.push_back(std::move(moment));
+}
+
+void Recording::cut_from(std::string_view stage) {
+  const auto first = std::find_if(moments_.begin(), moments_.end(),
+                                  [&](const Moment& moment) { return moment.stage == stage; });
+  for (auto moment = first; moment != moments_.end(); ++moment) bytes_ -= bytes_of(*moment);
+  moments_.erase(first, moments_.end());
+}
+
+ShownSurface Recording::surface_at(std::size_t index) const {
+  ShownSurface whole;
+  if (index >= moments_.size() || moments_[index].skeleton) return whole;
+  std::map<int, const ShownSurface*> latest;
+  for (std::size_t i = 0; i <= index; ++i) {
+    if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();
+  }
+  for (const auto& [component, surface] : latest) append(whole, *surface);
+  return whole;
+}
+
+std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) const {
+  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
+    if (moments_[i].skeleton) return moments_[i].skeleton;
+  }
+  return nullptr;
+}
+
+Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds) {
+  Moment moment;
+  moment.stage = frame.stage;
+  moment.component = frame.component;
+  moment.iteration = frame.iteration;
+  moment.area_ratio = frame.area_ratio;
+  moment.volume_ratio = frame.volume_ratio;
+  moment.residual = frame.residual;
+  moment.seconds = seconds;
+  moment.surface = std::make_shared<const ShownSurface>(shown_surface(frame.surface, origin));
+  return moment;
+}
+
+}  // namespace curveskel::viewer

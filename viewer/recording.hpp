@@ -1,0 +1,57 @@
+// Everything that a run showed on its way, to go back and forth in.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "skeleton/curve_skeleton.hpp"
+#include "surface/monitor.hpp"
+#include "viewer/shapes_shown.hpp"
+
+namespace curveskel::viewer {
+
+/// One entry of the timeline.
+struct Moment {
+  std::string stage;  ///< "input", "fair", "contract", "skeleton"
+  int component = 0;
+  int iteration = 0;
+  double area_ratio = 1;    ///< of the component's area when the stage began
+  double volume_ratio = 1;  ///< the same of its volume
+  double residual = 0;      ///< of the solve; 0 where nothing was solved
+  double seconds = 0;       ///< since the run began
+  std::shared_ptr<const ShownSurface> surface;    ///< the component then; null for input, skeleton
+  std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
+};
+
+/// "contraction 3", "input": what a person calls it.
+[[nodiscard]] std::string title_of(const Moment& moment);
+
+/// A value; copies share the surfaces.
+class Recording {
+ public:
+  /// Only the input.
+  Recording();
+  void add(Moment moment);
+  /// Forgets what came after the first moment of `stage`, that one included.
+  void cut_from(std::string_view stage);
+  [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  /// The components' surfaces as they were at moment `index`, put together; empty where none has
+  /// changed yet or the skeleton is there. O(vertices shown + moments).
+  [[nodiscard]] ShownSurface surface_at(std::size_t index) const;
+  /// The latest skeleton up to moment `index`, or null.
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
+
+ private:
+  std::vector<Moment> moments_;
+  std::size_t bytes_ = 0;
+};
+
+/// A moment from what a stage shows.
+[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin,
+                               double seconds);
+
+}  // namespace curveskel::viewer

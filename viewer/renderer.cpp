@@ -1,0 +1,311 @@
+#include "viewer/renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "viewer/shaders.hpp"
+#include "viewer/unit_shapes.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+enum Attribute : GLuint { position, normal, colour, from, to, from_colour, to_colour };
+
+/// Colours of what is not coloured are the attribute's constant value.
+void bind_attribute(GLuint attribute, const GlBuffer& buffer, GLint parts, GLenum type,
+                    bool normalised, GLsizei stride, std::size_t offset) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  glEnableVertexAttribArray(attribute);
+  glVertexAttribPointer(attribute, parts, type, normalised ? GL_TRUE : GL_FALSE, stride,
+                        reinterpret_cast<const void*>(offset));  // OpenGL's way to say an offset
+}
+
+}  // namespace
+
+/// What all passes of one picture share.
+struct Renderer::Seen {
+  const Camera& camera;
+  const Look& look;
+  const Frame& frame;
+  Palette palette;
+  glm::mat4 view;
+  glm::mat4 projection;
+
+  void set(const GlProgram& program) const {
+    program.use();
+    program.set("view", view);
+    program.set("projection", projection);
+    program.set("orthographic", static_cast<int>(camera.orthographic));
+  }
+};
+
+Renderer::Renderer()
+    : surface_("surface", surface_vertex_source, lit_fragment(surface_fragment_source)),
+      thickness_program_("thickness", surface_vertex_source, thickness_fragment_source),
+      background_("background", screen_vertex_source, background_fragment_source),
+      body_("body", screen_vertex_source, body_fragment_source),
+      skin_program_("skin", screen_vertex_source, skin_fragment_source),
+      wire_("wire", surface_vertex_source, wire_fragment_source),
+      tube_("tube", tube_vertex_source, lit_fragment(tube_fragment_source)),
+      screen_(make_array()) {
+  for (Mesh& one : meshes_) one.array = make_array();
+  const UnitShape tube = unit_tube();
+  make_shape(edges_, tube.points, tube.corners);
+  const UnitShape ball = unit_ball();
+  make_shape(nodes_, ball.points, ball.corners);
+  glGetIntegerv(GL_MAX_SAMPLES, &most_samples_);
+}
+
+void Renderer::make_shape(Instances& instances, const std::vector<glm::vec4>& points,
+                          const std::vector<std::uint32_t>& corners) {
+  instances.array = make_array();
+  glBindVertexArray(instances.array.get());
+  fill(instances.shape, GL_ARRAY_BUFFER, std::span(points));
+  bind_attribute(position, instances.shape, 4, GL_FLOAT, false, 0, 0);
+  fill(instances.corners, GL_ELEMENT_ARRAY_BUFFER, std::span(corners));
+  instances.corner_count = static_cast<GLsizei>(corners.size());
+  const TubeInstance none{};
+  fill(instances.instances, GL_ARRAY_BUFFER, std::span(&none, 1));
+  constexpr GLsizei stride = sizeof(TubeInstance);
+  bind_attribute(from, instances.instances, 4, GL_FLOAT, false, stride,
+                 offsetof(TubeInstance, from));
+  bind_attribute(to, instances.instances, 4, GL_FLOAT, false, stride, offsetof(TubeInstance, to));
+  bind_attribute(from_colour, instances.instances, 4, GL_UNSIGNED_BYTE, true, stride,
+                 offsetof(TubeInstance, from_colour));
+  bind_attribute(to_colour, instances.instances, 4, GL_UNSIGNED_BYTE, true, stride,
+                 offsetof(TubeInstance, to_colour));
+  for (const GLuint attribute : {from, to, from_colour, to_colour}) {
+    glVertexAttribDivisor(attribute, 1);
+  }
+  glBindVertexArray(0);
+}
+
+void Renderer::set_surface(Layer layer, const ShownSurface& surface) {
+  Mesh& target = mesh(layer);
+  glBindVertexArray(target.array.get());
+  fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, std::span(surface.triangles));
+  target.corners = static_cast<GLsizei>(3 * surface.triangles.size());
+  glBindVertexArray(0);
+  move_surface(layer, surface);
+  set_colours(layer, surface.colours);
+}
+
+void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
+  Mesh& target = mesh(layer);
+  glBindVertexArray(target.array.get());
+  fill(target.positions, GL_ARRAY_BUFFER, std::span(surface.positions));
+  bind_attribute(position, target.positions, 3, GL_FLOAT, false, 0, 0);
+  fill(target.normals, GL_ARRAY_BUFFER, std::span(surface.normals));
+  bind_attribute(normal, target.normals, 4, GL_INT_2_10_10_10_REV, true, 0, 0);
+  glBindVertexArray(0);
+}
+
+void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
+  Mesh& target = mesh(layer);
+  target.coloured = !colours.empty();
+  glBindVertexArray(target.array.get());
+  if (target.coloured) {
+    fill(target.colours, GL_ARRAY_BUFFER, std::span(colours));
+    bind_attribute(colour, target.colours, 4, GL_UNSIGNED_BYTE, true, 0, 0);
+  } else {
+    glDisableVertexAttribArray(colour);
+  }
+  glBindVertexArray(0);
+}
+
+void Renderer::set_skeleton(const ShownSkeleton& skeleton) {
+  const auto set = [](Instances& instances, const std::vector<TubeInstance>& shown) {
+    instances.count = static_cast<GLsizei>(shown.size());
+    if (!shown.empty()) fill(instances.instances, GL_ARRAY_BUFFER, std::span(shown));
+  };
+  set(edges_, skeleton.edges);
+  set(nodes_, skeleton.nodes);
+}
+
+void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
+                         const Seen& seen) const {
+  if (shown.corners == 0) return;
+  seen.set(program);
+  glBindVertexArray(shown.array.get());
+  if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
+  glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
+}
+
+void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const {
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_POLYGON_OFFSET_FILL);  // lets the edges lie on the faces
+  glPolygonOffset(1, 1);
+  surface_.use();
+  surface_.set("skin", 0);
+  surface_.set("inner", seen.palette.inside);
+  draw_mesh(surface_, shown, plain, seen);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::draw_wires(const Mesh& shown, float alpha, const Seen& seen) const {
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  wire_.use();
+  wire_.set("line", glm::vec4(seen.palette.wire, alpha));
+  draw_mesh(wire_, shown, seen.palette.wire, seen);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::draw_instances(const Instances& instances, bool ball, const Seen& seen) const {
+  if (instances.count == 0) return;
+  tube_.set("ball", static_cast<int>(ball));
+  glBindVertexArray(instances.array.get());
+  glDrawElementsInstanced(GL_TRIANGLES, instances.corner_count, GL_UNSIGNED_INT, nullptr,
+                          instances.count);
+}
+
+void Renderer::draw_skeleton(const Seen& seen) const {
+  if (seen.look.skeleton == SkeletonStyle::hidden) return;
+  const auto height = static_cast<float>(seen.frame.height);
+  seen.set(tube_);
+  const float unit = 2 * std::tan(seen.camera.field_of_view / 2) / height;
+  tube_.set("unit_per_pixel", seen.camera.orthographic ? unit * seen.camera.distance : unit);
+  constexpr float thinnest = 1.0F / 1000;  // radius of the picture's height
+  const bool lines = seen.look.skeleton == SkeletonStyle::lines;
+  tube_.set("least_pixels", thinnest * height * seen.look.thickness * (lines ? 1.3F : 0.8F));
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  // The casing: the far side of a slightly thicker tube, which shows round what it lies behind.
+  constexpr float casing = 1.6F / 1000;
+  tube_.set("more_pixels", casing * height);
+  tube_.set("flat_colour", 1);
+  glCullFace(GL_FRONT);
+  const auto both = [&] {
+    draw_instances(edges_, false, seen);
+    draw_instances(nodes_, true, seen);
+  };
+  tube_.set("casing", glm::vec4(seen.palette.casing, 1));
+  both();
+  glCullFace(GL_BACK);
+  tube_.set("more_pixels", 0.0F);
+  tube_.set("flat_colour", 0);
+  both();
+  glDisable(GL_CULL_FACE);
+}
+
+void Renderer::draw_screen(const GlProgram& program) const {
+  program.use();
+  glBindVertexArray(screen_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// The skin (its nearest layer, lit) and the thickness of the body, each in a target of its own;
+/// neither depends on the order of the triangles.
+void Renderer::draw_glass(const Seen& seen) {
+  const Mesh& given = mesh(Layer::given);
+  const GlTarget::Form pixels{seen.frame.width, seen.frame.height, 1, GL_RGBA8, true};
+  GlTarget::Form samples = pixels;
+  samples.samples = scene_.form().samples;
+  skin_.shape(pixels);
+  skin_samples_.shape(samples);
+  skin_samples_.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  surface_.use();
+  surface_.set("skin", 1);
+  surface_.set("strength", 2 * seen.look.opacity);
+  surface_.set("inner", seen.palette.inside);
+  draw_mesh(surface_, given, seen.palette.surface, seen);
+  skin_samples_.resolve_into(skin_, true);
+
+  GlTarget::Form sums = pixels;
+  sums.colour = GL_R32F;
+  sums.depth = false;
+  thickness_.shape(sums);
+  thickness_.bind();
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  draw_mesh(thickness_program_, given, seen.palette.surface, seen);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
+  const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
+  const Seen seen{camera,        look,          frame, palette_of(look.theme),
+                  camera.view(), camera.projection(aspect, frame.bounds)};
+  const int samples = std::clamp(frame.samples, 1, std::max(most_samples_, 1));
+  scene_.shape({frame.width, frame.height, samples, GL_RGBA8, true});
+  picture_.shape({frame.width, frame.height, 1, GL_RGBA8, true});
+  const bool glass = look.surface == SurfaceStyle::transparent && mesh(Layer::given).corners > 0;
+  if (glass) draw_glass(seen);
+
+  scene_.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  if (!look.transparent_background) {
+    background_.use();
+    background_.set("upper", glm::vec4(seen.palette.upper, 1));
+    background_.set("lower", glm::vec4(seen.palette.lower, 1));
+    draw_screen(background_);
+  }
+  if (glass) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    bind_texture(0, thickness_.colour());
+    body_.use();
+    body_.set("thickness", 0);
+    body_.set("tint", seen.palette.body);
+    body_.set("half_length", 0.12F * frame.bounds.diagonal());
+    body_.set("most", 0.9F * look.opacity);
+    draw_screen(body_);
+    glDisable(GL_BLEND);
+  }
+  const Mesh& given = mesh(Layer::given);
+  if (look.surface == SurfaceStyle::opaque) draw_opaque(given, seen.palette.surface, seen);
+  draw_opaque(mesh(Layer::contracted), seen.palette.contracted, seen);
+  if (look.edges) draw_wires(mesh(Layer::contracted), 0.35F, seen);
+  if (look.surface == SurfaceStyle::wireframe) {
+    draw_wires(given, 0.3F, seen);
+  } else if (look.edges && look.surface == SurfaceStyle::opaque) {
+    draw_wires(given, 0.45F, seen);
+  }
+  if (look.surface == SurfaceStyle::opaque && look.through) glClear(GL_DEPTH_BUFFER_BIT);
+  draw_skeleton(seen);
+  if (glass) {
+    if (look.edges) draw_wires(given, 0.2F, seen);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_DEPTH_TEST);
+    bind_texture(0, skin_.colour());
+    bind_texture(1, skin_.depth());
+    skin_program_.use();
+    skin_program_.set("skin", 0);
+    skin_program_.set("skin_depth", 1);
+    draw_screen(skin_program_);
+    glDisable(GL_BLEND);
+  }
+  scene_.resolve_into(picture_, false);
+  glBindVertexArray(0);
+}
+
+PixelRows Renderer::read() const {
+  PixelRows rows{picture_.form().width, picture_.form().height, {}};
+  rows.bytes.resize(static_cast<std::size_t>(rows.width) * static_cast<std::size_t>(rows.height) *
+                    4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, rows.width, rows.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.bytes.data());
+  return rows;
+}
+
+std::string gl_name() {
+  const auto* const name = glGetString(GL_RENDERER);
+  return name == nullptr ? "?" : reinterpret_cast<const char*>(name);
+}
+
+}  // namespace curveskel::viewer

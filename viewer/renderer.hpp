@@ -1,0 +1,105 @@
+// Draws surfaces and a skeleton into a picture of its own; the window and the screenshot use this
+// alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "viewer/camera.hpp"
+#include "viewer/gl_objects.hpp"
+#include "viewer/look.hpp"
+#include "viewer/shapes_shown.hpp"
+
+namespace curveskel::viewer {
+
+/// The surface given, and what it has become on the way to the skeleton.
+enum class Layer { given, contracted };
+
+/// Premultiplied RGBA rows from the bottom, as OpenGL reads them.
+struct PixelRows {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Lives on the thread whose OpenGL 3.3 context is current, as long as that context.
+class Renderer {
+ public:
+  /// Compiles the shaders. Throws Error(Fault::device) where the driver refuses.
+  Renderer();
+
+  /// An empty surface takes the layer away.
+  void set_surface(Layer layer, const ShownSurface& surface);
+  /// The same triangles at other positions.
+  void move_surface(Layer layer, const ShownSurface& surface);
+  void set_colours(Layer layer, const std::vector<Rgba>& colours);
+  void set_skeleton(const ShownSkeleton& skeleton);
+
+  struct Frame {
+    int width = 0;    ///< pixels
+    int height = 0;   ///< pixels
+    int samples = 4;  ///< a pixel; as many as the driver has
+    Bounds bounds;    ///< of all that is shown
+  };
+  /// The picture is then in `picture()`. O(faces + pixels).
+  void draw(const Camera& camera, const Look& look, const Frame& frame);
+  [[nodiscard]] const GlTarget& picture() const { return picture_; }
+  [[nodiscard]] PixelRows read() const;
+
+ private:
+  struct Mesh {
+    GlArray array;
+    GlBuffer positions;
+    GlBuffer normals;
+    GlBuffer colours;
+    GlBuffer triangles;
+    GLsizei corners = 0;
+    bool coloured = false;
+  };
+  struct Instances {
+    GlArray array;
+    GlBuffer shape;
+    GlBuffer corners;
+    GlBuffer instances;
+    GLsizei corner_count = 0;
+    GLsizei count = 0;
+  };
+  struct Seen;
+
+  static void make_shape(Instances& instances, const std::vector<glm::vec4>& points,
+                         const std::vector<std::uint32_t>& corners);
+  [[nodiscard]] Mesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
+  void draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
+                 const Seen& seen) const;
+  void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
+  void draw_wires(const Mesh& shown, float alpha, const Seen& seen) const;
+  void draw_skeleton(const Seen& seen) const;
+  void draw_instances(const Instances& instances, bool ball, const Seen& seen) const;
+  void draw_glass(const Seen& seen);
+  void draw_screen(const GlProgram& program) const;
+
+  GlProgram surface_;
+  GlProgram thickness_program_;
+  GlProgram background_;
+  GlProgram body_;
+  GlProgram skin_program_;
+  GlProgram wire_;
+  GlProgram tube_;
+  std::array<Mesh, 2> meshes_;
+  Instances edges_;
+  Instances nodes_;
+  GlArray screen_;
+  GlTarget scene_;
+  GlTarget picture_;
+  GlTarget skin_samples_;
+  GlTarget skin_;
+  GlTarget thickness_;
+  int most_samples_ = 1;
+};
+
+/// What the driver calls itself.
+[[nodiscard]] std::string gl_name();
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,118 @@
+#include "viewer/scene.hpp"
+
+#include <algorithm>
+
+#include "skeleton/view.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+/// Enough of them to fit the picture to.
+std::vector<glm::vec3> some_points(const Document& document, const ShownSurface& given) {
+  constexpr std::size_t enough = 50000;
+  std::vector<glm::vec3> points;
+  const std::size_t every = given.positions.size() / enough + 1;
+  points.reserve(given.positions.size() / every + 1);
+  for (std::size_t v = 0; v < given.positions.size(); v += every) {
+    points.push_back(given.positions[v]);
+  }
+  if (points.empty() && document.skeleton) {
+    for (const auto& node : document.skeleton->nodes.rowwise()) {
+      points.push_back(shown_point(node, document.origin));
+    }
+  }
+  return points;
+}
+
+glm::mat3 first_axes(const Document& document) {
+  if (document.surface.triangles.rows() == 0) return glm::mat3(1);
+  constexpr int wide = 1600;
+  constexpr int high = 1000;
+  const Eigen::Matrix3f axes = best_views(document.surface, wide, high)[0].axes.cast<float>();
+  glm::mat3 rows(1);
+  for (int row = 0; row < 3; ++row) rows[row] = {axes(row, 0), axes(row, 1), axes(row, 2)};
+  return rows;
+}
+
+}  // namespace
+
+Scene::Scene(Document opened)
+    : document(std::move(opened)),
+      given_(std::make_shared<ShownSurface>(shown_surface(document.surface, document.origin))),
+      points_(some_points(document, *given_)),
+      bounds_(bounds_of(points_)),
+      best_axes_(first_axes(document)) {
+  if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
+  look_from(camera, Side::best, best_axes_);
+}
+
+std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
+  return own_skeleton ? own_skeleton : recording.skeleton_at(moment);
+}
+
+Look Scene::look_now() const {
+  Look now = look;
+  const Moment& shown = recording.moments()[moment];
+  if (shown.stage == "contract" && now.surface == SurfaceStyle::opaque) {
+    now.surface = SurfaceStyle::transparent;
+  }
+  return now;
+}
+
+void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
+  const Moment& shown = recording.moments()[moment];
+  const bool faired = shown.stage == "fair" && shown.surface;
+  now.faired = faired ? shown.surface.get() : nullptr;
+  now.contracted_moment = faired || !shown.surface ? 0 : moment;
+  now.moments = recording.moments().size();
+  const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
+  if (all || now.faired != uploaded_->faired) {
+    if (faired) {
+      renderer.set_surface(Layer::given, *shown.surface);
+    } else if (all || had_faired) {
+      renderer.set_surface(Layer::given, *given_);
+    }
+  }
+  const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
+                          now.highlights != uploaded_->highlights ||
+                          look.surface_colour != uploaded_->look.surface_colour ||
+                          look.map != uploaded_->look.map ||
+                          look.theme != uploaded_->look.theme || had_faired != faired;
+  if (recoloured && !faired) {
+    renderer.set_colours(Layer::given, surface_colours(document.surface, now.skeleton.get(), look,
+                                                       highlights));
+  }
+  if (all || now.contracted_moment != uploaded_->contracted_moment) {
+    renderer.set_surface(Layer::contracted, now.contracted_moment == 0
+                                                ? ShownSurface{}
+                                                : recording.surface_at(moment));
+  }
+}
+
+void Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
+  const bool same_look = !all && look.skeleton == uploaded_->look.skeleton &&
+                         look.skeleton_colour == uploaded_->look.skeleton_colour &&
+                         look.map == uploaded_->look.map && look.theme == uploaded_->look.theme &&
+                         look.joints == uploaded_->look.joints &&
+                         look.thickness == uploaded_->look.thickness;
+  if (same_look && now.skeleton == uploaded_->skeleton &&
+      now.highlights == uploaded_->highlights) {
+    return;
+  }
+  renderer.set_skeleton(now.skeleton ? shown_skeleton(*now.skeleton, document.origin,
+                                                      bounds_.diagonal(), look, highlights)
+                                     : ShownSkeleton{});
+}
+
+void Scene::upload(Renderer& renderer) {
+  const bool all = !uploaded_;
+  Uploaded now;
+  now.skeleton = skeleton();
+  now.look = look;
+  now.highlights = highlights;
+  upload_surfaces(renderer, now, all);
+  upload_skeleton(renderer, now, all);
+  uploaded_ = std::move(now);
+}
+
+}  // namespace curveskel::viewer

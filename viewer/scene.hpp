@@ -1,0 +1,65 @@
+// What is seen at one time: a moment of the recording, in a look, from a camera.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/camera.hpp"
+#include "viewer/document.hpp"
+#include "viewer/look.hpp"
+#include "viewer/recording.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/scene_colours.hpp"
+
+namespace curveskel::viewer {
+
+class Scene {
+ public:
+  explicit Scene(Document opened);
+
+  Document document;
+  Recording recording;
+  std::size_t moment = 0;  ///< index into the recording
+  Look look;
+  Highlights highlights;
+  Camera camera;
+  /// Instead of the recording's skeleton: the one that was opened, or edited.
+  std::shared_ptr<const CurveSkeleton> own_skeleton;
+
+  /// The skeleton that is shown now, or null.
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton() const;
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
+  /// Rows right, up, to the viewer of the first view.
+  [[nodiscard]] const glm::mat3& best_axes() const { return best_axes_; }
+
+  /// Brings the renderer up to date; only what has changed since the last call is uploaded.
+  void upload(Renderer& renderer);
+  /// Forgets what was uploaded: the renderer is a new one.
+  void forget_uploads() { uploaded_.reset(); }
+  /// The look as it is drawn at this moment: a contracted surface shows through the given one.
+  [[nodiscard]] Look look_now() const;
+
+ private:
+  struct Uploaded {
+    const ShownSurface* faired = nullptr;
+    std::size_t contracted_moment = 0;
+    std::size_t moments = 0;
+    std::shared_ptr<const CurveSkeleton> skeleton;
+    Look look;
+    Highlights highlights;
+  };
+  void upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
+  void upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
+
+  std::shared_ptr<const ShownSurface> given_;
+  std::vector<glm::vec3> points_;
+  Bounds bounds_;
+  glm::mat3 best_axes_{1};
+  std::optional<Uploaded> uploaded_;
+};
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,132 @@
+#include "viewer/screenshot.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <numbers>
+#include <thread>
+
+#include "surface/error.hpp"
+#include "surface/write_file.hpp"
+#include "viewer/headless.hpp"
+#include "viewer/png.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beyond this the driver's largest picture may be passed.
+constexpr int largest_side = 16384;
+
+/// Waits for the run; the scene's recording has all of it then.
+void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
+  Run run(scene.document.soup, options.pipeline, scene.document.origin,
+          std::make_shared<RunMemory>(), false);
+  for (;;) {
+    Run::News news = run.take();
+    for (Moment& moment : news.moments) scene.recording.add(std::move(moment));
+    if (news.state == Run::State::failed) throw Error(Fault::solver, news.error);
+    if (news.state == Run::State::finished) return;
+    monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+void go_to(Scene& scene, const StageWish& wish) {
+  const auto& moments = scene.recording.moments();
+  int last = -1;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    if (moments[i].stage != wish.stage) continue;
+    last = std::max(last, moments[i].iteration);
+    if (wish.iteration < 0 || moments[i].iteration <= wish.iteration) scene.moment = i;
+  }
+  if (last < 0) {
+    throw Error(Fault::input, "the stage " + wish.stage +
+                                  " never came; there were input, contraction:K, skeleton, and "
+                                  "fairing:K with --fair N");
+  }
+  if (wish.iteration > last) {
+    throw Error(Fault::input, wish.stage + " took " + std::to_string(last) +
+                                  " iterations, so there is no " +
+                                  std::to_string(wish.iteration));
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw Error(Fault::output, folder.string() + ": cannot be created (" + error.message() +
+                                   "); name another folder");
+  }
+}
+
+void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
+                     const Monitor& monitor) {
+  make_folder(options.turntable);
+  // Fitted to the widest view, so that the shape does not breathe as it turns.
+  Camera widest = scene.camera;
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const float angle = 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames);
+    Camera turned = scene.camera;
+    orbit(turned, angle * static_cast<float>(frame), 0);
+    fit(turned, scene.points(),
+        static_cast<float>(options.width) / static_cast<float>(options.height));
+    widest.distance = std::max(widest.distance, turned.distance);
+  }
+  scene.camera.distance = widest.distance;
+  scene.camera.target = scene.bounds().middle();
+  for (int frame = 0; frame < options.frames; ++frame) {
+    monitor.report("turntable", static_cast<double>(frame) / options.frames);
+    char name[32];
+    std::snprintf(name, sizeof name, "%04d.png", frame);
+    write_file(options.turntable / name,
+               screenshot(scene, renderer, options.width, options.height));
+    orbit(scene.camera,
+          2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
+  }
+}
+
+}  // namespace
+
+std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) {
+  const int factor = 2 * std::max(width, height) <= largest_side ? 2 : 1;
+  scene.upload(renderer);
+  renderer.draw(scene.camera, scene.look_now(),
+                {width * factor, height * factor, 4, scene.bounds()});
+  return png_of(shrunk(renderer.read(), factor));
+}
+
+void place_camera(Scene& scene, const ViewOptions& options) {
+  scene.camera.orthographic = !options.perspective;
+  look_from(scene.camera, options.camera.side, scene.best_axes());
+  orbit(scene.camera, -glm::radians(options.camera.azimuth),
+        glm::radians(options.camera.elevation));
+  fit(scene.camera, scene.points(),
+      static_cast<float>(options.width) / static_cast<float>(options.height));
+  scene.camera.distance /= options.camera.zoom;
+}
+
+void write_pictures(const ViewOptions& options, const Monitor& monitor) {
+  Scene scene(open_document(options.files, monitor));
+  scene.look = options.look;
+  const bool needs_run = scene.document.soup && options.run && options.stage.stage != "input" &&
+                         (!scene.own_skeleton || options.stage_given);
+  if (needs_run) {
+    scene.own_skeleton = options.stage_given ? nullptr : scene.own_skeleton;
+    finish_run(scene, options, monitor);
+    go_to(scene, options.stage);
+  } else if (options.stage.stage == "input") {
+    scene.own_skeleton = nullptr;
+  }
+  monitor.report("draw", 0);
+  const HeadlessContext context;
+  Renderer renderer;
+  place_camera(scene, options);
+  if (!options.screenshot.empty()) {
+    write_file(options.screenshot, screenshot(scene, renderer, options.width, options.height));
+  }
+  if (!options.turntable.empty()) write_turntable(scene, renderer, options, monitor);
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,23 @@
+// Pictures without a window.
+#pragma once
+
+#include <string>
+
+#include "surface/monitor.hpp"
+#include "viewer/scene.hpp"
+#include "viewer/view_options.hpp"
+
+namespace curveskel::viewer {
+
+/// The bytes of a PNG of the scene; drawn four times as large and averaged, so edges are smooth.
+/// Needs a current context. `camera` is fitted already.
+[[nodiscard]] std::string screenshot(Scene& scene, Renderer& renderer, int width, int height);
+
+/// The scene's camera as the options wish, fitted to the picture.
+void place_camera(Scene& scene, const ViewOptions& options);
+
+/// Opens the files, runs the pipeline up to the stage wished for, and writes the pictures.
+/// Throws Error for files, stages that never come, and where there is no OpenGL.
+void write_pictures(const ViewOptions& options, const Monitor& monitor);
+
+}  // namespace curveskel::viewer

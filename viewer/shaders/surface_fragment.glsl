@@ -1,0 +1,24 @@
+uniform bool orthographic;
+uniform bool skin;       // half transparent: the more, the more the surface faces the viewer
+uniform float strength;  // of the skin
+uniform vec3 inner;      // tint of what is seen from inside
+in vec3 seen;
+in vec3 normal_seen;
+in vec4 tint;
+out vec4 result;
+void main() {
+  vec3 to_viewer = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-seen);
+  vec3 normal = normal_seen;
+  if (dot(normal, normal) < 1e-12) normal = cross(dFdx(seen), dFdy(seen));
+  normal = normalize(normal);
+  bool front = dot(normal, to_viewer) > 0.0;
+  if (!front && !gl_FrontFacing) normal = -normal;
+  vec3 colour = lit(gl_FrontFacing ? tint.rgb : tint.rgb * inner, normal, to_viewer);
+  if (!skin) {
+    result = vec4(colour, 1.0);
+    return;
+  }
+  float away = 1.0 - abs(dot(normal, to_viewer));
+  float alpha = clamp(strength * (0.30 + 0.95 * away * away), 0.0, 1.0);
+  result = vec4(colour * alpha, alpha);
+}

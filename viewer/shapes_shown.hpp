@@ -1,0 +1,45 @@
+// Surfaces and skeletons in the form in which they are drawn.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "skeleton/curve_skeleton.hpp"
+#include "surface/surface.hpp"
+#include "viewer/colours.hpp"
+
+namespace curveskel::viewer {
+
+/// Single precision about an origin, so that a model far from (0, 0, 0) keeps its digits.
+struct ShownSurface {
+  std::vector<glm::vec3> positions;      ///< model units, minus the origin
+  std::vector<std::uint32_t> normals;    ///< packed as GL_INT_2_10_10_10_REV
+  std::vector<glm::uvec3> triangles;
+  std::vector<Rgba> colours;             ///< per vertex, or empty: the plain colour
+};
+
+/// Angle-free, area-weighted vertex normals. O(#V + #F).
+[[nodiscard]] ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin);
+/// The same where only positions have moved: triangles and colours stay.
+void move_surface(ShownSurface& shown, const Positions& positions,
+                  const Eigen::RowVector3d& origin);
+
+/// A drawn edge: a cone's trunk with its own colours at the ends.
+struct TubeInstance {
+  glm::vec4 from;  ///< centre, radius
+  glm::vec4 to;
+  Rgba from_colour;
+  Rgba to_colour;
+};
+
+struct ShownSkeleton {
+  std::vector<TubeInstance> edges;
+  std::vector<TubeInstance> nodes;  ///< balls: `to` and `to_colour` are not used
+};
+
+[[nodiscard]] glm::vec3 shown_point(const Eigen::RowVector3d& point,
+                                    const Eigen::RowVector3d& origin);
+
+}  // namespace curveskel::viewer

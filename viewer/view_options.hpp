@@ -1,0 +1,37 @@
+// What the command line of the viewer can say.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viewer/camera.hpp"
+#include "viewer/look.hpp"
+#include "viewer/run.hpp"
+
+namespace curveskel::viewer {
+
+/// A moment by its name: "input", "fairing:2", "contraction:3", "skeleton" (the default).
+struct StageWish {
+  std::string stage = "skeleton";  ///< as in Moment
+  int iteration = -1;              ///< -1 = the last one
+};
+
+struct ViewOptions {
+  std::vector<std::filesystem::path> files;
+  std::string screenshot;           ///< PNG to write instead of a window; empty = none
+  std::filesystem::path turntable;  ///< folder for pictures all around; empty = none
+  int frames = 36;                  ///< of the turntable
+  int width = 1600;                 ///< pixels, of the window or the picture
+  int height = 1000;                ///< pixels
+  CameraWish camera;
+  bool perspective = true;
+  StageWish stage;
+  bool stage_given = false;
+  bool run = true;  ///< a surface without a skeleton is worked on at once
+  double time_limit_seconds = 0;
+  Look look;
+  RunOptions pipeline;
+};
+
+}  // namespace curveskel::viewer

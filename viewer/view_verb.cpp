@@ -1,0 +1,146 @@
+// curveskel-view: what `curveskel view` runs.
+#include "viewer/view_verb.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/arguments.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "viewer/screenshot.hpp"
+#include "viewer/view_options.hpp"
+#include "viewer/window.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+constexpr int largest_picture = 16384;
+
+std::string set_size(ViewOptions& options, const std::string& text) {
+  const auto cross = text.find('x');
+  int width = 0;
+  int height = 0;
+  const bool read = cross != std::string::npos &&
+                    CLI::detail::lexical_cast(text.substr(0, cross), width) &&
+                    CLI::detail::lexical_cast(text.substr(cross + 1), height);
+  if (!read || width < 1 || height < 1 || width > largest_picture || height > largest_picture) {
+    return "needs WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(largest_picture) +
+           ", not " + text;
+  }
+  options.width = width;
+  options.height = height;
+  return {};
+}
+
+std::string set_camera(ViewOptions& options, const std::string& text) {
+  const auto wish = camera_wish(text);
+  if (!wish) {
+    return "needs one of " + names_in(sides) + ", or AZIMUTH,ELEVATION[,ZOOM] in degrees, not " +
+           text;
+  }
+  options.camera = *wish;
+  return {};
+}
+
+std::string set_stage(ViewOptions& options, const std::string& text) {
+  const auto colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  StageWish wish;
+  wish.stage = name == "fairing" ? "fair" : name == "contraction" ? "contract" : name;
+  const bool counted = wish.stage == "fair" || wish.stage == "contract";
+  const bool known = counted || name == "input" || name == "skeleton";
+  const bool read = colon == std::string::npos ||
+                    (counted && CLI::detail::lexical_cast(text.substr(colon + 1), wish.iteration) &&
+                     wish.iteration >= 0);
+  if (!known || !read) {
+    return "needs input, fairing[:K], contraction[:K] or skeleton, not " + text;
+  }
+  options.stage = wish;
+  options.stage_given = true;
+  return {};
+}
+
+/// An option whose text `set` understands; what it says is what is wrong.
+template <typename Set>
+CLI::Option* add_text(CLI::App& parser, ViewOptions& options, const std::string& flag,
+                      const std::string& type, const std::string& meaning, const Set& set) {
+  return parser
+      .add_option_function<std::string>(
+          flag,
+          [flag, set, &options](const std::string& text) {
+            const std::string wrong = set(options, text);
+            if (!wrong.empty()) throw CLI::ValidationError(flag, wrong);
+          },
+          meaning)
+      ->type_name(type);
+}
+
+void add_look(CLI::App& parser, Look& look) {
+  add_choice(parser, "--surface", look.surface, surface_styles, "how the surface is drawn");
+  add_choice(parser, "--skeleton", look.skeleton, skeleton_styles, "how the skeleton is drawn");
+  add_choice(parser, "--colour,--color", look.surface_colour, colourings, "the surface's colours");
+  add_choice(parser, "--skeleton-colour,--skeleton-color", look.skeleton_colour, colourings,
+             "the skeleton's colours");
+  add_choice(parser, "--map", look.map, colour_maps, "colours of numbers");
+  add_choice(parser, "--theme", look.theme, themes, "light or dark");
+  add_number(parser, "--opacity", look.opacity, 0.0F, 1.0F, "of the transparent surface");
+  add_number(parser, "--thickness", look.thickness, 0.05F, 20.0F, "of the skeleton's tubes");
+  parser.add_flag("--edges", look.edges, "draw the surface's edges, too");
+  parser.add_flag("--transparent", look.transparent_background,
+                  "pictures without a background");
+}
+
+int run_view(ViewOptions options, Session& session) {
+  options.pipeline.extract.fairing = options.pipeline.extract.fair.iterations > 0;
+  session.interruption.limit(options.time_limit_seconds);
+  const bool pictures = !options.screenshot.empty() || !options.turntable.empty();
+  if (!pictures) return run_window(options, session);
+  if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
+  write_pictures(options, session.monitor());
+  session.terminal.end_progress();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_view(CLI::App& program) {
+  const auto options = std::make_shared<ViewOptions>();
+  CLI::App* parser =
+      program.add_subcommand("view", "Watch a surface become its skeleton, or look at one");
+  parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each")
+      ->type_name("");
+  parser->add_option("--screenshot", options->screenshot, "write a picture and open no window")
+      ->type_name("OUT.png");
+  parser->add_option("--turntable", options->turntable, "folder for pictures from all around")
+      ->type_name("DIR");
+  add_number(*parser, "--frames", options->frames, 1, 10000, "of the turntable");
+  add_text(*parser, *options, "--size", "WxH", "of the window or the picture, in pixels", set_size)
+      ->default_str("1600x1000");
+  add_text(*parser, *options, "--camera", "VIEW",
+           names_in(sides) + ", or AZIMUTH,ELEVATION[,ZOOM] in degrees from best", set_camera);
+  add_text(*parser, *options, "--stage", "STAGE",
+           "the moment to show: input, fairing[:K], contraction[:K], skeleton", set_stage);
+  parser->add_flag_callback(
+      "--orthographic", [options] { options->perspective = false; }, "no perspective");
+  parser->add_flag_callback(
+      "--no-run", [options] { options->run = false; }, "do not extract the skeleton at once");
+  add_look(*parser, options->look);
+  ExtractOptions& extract_options = options->pipeline.extract;
+  extract_options.fair.iterations = 0;
+  extract_options.contraction.program_cache = kernel_cache();
+  extract_options.fair.program_cache = kernel_cache();
+  add_number(*parser, "--detail", extract_options.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay");
+  add_number(*parser, "--fair", extract_options.fair.iterations, 0, 1000000,
+             "iterations of fairing before the contraction, for noisy surfaces");
+  add_number(*parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");
+  add_repair(*parser, options->pipeline.repair);
+  add_time_limit(*parser, options->time_limit_seconds);
+  parser->footer(meanings("Surface", surface_styles) + meanings("Skeleton", skeleton_styles) +
+                 meanings("Colours", colourings) + meanings("Views", sides));
+  return {parser, [options](Session& session) { return run_view(*options, session); }};
+}
+
+}  // namespace curveskel::viewer

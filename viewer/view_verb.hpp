@@ -1,0 +1,10 @@
+// The viewer's only verb.
+#pragma once
+
+#include "app/verbs.hpp"
+
+namespace curveskel::viewer {
+
+[[nodiscard]] Verb add_view(CLI::App& program);
+
+}  // namespace curveskel::viewer
