@@ -14,6 +14,7 @@
 #include "skeleton/certificate.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/extract.hpp"
+#include "skeleton/extraction_cache.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "skeleton/view.hpp"
 #include "surface/clean.hpp"

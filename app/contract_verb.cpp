@@ -114,7 +114,7 @@ int run_contract(const ContractArguments& arguments, Session& session) {
   for (const auto& [surface, vertex_in_whole] : components) {
     frames.emplace_back();
     if (!arguments.frames.empty()) {
-      monitor.frame = [&frames](int, const Surface& now) { frames.back().push_back(now); };
+      monitor.frame = [&frames](const Frame& now) { frames.back().push_back(now.surface); };
     }
     Positions centres;
     if (arguments.options.flow == Flow::medial) {

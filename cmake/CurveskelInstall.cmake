@@ -26,6 +26,7 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/curve_skeleton.hpp
   skeleton/embed.hpp
   skeleton/extract.hpp
+  skeleton/extraction_cache.hpp
   skeleton/skeleton_files.hpp
   skeleton/surgery.hpp
   skeleton/view.hpp

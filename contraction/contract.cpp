@@ -145,12 +145,13 @@ Contraction contract(const Surface& surface, const Positions& centres,
   FlowSystem flow(options, initial.area / static_cast<double>(surface.triangles.rows()));
 
   Contraction result;
-  const auto show = [&] {
+  const auto show = [&](const Step& step) {
     if (!monitor.frame) return;
-    monitor.frame(static_cast<int>(result.steps.size()),
-                  {box.leave(state.positions), state.mesh.triangles()});
+    const Surface shown{box.leave(state.positions), state.mesh.triangles()};
+    monitor.frame({"contract", 0, static_cast<int>(result.steps.size()), step.area_ratio,
+                   step.volume_ratio, step.residual, shown});
   };
-  show();
+  show({});
   Extent now = initial;
   double progress = 0;
   std::optional<Stop> stop;
@@ -179,7 +180,7 @@ Contraction contract(const Surface& surface, const Positions& centres,
     step.solver = flow.solver();
     step.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     result.steps.push_back(step);
-    show();
+    show(step);
     progress = std::max(progress, fraction_done(step, options));
     stop = reason_to_stop(step, options);
     if (!stop && idle == stalled_iterations) stop = Stop::stalled;

@@ -43,6 +43,8 @@ struct ContractionOptions {
   double stop_volume_ratio = 1e-7;  ///< of the initial volume; counts once the area is small, too
   double stop_area_ratio = 1e-3;    ///< of the initial area
   double small_area_ratio = 1e-2;   ///< a flat sheet has no volume: above this it contracts on
+
+  [[nodiscard]] bool operator==(const ContractionOptions&) const = default;
 };
 
 struct Step {
@@ -65,6 +67,7 @@ struct Contraction {
 /// Contracts a closed oriented surface. `centres` (#V by 3), the inscribed balls' centres, are
 /// needed by Flow::medial and ignored by Flow::paper. An iteration after which area or |volume|
 /// would have grown is not accepted, so both sequences in `steps` never grow.
+/// A frame for the start and for each of `steps`.
 /// The connectivity shrinks by edge collapses under the link condition: the topology is kept.
 [[nodiscard]] Contraction contract(const Surface& surface, const Positions& centres,
                                    const ContractionOptions& options, const Monitor& monitor);

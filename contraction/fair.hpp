@@ -49,6 +49,8 @@ struct FairOptions {
   bool double_precision = false;        ///< on the OpenCL device; the host computes in double
   int threads = 0;                      ///< host: 0 = one per core; the result is the same
   std::filesystem::path program_cache;  ///< folder for compiled kernels; empty = compile each time
+
+  [[nodiscard]] bool operator==(const FairOptions&) const = default;
 };
 
 /// What `auto` stands for. Always `host`, so that what is extracted from a file does not depend on
@@ -68,7 +70,8 @@ struct FairOptions {
 /// vertices and those whose faces are not one fan are held. The volume of every closed component is
 /// then restored by `volume` to within 1e-9 (relative). Any scale and position; the triangles are
 /// returned as they came. An iteration costs O(#V n) in closed form, O(#V n^3) by QR, n the size of
-/// a patch, about 3 K^2 + 3 K + 1.
+/// a patch, about 3 K^2 + 3 K + 1. Frame k is what k iterations would return; without a callback
+/// for frames nothing is spent on them.
 /// Throws Error(Fault::device) when OpenCL was asked for and no device can do it or hold the
 /// patches, Error(Fault::solver) when a component was smoothed until it has no volume left to
 /// restore, Error(Fault::input) for rings < 1.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string_view>
 
 #include "contraction/fair.hpp"
 #include "contraction/one_rings.hpp"
@@ -21,6 +22,16 @@ class LocalFlow {
   /// Copies the positions, as they are, from the device to the host and back. Nothing on a host.
   virtual void copy_through_host() {}
 };
+
+/// For one of several iterations: its progress is a part of theirs. Refers to `monitor`.
+[[nodiscard]] inline Monitor of_one_iteration(const Monitor& monitor, int iteration,
+                                              int iterations) {
+  Monitor within = monitor;
+  within.progress = [&monitor, iteration, iterations](std::string_view stage, double part) {
+    if (monitor.progress) monitor.progress(stage, (iteration + part) / iterations);
+  };
+  return within;
+}
 
 /// Positions are expected near the origin with a bounding-box diagonal of about 1; all methods
 /// keep a reference to `surface` and `rings`, which must outlive them.

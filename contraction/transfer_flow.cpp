@@ -13,11 +13,7 @@ class TransferFlow final : public LocalFlow {
 
   void advance(int iterations, const Monitor& monitor) override {
     for (int iteration = 0; iteration < iterations; ++iteration) {
-      Monitor within = monitor;
-      within.progress = [&](std::string_view stage, double part) {
-        if (monitor.progress) monitor.progress(stage, (iteration + part) / iterations);
-      };
-      resident_->advance(1, within);
+      resident_->advance(1, of_one_iteration(monitor, iteration, iterations));
       resident_->copy_through_host();
     }
   }

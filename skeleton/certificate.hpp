@@ -16,6 +16,8 @@ struct CertificateOptions {
   double inside_needed = 0.999;       ///< share of the length
   int rays = 32;                      ///< in the plane normal to the curve, for centredness
   int threads = 0;                    ///< 0 = one per core
+
+  [[nodiscard]] bool operator==(const CertificateOptions&) const = default;
 };
 
 /// D = the surface's bounding-box diagonal. docs/method.md has the definitions.

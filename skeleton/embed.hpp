@@ -23,6 +23,8 @@ struct EmbedOptions {
   double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
   double tip_reach = 1.5;         ///< what ends within this x the local radius is cut back first
   double tip_gap = 1.25;  ///< tips grow until the surface ends within this x the local radius
+
+  [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
 };
 
 /// The slenderness below which `detail` prunes a branch: 3 at 0, 1.5 at 0.5, 0 at 1.

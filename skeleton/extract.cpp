@@ -1,16 +1,16 @@
 #include "skeleton/extract.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <future>
 #include <optional>
-#include <thread>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "skeleton/contribution.hpp"
 #include "skeleton/openings.hpp"
-#include "skeleton/stage_clock.hpp"
+#include "skeleton/stages.hpp"
 #include "surface/measures.hpp"
 #include "surface/memory.hpp"
 #include "surface/parallel.hpp"
@@ -20,71 +20,14 @@
 namespace curveskel {
 namespace {
 
-/// A component's share of the working vertices. So that no number of components makes the work grow
-/// faster than the surface, what each is sure of falls where there are many of them.
-/// What it may have grows with its handles: with fewer each, surgery finds no way to cut them.
-WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
-                         const Topology& whole) {
-  constexpr int sure_in_all = 200000;
-  constexpr int fewest = 200;  // few enough for any number, enough for the simplest of shapes
-  constexpr int per_handle = 32;
-  WorkingSize size;
-  size.least =
-      std::min(options.least_resolution, std::max(fewest, sure_in_all / whole.components()));
-  size.most = std::max(size.least, vertices);
-  if (options.resolution <= 0) return size;
-  const auto all = static_cast<double>(whole.component_of_vertex.size());
-  const double share = double(options.resolution) * double(vertices) / all;
-  size.most = std::max({size.least, static_cast<int>(std::lround(share)), per_handle * genus});
-  return size;
-}
-
-/// All components. Each of the larger ones has all threads to itself; the small ones, of which
-/// there may be many, go side by side with one thread each.
-std::vector<Contribution> contributions_of(const std::vector<Component>& parts,
-                                           const Topology& counted, const ExtractOptions& options,
-                                           const Monitor& monitor) {
-  constexpr int small = 2000;  // working vertices that leave nothing to share out
-  std::vector<Contribution> all(parts.size());
-  std::vector<std::size_t> side_by_side;
-  const auto size_of = [&](std::size_t c) {
-    return working_size(options, counted.vertices[c], counted.genus[c], counted);
-  };
-  const bool on_host = options.contraction.solver == Solver::automatic ||
-                       options.contraction.solver == Solver::cholesky;
-  const bool may_share = on_host && !options.fairing && !monitor.frame;
-  for (std::size_t c = 0; c < parts.size(); ++c) {
-    const WorkingSize size = size_of(c);
-    if (may_share && std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
-      side_by_side.push_back(c);
-      continue;
-    }
-    all[c] = contribution_of(parts[c], counted.genus[c], size, options, monitor);
-    if (parts.size() > 1) all[c].tree.reset();
-  }
-  ExtractOptions alone = options;
-  if (parts.size() > 1) alone.threads = 1;
-  Monitor silent;  // callbacks are for the calling thread
-  silent.stop = monitor.stop;
-  const std::thread::id caller = std::this_thread::get_id();
-  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
-    const std::size_t c = side_by_side[i];
-    const bool here = std::this_thread::get_id() == caller;
-    all[c] =
-        contribution_of(parts[c], counted.genus[c], size_of(c), alone, here ? monitor : silent);
-    if (parts.size() > 1) all[c].tree.reset();
-  });
-  return all;
-}
-
 /// The components' skeletons one after the other; the vertex map goes from the whole surface.
 CurveSkeleton joined(const std::vector<Contribution>& contributions,
                      const std::vector<Component>& parts, Eigen::Index vertices) {
   Eigen::Index nodes = 0;
   Eigen::Index edges = 0;
   for (const Contribution& one : contributions) {
-    nodes += one.skeleton.nodes.rows();
-    edges += one.skeleton.edges.rows();
+    nodes += one.skeleton->nodes.rows();
+    edges += one.skeleton->edges.rows();
   }
   CurveSkeleton whole;
   whole.nodes.resize(nodes, 3);
@@ -93,7 +36,7 @@ CurveSkeleton joined(const std::vector<Contribution>& contributions,
   whole.node_of_vertex.setConstant(vertices, -1);
   nodes = edges = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const CurveSkeleton& part = contributions[c].skeleton;
+    const CurveSkeleton& part = *contributions[c].skeleton;
     whole.nodes.middleRows(nodes, part.nodes.rows()) = part.nodes;
     whole.radii.segment(nodes, part.radii.size()) = part.radii;
     whole.edges.middleRows(edges, part.edges.rows()) = part.edges.array() + static_cast<int>(nodes);
@@ -115,43 +58,115 @@ double least_memory_bytes(const Surface& surface, const ExtractOptions& options)
   return 500 * vertices + 1000 * working;
 }
 
-/// As the options say.
-Extraction extract_once(const Surface& surface, const ExtractOptions& options,
-                        const Monitor& monitor) {
-  Extraction result;
-  require_memory(least_memory_bytes(surface, options), available_memory_bytes(), "the extraction",
-                 Fault::input, "choose a coarser --resolution or decimate the surface first");
-  StageClock clock(result.times);
-  const Topology counted = clock("normalise", [&] { return topology(surface); });
-  const auto parts = clock("normalise", [&] { return split_components(surface, counted); });
-  // Several components need a tree of their own for the certificate, in the background; a single
-  // one has its tree by then.
-  std::optional<SurfaceTree> tree_of_all;
-  std::future<SurfaceTree> planted;
-  if (parts.size() > 1) {
-    planted = in_background(options.threads, [&] { return SurfaceTree(surface); });
+SurfaceStages::CertifiedFrom certified_from(const std::vector<Contribution>& contributions,
+                                            const ExtractOptions& options) {
+  std::vector<Shared<CurveSkeleton>> skeletons;
+  skeletons.reserve(contributions.size());
+  for (const Contribution& one : contributions) skeletons.push_back(one.skeleton);
+  return {std::move(skeletons), options.openings, what_counts(options.certificate)};
+}
+
+/// What the certificate of several components is taken against grows in the background; a single
+/// one has its tree by then.
+class TreeOfAll {
+ public:
+  TreeOfAll(const Surface& surface, const Parts& parts, SurfaceStages* kept, int threads)
+      : kept_(kept) {
+    if (parts.components.size() == 1) return;
+    if (kept != nullptr && kept->tree.value) {
+      tree_ = kept->tree.value;
+    } else {
+      planted_ = in_background(threads, [&surface] { return SurfaceTree(surface); });
+    }
   }
-  auto contributions = contributions_of(parts, counted, options, monitor);
-  result.skeleton = joined(contributions, parts, surface.positions.rows());
-  for (Contribution& one : contributions) {
-    for (const StageTime& time : one.times) clock.add(time);
-    result.components.push_back(std::move(one.record));
+  const SurfaceTree& get(const std::vector<Contribution>& contributions) {
+    if (planted_.valid()) {
+      tree_ = std::make_shared<const SurfaceTree>(planted_.get());
+      if (kept_ != nullptr) kept_->tree.value = tree_;
+    }
+    return tree_ ? *tree_ : *contributions.front().tree;
   }
-  if (parts.size() == 1) tree_of_all = std::move(contributions.front().tree);
-  result.certificate = clock("certify", [&] {
-    if (planted.valid()) tree_of_all = planted.get();
-    reach_openings(result.skeleton, surface, *tree_of_all, options.openings);
-    return evaluate({surface.positions, *tree_of_all, bounding_box_diagonal(surface.positions),
-                     counted.components(), counted.total_genus()},
-                    result.skeleton, options.certificate, monitor);
-  });
+
+ private:
+  SurfaceStages* kept_;
+  Shared<SurfaceTree> tree_;
+  std::future<SurfaceTree> planted_;
+};
+
+bool has_stage(const std::vector<StageTime>& times, std::string_view stage) {
+  return std::any_of(times.begin(), times.end(),
+                     [&](const StageTime& time) { return time.stage == stage; });
+}
+
+/// Of the stages in `taken` those that never ran, in order, each once.
+std::vector<std::string> only_reused(const std::vector<std::string>& taken,
+                                     const std::vector<StageTime>& ran) {
+  constexpr std::array stages{"normalise", "fair",    "coarsen", "balls",
+                              "contract",  "surgery", "embed",   "certify"};
+  std::vector<std::string> result;
+  for (const char* stage : stages) {
+    if (std::find(taken.begin(), taken.end(), stage) == taken.end()) continue;
+    if (!has_stage(ran, stage)) result.emplace_back(stage);
+  }
   return result;
 }
 
-}  // namespace
+/// As the options say.
+Extraction extract_once(const Surface& surface, const ExtractOptions& options,
+                        const Monitor& monitor, SurfaceStages* kept) {
+  Extraction result;
+  require_memory(least_memory_bytes(surface, options), available_memory_bytes(), "the extraction",
+                 Fault::input, "choose a coarser --resolution or decimate the surface first");
+  SurfaceStages passing;
+  SurfaceStages& stages = kept != nullptr ? *kept : passing;
+  std::vector<std::string> taken;
+  StageRun stage(result.times, taken, monitor, kept != nullptr);
+  const Shared<Parts> parts = stage("normalise", stages.parts, {}, [&] {
+    Topology counted = topology(surface);
+    auto components = split_components(surface, counted);
+    return Parts{std::move(counted), std::move(components)};
+  });
+  TreeOfAll tree_of_all(surface, *parts, kept, options.threads);
+  auto contributions =
+      contributions_of(*parts, options, monitor, kept != nullptr ? &kept->components : nullptr);
+  for (Contribution& one : contributions) {
+    for (const StageTime& time : one.times) stage.clock.add(time);
+    taken.insert(taken.end(), one.reused.begin(), one.reused.end());
+    result.components.push_back(std::move(one.record));
+  }
+  const Shared<CertifiedSkeleton> certified =
+      stage("certify", stages.certified, certified_from(contributions, options), [&] {
+        CertifiedSkeleton made{joined(contributions, parts->components, surface.positions.rows()),
+                               {}};
+        const SurfaceTree& tree = tree_of_all.get(contributions);
+        reach_openings(made.skeleton, surface, tree, options.openings);
+        made.certificate =
+            evaluate({surface.positions, tree, bounding_box_diagonal(surface.positions),
+                      parts->counted.components(), parts->counted.total_genus()},
+                     made.skeleton, options.certificate, monitor);
+        return made;
+      });
+  result.skeleton = certified->skeleton;
+  result.certificate = certified->certificate;
+  result.reused = only_reused(taken, result.times);
+  return result;
+}
 
-Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
-  Extraction result = extract_once(surface, options, monitor);
+/// Gives the second run what fairing does not touch.
+void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
+  to.parts = from.parts;
+  to.tree = from.tree;
+  to.components.resize(from.components.size());
+  for (std::size_t c = 0; c < from.components.size(); ++c) {
+    to.components[c].canonical = from.components[c].canonical;
+    to.components[c].tree = from.components[c].tree;
+  }
+}
+
+Extraction extract_with(const Surface& surface, const ExtractOptions& options,
+                        const Monitor& monitor, ExtractionCache::Implementation* kept) {
+  Extraction result =
+      extract_once(surface, options, monitor, kept != nullptr ? &kept->as_asked : nullptr);
   if (result.certificate.inside_enough || options.fairing || !options.fair_if_outside) {
     return result;
   }
@@ -160,19 +175,39 @@ Extraction extract(const Surface& surface, const ExtractOptions& options, const 
   ExtractOptions gentler = options;
   gentler.fairing = true;
   gentler.fair.iterations = 30;
+  if (kept != nullptr) share_beginning(kept->as_asked, kept->faired_again);
   std::optional<Extraction> faired;
   try {
-    faired = extract_once(surface, gentler, monitor);
+    faired =
+        extract_once(surface, gentler, monitor, kept != nullptr ? &kept->faired_again : nullptr);
   } catch (const Error&) {
     return result;  // what is too thin to be faired is no noise
   }
+  std::vector<StageTime> ran = result.times;
+  ran.insert(ran.end(), faired->times.begin(), faired->times.end());
+  result.reused.insert(result.reused.end(), faired->reused.begin(), faired->reused.end());
+  result.reused = only_reused(result.reused, ran);
   if (faired->certificate.inside_fraction <= result.certificate.inside_fraction) return result;
-  faired->times.insert(faired->times.begin(), result.times.begin(), result.times.end());
+  faired->times = std::move(ran);
+  faired->reused = std::move(result.reused);
   monitor.say(
       "the curve left the surface, so it was extracted again from the faired surface (30 "
       "iterations)");
   faired->faired_again = true;
   return std::move(*faired);
+}
+
+}  // namespace
+
+Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
+  return extract_with(surface, options, monitor, nullptr);
+}
+
+Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor,
+                   ExtractionCache& cache) {
+  ExtractionCache::Implementation& kept = cache.implementation();
+  kept.keep_only(surface);
+  return extract_with(surface, options, monitor, &kept);
 }
 
 }  // namespace curveskel

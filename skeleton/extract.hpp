@@ -10,6 +10,7 @@
 #include "skeleton/certificate.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/embed.hpp"
+#include "skeleton/extraction_cache.hpp"
 #include "skeleton/surgery.hpp"
 #include "surface/monitor.hpp"
 #include "surface/surface.hpp"
@@ -57,8 +58,10 @@ struct Extraction {
   CurveSkeleton skeleton;  ///< node_of_vertex indexes the vertices of the surface passed in
   std::vector<ComponentRecord> components;  ///< in the order of `topology`
   Certificate certificate;
-  std::vector<StageTime> times;  ///< in the order of the stages, summed over the components
-  bool faired_again = false;     ///< see ExtractOptions::fair_if_outside
+  std::vector<StageTime> times;  ///< in the order of the stages, summed over the components; only
+                                 ///< of those that ran
+  std::vector<std::string> reused;  ///< stages all of which came from the ExtractionCache, in order
+  bool faired_again = false;        ///< see ExtractOptions::fair_if_outside
 };
 
 /// normalise -> coarsen -> fair -> contract -> surgery -> embed -> certify, each component on its
@@ -68,5 +71,13 @@ struct Extraction {
 /// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
 [[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
                                  const Monitor& monitor);
+
+/// The same result, byte for byte (but for the seconds that steps took), in less time: stages whose
+/// input and options are those of the last run that reached them are taken from `cache`. `threads`
+/// and `program_cache` make no difference. A surface of other content empties the cache first; to
+/// see that takes one pass over the arrays. Of a run that threw, Cancelled or an error, the cache
+/// has the stages that came to their end. A stage that is reused shows no frames and no progress.
+[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
+                                 const Monitor& monitor, ExtractionCache& cache);
 
 }  // namespace curveskel

@@ -13,6 +13,8 @@ namespace curveskel {
 struct SurgeryOptions {
   double shape_weight = 1;       ///< Au et al. 2008, w_a
   double sampling_weight = 0.1;  ///< Au et al. 2008, w_b
+
+  [[nodiscard]] bool operator==(const SurgeryOptions&) const = default;
 };
 
 /// Merges vertices into groups by half-edge collapses of the contracted surface, in the order of Au

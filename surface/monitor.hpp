@@ -10,6 +10,18 @@
 
 namespace curveskel {
 
+/// A surface on its way through a stage.
+struct Frame {
+  std::string_view stage;   ///< "fair" or "contract"
+  int component = 0;        ///< of `topology` when `extract` runs the stage, else 0
+  int iteration = 0;        ///< 0 = before the first
+  double area_ratio = 1;    ///< area / that of iteration 0
+  double volume_ratio = 1;  ///< |volume| / that of iteration 0
+  double residual = 0;      ///< contract: see Solution::residual; fair: 0
+  const Surface& surface;   ///< in the frame of what the stage was called with, `extract`'s is the
+                            ///< model's; lives as long as the call
+};
+
 /// Callbacks, all optional, called from the thread that runs the stage. A stage calls `report` at
 /// least once per 100 ms of work, so a requested stop takes effect within that time.
 struct Monitor {
@@ -17,8 +29,9 @@ struct Monitor {
   std::function<void(std::string_view stage, double fraction)> progress;
   /// One line for the user about something that was changed or decided.
   std::function<void(std::string_view line)> note;
-  /// After each contraction iteration (0 = before the first): the surface as it is now.
-  std::function<void(int iteration, const Surface& surface)> frame;
+  /// The surface before the first and after each iteration of `fair` and `contract`. When `extract`
+  /// contracts a second time or fairs after all, iterations count from 0 again.
+  std::function<void(const Frame& frame)> frame;
   std::stop_token stop;
 
   /// Throws Cancelled if a stop was requested, then passes the progress on.

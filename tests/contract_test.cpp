@@ -224,9 +224,11 @@ TEST_P(EveryFlow, ShowsEachIterationAndCanBeStoppedInAny) {
   options.flow = GetParam();
   std::vector<double> areas;
   Monitor monitor;
-  monitor.frame = [&](int iteration, const Surface& surface) {
-    EXPECT_EQ(static_cast<std::size_t>(iteration), areas.size());
-    areas.push_back(area(surface));
+  monitor.frame = [&](const Frame& frame) {
+    EXPECT_EQ(frame.stage, "contract");
+    EXPECT_EQ(static_cast<std::size_t>(frame.iteration), areas.size());
+    areas.push_back(area(frame.surface));
+    EXPECT_NEAR(areas.back() / areas.front(), frame.area_ratio, 1e-9);
   };
   double last = 0;
   monitor.progress = [&](std::string_view stage, double fraction) {
@@ -245,9 +247,9 @@ TEST_P(EveryFlow, ShowsEachIterationAndCanBeStoppedInAny) {
     std::stop_source source;
     Monitor stopping;
     stopping.stop = source.get_token();
-    stopping.frame = [&](int iteration, const Surface&) {
-      EXPECT_LE(static_cast<std::size_t>(iteration), at);
-      if (static_cast<std::size_t>(iteration) == at) source.request_stop();
+    stopping.frame = [&](const Frame& frame) {
+      EXPECT_LE(static_cast<std::size_t>(frame.iteration), at);
+      if (static_cast<std::size_t>(frame.iteration) == at) source.request_stop();
     };
     EXPECT_THROW((void)contract(each.surface, each.centres, options, stopping), Cancelled);
   }

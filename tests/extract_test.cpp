@@ -346,6 +346,96 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Unchanged,
                                          "random"),
                          plain);
 
+// ---- Frames -------------------------------------------------------------------------------------
+
+/// Holds the frames of an extraction to what Frame says of them.
+class FrameWatch {
+ public:
+  explicit FrameWatch(const Surface& surface) : counted_(topology(surface)) {
+    const auto parts = split_components(surface, counted_);
+    for (const Component& part : parts) {
+      Eigen::AlignedBox3d box;
+      for (const auto& row : part.surface.positions.rowwise()) box.extend(row.transpose());
+      const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.01 * box.diagonal().norm());
+      boxes_.emplace_back(box.min() - margin, box.max() + margin);
+    }
+    last_.resize(parts.size());
+  }
+  void operator()(const Frame& frame) {
+    ++frames;
+    ASSERT_GE(frame.component, 0);
+    ASSERT_LT(frame.component, counted_.components());
+    const auto component = static_cast<std::size_t>(frame.component);
+    for (const auto& row : frame.surface.positions.rowwise()) {
+      ASSERT_TRUE(boxes_[component].contains(Eigen::Vector3d(row.transpose())));
+    }
+    Last& last = last_[component];
+    if (frame.iteration == 0) {
+      EXPECT_EQ(frame.area_ratio, 1);
+      EXPECT_EQ(frame.volume_ratio, 1);
+      last.area = area(frame.surface);
+      if (frame.stage == "contract") ++last.contractions;
+    } else {
+      EXPECT_EQ(frame.stage, last.stage);
+      EXPECT_EQ(frame.iteration, last.iteration + 1);
+      EXPECT_LE(frame.area_ratio, last.area_ratio);
+      EXPECT_NEAR(area(frame.surface) / last.area, frame.area_ratio, 1e-6);
+    }
+    last.stage = frame.stage;
+    last.iteration = frame.iteration;
+    last.area_ratio = frame.area_ratio;
+    last.volume_ratio = frame.volume_ratio;
+    last.residual = frame.residual;
+  }
+  /// The last frame of each component is the last step that `extraction` tells of.
+  void expect_last_steps_of(const Extraction& extraction) const {
+    for (std::size_t c = 0; c < last_.size(); ++c) {
+      const ComponentRecord& record = extraction.components[c];
+      EXPECT_EQ(last_[c].stage, "contract");
+      EXPECT_EQ(last_[c].contractions, record.attempts);
+      ASSERT_EQ(static_cast<std::size_t>(last_[c].iteration), record.steps.size());
+      EXPECT_EQ(last_[c].area_ratio, record.steps.back().area_ratio);
+      EXPECT_EQ(last_[c].volume_ratio, record.steps.back().volume_ratio);
+      EXPECT_EQ(last_[c].residual, record.steps.back().residual);
+    }
+  }
+  int frames = 0;
+
+ private:
+  struct Last {
+    std::string stage;
+    int iteration = 0;
+    int contractions = 0;
+    double area = 0;
+    double area_ratio = 0;
+    double volume_ratio = 0;
+    double residual = 0;
+  };
+  Topology counted_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<Last> last_;
+};
+
+TEST(Frames, OfAnExtractionLieInTheModelAndChangeNothing) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -3).normalized();
+  for (const Shape& shape : {scaled(rotated(made("y"), axis, 1), 100), made("linked-rings"),
+                             noisy(made("torus"), 0.002, 3)}) {
+    SCOPED_TRACE(shape.name);
+    for (const bool fairing : {false, true}) {
+      ExtractOptions options;
+      options.fairing = fairing;
+      options.fair_if_outside = false;
+      FrameWatch watch(shape.surface);
+      Monitor monitor;
+      monitor.frame = [&](const Frame& frame) { watch(frame); };
+      const Extraction watched = extract(shape.surface, options, monitor);
+      watch.expect_last_steps_of(watched);
+      EXPECT_GT(watch.frames, (fairing ? 4 : 0) * shape.components);
+      expect_same_bytes(watched.skeleton, extract(shape.surface, options, {}).skeleton);
+    }
+  }
+}
+
 // ---- A stop that was asked for ------------------------------------------------------------------
 
 TEST(Extract, ReportsItsStagesAndStopsInEachWhenAsked) {

@@ -172,6 +172,31 @@ TEST(Fair, DegenerateFacesAndNothingAtAllAreNoTrouble) {
   EXPECT_EQ(fair(ball.surface, {}, {}).positions, ball.surface.positions);
 }
 
+TEST(Fair, ShowsWhatFewerIterationsWouldHaveGiven) {
+  const Shape shape = noisy_and_clean_shapes().front();
+  for (const FairMethod method : {FairMethod::cpu, FairMethod::host}) {
+    FairOptions options = with(method, 3);
+    for (const VolumeRule volume_rule : {VolumeRule::offset, VolumeRule::keep}) {
+      options.volume = volume_rule;
+      int shown = 0;
+      Monitor monitor;
+      monitor.frame = [&](const Frame& frame) {
+        EXPECT_EQ(frame.stage, "fair");
+        EXPECT_EQ(frame.component, 0);
+        EXPECT_EQ(frame.iteration, shown++);
+        FairOptions fewer = options;
+        fewer.iterations = frame.iteration;
+        EXPECT_EQ(frame.surface.positions, fair(shape.surface, fewer, {}).positions);
+        EXPECT_NEAR(frame.area_ratio, area(frame.surface) / area(shape.surface), 1e-12);
+        EXPECT_NEAR(frame.volume_ratio, volume(frame.surface) / volume(shape.surface), 1e-12);
+      };
+      const Surface watched = fair(shape.surface, options, monitor);
+      EXPECT_EQ(shown, options.iterations + 1);
+      EXPECT_EQ(watched.positions, fair(shape.surface, options, {}).positions);
+    }
+  }
+}
+
 TEST(Fair, StopsWhenAskedTo) {
   std::stop_source source;
   Monitor monitor;
