@@ -60,9 +60,8 @@ float Camera::unit_per_pixel(int height_pixels) const {
 
 PickRay ray_through(const Camera& camera, float x, float y, int width, int height) {
   const float unit = camera.unit_per_pixel(height);
-  const glm::vec3 beside =
-      camera.axis(0) * ((x - static_cast<float>(width) / 2) * unit) -
-      camera.axis(1) * ((y - static_cast<float>(height) / 2) * unit);
+  const glm::vec3 beside = camera.axis(0) * ((x - static_cast<float>(width) / 2) * unit) -
+                           camera.axis(1) * ((y - static_cast<float>(height) / 2) * unit);
   if (!camera.orthographic) {
     return {camera.eye(), glm::normalize(beside - camera.axis(2) * camera.distance)};
   }
@@ -115,8 +114,7 @@ void fit(Camera& camera, std::span<const glm::vec3> points, float aspect, float 
   }
   camera.target = glm::mat3_cast(camera.orientation) * middle;
   const float size = glm::length(high - low);
-  camera.distance =
-      std::max({distance, 1e-3F * size, 1e-6F * glm::length(middle), 1e-30F});
+  camera.distance = std::max({distance, 1e-3F * size, 1e-6F * glm::length(middle), 1e-30F});
 }
 
 void look_from(Camera& camera, Side side, const glm::mat3& best) {

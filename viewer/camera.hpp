@@ -39,8 +39,8 @@ struct Bounds {
 struct Camera {
   glm::vec3 target{0};
   glm::quat orientation{1, 0, 0, 0};
-  glm::vec3 up{0, 1, 0};    ///< axis of the turntable, in the model
-  float distance = 3;       ///< from the target, > 0
+  glm::vec3 up{0, 1, 0};       ///< axis of the turntable, in the model
+  float distance = 3;          ///< from the target, > 0
   float field_of_view = 0.5F;  ///< of the height, in radians
   bool orthographic = false;
 

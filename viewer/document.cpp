@@ -79,7 +79,7 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
 Document open_document(const std::vector<fs::path>& files, const Monitor& monitor) {
   Document document;
   for (const fs::path& file : files) add_file(document, file, monitor);
-  const Positions& points = document.soup ? document.surface.positions
+  const Positions& points = document.soup       ? document.surface.positions
                             : document.skeleton ? document.skeleton->nodes
                                                 : document.surface.positions;
   if (points.rows() > 0) {

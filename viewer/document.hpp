@@ -16,8 +16,8 @@
 namespace curveskel::viewer {
 
 struct Document {
-  std::filesystem::path mesh_file;      ///< empty = none
-  std::filesystem::path skeleton_file;  ///< empty = none was opened
+  std::filesystem::path mesh_file;          ///< empty = none
+  std::filesystem::path skeleton_file;      ///< empty = none was opened
   std::shared_ptr<const PolygonSoup> soup;  ///< as read; empty without a mesh
   Surface surface;                          ///< the soup's triangles, nothing repaired
   std::optional<CurveSkeleton> skeleton;    ///< node_of_vertex by the file's vertices, or empty

@@ -60,11 +60,11 @@ struct Look {
 
 /// Everything that a theme decides.
 struct Palette {
-  glm::vec3 upper;     ///< background, top
-  glm::vec3 lower;     ///< background, bottom
-  glm::vec3 surface;   ///< plain
-  glm::vec3 inside;    ///< factor on what is seen from inside
-  glm::vec3 body;      ///< what a transparent surface takes on in depth
+  glm::vec3 upper;    ///< background, top
+  glm::vec3 lower;    ///< background, bottom
+  glm::vec3 surface;  ///< plain
+  glm::vec3 inside;   ///< factor on what is seen from inside
+  glm::vec3 body;     ///< what a transparent surface takes on in depth
   glm::vec3 wire;
   glm::vec3 skeleton;  ///< plain
   glm::vec3 joint;     ///< tips and junctions

@@ -18,8 +18,7 @@ void append(ShownSurface& whole, const ShownSurface& part) {
   const auto first = static_cast<unsigned>(whole.positions.size());
   whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
   whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
-  std::transform(part.triangles.begin(), part.triangles.end(),
-                 std::back_inserter(whole.triangles),
+  std::transform(part.triangles.begin(), part.triangles.end(), std::back_inserter(whole.triangles),
                  [&](const glm::uvec3& triangle) { return triangle + first; });
 }
 

@@ -17,10 +17,10 @@ struct Moment {
   std::string stage;  ///< "input", "fair", "contract", "skeleton"
   int component = 0;
   int iteration = 0;
-  double area_ratio = 1;    ///< of the component's area when the stage began
-  double volume_ratio = 1;  ///< the same of its volume
-  double residual = 0;      ///< of the solve; 0 where nothing was solved
-  double seconds = 0;       ///< since the run began
+  double area_ratio = 1;                          ///< of the component's area when the stage began
+  double volume_ratio = 1;                        ///< the same of its volume
+  double residual = 0;                            ///< of the solve; 0 where nothing was solved
+  double seconds = 0;                             ///< since the run began
   std::shared_ptr<const ShownSurface> surface;    ///< the component then; null for input, skeleton
   std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
 };

@@ -157,7 +157,7 @@ void Renderer::draw_wires(const Mesh& shown, float alpha, const Seen& seen) cons
   glDisable(GL_BLEND);
 }
 
-void Renderer::draw_instances(const Instances& instances, bool ball, const Seen& seen) const {
+void Renderer::draw_instances(const Instances& instances, bool ball) const {
   if (instances.count == 0) return;
   tube_.set("ball", static_cast<int>(ball));
   glBindVertexArray(instances.array.get());
@@ -182,8 +182,8 @@ void Renderer::draw_skeleton(const Seen& seen) const {
   tube_.set("flat_colour", 1);
   glCullFace(GL_FRONT);
   const auto both = [&] {
-    draw_instances(edges_, false, seen);
-    draw_instances(nodes_, true, seen);
+    draw_instances(edges_, false);
+    draw_instances(nodes_, true);
   };
   tube_.set("casing", glm::vec4(seen.palette.casing, 1));
   both();
@@ -235,7 +235,8 @@ void Renderer::draw_glass(const Seen& seen) {
 
 void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
   const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
-  const Seen seen{camera,        look,          frame, palette_of(look.theme),
+  const Seen seen{camera,        look,
+                  frame,         palette_of(look.theme),
                   camera.view(), camera.projection(aspect, frame.bounds)};
   const int samples = std::clamp(frame.samples, 1, std::max(most_samples_, 1));
   scene_.shape({frame.width, frame.height, samples, GL_RGBA8, true});
@@ -272,7 +273,7 @@ void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
   if (look.surface == SurfaceStyle::wireframe) {
     draw_wires(given, 0.3F, seen);
   } else if (look.edges && look.surface == SurfaceStyle::opaque) {
-    draw_wires(given, 0.45F, seen);
+    draw_wires(given, 0.28F, seen);
   }
   if (look.surface == SurfaceStyle::opaque && look.through) glClear(GL_DEPTH_BUFFER_BIT);
   draw_skeleton(seen);

@@ -76,7 +76,7 @@ class Renderer {
   void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
   void draw_wires(const Mesh& shown, float alpha, const Seen& seen) const;
   void draw_skeleton(const Seen& seen) const;
-  void draw_instances(const Instances& instances, bool ball, const Seen& seen) const;
+  void draw_instances(const Instances& instances, bool ball) const;
   void draw_glass(const Seen& seen);
   void draw_screen(const GlProgram& program) const;
 

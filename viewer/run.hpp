@@ -61,8 +61,8 @@ class Run {
   /// What has happened since the last call.
   struct News {
     State state = State::running;
-    std::string stage;     ///< the stage that runs
-    double fraction = 0;   ///< of it
+    std::string stage;    ///< the stage that runs
+    double fraction = 0;  ///< of it
     std::vector<Moment> moments;
     std::optional<RunResult> result;  ///< once, after it has finished
     std::string error;                ///< why it failed

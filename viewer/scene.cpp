@@ -76,11 +76,11 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
                           now.highlights != uploaded_->highlights ||
                           look.surface_colour != uploaded_->look.surface_colour ||
-                          look.map != uploaded_->look.map ||
-                          look.theme != uploaded_->look.theme || had_faired != faired;
+                          look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
+                          had_faired != faired;
   if (recoloured && !faired) {
-    renderer.set_colours(Layer::given, surface_colours(document.surface, now.skeleton.get(), look,
-                                                       highlights));
+    renderer.set_colours(Layer::given,
+                         surface_colours(document.surface, now.skeleton.get(), look, highlights));
   }
   if (all || now.contracted_moment != uploaded_->contracted_moment) {
     renderer.set_surface(Layer::contracted, now.contracted_moment == 0
@@ -95,8 +95,7 @@ void Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
                          look.map == uploaded_->look.map && look.theme == uploaded_->look.theme &&
                          look.joints == uploaded_->look.joints &&
                          look.thickness == uploaded_->look.thickness;
-  if (same_look && now.skeleton == uploaded_->skeleton &&
-      now.highlights == uploaded_->highlights) {
+  if (same_look && now.skeleton == uploaded_->skeleton && now.highlights == uploaded_->highlights) {
     return;
   }
   renderer.set_skeleton(now.skeleton ? shown_skeleton(*now.skeleton, document.origin,

@@ -18,8 +18,8 @@ class Parts {
     return member;
   }
   void join(int a, int b) {
-    const auto [low, high] = std::minmax(root(a), root(b));
-    at(high) = low;
+    const std::pair<int, int> ordered = std::minmax({root(a), root(b)});
+    at(ordered.second) = ordered.first;
   }
   std::vector<int> numbers() {
     std::vector<int> number(parent_.size(), -1);
@@ -74,8 +74,9 @@ std::vector<int> degrees_of(const CurveSkeleton& skeleton) {
 }
 
 float share_of(const ColourScale& scale, double radius) {
-  return scale.high > scale.low ? (static_cast<float>(radius) - scale.low) / (scale.high - scale.low)
-                                : 0.5F;
+  return scale.high > scale.low
+             ? (static_cast<float>(radius) - scale.low) / (scale.high - scale.low)
+             : 0.5F;
 }
 
 constexpr glm::vec3 lit_up{1.0F, 0.84F, 0.10F};

@@ -47,8 +47,7 @@ void go_to(Scene& scene, const StageWish& wish) {
   }
   if (wish.iteration > last) {
     throw Error(Fault::input, wish.stage + " took " + std::to_string(last) +
-                                  " iterations, so there is no " +
-                                  std::to_string(wish.iteration));
+                                  " iterations, so there is no " + std::to_string(wish.iteration));
   }
 }
 
@@ -82,8 +81,7 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
     std::snprintf(name, sizeof name, "%04d.png", frame);
     write_file(options.turntable / name,
                screenshot(scene, renderer, options.width, options.height));
-    orbit(scene.camera,
-          2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
+    orbit(scene.camera, 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
   }
 }
 

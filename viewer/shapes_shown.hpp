@@ -14,10 +14,10 @@ namespace curveskel::viewer {
 
 /// Single precision about an origin, so that a model far from (0, 0, 0) keeps its digits.
 struct ShownSurface {
-  std::vector<glm::vec3> positions;      ///< model units, minus the origin
-  std::vector<std::uint32_t> normals;    ///< packed as GL_INT_2_10_10_10_REV
+  std::vector<glm::vec3> positions;    ///< model units, minus the origin
+  std::vector<std::uint32_t> normals;  ///< packed as GL_INT_2_10_10_10_REV
   std::vector<glm::uvec3> triangles;
-  std::vector<Rgba> colours;             ///< per vertex, or empty: the plain colour
+  std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
 };
 
 /// Angle-free, area-weighted vertex normals. O(#V + #F).

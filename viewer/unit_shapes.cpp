@@ -46,8 +46,8 @@ UnitShape unit_ball() {
       const std::uint32_t next = (side + 1) % sides_round;
       const std::uint32_t here = ring * sides_round;
       const std::uint32_t below = here + sides_round;
-      for (const std::uint32_t corner : {here + side, below + side, here + next, here + next,
-                                         below + side, below + next}) {
+      for (const std::uint32_t corner :
+           {here + side, below + side, here + next, here + next, below + side, below + next}) {
         shape.corners.push_back(corner);
       }
     }

@@ -88,8 +88,7 @@ void add_look(CLI::App& parser, Look& look) {
   add_number(parser, "--opacity", look.opacity, 0.0F, 1.0F, "of the transparent surface");
   add_number(parser, "--thickness", look.thickness, 0.05F, 20.0F, "of the skeleton's tubes");
   parser.add_flag("--edges", look.edges, "draw the surface's edges, too");
-  parser.add_flag("--transparent", look.transparent_background,
-                  "pictures without a background");
+  parser.add_flag("--transparent", look.transparent_background, "pictures without a background");
 }
 
 int run_view(ViewOptions options, Session& session) {

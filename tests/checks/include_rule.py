@@ -54,11 +54,11 @@ def beyond_public(source, public):
 
 
 def beyond_library(source, public):
-    """The application lives on what every user of the library has."""
-    for path in sorted((source / "app").glob("*.[ch]pp")):
+    """The programs live on what every user of the library has."""
+    for path in sorted([*(source / "app").glob("*.[ch]pp"), *(source / "viewer").glob("*.[ch]pp")]):
         for number, name in includes(path, OWN):
-            if not name.startswith("app/") and name not in public:
-                yield f"{path}:{number}: app must use public headers only, not \"{name}\""
+            if not name.startswith(("app/", "viewer/")) and name not in public:
+                yield f"{path}:{number}: must use public headers only, not \"{name}\""
 
 
 def main():
