@@ -437,6 +437,25 @@ TEST(Frames, OfAnExtractionLieInTheModelAndChangeNothing) {
   }
 }
 
+TEST(Frames, BeginAgainWithASecondContraction) {
+  const Shape sieve = shapes::sieve(2);
+  for (const double weight : {3.0, 1000.0}) {  // the second fails, too
+    ExtractOptions options;
+    options.resolution = 600;
+    options.least_resolution = 200;
+    options.fair_if_outside = false;
+    options.contraction.collapse_length = 2;
+    options.contraction.contraction_weight = weight;
+    FrameWatch watch(sieve.surface);
+    Monitor monitor;
+    monitor.frame = [&](const Frame& frame) { watch(frame); };
+    const Extraction watched = extract(sieve.surface, options, monitor);
+    ASSERT_EQ(watched.components.front().attempts, 2);
+    watch.expect_last_steps_of(watched);
+    expect_same_bytes(watched.skeleton, extract(sieve.surface, options, {}).skeleton);
+  }
+}
+
 // ---- A stop that was asked for ------------------------------------------------------------------
 
 TEST(Extract, ReportsItsStagesAndStopsInEachWhenAsked) {
