@@ -214,6 +214,39 @@ INSTANTIATE_TEST_SUITE_P(Extraction, Cached, testing::Bool(), [](const auto& eac
   return std::string(each.param ? "Faired" : "AsItIs");
 });
 
+TEST(CachedSurface, IsFreshThroughSecondContractionsAndBands) {
+  const Surface sieve = shapes::sieve(2).surface;
+  const auto options_with = [](double weight, double collapse, double shape, double detail) {
+    ExtractOptions options;
+    options.resolution = 600;
+    options.least_resolution = 200;
+    options.fair_if_outside = false;
+    options.contraction.contraction_weight = weight;
+    options.contraction.collapse_length = collapse;
+    options.surgery.shape_weight = shape;
+    options.embed.detail = detail;
+    return options;
+  };
+  ExtractionCache cache;
+  std::set<std::pair<int, bool>> met;
+  const auto expect_from = [&](const std::string& first, const ExtractOptions& options) {
+    const Extraction cached = extract(sieve, options, {}, cache);
+    expect_run_from(first, false, cached);
+    expect_equal(cached, extract(sieve, options, {}));
+    met.emplace(cached.components.front().attempts, cached.components.front().bands);
+  };
+  expect_from("normalise", options_with(3, 0.3, 1, 0.5));
+  expect_from("contract", options_with(3, 2, 1, 0.5));
+  expect_from("", options_with(3, 2, 1, 0.5));
+  expect_from("embed", options_with(3, 2, 1, 0.9));
+  expect_from("contract", options_with(1000, 2, 1, 0.9));
+  expect_from("", options_with(1000, 2, 1, 0.9));
+  expect_from("embed", options_with(1000, 2, 1, 0.5));
+  expect_from("contract", options_with(3, 0.3, 1, 0.5));
+  const std::set<std::pair<int, bool>> all{{1, false}, {2, false}, {2, true}};
+  EXPECT_EQ(met, all);
+}
+
 TEST(CachedSurface, OfOtherContentStartsAnew) {
   ExtractionCache cache;
   const ExtractOptions options = starting_options(false);
