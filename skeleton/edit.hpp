@@ -5,7 +5,8 @@
 // their order: where one is taken out, those after it move up by one; a new one comes last.
 // With `tree`, the radius of a node that is new or moved is its distance to the surface
 // (0 outside); without, it comes from the nodes that it was made of. All throw
-// Error(Fault::input) that says what was found and needed. O(#N + #E log #E + #V).
+// Error(Fault::input) that says what was found and needed. O(#V + #E log #E), and O(#N + #E) for
+// each node that is taken out.
 #pragma once
 
 #include <Eigen/Core>
@@ -70,6 +71,7 @@ struct Path {
 };
 
 /// The shortest way along the edges (Dijkstra 1959); a == b: that node alone.
+/// O(#N + #E log #N).
 [[nodiscard]] Path shortest_path(const CurveSkeleton& skeleton, int a, int b);
 
 }  // namespace curveskel

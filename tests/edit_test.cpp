@@ -502,10 +502,10 @@ TEST(Findings, NameTheEdgeThatWasDraggedOutside) {
       if (dragged.edges(edge, 0) == node || dragged.edges(edge, 1) == node)
         touching.push_back(edge);
     }
+    const Findings all = findings(tree, diagonal, dragged, {}, {});
     std::vector<int> found;
-    for (const Exit& exit : findings(tree, diagonal, dragged, {}, {}).exits) {
-      found.push_back(exit.edge);
-    }
+    found.reserve(all.exits.size());
+    for (const Exit& exit : all.exits) found.push_back(exit.edge);
     EXPECT_EQ(found, touching) << "node " << node;
   }
 }

@@ -353,6 +353,7 @@ class FrameWatch {
  public:
   explicit FrameWatch(const Surface& surface) : counted_(topology(surface)) {
     const auto parts = split_components(surface, counted_);
+    boxes_.reserve(parts.size());
     for (const Component& part : parts) {
       Eigen::AlignedBox3d box;
       for (const auto& row : part.surface.positions.rowwise()) box.extend(row.transpose());
