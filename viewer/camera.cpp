@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace curveskel::viewer {
@@ -70,15 +71,12 @@ PickRay ray_through(const Camera& camera, float x, float y, int width, int heigh
 }
 
 void orbit(Camera& camera, float right, float down) {
-  constexpr float pole = 0.999F;
-  const glm::quat before = camera.orientation;
-  camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * before *
-                                      glm::angleAxis(-down, glm::vec3(1, 0, 0)));
-  const float steep = std::abs(glm::dot(camera.axis(2), camera.up));
-  const float was = std::abs(glm::dot(glm::mat3_cast(before)[2], camera.up));
-  if (steep > pole && steep > was) {
-    camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * before);
-  }
+  constexpr float pole = std::numbers::pi_v<float> / 2;
+  const float elevation =
+      std::atan2(glm::dot(camera.axis(2), camera.up), glm::dot(camera.axis(1), camera.up));
+  const float rise = std::clamp(elevation + down, -pole, pole) - elevation;
+  camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * camera.orientation *
+                                      glm::angleAxis(-rise, glm::vec3(1, 0, 0)));
 }
 
 void pan(Camera& camera, float right, float down, int height_pixels) {
