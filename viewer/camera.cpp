@@ -27,11 +27,13 @@ Bounds bounds_of(std::span<const glm::vec3> points) {
     bounds.high = glm::max(bounds.high, point);
   }
   if (!(bounds.low.x <= bounds.high.x)) return {};
-  const float size = std::max(
-      {bounds.diagonal(), 1e-6F * glm::length(bounds.middle()), std::numeric_limits<float>::min()});
+  const float diagonal = bounds.diagonal();
   constexpr float thinnest = 1e-3F;  // of the diagonal
+  constexpr float rounding = 1e-6F;
+  const float least =
+      std::max(diagonal > 0 ? thinnest * diagonal : 1.0F, rounding * glm::length(bounds.middle()));
   const glm::vec3 grow =
-      glm::max(glm::vec3(0), glm::vec3(thinnest * size) - (bounds.high - bounds.low)) * 0.5F;
+      glm::max(glm::vec3(0), glm::vec3(least) - (bounds.high - bounds.low)) * 0.5F;
   bounds.low -= grow;
   bounds.high += grow;
   return bounds;
@@ -112,7 +114,9 @@ void fit(Camera& camera, std::span<const glm::vec3> points, float aspect, float 
   }
   camera.target = glm::mat3_cast(camera.orientation) * middle;
   const float size = glm::length(high - low);
-  camera.distance = std::max({distance, 1e-3F * size, 1e-6F * glm::length(middle), 1e-30F});
+  const float of_a_point = 0.5F / std::min(tall, wide);  // which is seen as the unit cube about it
+  camera.distance =
+      std::max({size > 0 ? distance : of_a_point, 1e-3F * size, 1e-6F * glm::length(middle)});
 }
 
 void look_from(Camera& camera, Side side, const glm::mat3& best) {

@@ -244,6 +244,18 @@ TEST(Fit, LeavesTheCameraAloneWithoutPoints) {
   EXPECT_EQ(camera.distance, Camera{}.distance);
 }
 
+TEST(Fit, OfOnePointLooksAtIt) {
+  for (const bool orthographic : {false, true}) {
+    const glm::vec3 point(3, -4, 5);
+    Camera camera;
+    camera.orthographic = orthographic;
+    fit(camera, std::span(&point, 1), 1.6F);
+    EXPECT_LT(glm::length(camera.target - point), 1e-5F);
+    const float depth = projected(camera, point, 1.6F, bounds_of(std::span(&point, 1))).z;
+    EXPECT_LE(std::abs(depth), 1) << "it is clipped away";
+  }
+}
+
 TEST(Projection, PlanesContainTheBounds) {
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -278,6 +290,26 @@ TEST(Projection, TellsNearFromFar) {
     const float far = projected(camera, bounds.middle() - camera.axis(2) * step, 1.5F, bounds).z;
     EXPECT_LT(near, far);
   }
+}
+
+TEST(Bounds, ContainTheirPointsAndAreNeverFlat) {
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    std::vector<glm::vec3> points = random_points(random);
+    const int flat = random.below(4);
+    for (glm::vec3& point : points) {
+      for (int axis = 0; axis < flat; ++axis) point[axis] = points[0][axis];
+    }
+    const Bounds bounds = bounds_of(points);
+    for (const glm::vec3& point : points) {
+      EXPECT_EQ(glm::clamp(point, bounds.low, bounds.high), point);
+    }
+    for (int axis = 0; axis < 3; ++axis) EXPECT_GT(bounds.high[axis], bounds.low[axis]);
+  }
+  EXPECT_GT(bounds_of({}).diagonal(), 0);
+  const glm::vec3 origin(0);
+  EXPECT_GT(bounds_of(std::span(&origin, 1)).diagonal(), 0);
 }
 
 TEST(RayThrough, MeetsThePointThatIsSeenThere) {
