@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace curveskel::viewer {
@@ -26,11 +27,13 @@ Bounds bounds_of(std::span<const glm::vec3> points) {
     bounds.high = glm::max(bounds.high, point);
   }
   if (!(bounds.low.x <= bounds.high.x)) return {};
-  const float size = std::max(
-      {bounds.diagonal(), 1e-6F * glm::length(bounds.middle()), std::numeric_limits<float>::min()});
+  const float diagonal = bounds.diagonal();
   constexpr float thinnest = 1e-3F;  // of the diagonal
+  constexpr float rounding = 1e-6F;
+  const float least =
+      std::max(diagonal > 0 ? thinnest * diagonal : 1.0F, rounding * glm::length(bounds.middle()));
   const glm::vec3 grow =
-      glm::max(glm::vec3(0), glm::vec3(thinnest * size) - (bounds.high - bounds.low)) * 0.5F;
+      glm::max(glm::vec3(0), glm::vec3(least) - (bounds.high - bounds.low)) * 0.5F;
   bounds.low -= grow;
   bounds.high += grow;
   return bounds;
@@ -70,15 +73,12 @@ PickRay ray_through(const Camera& camera, float x, float y, int width, int heigh
 }
 
 void orbit(Camera& camera, float right, float down) {
-  constexpr float pole = 0.999F;
-  const glm::quat before = camera.orientation;
-  camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * before *
-                                      glm::angleAxis(-down, glm::vec3(1, 0, 0)));
-  const float steep = std::abs(glm::dot(camera.axis(2), camera.up));
-  const float was = std::abs(glm::dot(glm::mat3_cast(before)[2], camera.up));
-  if (steep > pole && steep > was) {
-    camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * before);
-  }
+  constexpr float pole = std::numbers::pi_v<float> / 2;
+  const float elevation =
+      std::atan2(glm::dot(camera.axis(2), camera.up), glm::dot(camera.axis(1), camera.up));
+  const float rise = std::clamp(elevation + down, -pole, pole) - elevation;
+  camera.orientation = glm::normalize(glm::angleAxis(-right, camera.up) * camera.orientation *
+                                      glm::angleAxis(-rise, glm::vec3(1, 0, 0)));
 }
 
 void pan(Camera& camera, float right, float down, int height_pixels) {
@@ -114,7 +114,9 @@ void fit(Camera& camera, std::span<const glm::vec3> points, float aspect, float 
   }
   camera.target = glm::mat3_cast(camera.orientation) * middle;
   const float size = glm::length(high - low);
-  camera.distance = std::max({distance, 1e-3F * size, 1e-6F * glm::length(middle), 1e-30F});
+  const float of_a_point = 0.5F / std::min(tall, wide);  // which is seen as the unit cube about it
+  camera.distance =
+      std::max({size > 0 ? distance : of_a_point, 1e-3F * size, 1e-6F * glm::length(middle)});
 }
 
 void look_from(Camera& camera, Side side, const glm::mat3& best) {

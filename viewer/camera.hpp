@@ -31,7 +31,8 @@ struct Bounds {
   [[nodiscard]] float diagonal() const { return glm::length(high - low); }
 };
 
-/// Of finite points; a unit cube if there are none, and never thinner than rounding allows.
+/// Of finite points; a unit cube about nothing or a single place, and never thinner than rounding
+/// allows.
 [[nodiscard]] Bounds bounds_of(std::span<const glm::vec3> points);
 
 /// Lengths in model units. `orientation` takes camera axes (x right, y up, z to the viewer) to

@@ -43,13 +43,14 @@ void Run::pause() {
 void Run::resume() {
   const std::lock_guard lock(mutex_);
   paused_ = false;
+  steps_ = 0;
   go_on_.notify_all();
 }
 
 void Run::step() {
   const std::lock_guard lock(mutex_);
+  if (paused_) ++steps_;  // else pausing is what ends at the next moment
   paused_ = true;
-  ++steps_;
   go_on_.notify_all();
 }
 
@@ -60,7 +61,9 @@ Run::News Run::take() {
   News taken = news_;
   news_.moments.clear();
   news_.result.reset();
-  if (taken.state == State::running && paused_ && waiting_) taken.state = State::paused;
+  if (taken.state == State::running && paused_ && waiting_ && steps_ == 0) {
+    taken.state = State::paused;
+  }
   return taken;
 }
 

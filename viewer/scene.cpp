@@ -62,9 +62,8 @@ Look Scene::look_now() const {
 void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const Moment& shown = recording.moments()[moment];
   const bool faired = shown.stage == "fair" && shown.surface;
-  now.faired = faired ? shown.surface.get() : nullptr;
-  now.contracted_moment = faired || !shown.surface ? 0 : moment;
-  now.moments = recording.moments().size();
+  now.faired = faired ? shown.surface : nullptr;
+  now.contracted = faired ? nullptr : shown.surface;
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
   if (all || now.faired != uploaded_->faired) {
     if (faired) {
@@ -82,10 +81,9 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
     renderer.set_colours(Layer::given,
                          surface_colours(document.surface, now.skeleton.get(), look, highlights));
   }
-  if (all || now.contracted_moment != uploaded_->contracted_moment) {
-    renderer.set_surface(Layer::contracted, now.contracted_moment == 0
-                                                ? ShownSurface{}
-                                                : recording.surface_at(moment));
+  if (all || now.contracted != uploaded_->contracted) {
+    renderer.set_surface(Layer::contracted,
+                         now.contracted ? recording.surface_at(moment) : ShownSurface{});
   }
 }
 

@@ -45,9 +45,8 @@ class Scene {
 
  private:
   struct Uploaded {
-    const ShownSurface* faired = nullptr;
-    std::size_t contracted_moment = 0;
-    std::size_t moments = 0;
+    std::shared_ptr<const ShownSurface> faired;      // kept, so that no other can have its address
+    std::shared_ptr<const ShownSurface> contracted;  // the latest of the components shown
     std::shared_ptr<const CurveSkeleton> skeleton;
     Look look;
     Highlights highlights;

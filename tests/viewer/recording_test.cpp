@@ -1,0 +1,209 @@
+// Laws of the recording of a run, against a plain account of what was added.
+#include "viewer/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+using SharedSurface = std::shared_ptr<const ShownSurface>;
+
+/// A fan of `size` triangles whose numbers tell it from all others.
+SharedSurface fan(int size, float mark) {
+  ShownSurface shown;
+  for (int v = 0; v < size + 2; ++v) {
+    shown.positions.emplace_back(mark, static_cast<float>(v), static_cast<float>(size));
+    shown.normals.push_back(static_cast<std::uint32_t>(v));
+  }
+  for (int f = 0; f < size; ++f) shown.triangles.emplace_back(0, f + 1, f + 2);
+  return std::make_shared<const ShownSurface>(shown);
+}
+
+Moment surface_moment(const std::string& stage, int component, int iteration, SharedSurface shown) {
+  Moment moment;
+  moment.stage = stage;
+  moment.component = component;
+  moment.iteration = iteration;
+  moment.surface = std::move(shown);
+  return moment;
+}
+
+Moment skeleton_moment() {
+  Moment moment;
+  moment.stage = "skeleton";
+  moment.skeleton = std::make_shared<const CurveSkeleton>();
+  return moment;
+}
+
+/// As `extract` would tell it: component by component, fairing and then contraction.
+std::vector<Moment> random_run(std::mt19937& random, int components) {
+  std::vector<Moment> moments;
+  float mark = 0;
+  for (int component = 0; component < components; ++component) {
+    for (const char* stage : {"fair", "contract"}) {
+      const int iterations = static_cast<int>(random() % 4);
+      for (int i = 0; i < iterations; ++i) {
+        mark += 1;
+        moments.push_back(
+            surface_moment(stage, component, i, fan(1 + static_cast<int>(random() % 5), mark)));
+      }
+    }
+  }
+  moments.push_back(skeleton_moment());
+  return moments;
+}
+
+/// The corners of all triangles as points: what is drawn, however it is numbered.
+std::vector<glm::vec3> drawn(const ShownSurface& surface) {
+  std::vector<glm::vec3> corners;
+  for (const glm::uvec3& triangle : surface.triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      corners.push_back(surface.positions.at(triangle[corner]));
+    }
+  }
+  return corners;
+}
+
+TEST(Recording, BeginsWithTheInput) {
+  const Recording recording;
+  ASSERT_EQ(recording.moments().size(), 1U);
+  EXPECT_EQ(recording.moments()[0].stage, "input");
+  EXPECT_TRUE(recording.surface_at(0).positions.empty());
+  EXPECT_EQ(recording.skeleton_at(0), nullptr);
+  EXPECT_EQ(recording.bytes(), 0U);
+}
+
+TEST(Recording, ComposesTheLatestOfEachComponent) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    Recording recording;
+    for (const Moment& moment : random_run(random, 1 + static_cast<int>(seed % 4))) {
+      recording.add(moment);
+    }
+    std::map<int, SharedSurface> latest;
+    for (std::size_t index = 0; index < recording.moments().size(); ++index) {
+      const Moment& moment = recording.moments()[index];
+      if (moment.surface) latest[moment.component] = moment.surface;
+      std::vector<glm::vec3> expected;
+      std::size_t vertices = 0;
+      if (!moment.skeleton) {
+        for (const auto& [component, surface] : latest) {
+          const std::vector<glm::vec3> part = drawn(*surface);
+          expected.insert(expected.end(), part.begin(), part.end());
+          vertices += surface->positions.size();
+        }
+      }
+      const ShownSurface whole = recording.surface_at(index);
+      EXPECT_EQ(drawn(whole), expected);
+      EXPECT_EQ(whole.positions.size(), vertices);
+      EXPECT_EQ(whole.normals.size(), vertices);
+    }
+  }
+}
+
+TEST(Recording, CutFromAStageIsAsIfItHadNeverCome) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    std::mt19937 random(seed);
+    const std::vector<Moment> run = random_run(random, 1);
+    for (const std::string stage : {"fair", "contract", "skeleton"}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", " + stage);
+      Recording cut;
+      Recording expected;
+      bool come = false;
+      for (const Moment& moment : run) {
+        cut.add(moment);
+        come = come || moment.stage == stage;
+        if (!come) expected.add(moment);
+      }
+      cut.cut_from(stage);
+      ASSERT_EQ(cut.moments().size(), expected.moments().size());
+      EXPECT_EQ(cut.bytes(), expected.bytes());
+      EXPECT_EQ(drawn(cut.surface_at(cut.moments().size() - 1)),
+                drawn(expected.surface_at(expected.moments().size() - 1)));
+    }
+  }
+}
+
+TEST(Recording, CutFromWhatNeverCameKeepsAll) {
+  Recording recording;
+  recording.add(surface_moment("contract", 0, 0, fan(3, 1)));
+  const std::size_t bytes = recording.bytes();
+  EXPECT_GT(bytes, 0U);
+  recording.cut_from("fair");
+  EXPECT_EQ(recording.moments().size(), 2U);
+  EXPECT_EQ(recording.bytes(), bytes);
+}
+
+TEST(Recording, ShowsTheSkeletonFromItsMomentOn) {
+  Recording recording;
+  recording.add(surface_moment("contract", 0, 0, fan(3, 1)));
+  const Moment skeleton = skeleton_moment();
+  recording.add(skeleton);
+  EXPECT_EQ(recording.skeleton_at(0), nullptr);
+  EXPECT_EQ(recording.skeleton_at(1), nullptr);
+  EXPECT_EQ(recording.skeleton_at(2), skeleton.skeleton);
+  EXPECT_EQ(recording.skeleton_at(99), skeleton.skeleton);
+  EXPECT_TRUE(recording.surface_at(99).positions.empty());
+}
+
+TEST(Recording, CopiesShareTheirSurfaces) {
+  Recording recording;
+  recording.add(surface_moment("contract", 0, 0, fan(3, 1)));
+  Recording copy = recording;
+  EXPECT_EQ(copy.moments()[1].surface, recording.moments()[1].surface);
+  copy.cut_from("contract");
+  EXPECT_EQ(recording.moments().size(), 2U);
+}
+
+TEST(TitleOf, IsWhatTheCommandLineCallsIt) {
+  EXPECT_EQ(title_of(surface_moment("contract", 0, 3, nullptr)), "contraction 3");
+  EXPECT_EQ(title_of(surface_moment("fair", 0, 12, nullptr)), "fairing 12");
+  EXPECT_EQ(title_of(skeleton_moment()), "skeleton");
+  EXPECT_EQ(title_of(Recording().moments()[0]), "input");
+}
+
+TEST(MomentOf, KeepsTheFrame) {
+  const shapes::Shape shape = shapes::torus(3, 1, 8);
+  const Frame frame{"contract", 2, 5, 0.25, 0.125, 1e-6, shape.surface};
+  const Moment moment = moment_of(frame, Eigen::RowVector3d::Zero(), 1.5);
+  EXPECT_EQ(moment.stage, "contract");
+  EXPECT_EQ(moment.component, 2);
+  EXPECT_EQ(moment.iteration, 5);
+  EXPECT_EQ(moment.area_ratio, 0.25);
+  EXPECT_EQ(moment.volume_ratio, 0.125);
+  EXPECT_EQ(moment.residual, 1e-6);
+  EXPECT_EQ(moment.seconds, 1.5);
+  ASSERT_TRUE(moment.surface);
+  EXPECT_EQ(moment.surface->positions.size(),
+            static_cast<std::size_t>(shape.surface.positions.rows()));
+}
+
+TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
+  const shapes::Shape near = shapes::torus(3, 1, 8);
+  const Moment expected =
+      moment_of({"contract", 0, 0, 1, 1, 0, near.surface}, Eigen::RowVector3d::Zero(), 0);
+  for (const double offset : {1e3, 1e6, 1e9}) {
+    const Eigen::RowVector3d origin(offset, -2 * offset, offset / 3);
+    const shapes::Shape far = shapes::translated(near, origin.transpose());
+    const Moment moment = moment_of({"contract", 0, 0, 1, 1, 0, far.surface}, origin, 0);
+    const double step = 4 * offset * std::numeric_limits<double>::epsilon();  // of the input itself
+    for (std::size_t v = 0; v < expected.surface->positions.size(); ++v) {
+      EXPECT_LT(glm::distance(glm::dvec3(moment.surface->positions[v]),
+                              glm::dvec3(expected.surface->positions[v])),
+                step + 1e-6)
+          << "offset " << offset;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::viewer

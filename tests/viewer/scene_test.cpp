@@ -1,0 +1,385 @@
+// Laws of what is shown: its colours agree with the skeleton, its coordinates keep their digits,
+// and it does not matter in which order it came to be.
+#include "viewer/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "skeleton/extract.hpp"
+#include "viewer/headless.hpp"
+#include "viewer/screenshot.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+struct Extracted {
+  std::string name;
+  Surface surface;
+  CurveSkeleton skeleton;
+};
+
+/// One, two and many parts, with and without junctions and loops.
+const std::vector<Extracted>& family() {
+  static const std::vector<Extracted> made = [] {
+    std::vector<Extracted> all;
+    for (const shapes::Shape& shape :
+         {shapes::torus(3, 1, 10), shapes::linked_rings(3, 0.7, 8),
+          shapes::tube_union("y", shapes::star(3, 6, 1)), shapes::cone(1, 4, 16)}) {
+      all.push_back({shape.name, shape.surface, extract(shape.surface, {}, {}).skeleton});
+    }
+    return all;
+  }();
+  return made;
+}
+
+Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nullptr) {
+  Document document;
+  document.soup = std::make_shared<const PolygonSoup>();
+  document.surface = surface;
+  if (skeleton != nullptr) document.skeleton = *skeleton;
+  document.origin =
+      (surface.positions.colwise().minCoeff() + surface.positions.colwise().maxCoeff()) / 2;
+  return document;
+}
+
+Look look_by(ColourBy by) {
+  Look look;
+  look.surface_colour = look.skeleton_colour = by;
+  return look;
+}
+
+/// Branches that have this node.
+std::set<Rgba> branch_colours_at(const CurveSkeleton& skeleton, int node) {
+  std::set<Rgba> colours;
+  const std::vector<Branch> all = branches(skeleton);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const auto& nodes = all[b].nodes;
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
+      colours.insert(rgba(category(b)));
+    }
+  }
+  return colours;
+}
+
+TEST(SurfaceColours, AreThoseOfTheirNodes) {
+  for (const Extracted& one : family()) {
+    SCOPED_TRACE(one.name);
+    for (const ColourBy by : {ColourBy::component, ColourBy::node, ColourBy::radius}) {
+      SCOPED_TRACE(name_of(colourings, by));
+      const Look look = look_by(by);
+      const ShownSkeleton shown =
+          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+      ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
+      const std::vector<Rgba> colours = surface_colours(one.surface, &one.skeleton, look, {});
+      ASSERT_EQ(colours.size(), static_cast<std::size_t>(one.surface.positions.rows()));
+      for (std::size_t v = 0; v < colours.size(); ++v) {
+        const int node = one.skeleton.node_of_vertex[static_cast<Eigen::Index>(v)];
+        EXPECT_EQ(colours[v], shown.nodes[static_cast<std::size_t>(node)].from_colour);
+      }
+    }
+  }
+}
+
+TEST(SurfaceColours, ByBranchAreThoseOfABranchOfTheirNodes) {
+  for (const Extracted& one : family()) {
+    SCOPED_TRACE(one.name);
+    const std::vector<Rgba> colours =
+        surface_colours(one.surface, &one.skeleton, look_by(ColourBy::branch), {});
+    ASSERT_EQ(colours.size(), static_cast<std::size_t>(one.surface.positions.rows()));
+    for (std::size_t v = 0; v < colours.size(); ++v) {
+      const int node = one.skeleton.node_of_vertex[static_cast<Eigen::Index>(v)];
+      EXPECT_TRUE(branch_colours_at(one.skeleton, node).contains(colours[v]));
+    }
+  }
+}
+
+TEST(SkeletonColours, OfAnEdgeByBranchAreThoseOfItsBranch) {
+  for (const Extracted& one : family()) {
+    SCOPED_TRACE(one.name);
+    const ShownSkeleton shown =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look_by(ColourBy::branch), {});
+    const std::vector<Branch> all = branches(one.skeleton);
+    std::set<std::pair<std::pair<int, int>, Rgba>> expected;
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      for (std::size_t i = 1; i < all[b].nodes.size(); ++i) {
+        expected.insert({std::minmax(all[b].nodes[i - 1], all[b].nodes[i]), rgba(category(b))});
+      }
+    }
+    std::set<std::pair<std::pair<int, int>, Rgba>> found;
+    for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+      const auto row = static_cast<Eigen::Index>(e);
+      EXPECT_EQ(shown.edges[e].from_colour, shown.edges[e].to_colour);
+      found.insert(
+          {{one.skeleton.edges(row, 0), one.skeleton.edges(row, 1)}, shown.edges[e].from_colour});
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(SkeletonColours, OfAnEdgeAreThoseOfItsEnds) {
+  for (const Extracted& one : family()) {
+    for (const ColourBy by : {ColourBy::component, ColourBy::node, ColourBy::radius}) {
+      const ShownSkeleton shown =
+          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look_by(by), {});
+      for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+        const auto row = static_cast<Eigen::Index>(e);
+        const auto node = [&](int end) {
+          return shown.nodes[static_cast<std::size_t>(one.skeleton.edges(row, end))];
+        };
+        EXPECT_EQ(shown.edges[e].from_colour, node(0).from_colour);
+        EXPECT_EQ(shown.edges[e].to_colour, node(1).from_colour);
+      }
+    }
+  }
+}
+
+TEST(SkeletonColours, ByRadiusSpanTheMap) {
+  for (const Extracted& one : family()) {
+    const Look look = look_by(ColourBy::radius);
+    const ShownSkeleton shown =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+    Eigen::Index thinnest = 0;
+    Eigen::Index thickest = 0;
+    one.skeleton.radii.minCoeff(&thinnest);
+    one.skeleton.radii.maxCoeff(&thickest);
+    EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thinnest)].from_colour,
+              rgba(mapped(look.map, 0)));
+    EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thickest)].from_colour,
+              rgba(mapped(look.map, 1)));
+  }
+}
+
+TEST(SurfaceColours, OfHighlightedNodesAreLitUpAndNoOther) {
+  for (const Extracted& one : family()) {
+    const int count = static_cast<int>(one.skeleton.nodes.rows());
+    for (const auto& colouring : colourings) {
+      SCOPED_TRACE(one.name + " by " + std::string(colouring.name));
+      const Look look = look_by(colouring.value);
+      Highlights lit;
+      lit.nodes = {count - 1, count / 2, 0};
+      std::vector<Rgba> before = surface_colours(one.surface, &one.skeleton, look, {});
+      if (before.empty()) {
+        before.assign(static_cast<std::size_t>(one.surface.positions.rows()),
+                      rgba(palette_of(look.theme).surface));
+      }
+      const std::vector<Rgba> after = surface_colours(one.surface, &one.skeleton, look, lit);
+      const ShownSkeleton shown =
+          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, lit);
+      ASSERT_EQ(after.size(), before.size());
+      std::set<Rgba> of_lit;
+      for (std::size_t v = 0; v < after.size(); ++v) {
+        const int node = one.skeleton.node_of_vertex[static_cast<Eigen::Index>(v)];
+        if (std::find(lit.nodes.begin(), lit.nodes.end(), node) == lit.nodes.end()) {
+          EXPECT_EQ(after[v], before[v]);
+        } else {
+          of_lit.insert(after[v]);
+        }
+      }
+      EXPECT_LE(of_lit.size(), 1U);
+      for (const Rgba& colour : of_lit) {
+        EXPECT_TRUE(std::any_of(shown.nodes.begin(), shown.nodes.end(),
+                                [&](const auto& node) { return node.from_colour == colour; }));
+      }
+    }
+  }
+}
+
+TEST(SkeletonColours, OfHighlightedEdgesDifferFromAllOthers) {
+  for (const Extracted& one : family()) {
+    Highlights lit;
+    lit.edges = {1, 0};
+    lit.failed_edges = {2};
+    const ShownSkeleton before =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, {}, {});
+    const ShownSkeleton after =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, {}, lit);
+    EXPECT_EQ(after.edges[0].from_colour, after.edges[1].to_colour);
+    EXPECT_NE(after.edges[0].from_colour, before.edges[0].from_colour);
+    EXPECT_NE(after.edges[2].from_colour, before.edges[2].from_colour);
+    EXPECT_NE(after.edges[2].from_colour, after.edges[0].from_colour);
+    for (std::size_t e = 3; e < after.edges.size(); ++e) {
+      EXPECT_EQ(after.edges[e].from_colour, before.edges[e].from_colour);
+    }
+  }
+}
+
+TEST(SurfaceColours, ArePlainWithoutAMapOfThisSurface) {
+  const Extracted& one = family().front();
+  CurveSkeleton of_another = one.skeleton;
+  of_another.node_of_vertex.conservativeResize(of_another.node_of_vertex.size() - 1);
+  for (const ColourBy by : {ColourBy::node, ColourBy::branch, ColourBy::radius}) {
+    EXPECT_TRUE(surface_colours(one.surface, nullptr, look_by(by), {}).empty());
+    EXPECT_TRUE(surface_colours(one.surface, &of_another, look_by(by), {}).empty());
+  }
+  EXPECT_TRUE(surface_colours(one.surface, &one.skeleton, look_by(ColourBy::plain), {}).empty());
+}
+
+TEST(ShownSkeleton, IsWhereTheSkeletonIs) {
+  for (const Extracted& one : family()) {
+    for (const auto& style : skeleton_styles) {
+      Look look;
+      look.skeleton = style.value;
+      look.joints = false;
+      const ShownSkeleton shown =
+          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+      ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
+      for (std::size_t n = 0; n < shown.nodes.size(); ++n) {
+        const auto node = static_cast<Eigen::Index>(n);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_FLOAT_EQ(shown.nodes[n].from[axis],
+                          static_cast<float>(one.skeleton.nodes(node, axis)));
+        }
+        if (style.value == SkeletonStyle::balls) {
+          EXPECT_FLOAT_EQ(shown.nodes[n].from.w, static_cast<float>(one.skeleton.radii[node]));
+        }
+      }
+    }
+  }
+}
+
+TEST(Scene, FarFromTheOriginKeepsItsDigits) {
+  const Extracted& one = family()[2];
+  const Scene near(document_of(one.surface, &one.skeleton));
+  for (const double offset : {1e4, 1e6, 1e8}) {
+    const Eigen::RowVector3d moved_by(offset, -offset / 3, 2 * offset);
+    Surface surface = one.surface;
+    CurveSkeleton skeleton = one.skeleton;
+    surface.positions.rowwise() += moved_by;
+    skeleton.nodes.rowwise() += moved_by;
+    const Scene far(document_of(surface, &skeleton));
+    // What double precision keeps there, and what single precision keeps of a shape this large.
+    const auto step = static_cast<float>(8 * offset * std::numeric_limits<double>::epsilon()) +
+                      1e-6F * near.bounds().diagonal();
+    ASSERT_EQ(far.points().size(), near.points().size());
+    for (std::size_t i = 0; i < near.points().size(); ++i) {
+      EXPECT_LT(glm::distance(far.points()[i], near.points()[i]), step);
+    }
+    const auto shown = [&](const Scene& scene) {
+      return shown_skeleton(*scene.skeleton(), scene.document.origin, 10, {}, {}).nodes;
+    };
+    const auto nodes_near = shown(near);
+    const auto nodes_far = shown(far);
+    for (std::size_t n = 0; n < nodes_near.size(); ++n) {
+      EXPECT_LT(glm::distance(nodes_far[n].from, nodes_near[n].from), step);
+    }
+  }
+}
+
+TEST(Scene, FitsWhatItHas) {
+  for (const Extracted& one : family()) {
+    const Scene with_surface(document_of(one.surface));
+    Document alone;
+    alone.skeleton = one.skeleton;
+    const Scene skeleton_alone(alone);
+    for (const Scene* scene : {&with_surface, &skeleton_alone}) {
+      EXPECT_FALSE(scene->points().empty());
+      EXPECT_GT(scene->bounds().diagonal(), 0);
+      const glm::mat3& axes = scene->best_axes();
+      EXPECT_NEAR(glm::determinant(axes), 1, 1e-5F);
+    }
+  }
+}
+
+TEST(Scene, ContractedShowsThroughAnOpaqueSurface) {
+  Scene scene(document_of(family()[0].surface));
+  scene.look.surface = SurfaceStyle::opaque;
+  EXPECT_EQ(scene.look_now().surface, SurfaceStyle::opaque);
+  Moment contracted;
+  contracted.stage = "contract";
+  scene.recording.add(contracted);
+  scene.moment = 1;
+  EXPECT_EQ(scene.look_now().surface, SurfaceStyle::transparent);
+  for (const SurfaceStyle style : {SurfaceStyle::wireframe, SurfaceStyle::hidden}) {
+    scene.look.surface = style;
+    EXPECT_EQ(scene.look_now().surface, style);
+  }
+}
+
+/// Surfaces that shrink towards the middle, as a contraction does.
+Recording random_recording(const Surface& surface, const CurveSkeleton& skeleton,
+                           const Eigen::RowVector3d& origin, std::mt19937& random) {
+  Recording recording;
+  const double shrinking = std::uniform_real_distribution<double>(0.3, 0.9)(random);
+  double scale = 1;
+  for (const char* stage : {"fair", "contract"}) {
+    for (int iteration = 0; iteration < 2; ++iteration) {
+      scale *= shrinking;
+      Surface now = surface;
+      now.positions = ((surface.positions.rowwise() - origin) * scale).rowwise() + origin;
+      recording.add(moment_of({stage, 0, iteration, 1, 1, 0, now}, origin, 0));
+    }
+  }
+  Moment last;
+  last.stage = "skeleton";
+  last.skeleton = std::make_shared<const CurveSkeleton>(skeleton);
+  recording.add(last);
+  return recording;
+}
+
+void change(Scene& scene, const Extracted& one, std::mt19937& random) {
+  const auto pick = [&random](const auto& table) { return table[random() % table.size()].value; };
+  switch (random() % 9) {
+    case 0:
+      scene.look.surface = pick(surface_styles);
+      break;
+    case 1:
+      scene.look.skeleton = pick(skeleton_styles);
+      break;
+    case 2:
+      scene.look.surface_colour = pick(colourings);
+      break;
+    case 3:
+      scene.look.skeleton_colour = pick(colourings);
+      break;
+    case 4:
+      scene.look.theme = pick(themes);
+      break;
+    case 5:
+      scene.look.map = pick(colour_maps);
+      break;
+    case 6:
+      scene.highlights.nodes.assign(random() % 2, static_cast<int>(random() % 5));
+      break;
+    case 7:  // another run with other options
+      scene.recording = random_recording(one.surface, one.skeleton, scene.document.origin, random);
+      break;
+    default:
+      scene.moment = random() % scene.recording.moments().size();
+  }
+}
+
+TEST(Scene, DrawnChangeByChangeIsDrawnAtOnce) {
+  const HeadlessContext context;
+  Renderer kept;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    std::mt19937 random(seed);
+    const Extracted& one = family()[seed % family().size()];
+    Scene scene(document_of(one.surface));
+    scene.recording = random_recording(one.surface, one.skeleton, scene.document.origin, random);
+    fit(scene.camera, scene.points(), 1.5F);
+    for (int i = 0; i < 40; ++i) {
+      change(scene, one, random);
+      const std::string picture = screenshot(scene, kept, 60, 40);
+      Scene fresh(document_of(one.surface));
+      fresh.recording = scene.recording;
+      fresh.moment = scene.moment;
+      fresh.look = scene.look;
+      fresh.highlights = scene.highlights;
+      fresh.camera = scene.camera;
+      Renderer other;
+      // Whole PNG files: too long to print where they differ.
+      ASSERT_TRUE(picture == screenshot(fresh, other, 60, 40))
+          << one.name << ", seed " << seed << ", change " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::viewer
