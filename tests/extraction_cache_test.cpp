@@ -108,8 +108,8 @@ const std::vector<Change>& changes() {
        [](ExtractOptions& o) { o.fair.program_cache = o.contraction.program_cache = "/tmp/none"; }},
       {"fair iterations", "fair", [](ExtractOptions& o) { o.fair.iterations = 2; }},
       {"fair smoothing", "fair", [](ExtractOptions& o) { o.fair.smoothing = 0.5; }},
-      {"resolution", "coarsen", [](ExtractOptions& o) { o.resolution = 1700; }},
-      {"least resolution", "coarsen", [](ExtractOptions& o) { o.least_resolution = 1600; }},
+      {"resolution", "coarsen", [](ExtractOptions& o) { o.resolution = 800; }},
+      {"least resolution", "coarsen", [](ExtractOptions& o) { o.least_resolution = 700; }},
       {"contraction weight", "contract",
        [](ExtractOptions& o) { o.contraction.contraction_weight = 2; }},
       {"most iterations", "contract", [](ExtractOptions& o) { o.contraction.max_iterations = 9; }},
@@ -129,14 +129,14 @@ const std::vector<Change>& changes() {
 
 /// A component of its own, and several of which some go side by side.
 std::vector<Shape> subjects() {
-  return {shapes::tube_union("y", shapes::star(3, 8, 0.8), {0.25, 2.5}),
-          shapes::linked_rings(3, 0.6, 16)};
+  return {shapes::tube_union("y", shapes::star(3, 8, 0.8), {0.25, 1.7}),
+          shapes::linked_rings(3, 0.6, 12)};
 }
 
 ExtractOptions starting_options(bool fairing) {
   ExtractOptions options;
-  options.resolution = 2500;
-  options.least_resolution = 800;
+  options.resolution = 1000;
+  options.least_resolution = 300;
   options.fairing = fairing;
   options.fair.iterations = 1;
   options.fair_if_outside = false;
@@ -176,7 +176,7 @@ TEST_P(Cached, IsUnharmedByARunThatWasCancelledAnywhere) {
     const ExtractOptions start = starting_options(fairing);
     ExtractOptions other = start;
     other.fair.smoothing = 0.5;
-    other.resolution = 1700;
+    other.resolution = 800;
     other.embed.detail = 0.9;
     const Extraction fresh_start = extract(shape.surface, start, {});
     const Extraction fresh_other = extract(shape.surface, other, {});
