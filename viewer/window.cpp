@@ -119,7 +119,7 @@ struct Drawn {
   std::size_t moments = 0;
   int width = 0;
   int height = 0;
-  int samples = 0;
+  Fineness fineness;
 
   [[nodiscard]] bool shows_same(const Drawn& other) const {
     const auto same_camera = [](const Camera& a, const Camera& b) {
@@ -129,7 +129,7 @@ struct Drawn {
     return same_camera(camera, other.camera) && look == other.look &&
            highlights == other.highlights && skeleton == other.skeleton && scene == other.scene &&
            moment == other.moment && moments == other.moments && width == other.width &&
-           height == other.height && samples == other.samples;
+           height == other.height;
   }
 };
 
@@ -159,13 +159,19 @@ class Viewer {
       draw_frame();
       glfwSwapBuffers(window_.get());
       const double milliseconds = 1000 * seconds_since(began);
-      if (drawn_anew_) panels_.times.add(milliseconds);
+      if (!drawn_anew_) continue;
+      panels_.times.add(milliseconds);
+      if (all_anew_) pace_.measured(drawn_.fineness, load_, milliseconds);
     }
     if (!options_.frame_times.empty()) write_file(options_.frame_times, panels_.times.text());
     return ExitCode::done;
   }
 
  private:
+  [[nodiscard]] bool moving() const {
+    constexpr double rest_seconds = 0.3;
+    return seconds_since(moved_) <= rest_seconds;
+  }
   void awake() { frames_to_come_ = 3; }  // ImGui takes a few to settle
 
   /// Sleeps where nothing moves; at most sixty pictures a second where something does.
@@ -229,17 +235,16 @@ class Viewer {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   }
 
-  /// Fewer samples while things move, if the machine is slow; all of them once they rest.
-  int samples_now(bool same) {
-    constexpr int finest = 4;
-    constexpr double slow_milliseconds = 14;
-    constexpr double rest_seconds = 0.25;
+  /// Coarser while things move, if the machine is slow; as fine as it bears once they rest.
+  Fineness fineness_now(bool same) {
+    constexpr double moving_milliseconds = 13;
+    constexpr double resting_milliseconds = 400;
     if (!same) moved_ = Clock::now();
-    const bool rests = seconds_since(moved_) > rest_seconds;
-    if (rests || panels_.times.percentile(0.5) < slow_milliseconds) {
-      return finest;
-    }
-    return 1;
+    const bool rests = !moving();
+    const Fineness finest = pace_.choose(load_, resting_milliseconds);
+    const Fineness now = rests ? finest : pace_.choose(load_, moving_milliseconds);
+    unrefined_ = !(now == finest) || !rests;
+    return now;
   }
 
   void draw_scene(const Area& area, int window_height) {
@@ -257,12 +262,19 @@ class Viewer {
               scene.recording.moments().size(),
               width,
               height,
-              drawn_.samples};
-    now.samples = samples_now(now.shows_same(drawn_));
-    unrefined_ = now.samples < 4;
-    if (!now.shows_same(drawn_)) {
+              {}};
+    const bool same = now.shows_same(drawn_);
+    load_ = {scene.sizes(), static_cast<double>(width) * height};
+    now.fineness = fineness_now(same);
+    const bool finer = now.fineness.level < drawn_.fineness.level ||
+                       now.fineness.samples > drawn_.fineness.samples ||
+                       now.fineness.shrink < drawn_.fineness.shrink;
+    if (!same || (finer && !moving())) {
       scene.upload(renderer_);
-      renderer_.draw(scene.camera, now.look, {width, height, now.samples, scene.bounds()});
+      all_anew_ =
+          renderer_.draw(scene.camera, now.look,
+                         {std::max(width / now.fineness.shrink, 1),
+                          std::max(height / now.fineness.shrink, 1), now.fineness, scene.bounds()});
       drawn_ = now;
       drawn_anew_ = true;
     }
@@ -272,8 +284,9 @@ class Viewer {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.picture().framebuffer());
     const auto left = static_cast<int>(area.x);
     const int bottom = window_height - static_cast<int>(area.y) - height;
-    glBlitFramebuffer(0, 0, width, height, left, bottom, left + width, bottom + height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const GlTarget::Form& drawn = renderer_.picture().form();
+    glBlitFramebuffer(0, 0, drawn.width, drawn.height, left, bottom, left + width, bottom + height,
+                      GL_COLOR_BUFFER_BIT, drawn.width == width ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
 
@@ -303,8 +316,11 @@ class Viewer {
   Workbench bench_;
   Panels panels_;
   Controls controls_;
+  Pace pace_;
+  Pace::Load load_;
   Drawn drawn_;
   bool drawn_anew_ = false;
+  bool all_anew_ = false;
   bool unrefined_ = false;
   int frames_to_come_ = 3;
   Clock::time_point moved_ = Clock::now();
