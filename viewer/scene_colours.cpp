@@ -21,10 +21,12 @@ class Parts {
     const std::pair<int, int> ordered = std::minmax({root(a), root(b)});
     at(ordered.second) = ordered.first;
   }
-  std::vector<int> numbers() {
+  /// -1 for those that do not count.
+  std::vector<int> numbers(const std::vector<bool>& counts) {
     std::vector<int> number(parent_.size(), -1);
     int next = 0;
     for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
+      if (!counts[static_cast<std::size_t>(i)]) continue;
       const int first = root(i);
       number[static_cast<std::size_t>(i)] =
           first == i ? next++ : number[static_cast<std::size_t>(first)];
@@ -183,17 +185,19 @@ std::vector<Rgba> colours_by_map(const CurveSkeleton& skeleton, const Look& look
 
 std::vector<int> components_of(const Surface& surface) {
   Parts parts(surface.positions.rows());
+  std::vector<bool> used(static_cast<std::size_t>(surface.positions.rows()), false);
   for (const auto& triangle : surface.triangles.rowwise()) {
     parts.join(triangle[0], triangle[1]);
     parts.join(triangle[1], triangle[2]);
+    for (const int vertex : triangle) used[static_cast<std::size_t>(vertex)] = true;
   }
-  return parts.numbers();
+  return parts.numbers(used);
 }
 
 std::vector<int> components_of(const CurveSkeleton& skeleton) {
   Parts parts(skeleton.nodes.rows());
   for (const auto& edge : skeleton.edges.rowwise()) parts.join(edge[0], edge[1]);
-  return parts.numbers();
+  return parts.numbers(std::vector<bool>(static_cast<std::size_t>(skeleton.nodes.rows()), true));
 }
 
 std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton) {
