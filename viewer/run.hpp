@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "skeleton/extract.hpp"
+#include "surface/error.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
 #include "viewer/recording.hpp"
@@ -66,6 +67,7 @@ class Run {
     std::vector<Moment> moments;
     std::optional<RunResult> result;  ///< once, after it has finished
     std::string error;                ///< why it failed
+    Fault fault = Fault::solver;      ///< whose it is that it failed
   };
   [[nodiscard]] News take();
 

@@ -25,7 +25,7 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
   for (;;) {
     Run::News news = run.take();
     for (Moment& moment : news.moments) scene.recording.add(std::move(moment));
-    if (news.state == Run::State::failed) throw Error(Fault::solver, news.error);
+    if (news.state == Run::State::failed) throw Error(news.fault, news.error);
     if (news.state == Run::State::finished) return;
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
