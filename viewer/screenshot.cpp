@@ -32,6 +32,11 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
   }
 }
 
+/// As the command line calls it.
+std::string name_of(const StageWish& wish) {
+  return wish.stage == "fair" ? "fairing" : wish.stage == "contract" ? "contraction" : wish.stage;
+}
+
 void go_to(Scene& scene, const StageWish& wish) {
   const auto& moments = scene.recording.moments();
   int last = -1;
@@ -41,12 +46,12 @@ void go_to(Scene& scene, const StageWish& wish) {
     if (wish.iteration < 0 || moments[i].iteration <= wish.iteration) scene.moment = i;
   }
   if (last < 0) {
-    throw Error(Fault::input, "the stage " + wish.stage +
-                                  " never came; there were input, contraction:K, skeleton, and "
-                                  "fairing:K with --fair N");
+    throw Error(Fault::input, "the stage " + name_of(wish) +
+                                  " never came; a run over a surface has input, contraction:K, "
+                                  "skeleton, and fairing:K with --fair N");
   }
   if (wish.iteration > last) {
-    throw Error(Fault::input, wish.stage + " took " + std::to_string(last) +
+    throw Error(Fault::input, name_of(wish) + " took " + std::to_string(last) +
                                   " iterations, so there is no " + std::to_string(wish.iteration));
   }
 }
@@ -108,14 +113,14 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
-  const bool needs_run = scene.document.soup && options.run && options.stage.stage != "input" &&
-                         (!scene.own_skeleton || options.stage_given);
-  if (needs_run) {
-    scene.own_skeleton = options.stage_given ? nullptr : scene.own_skeleton;
+  if (options.stage.stage == "input") {
+    if (scene.document.soup) scene.own_skeleton = nullptr;
+  } else if (scene.document.soup && options.run && (!scene.own_skeleton || options.stage_given)) {
+    scene.own_skeleton = nullptr;
     finish_run(scene, options, monitor);
     go_to(scene, options.stage);
-  } else if (options.stage.stage == "input") {
-    scene.own_skeleton = nullptr;
+  } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {
+    go_to(scene, options.stage);  // says that it never came
   }
   monitor.report("draw", 0);
   const HeadlessContext context;
