@@ -1,7 +1,9 @@
 #include "viewer/screenshot.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 #include <thread>
 
@@ -68,18 +70,22 @@ void make_folder(const fs::path& folder) {
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
                      const Monitor& monitor) {
   make_folder(options.turntable);
-  // Fitted to the widest view, so that the shape does not breathe as it turns.
-  Camera widest = scene.camera;
+  // Fitted to the widest view, so that the shape does not breathe as it turns; with its mirror
+  // image, so that the middle of the box is the middle of the picture.
+  std::vector<glm::vec3> points = scene.points();
+  const glm::vec3 middle = scene.bounds().middle();
+  std::transform(scene.points().begin(), scene.points().end(), std::back_inserter(points),
+                 [&](const glm::vec3& point) { return 2.0F * middle - point; });
+  float distance = 0;
   for (int frame = 0; frame < options.frames; ++frame) {
     const float angle = 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames);
     Camera turned = scene.camera;
     orbit(turned, angle * static_cast<float>(frame), 0);
-    fit(turned, scene.points(),
-        static_cast<float>(options.width) / static_cast<float>(options.height));
-    widest.distance = std::max(widest.distance, turned.distance);
+    fit(turned, points, static_cast<float>(options.width) / static_cast<float>(options.height));
+    distance = std::max(distance, turned.distance);
   }
-  scene.camera.distance = widest.distance;
-  scene.camera.target = scene.bounds().middle();
+  scene.camera.distance = distance / options.camera.zoom;
+  scene.camera.target = middle;
   for (int frame = 0; frame < options.frames; ++frame) {
     monitor.report("turntable", static_cast<double>(frame) / options.frames);
     char name[32];
