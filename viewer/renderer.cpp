@@ -10,7 +10,17 @@
 namespace curveskel::viewer {
 namespace {
 
-enum Attribute : GLuint { position, normal, colour, from, to, from_colour, to_colour };
+enum Attribute : GLuint {
+  position,
+  normal,
+  colour,
+  from,
+  to,
+  from_colour,
+  to_colour,
+  from_mitre,
+  to_mitre
+};
 
 /// Colours of what is not coloured are the attribute's constant value.
 void bind_attribute(GLuint attribute, const GlBuffer& buffer, GLint parts, GLenum type,
@@ -75,7 +85,11 @@ void Renderer::make_shape(Instances& instances, const std::vector<glm::vec4>& po
                  offsetof(TubeInstance, from_colour));
   bind_attribute(to_colour, instances.instances, 4, GL_UNSIGNED_BYTE, true, stride,
                  offsetof(TubeInstance, to_colour));
-  for (const GLuint attribute : {from, to, from_colour, to_colour}) {
+  bind_attribute(from_mitre, instances.instances, 3, GL_FLOAT, false, stride,
+                 offsetof(TubeInstance, from_mitre));
+  bind_attribute(to_mitre, instances.instances, 3, GL_FLOAT, false, stride,
+                 offsetof(TubeInstance, to_mitre));
+  for (const GLuint attribute : {from, to, from_colour, to_colour, from_mitre, to_mitre}) {
     glVertexAttribDivisor(attribute, 1);
   }
   glBindVertexArray(0);

@@ -4,8 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "surface/error.hpp"
-
 namespace curveskel::viewer {
 namespace {
 
@@ -119,15 +117,18 @@ void Run::work(const std::stop_token& stop) {
     news_.fraction = fraction;
   };
   monitor.frame = [&](const Frame& frame) { show(moment_of(frame, origin_, seconds()), stop); };
-  const auto end = [this](State state, const std::string& why) {
+  const auto end = [this](State state, const std::string& why, Fault fault = Fault::solver) {
     const std::lock_guard lock(mutex_);
     news_.state = state;
     news_.error = why;
+    news_.fault = fault;
   };
   try {
     extract_all(monitor);
   } catch (const Cancelled&) {
     end(State::cancelled, {});
+  } catch (const Error& error) {
+    end(State::failed, error.what(), error.fault());
   } catch (const std::bad_alloc&) {
     end(State::failed, "out of memory; use a smaller surface or a coarser resolution");
   } catch (const std::exception& error) {

@@ -13,6 +13,7 @@
 
 #include "skeleton/extract.hpp"
 #include "skeleton/extraction_cache.hpp"
+#include "surface/error.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
 #include "viewer/recording.hpp"
@@ -68,6 +69,7 @@ class Run {
     std::vector<Moment> moments;
     std::optional<RunResult> result;  ///< once, after it has finished
     std::string error;                ///< why it failed
+    Fault fault = Fault::solver;      ///< whose it is that it failed
   };
   [[nodiscard]] News take();
 

@@ -7,6 +7,15 @@
 namespace curveskel::viewer {
 namespace {
 
+/// The corners of the cube about a ball.
+void add_box(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
+  for (const float x : {-radius, radius}) {
+    for (const float y : {-radius, radius}) {
+      for (const float z : {-radius, radius}) points.push_back(middle + glm::vec3(x, y, z));
+    }
+  }
+}
+
 /// Enough of them to fit the picture to.
 std::vector<glm::vec3> some_points(const Document& document, const ShownSurface& given) {
   constexpr std::size_t enough = 50000;
@@ -17,8 +26,11 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
     points.push_back(given.positions[v]);
   }
   if (points.empty() && document.skeleton) {
-    for (const auto& node : document.skeleton->nodes.rowwise()) {
-      points.push_back(shown_point(node, document.origin));
+    const CurveSkeleton& skeleton = *document.skeleton;
+    for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+      const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
+      const float radius = skeleton.radii.size() > 0 ? static_cast<float>(skeleton.radii[node]) : 0;
+      add_box(points, at, radius);
     }
   }
   return points;

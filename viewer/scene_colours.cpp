@@ -21,10 +21,12 @@ class Parts {
     const std::pair<int, int> ordered = std::minmax({root(a), root(b)});
     at(ordered.second) = ordered.first;
   }
-  std::vector<int> numbers() {
+  /// -1 for those that do not count.
+  std::vector<int> numbers(const std::vector<bool>& counts) {
     std::vector<int> number(parent_.size(), -1);
     int next = 0;
     for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
+      if (!counts[static_cast<std::size_t>(i)]) continue;
       const int first = root(i);
       number[static_cast<std::size_t>(i)] =
           first == i ? next++ : number[static_cast<std::size_t>(first)];
@@ -143,6 +145,35 @@ float radius_at(const CurveSkeleton& skeleton, Eigen::Index node, float thin, co
   return look.skeleton == SkeletonStyle::lines ? 0 : thin;
 }
 
+/// For each node between two edges that turn by less than 75 degrees: the normal of the plane along
+/// which both are cut, pointing from the lower neighbour to the higher one; else zero.
+std::vector<glm::vec3> mitres_of(const CurveSkeleton& skeleton, const std::vector<int>& degree) {
+  std::vector<glm::vec3> mitres(degree.size(), glm::vec3(0));
+  std::vector<int> seen(degree.size(), 0);
+  std::vector<glm::vec3> first(degree.size(), glm::vec3(0));
+  const auto way = [&](int a, int b) {
+    const Eigen::Vector3f along =
+        (skeleton.nodes.row(b) - skeleton.nodes.row(a)).cast<float>().normalized();
+    return glm::vec3(along.x(), along.y(), along.z());
+  };
+  for (const auto& edge : skeleton.edges.rowwise()) {
+    for (int end = 0; end < 2; ++end) {
+      const auto node = static_cast<std::size_t>(edge[end]);
+      const glm::vec3 out = way(edge[end], edge[1 - end]);
+      if (degree[node] != 2) continue;
+      if (seen[node]++ == 0) {
+        first[node] = out;
+        continue;
+      }
+      constexpr float least = 1.58F;  // |a - b| of unit vectors out of a node that turns by 75 deg
+      const glm::vec3 normal = out - first[node];
+      const float length = glm::length(normal);
+      if (length > least) mitres[node] = normal / length;
+    }
+  }
+  return mitres;
+}
+
 std::vector<Rgba> category_colours(const std::vector<int>& number) {
   std::vector<Rgba> colours;
   colours.reserve(number.size());
@@ -183,17 +214,19 @@ std::vector<Rgba> colours_by_map(const CurveSkeleton& skeleton, const Look& look
 
 std::vector<int> components_of(const Surface& surface) {
   Parts parts(surface.positions.rows());
+  std::vector<bool> used(static_cast<std::size_t>(surface.positions.rows()), false);
   for (const auto& triangle : surface.triangles.rowwise()) {
     parts.join(triangle[0], triangle[1]);
     parts.join(triangle[1], triangle[2]);
+    for (const int vertex : triangle) used[static_cast<std::size_t>(vertex)] = true;
   }
-  return parts.numbers();
+  return parts.numbers(used);
 }
 
 std::vector<int> components_of(const CurveSkeleton& skeleton) {
   Parts parts(skeleton.nodes.rows());
   for (const auto& edge : skeleton.edges.rowwise()) parts.join(edge[0], edge[1]);
-  return parts.numbers();
+  return parts.numbers(std::vector<bool>(static_cast<std::size_t>(skeleton.nodes.rows()), true));
 }
 
 std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton) {
@@ -214,16 +247,27 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
   const std::vector<int> lit_edges = in_order(highlights.edges);
   const std::vector<int> failed_edges = in_order(highlights.failed_edges);
   const std::vector<int> lit_nodes = in_order(highlights.nodes);
+  const std::vector<int> degree = degrees_of(skeleton);
+  const bool thick = look.skeleton == SkeletonStyle::balls;
+  const std::vector<glm::vec3> mitres =
+      thick ? std::vector<glm::vec3>(degree.size(), glm::vec3(0)) : mitres_of(skeleton, degree);
+  /// Towards the edge's second end.
+  const auto mitre_at = [&](Eigen::Index row, int end) {
+    const glm::vec3 mitre = mitres[static_cast<std::size_t>(skeleton.edges(row, end))];
+    const glm::vec3 along =
+        glm::vec3(at(skeleton.edges(row, 1))) - glm::vec3(at(skeleton.edges(row, 0)));
+    return glm::dot(mitre, along) < 0 ? -mitre : mitre;
+  };
   ShownSkeleton shown;
   shown.edges.reserve(static_cast<std::size_t>(skeleton.edges.rows()));
   for (Eigen::Index row = 0; row < skeleton.edges.rows(); ++row) {
     TubeInstance tube{at(skeleton.edges(row, 0)), at(skeleton.edges(row, 1)),
-                      rgba(colours.edge(row, 0)), rgba(colours.edge(row, 1))};
+                      rgba(colours.edge(row, 0)), rgba(colours.edge(row, 1)),
+                      mitre_at(row, 0),           mitre_at(row, 1)};
     if (holds(failed_edges, row)) tube.from_colour = tube.to_colour = rgba(failed);
     if (holds(lit_edges, row)) tube.from_colour = tube.to_colour = rgba(lit_up);
     shown.edges.push_back(tube);
   }
-  const std::vector<int> degree = degrees_of(skeleton);
   shown.nodes.reserve(degree.size());
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     const bool lit = holds(lit_nodes, node);
@@ -233,10 +277,11 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
     if (lit) place.w = std::max(place.w, 2.4F * thin);
     const auto index = static_cast<int>(node);
     const Rgba own = rgba(joint ? colours.joint(index) : colours.node(index));
-    // Branches have a colour of their own; a node between two of a branch shows it, too.
-    if (!joint && !lit && look.skeleton_colour == ColourBy::branch) continue;
+    // Where the edges fit without a gap, a ball would cost more than both of them.
+    const bool seamless = mitres[static_cast<std::size_t>(node)] != glm::vec3(0);
+    if (seamless && !lit) continue;
     const Rgba colour = lit ? rgba(lit_up) : own;
-    shown.nodes.push_back({place, place, colour, colour});
+    shown.nodes.push_back({place, place, colour, colour, {}, {}});
   }
   return shown;
 }

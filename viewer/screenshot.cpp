@@ -1,7 +1,9 @@
 #include "viewer/screenshot.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 #include <thread>
 
@@ -25,11 +27,16 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
   for (;;) {
     Run::News news = run.take();
     for (Moment& moment : news.moments) scene.recording.add(std::move(moment));
-    if (news.state == Run::State::failed) throw Error(Fault::solver, news.error);
+    if (news.state == Run::State::failed) throw Error(news.fault, news.error);
     if (news.state == Run::State::finished) return;
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+}
+
+/// As the command line calls it.
+std::string name_of(const StageWish& wish) {
+  return wish.stage == "fair" ? "fairing" : wish.stage == "contract" ? "contraction" : wish.stage;
 }
 
 void go_to(Scene& scene, const StageWish& wish) {
@@ -41,12 +48,12 @@ void go_to(Scene& scene, const StageWish& wish) {
     if (wish.iteration < 0 || moments[i].iteration <= wish.iteration) scene.moment = i;
   }
   if (last < 0) {
-    throw Error(Fault::input, "the stage " + wish.stage +
-                                  " never came; there were input, contraction:K, skeleton, and "
-                                  "fairing:K with --fair N");
+    throw Error(Fault::input, "the stage " + name_of(wish) +
+                                  " never came; a run over a surface has input, contraction:K, "
+                                  "skeleton, and fairing:K with --fair N");
   }
   if (wish.iteration > last) {
-    throw Error(Fault::input, wish.stage + " took " + std::to_string(last) +
+    throw Error(Fault::input, name_of(wish) + " took " + std::to_string(last) +
                                   " iterations, so there is no " + std::to_string(wish.iteration));
   }
 }
@@ -63,18 +70,22 @@ void make_folder(const fs::path& folder) {
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
                      const Monitor& monitor) {
   make_folder(options.turntable);
-  // Fitted to the widest view, so that the shape does not breathe as it turns.
-  Camera widest = scene.camera;
+  // Fitted to the widest view, so that the shape does not breathe as it turns; with its mirror
+  // image, so that the middle of the box is the middle of the picture.
+  std::vector<glm::vec3> points = scene.points();
+  const glm::vec3 middle = scene.bounds().middle();
+  std::transform(scene.points().begin(), scene.points().end(), std::back_inserter(points),
+                 [&](const glm::vec3& point) { return 2.0F * middle - point; });
+  float distance = 0;
   for (int frame = 0; frame < options.frames; ++frame) {
     const float angle = 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames);
     Camera turned = scene.camera;
     orbit(turned, angle * static_cast<float>(frame), 0);
-    fit(turned, scene.points(),
-        static_cast<float>(options.width) / static_cast<float>(options.height));
-    widest.distance = std::max(widest.distance, turned.distance);
+    fit(turned, points, static_cast<float>(options.width) / static_cast<float>(options.height));
+    distance = std::max(distance, turned.distance);
   }
-  scene.camera.distance = widest.distance;
-  scene.camera.target = scene.bounds().middle();
+  scene.camera.distance = distance / options.camera.zoom;
+  scene.camera.target = middle;
   for (int frame = 0; frame < options.frames; ++frame) {
     monitor.report("turntable", static_cast<double>(frame) / options.frames);
     char name[32];
@@ -108,14 +119,14 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
-  const bool needs_run = scene.document.soup && options.run && options.stage.stage != "input" &&
-                         (!scene.own_skeleton || options.stage_given);
-  if (needs_run) {
-    scene.own_skeleton = options.stage_given ? nullptr : scene.own_skeleton;
+  if (options.stage.stage == "input") {
+    if (scene.document.soup) scene.own_skeleton = nullptr;
+  } else if (scene.document.soup && options.run && (!scene.own_skeleton || options.stage_given)) {
+    scene.own_skeleton = nullptr;
     finish_run(scene, options, monitor);
     go_to(scene, options.stage);
-  } else if (options.stage.stage == "input") {
-    scene.own_skeleton = nullptr;
+  } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {
+    go_to(scene, options.stage);  // says that it never came
   }
   monitor.report("draw", 0);
   const HeadlessContext context;

@@ -34,6 +34,10 @@ struct TubeInstance {
   glm::vec4 to;
   Rgba from_colour;
   Rgba to_colour;
+  /// Where the next edge goes on from an end: both are cut along the plane between them, whose
+  /// normal this is. (0, 0, 0) = cut straight.
+  glm::vec3 from_mitre{0};
+  glm::vec3 to_mitre{0};
 };
 
 struct ShownSkeleton {

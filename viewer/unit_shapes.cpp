@@ -6,7 +6,7 @@
 namespace curveskel::viewer {
 namespace {
 
-constexpr std::uint32_t sides_round = 20;
+constexpr std::uint32_t sides_round = 16;
 constexpr std::uint32_t rings = 12;  // of the ball, poles included
 
 float turn(std::uint32_t part, std::uint32_t parts, float whole) {

@@ -49,7 +49,7 @@ std::string set_stage(ViewOptions& options, const std::string& text) {
   const std::string name = text.substr(0, colon);
   StageWish wish;
   wish.stage = name == "fairing" ? "fair" : name == "contraction" ? "contract" : name;
-  const bool counted = wish.stage == "fair" || wish.stage == "contract";
+  const bool counted = name == "fairing" || name == "contraction";
   const bool known = counted || name == "input" || name == "skeleton";
   const bool read = colon == std::string::npos ||
                     (counted && CLI::detail::lexical_cast(text.substr(colon + 1), wish.iteration) &&

@@ -50,6 +50,7 @@ class Watched {
       result = std::move(news.result);
     }
     error = news.error;
+    fault = news.fault;
   }
   /// False where it did not come about.
   bool wait(const std::function<bool()>& wanted) {
@@ -71,6 +72,7 @@ class Watched {
   std::vector<Moment> moments;
   std::optional<RunResult> result;
   std::string error;
+  Fault fault = Fault::solver;
 
  private:
   std::unique_ptr<Run> run_;
@@ -281,6 +283,7 @@ TEST(Failure, IsNews) {
     EXPECT_EQ(watched.state, State::failed);
     EXPECT_FALSE(watched.result);
     EXPECT_FALSE(watched.error.empty());
+    EXPECT_EQ(watched.fault, Fault::input);
   }
 }
 

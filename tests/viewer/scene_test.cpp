@@ -221,6 +221,26 @@ TEST(SurfaceColours, ArePlainWithoutAMapOfThisSurface) {
   EXPECT_TRUE(surface_colours(one.surface, &one.skeleton, look_by(ColourBy::plain), {}).empty());
 }
 
+TEST(ComponentsOf, ASurfaceAreNumberedByTheirFirstVertices) {
+  const Surface rings = family()[1].surface;
+  const Eigen::Index count = rings.positions.rows();
+  Surface surface;  // a vertex without a face before, between and behind
+  surface.positions.setZero(count + 2, 3);
+  surface.positions.middleRows(1, count) = rings.positions;
+  surface.triangles = rings.triangles.array() + 1;
+  const std::vector<int> number = components_of(surface);
+  EXPECT_EQ(number.front(), -1);
+  EXPECT_EQ(number.back(), -1);
+  EXPECT_EQ(number[1], 0);
+  EXPECT_EQ(*std::max_element(number.begin(), number.end()), 1);
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    for (int corner = 0; corner < 3; ++corner) {
+      EXPECT_EQ(number[static_cast<std::size_t>(triangle[corner])],
+                number[static_cast<std::size_t>(triangle[0])]);
+    }
+  }
+}
+
 TEST(ShownSkeleton, IsWhereTheSkeletonIs) {
   for (const Extracted& one : family()) {
     for (const auto& style : skeleton_styles) {

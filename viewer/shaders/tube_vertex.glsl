@@ -5,6 +5,8 @@ layout(location = 3) in vec4 from;    // centre and radius in model units
 layout(location = 4) in vec4 to;
 layout(location = 5) in vec4 from_colour;
 layout(location = 6) in vec4 to_colour;
+layout(location = 7) in vec3 from_mitre;
+layout(location = 8) in vec3 to_mitre;
 uniform mat4 view;
 uniform mat4 projection;
 uniform bool ball;
@@ -33,8 +35,13 @@ void main() {
     vec3 other = abs(along.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
     vec3 first = normalize(cross(along, other));
     out_of = first * unit.x + cross(along, first) * unit.y;
+    normal_seen = out_of;
+    vec3 mitre = mat3(view) * (t < 0.5 ? from_mitre : to_mitre);
+    float slope = dot(along, mitre);
+    if (slope > 0.0) out_of -= along * (dot(out_of, mitre) / slope);
+  } else {
+    normal_seen = out_of;
   }
-  normal_seen = out_of;
   seen = centre + out_of * radius;
   tint = mix(from_colour, to_colour, t);
   gl_Position = projection * vec4(seen, 1.0);
