@@ -189,6 +189,7 @@ class Viewer {
       if (!window_.type()) awake();
       draw_frame();
       glfwSwapBuffers(window_.get());
+      set_title();
       const double milliseconds = 1000 * seconds_since(began);
       if (!drawn_anew_) continue;
       panels_.times.add(milliseconds);
@@ -229,13 +230,24 @@ class Viewer {
       files_seen_ = Clock::now();
       bench_.watch_files();
     }
-    if (bench_.files() == titled_) return;
-    titled_ = bench_.files();
+    if (bench_.files() == remembered_) return;
+    remembered_ = bench_.files();
+    for (const fs::path& file : remembered_) remember_file(file);
+  }
+
+  /// What is open, which moment of it is shown, and whether more is to come.
+  void set_title() {
     std::string title = "curveskel";
-    for (const fs::path& file : titled_) {
-      title += " - " + file.filename().string();
-      remember_file(file);
+    for (const fs::path& file : bench_.files()) title += " - " + file.filename().string();
+    if (!bench_.files().empty()) {
+      title += " (" + title_of(bench_.scene->recording.moments()[bench_.scene->moment]);
+      if (bench_.running()) {
+        title += bench_.run_state() == Run::State::paused ? ", paused" : ", running";
+      }
+      title += ")";
     }
+    if (title == title_) return;
+    title_ = title;
     glfwSetWindowTitle(window_.get(), title.c_str());
   }
 
@@ -358,7 +370,8 @@ class Viewer {
   Clock::time_point last_frame_ = Clock::now();
   Clock::time_point files_seen_ = Clock::now();
   std::optional<Theme> styled_;
-  std::vector<fs::path> titled_;
+  std::vector<fs::path> remembered_;
+  std::string title_;
 };
 
 }  // namespace
