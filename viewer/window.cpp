@@ -196,6 +196,7 @@ class Viewer {
       if (all_anew_) pace_.measured(drawn_.fineness, load_, milliseconds);
     }
     if (!options_.frame_times.empty()) write_file(options_.frame_times, panels_.times.text());
+    session_.interruption.check();
     return ExitCode::done;
   }
 
