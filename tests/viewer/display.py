@@ -35,7 +35,7 @@ class Display:
         reading, writing = os.pipe()
         self.process = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24",
-             "-nolisten", "tcp"], pass_fds=[writing], stderr=subprocess.DEVNULL)
+             "-nolisten", "tcp", "-noreset"], pass_fds=[writing], stderr=subprocess.DEVNULL)
         os.close(writing)
         with os.fdopen(reading) as pipe:
             number = pipe.readline().strip()
@@ -185,7 +185,10 @@ class Window:
         self.key("ctrl+a")
         self.display.xdotool("type", "--delay", 5, text)
         self.rest(self.whole, blink)
+        asking = self.whole()
         self.key("Return")
+        self.wait_for_change(asking, 0.05, self.whole)
+        self.rest(self.whole, blink)  # until keys are for the picture again
 
     def changes(self, *names, least=0.002, see=None):
         """Types and waits for another picture; gives that, at rest."""
