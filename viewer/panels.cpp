@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/certificate_table.hpp"
 
@@ -93,7 +95,9 @@ void run_buttons(Workbench& bench) {
   if (ImGui::Button("Rewind")) bench.rewind();
   tip("to the input (Home)");
   ImGui::SameLine();
+  ImGui::BeginDisabled(!bench.running());
   if (ImGui::Button("Cancel")) bench.cancel();
+  ImGui::EndDisabled();
   tip("stop the run, keep what was recorded (Esc)");
 }
 
@@ -159,9 +163,13 @@ void corrections(Workbench& bench) {
   button("Split", "a node in the middle of the selected edge (N)", [&] { bench.split(); });
   ImGui::SameLine();
   button("Root", "the selected node is where the hierarchy begins (T)", [&] { bench.set_root(); });
+  ImGui::BeginDisabled(!bench.history().can_undo());
   button("Undo", "Ctrl-Z", [&] { bench.undo(); });
+  ImGui::EndDisabled();
   ImGui::SameLine();
+  ImGui::BeginDisabled(!bench.history().can_redo());
   button("Redo", "Ctrl-Y", [&] { bench.redo(); });
+  ImGui::EndDisabled();
   if (bench.root() >= 0) {
     ImGui::SameLine();
     ImGui::Text("root: node %d", bench.root());
@@ -224,22 +232,31 @@ void look_controls(Look& look, Camera& camera) {
   tip("O");
 }
 
-void certificate_line(const char* name, const std::string& value, int verdict) {
+/// Read against the panel of the theme: 4.5 to 1 at least.
+ImVec4 verdict_colour(bool good, Theme theme) {
+  if (theme == Theme::dark)
+    return good ? ImVec4(0.40F, 0.80F, 0.52F, 1) : ImVec4(1, 0.48F, 0.43F, 1);
+  return good ? ImVec4(0.04F, 0.42F, 0.17F, 1) : ImVec4(0.74F, 0.10F, 0.08F, 1);
+}
+
+void certificate_line(const char* name, const std::string& value, int verdict, Theme theme) {
   ImGui::TextUnformatted(name);
   ImGui::SameLine(ImGui::GetFontSize() * 6.5F);
   if (verdict < 0) {
     ImGui::TextUnformatted(value.c_str());
   } else {
-    const ImVec4 good(0.15F, 0.62F, 0.30F, 1);
-    const ImVec4 wrong(0.85F, 0.18F, 0.15F, 1);
-    ImGui::TextColored(verdict != 0 ? good : wrong, "%s", value.c_str());
+    ImGui::TextColored(verdict_colour(verdict != 0, theme), "%s", value.c_str());
   }
 }
 
 void certificate(Workbench& bench) {
   const Judgement* found = bench.judgement();
   if (found == nullptr) {
-    ImGui::TextDisabled("not there yet");
+    const bool alone = bench.scene->skeleton() && !bench.scene->document.soup;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped(alone ? "open the surface and the skeleton together to judge it"
+                             : "not there yet");
+    ImGui::PopStyleColor();
     return;
   }
   if (!found->error.empty()) {
@@ -247,32 +264,35 @@ void certificate(Workbench& bench) {
     return;
   }
   const Certificate& c = found->certificate;
+  const auto line = [theme = bench.scene->look.theme](const char* name, const std::string& value,
+                                                      int verdict) {
+    certificate_line(name, value, verdict, theme);
+  };
   const auto verdict = [](bool good) { return good ? 1 : 0; };
-  certificate_line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
-                   verdict(c.components == c.components_of_surface));
-  certificate_line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
-                   verdict(c.cycle_rank == c.genus));
-  certificate_line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction),
-                   verdict(c.inside_enough));
+  line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
+       verdict(c.components == c.components_of_surface));
+  line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
+       verdict(c.cycle_rank == c.genus));
+  line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough));
   if (!found->findings.exits.empty()) {
     ImGui::SameLine();
     if (ImGui::SmallButton("show##exits")) bench.show_exits();
     tip("the edges that leave the surface");
   }
-  certificate_line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
+  line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
   if (c.spurs > 0) {
     ImGui::SameLine();
     if (ImGui::SmallButton("show##spurs")) bench.show_spurs();
   }
-  certificate_line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1);
-  certificate_line("centredness",
-                   fmt::format("{:.3f}, p90 {:.3f}", c.centredness_median, c.centredness_p90), -1);
-  certificate_line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1);
-  certificate_line("reach", fmt::format("{:.4f} D", c.reach), -1);
-  certificate_line("tips", fmt::format("{}", c.tips), -1);
-  certificate_line("junctions", fmt::format("{}", c.junctions), -1);
-  certificate_line("length", fmt::format("{:.3f} D", c.length), -1);
-  certificate_line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
+  line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1);
+  line("centredness", fmt::format("{:.3f}, p90 {:.3f}", c.centredness_median, c.centredness_p90),
+       -1);
+  line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1);
+  line("reach", fmt::format("{:.4f} D", c.reach), -1);
+  line("tips", fmt::format("{}", c.tips), -1);
+  line("junctions", fmt::format("{}", c.junctions), -1);
+  line("length", fmt::format("{:.3f} D", c.length), -1);
+  line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
 }
 
 void colour_bar(const Workbench& bench) {
@@ -314,22 +334,32 @@ void right_panel(Workbench& bench, const Area& area) {
   ImGui::End();
 }
 
+/// As many of the facts as fit, the first ones first.
 void status_bar(const Workbench& bench, const Panels& panels, const Area& area) {
   if (!begin_panel("status", area)) return;
   const Document& document = bench.scene->document;
-  std::string line;
+  std::vector<std::string> facts;
   if (document.soup) {
-    line = fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
-                       document.surface.positions.rows(), document.surface.triangles.rows());
+    facts.push_back(
+        fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
+                    document.surface.positions.rows(), document.surface.triangles.rows()));
   }
   if (const auto skeleton = bench.scene->skeleton()) {
-    line += fmt::format("{}{} nodes, {} edges", line.empty() ? "" : "   |   ",
-                        skeleton->nodes.rows(), skeleton->edges.rows());
+    facts.push_back(
+        fmt::format("{} nodes, {} edges", skeleton->nodes.rows(), skeleton->edges.rows()));
   }
-  line += fmt::format(
-      "{}{}   |   {:.1f} ms, 99 % below {:.1f}   |   {}   |   {}", line.empty() ? "" : "   |   ",
-      title_of(bench.scene->recording.moments()[bench.scene->moment]), panels.times.last(),
-      panels.times.percentile(0.99), panels.transfer, panels.gl);
+  facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
+  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.times.last(),
+                              panels.times.percentile(0.99)));
+  facts.push_back(panels.gl);
+  facts.push_back(panels.transfer);
+  std::string line;
+  for (const std::string& fact : facts) {
+    const std::string longer = line.empty() ? fact : line + "   |   " + fact;
+    const bool fits = ImGui::CalcTextSize(longer.c_str()).x <= ImGui::GetContentRegionAvail().x;
+    if (!fits && !line.empty()) break;
+    line = longer;
+  }
   ImGui::TextUnformatted(line.c_str());
   ImGui::End();
 }
@@ -358,6 +388,7 @@ void help(Panels& panels) {
   if (!panels.help) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, screen);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse |
                                      ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoSavedSettings;
@@ -493,6 +524,10 @@ void style_panels(Theme theme, float scale) {
   style.WindowPadding = {10, 8};
   style.FrameBorderSize = theme == Theme::light ? 1.0F : 0.0F;
   const Palette palette = palette_of(theme);
+  // Numbers stay legible under the sliders' grips and on the progress bar.
+  style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.45F;
+  style.Colors[ImGuiCol_PlotHistogram] =
+      theme == Theme::dark ? ImVec4(0.16F, 0.44F, 0.36F, 1) : ImVec4(0.58F, 0.83F, 0.75F, 1);
   style.Colors[ImGuiCol_WindowBg] = {palette.lower.r, palette.lower.g, palette.lower.b, 1};
   style.ScaleAllSizes(scale);
 }
