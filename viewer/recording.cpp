@@ -57,6 +57,20 @@ ShownSurface Recording::surface_at(std::size_t index) const {
   return whole;
 }
 
+ShownSurface Recording::faired_at(std::size_t index) const {
+  std::map<int, const ShownSurface*> faired;
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    const Moment& moment = moments_[i];
+    if (moment.stage != "fair" || !moment.surface) continue;
+    if (i <= index || !faired.contains(moment.component)) {
+      faired[moment.component] = moment.surface.get();
+    }
+  }
+  ShownSurface whole;
+  for (const auto& [component, surface] : faired) append(whole, *surface);
+  return whole;
+}
+
 std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) const {
   for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
     if (moments_[i].skeleton) return moments_[i].skeleton;

@@ -42,6 +42,9 @@ class Recording {
   /// The components' surfaces as they were at moment `index`, put together; empty where none has
   /// changed yet or the skeleton is there. O(vertices shown + moments).
   [[nodiscard]] ShownSurface surface_at(std::size_t index) const;
+  /// The components' surfaces as fairing had left them at moment `index`; those that it came to
+  /// later as it found them. O(vertices shown + moments).
+  [[nodiscard]] ShownSurface faired_at(std::size_t index) const;
   /// The latest skeleton up to moment `index`, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
 

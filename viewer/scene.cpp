@@ -79,7 +79,7 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
   if (all || now.faired != uploaded_->faired) {
     if (faired) {
-      renderer.set_surface(Layer::given, *shown.surface);
+      renderer.set_surface(Layer::given, recording.faired_at(moment));
     } else if (all || had_faired) {
       renderer.set_surface(Layer::given, *given_);
     }
