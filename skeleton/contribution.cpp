@@ -176,8 +176,8 @@ class Pipeline {
   GrowingTree& fine_;
 };
 
-/// The same, but for frames and curves of component `number`, which come in the canonical frame and leave in
-/// the model's. Refers to both.
+/// The same, but for frames and curves of component `number`, which come in the canonical frame and
+/// leave in the model's. Refers to both.
 Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number) {
   Monitor within = monitor;
   if (monitor.curve) {

@@ -110,6 +110,33 @@ TEST(Recording, ComposesTheLatestOfEachComponent) {
   }
 }
 
+TEST(Recording, HasEveryComponentAsItWasFaired) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    Recording recording;
+    for (const Moment& moment : random_run(random, 1 + static_cast<int>(seed % 4))) {
+      recording.add(moment);
+    }
+    const std::vector<Moment>& moments = recording.moments();
+    for (std::size_t index = 0; index < moments.size(); ++index) {
+      std::map<int, SharedSurface> faired;
+      for (std::size_t i = moments.size(); i-- > 0;) {  // the first of those to come,
+        if (moments[i].stage == "fair") faired[moments[i].component] = moments[i].surface;
+      }
+      for (std::size_t i = 0; i <= index; ++i) {  // but the last of those that came
+        if (moments[i].stage == "fair") faired[moments[i].component] = moments[i].surface;
+      }
+      std::vector<glm::vec3> expected;
+      for (const auto& [component, surface] : faired) {
+        const std::vector<glm::vec3> part = drawn(*surface);
+        expected.insert(expected.end(), part.begin(), part.end());
+      }
+      EXPECT_EQ(drawn(recording.faired_at(index)), expected);
+    }
+  }
+}
+
 TEST(Recording, CutFromAStageIsAsIfItHadNeverCome) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     std::mt19937 random(seed);

@@ -87,6 +87,7 @@ struct Timed {
 
 std::vector<Timed> timeline(const std::vector<Moment>& moments) {
   std::vector<Timed> entries;
+  entries.reserve(moments.size());
   for (const Moment& moment : moments) {
     entries.push_back({moment.stage, moment.component, moment.iteration});
   }
