@@ -24,9 +24,11 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/certificate.hpp
   skeleton/circles.hpp
   skeleton/curve_skeleton.hpp
+  skeleton/edit.hpp
   skeleton/embed.hpp
   skeleton/extract.hpp
   skeleton/extraction_cache.hpp
+  skeleton/findings.hpp
   skeleton/skeleton_files.hpp
   skeleton/surgery.hpp
   skeleton/view.hpp

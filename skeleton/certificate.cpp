@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "skeleton/curve_samples.hpp"
+#include "skeleton/measured_curve.hpp"
 #include "skeleton/sequence_tree.hpp"
 #include "surface/measures.hpp"
 #include "surface/parallel.hpp"
@@ -21,63 +21,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double tangent_scale = 1.0 / 100;  // of D
 constexpr double turning_scale = 1.0 / 100;  // of D
 constexpr double coverage_factor = 1.5;      // of the local radius
 constexpr Eigen::Index most_vertices = 20000;
-
-// Surface, skeleton and what all figures share.
-struct Subject {
-  const SurfaceTree& tree;
-  const CurveSkeleton& skeleton;
-  std::vector<Branch> branches;
-  std::vector<int> degree;    // per node
-  Eigen::VectorXd clearance;  // per node: signed distance to the surface, of junctions only
-  std::vector<CurveSample> samples;
-  std::vector<double> radius;  // per sample: signed distance to the surface, positive inside
-  double diagonal = 0;
-  int threads = 0;
-};
-
-std::vector<int> degrees(const CurveSkeleton& skeleton) {
-  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()), 0);
-  for (const std::int32_t node : skeleton.edges.reshaped()) {
-    ++degree[static_cast<std::size_t>(node)];
-  }
-  return degree;
-}
-
-bool is_junction(const Subject& subject, int node) {
-  return subject.degree[static_cast<std::size_t>(node)] >= 3;
-}
-
-// The branches' samples; a lone node is a sample too, worth one step.
-std::vector<CurveSample> sample_curve(const Subject& subject, double spacing) {
-  auto samples = sample_branches(subject.skeleton, subject.branches, spacing,
-                                 tangent_scale * subject.diagonal);
-  for (std::size_t node = 0; node < subject.degree.size(); ++node) {
-    if (subject.degree[node] > 0) continue;
-    samples.push_back({subject.skeleton.nodes.row(static_cast<Eigen::Index>(node)),
-                       Vector3d::UnitZ(), spacing, -1});
-  }
-  return samples;
-}
-
-// Runs body(i) for all samples in blocks, so that progress and cancellation come from this thread.
-template <typename Body>
-void for_samples(const Subject& subject, double from, double to, const Monitor& monitor,
-                 const Body& body) {
-  constexpr std::size_t block = 2048;
-  const std::size_t all = subject.samples.size();
-  for (std::size_t first = 0; first < all; first += block) {
-    const double share = static_cast<double>(first) / static_cast<double>(all);
-    monitor.report("certify", from + (to - from) * share);
-    parallel_for(std::min(block, all - first), 32, subject.threads,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = first + begin; i < first + end; ++i) body(i);
-                 });
-  }
-}
 
 // Standard deviation over mean of the ray lengths in the plane normal to the curve.
 double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int rays) {
@@ -98,11 +44,11 @@ double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int ray
 }
 
 // Within the ball of a junction at an end of its branch the normal plane cuts the other branches.
-bool at_junction(const Subject& subject, const CurveSample& sample) {
+bool at_junction(const MeasuredCurve& subject, const CurveSample& sample) {
   if (sample.branch < 0) return false;
   const Branch& branch = subject.branches[static_cast<std::size_t>(sample.branch)];
   for (const int node : {branch.nodes.front(), branch.nodes.back()}) {
-    if (!is_junction(subject, node)) continue;
+    if (!subject.is_junction(node)) continue;
     const Vector3d junction = subject.skeleton.nodes.row(node);
     if ((sample.position - junction).norm() < subject.clearance[node]) return true;
   }
@@ -122,7 +68,7 @@ double weighted_quantile(std::vector<std::pair<double, double>> value_and_weight
   return std::numeric_limits<double>::infinity();
 }
 
-void measure_inside(const Subject& subject, Certificate& certificate) {
+void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
   double length = 0;
   double inside = 0;
   for (std::size_t i = 0; i < subject.samples.size(); ++i) {
@@ -137,7 +83,7 @@ void measure_inside(const Subject& subject, Certificate& certificate) {
   certificate.inside_fraction = length > 0 ? inside / length : 0;
 }
 
-void measure_centredness(const Subject& subject, int rays, const Monitor& monitor,
+void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& monitor,
                          Certificate& certificate) {
   constexpr double left_out = -1;
   std::vector<double> variation(subject.samples.size(), left_out);
@@ -163,7 +109,7 @@ void measure_centredness(const Subject& subject, int rays, const Monitor& monito
 }
 
 // The samples as balls whose radius counts `factor` times.
-SequenceTree ball_tree(const Subject& subject, double factor) {
+SequenceTree ball_tree(const MeasuredCurve& subject, double factor) {
   std::vector<SequenceTree::Item> items;
   items.reserve(subject.samples.size());
   for (std::size_t i = 0; i < subject.samples.size(); ++i) {
@@ -173,8 +119,8 @@ SequenceTree ball_tree(const Subject& subject, double factor) {
   return SequenceTree(std::move(items));
 }
 
-void measure_coverage(const Subject& subject, const Positions& vertices, const Monitor& monitor,
-                      Certificate& certificate) {
+void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
+                      const Monitor& monitor, Certificate& certificate) {
   if (subject.samples.empty()) {
     certificate.reach = std::numeric_limits<double>::infinity();
     return;
@@ -212,23 +158,8 @@ void measure_coverage(const Subject& subject, const Positions& vertices, const M
   certificate.reach = weighted_quantile(std::move(distances), 0.95) / subject.diagonal;
 }
 
-int count_spurs(const Subject& subject) {
-  int spurs = 0;
-  for (const Branch& branch : subject.branches) {
-    int tip = branch.nodes.front();
-    int junction = branch.nodes.back();
-    if (is_junction(subject, tip)) std::swap(tip, junction);
-    if (subject.degree[static_cast<std::size_t>(tip)] != 1 || !is_junction(subject, junction)) {
-      continue;
-    }
-    const double length = polyline_length(polyline(subject.skeleton, branch));
-    if (length < subject.clearance[junction]) ++spurs;
-  }
-  return spurs;
-}
-
 // Sum of the angles between successive chords of about `step`.
-double turning_of(const Subject& subject, const Branch& branch, double step) {
+double turning_of(const MeasuredCurve& subject, const Branch& branch, double step) {
   const auto line = polyline(subject.skeleton, branch);
   const double length = polyline_length(line);
   const int chords = static_cast<int>(std::lround(length / step));
@@ -237,7 +168,7 @@ double turning_of(const Subject& subject, const Branch& branch, double step) {
   for (int k = 0; k <= chords; ++k) arc_lengths.push_back(length * k / chords);
   auto points = points_along(line, arc_lengths);
   const bool cycle =
-      branch.nodes.front() == branch.nodes.back() && !is_junction(subject, branch.nodes.front());
+      branch.nodes.front() == branch.nodes.back() && !subject.is_junction(branch.nodes.front());
   if (cycle) points.push_back(points[1]);
   double turning = 0;
   for (std::size_t k = 2; k < points.size(); ++k) {
@@ -248,7 +179,7 @@ double turning_of(const Subject& subject, const Branch& branch, double step) {
   return turning;
 }
 
-void measure_shape(const Subject& subject, Certificate& certificate) {
+void measure_shape(const MeasuredCurve& subject, Certificate& certificate) {
   double length = 0;
   double turning = 0;
   for (const Branch& branch : subject.branches) {
@@ -257,7 +188,7 @@ void measure_shape(const Subject& subject, Certificate& certificate) {
   }
   certificate.length = length / subject.diagonal;
   certificate.turning = length > 0 ? turning / certificate.length : 0;
-  certificate.spurs = count_spurs(subject);
+  certificate.spurs = static_cast<int>(spurs_of(subject).size());
 }
 
 void count(const CurveSkeleton& skeleton, Certificate& certificate) {
@@ -282,29 +213,13 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
 
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
-  if (!skeleton.nodes.allFinite()) {
-    throw Error(Fault::input,
-                "the skeleton has a coordinate that is no finite number; certify needs finite "
-                "node positions: repair or write the skeleton again");
-  }
   Certificate certificate;
   monitor.report("certify", 0);
   count(skeleton, certificate);
   certificate.components_of_surface = surface.components;
   certificate.genus = surface.genus;
-  Subject subject{surface.tree, skeleton, branches(skeleton), degrees(skeleton), {}, {}, {}};
-  subject.diagonal = surface.diagonal;
-  subject.threads = options.threads;
-  subject.clearance.setZero(skeleton.nodes.rows());
-  for (int node = 0; node < skeleton.nodes.rows(); ++node) {
-    if (!is_junction(subject, node)) continue;
-    subject.clearance[node] = surface.tree.inscribed_radius(skeleton.nodes.row(node));
-  }
-  subject.samples = sample_curve(subject, options.sample_spacing * subject.diagonal);
-  subject.radius.resize(subject.samples.size());
-  for_samples(subject, 0.1, 0.2, monitor, [&](std::size_t i) {
-    subject.radius[i] = surface.tree.inscribed_radius(subject.samples[i].position);
-  });
+  const MeasuredCurve subject =
+      measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor);
 
   measure_inside(subject, certificate);
   certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;

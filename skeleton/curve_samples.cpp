@@ -21,7 +21,8 @@ double polyline_length(const std::vector<Vector3d>& line) {
 }
 
 std::vector<Vector3d> points_along(const std::vector<Vector3d>& line,
-                                   const std::vector<double>& arc_lengths) {
+                                   const std::vector<double>& arc_lengths,
+                                   std::vector<int>* segments) {
   std::vector<Vector3d> points;
   points.reserve(arc_lengths.size());
   std::size_t edge = 0;  // from line[edge] to line[edge + 1]
@@ -37,6 +38,7 @@ std::vector<Vector3d> points_along(const std::vector<Vector3d>& line,
     const double step = along.norm();
     const double t = step > 0 ? std::clamp((target - passed) / step, 0.0, 1.0) : 0;
     points.emplace_back(line[edge] + t * along);
+    if (segments != nullptr) segments->push_back(static_cast<int>(edge));
   }
   return points;
 }
@@ -48,6 +50,7 @@ std::vector<CurveSample> sample_branches(const CurveSkeleton& skeleton,
   std::vector<double> middles;
   std::vector<double> starts;
   std::vector<double> ends;
+  std::vector<int> segments;
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const auto line = polyline(skeleton, branches[b]);
     const double length = polyline_length(line);
@@ -55,20 +58,21 @@ std::vector<CurveSample> sample_branches(const CurveSkeleton& skeleton,
     middles.clear();
     starts.clear();
     ends.clear();
+    segments.clear();
     for (int k = 0; k < pieces; ++k) {
       const double middle = (k + 0.5) * length / pieces;
       middles.push_back(middle);
       starts.push_back(std::max(0.0, middle - tangent_length / 2));
       ends.push_back(std::min(length, middle + tangent_length / 2));
     }
-    const auto positions = points_along(line, middles);
+    const auto positions = points_along(line, middles, &segments);
     const auto from = points_along(line, starts);
     const auto to = points_along(line, ends);
     for (std::size_t k = 0; k < positions.size(); ++k) {
       const Vector3d chord = to[k] - from[k];
       const double norm = chord.norm();
       samples.push_back({positions[k], norm > 0 ? Vector3d(chord / norm) : Vector3d::UnitZ(),
-                         length / pieces, static_cast<int>(b)});
+                         length / pieces, static_cast<int>(b), segments[k]});
     }
   }
   return samples;

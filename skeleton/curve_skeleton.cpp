@@ -1,6 +1,7 @@
 #include "skeleton/curve_skeleton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -90,6 +91,20 @@ std::vector<Branch> branches(const CurveSkeleton& skeleton) {
                                         b.nodes.begin() + 2);
   });
   return result;
+}
+
+int edge_between(const CurveSkeleton& skeleton, int a, int b) {
+  const std::array wanted{std::min(a, b), std::max(a, b)};
+  int first = 0;
+  int count = static_cast<int>(skeleton.edges.rows());
+  while (count > 0) {
+    const int half = count / 2;
+    const std::array middle{skeleton.edges(first + half, 0), skeleton.edges(first + half, 1)};
+    if (middle == wanted) return first + half;
+    if (middle < wanted) first += half + 1;
+    count = middle < wanted ? count - half - 1 : half;
+  }
+  return -1;
 }
 
 GraphTopology graph_topology(const CurveSkeleton& skeleton) {

@@ -31,6 +31,9 @@ struct Branch {
 /// Precondition: `edges` are as described at Edges. O(#N + #E log #E).
 [[nodiscard]] std::vector<Branch> branches(const CurveSkeleton& skeleton);
 
+/// The row of `edges` between two nodes, -1 if there is none. O(log #E).
+[[nodiscard]] int edge_between(const CurveSkeleton& skeleton, int a, int b);
+
 struct GraphTopology {
   int components = 0;
   int cycle_rank = 0;  ///< #E - #N + components

@@ -30,17 +30,20 @@ struct SkeletonContext {
   const Surface* surface = nullptr;  ///< for pictures
   std::string provenance;            ///< "curveskel 0.1.0, model.obj" : one line, no newline
   /// A JSON object (parameters, certificate, ...) or empty. Its members become members of the JSON
-  /// file, beside "format", "version", "provenance", "nodes", "edges", "radii" and
-  /// "node_of_vertex", which it must not have.
+  /// file, beside "format", "version", "provenance", "nodes", "edges", "radii",
+  /// "node_of_vertex" and "root", which it must not have.
   std::string report_json;
+  /// A node from which a tree grows, -1 = none was chosen: SWC takes it as the root of its
+  /// component, which comes first; JSON has it as "root".
+  int root = -1;
 };
 
 /// The text or bytes of the file; give them to `write_file`. Numbers are written so that reading
 /// them gives the same doubles, in one way only: the same skeleton gives the same bytes. Nodes keep
 /// their numbers (from 0; OBJ from 1; SWC in an order of its own). docs/formats.md has the details.
 /// Precondition: finite coordinates and radii, edges as described at Edges.
-/// Throws Error(Fault::output) when the format needs what the context lacks. O(#N log #N + #E), for
-/// pictures also O(#F + pixels).
+/// Throws Error(Fault::output) when the format needs what the context lacks, or the root is no
+/// node. O(#N log #N + #E), for pictures also O(#F + pixels).
 [[nodiscard]] std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                                           const SkeletonContext& context);
 

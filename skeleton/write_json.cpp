@@ -37,8 +37,8 @@ void append_report(std::string& text, const std::string& report_json) {
     throw Error(Fault::output,
                 "the report for the JSON skeleton is no JSON object, needed one; pass {...}");
   }
-  constexpr std::array<std::string_view, 7> own{"format", "version", "provenance",    "nodes",
-                                                "edges",  "radii",   "node_of_vertex"};
+  constexpr std::array<std::string_view, 8> own{"format", "version", "provenance",     "nodes",
+                                                "edges",  "radii",   "node_of_vertex", "root"};
   for (const auto& [key, value] : report.items()) {
     if (std::find(own.begin(), own.end(), key) != own.end()) {
       throw Error(Fault::output, "the report for the JSON skeleton has a member \"" + key +
@@ -56,6 +56,7 @@ std::string json_from(const CurveSkeleton& skeleton, const SkeletonContext& cont
       ",\n\"provenance\": " + nlohmann::json(context.provenance)
                                   .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   append_report(text, context.report_json);
+  if (context.root >= 0) text += ",\n\"root\": " + std::to_string(context.root);
   append_rows(text, "nodes", skeleton.nodes);
   append_rows(text, "edges", skeleton.edges);
   append_list(text, "radii", skeleton.radii);

@@ -149,6 +149,11 @@ std::string csv_from(const CurveSkeleton& skeleton) {
 
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                             const SkeletonContext& context) {
+  if (context.root < -1 || context.root >= skeleton.nodes.rows()) {
+    throw Error(Fault::output, "the skeleton's root is node " + std::to_string(context.root) +
+                                   ", needed one of its " + std::to_string(skeleton.nodes.rows()) +
+                                   " nodes, or -1 for none");
+  }
   switch (format) {
     case SkeletonFormat::obj:
       return obj_from(skeleton, context);

@@ -63,8 +63,9 @@ struct SwcSample {
 };
 
 /// Depth first, so that the samples of a branch follow each other; a component's root is its
-/// thickest node.
-std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton, const Forest& forest) {
+/// thickest node, but `chosen` (-1 = none) is one and comes first.
+std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton, const Forest& forest,
+                                           int chosen) {
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
   std::vector<int> roots(nodes);
   std::iota(roots.begin(), roots.end(), 0);
@@ -72,6 +73,7 @@ std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton, const 
     std::stable_sort(roots.begin(), roots.end(),
                      [&](int a, int b) { return skeleton.radii(a) > skeleton.radii(b); });
   }
+  if (chosen >= 0) roots.insert(roots.begin(), chosen);
   std::vector<SwcSample> samples;
   std::vector<bool> seen(nodes, false);
   for (const int root : roots) {
@@ -109,7 +111,7 @@ std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   if (skeleton.nodes.rows() == 0) return text;
 
   const Forest forest = longest_forest(skeleton);
-  const std::vector<SwcSample> samples = depth_first_samples(skeleton, forest);
+  const std::vector<SwcSample> samples = depth_first_samples(skeleton, forest, context.root);
   std::vector<int> id_of_node(samples.size());
   std::string unknown;
   for (std::size_t s = 0; s < samples.size(); ++s) {

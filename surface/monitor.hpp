@@ -15,7 +15,7 @@ struct Frame {
   std::string_view stage;   ///< "fair" or "contract"
   int component = 0;        ///< of `topology` when `extract` runs the stage, else 0
   int iteration = 0;        ///< 0 = before the first
-  double area_ratio = 1;    ///< area / that of iteration 0
+  double area_ratio = 1;    ///< area / that of iteration 0; never grows in "contract"
   double volume_ratio = 1;  ///< |volume| / that of iteration 0
   double residual = 0;      ///< contract: see Solution::residual; fair: 0
   const Surface& surface;   ///< in the frame of what the stage was called with, `extract`'s is the

@@ -41,6 +41,23 @@ std::vector<int> degrees(const CurveSkeleton& skeleton) {
   return degree;
 }
 
+TEST(EdgeBetween, FindsEveryEdgeEitherWayAndNoOther) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const CurveSkeleton skeleton = random_graph(seed);
+    int found = 0;
+    for (int a = 0; a < skeleton.nodes.rows(); ++a) {
+      for (int b = 0; b < skeleton.nodes.rows(); ++b) {
+        const int edge = edge_between(skeleton, a, b);
+        if (edge < 0) continue;
+        ++found;
+        EXPECT_EQ(skeleton.edges(edge, 0), std::min(a, b)) << seed;
+        EXPECT_EQ(skeleton.edges(edge, 1), std::max(a, b)) << seed;
+      }
+    }
+    EXPECT_EQ(found, 2 * skeleton.edges.rows()) << seed;
+  }
+}
+
 TEST(Branches, CoverEveryEdgeOnce) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     const CurveSkeleton skeleton = random_graph(seed);

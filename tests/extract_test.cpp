@@ -353,6 +353,7 @@ class FrameWatch {
  public:
   explicit FrameWatch(const Surface& surface) : counted_(topology(surface)) {
     const auto parts = split_components(surface, counted_);
+    boxes_.reserve(parts.size());
     for (const Component& part : parts) {
       Eigen::AlignedBox3d box;
       for (const auto& row : part.surface.positions.rowwise()) box.extend(row.transpose());
@@ -378,7 +379,8 @@ class FrameWatch {
     } else {
       EXPECT_EQ(frame.stage, last.stage);
       EXPECT_EQ(frame.iteration, last.iteration + 1);
-      EXPECT_LE(frame.area_ratio, last.area_ratio);
+      // Fairing gives the volume back, and a little area with it.
+      EXPECT_LE(frame.area_ratio, frame.stage == "fair" ? 1.01 : last.area_ratio);
       EXPECT_NEAR(area(frame.surface) / last.area, frame.area_ratio, 1e-6);
     }
     last.stage = frame.stage;
@@ -433,6 +435,25 @@ TEST(Frames, OfAnExtractionLieInTheModelAndChangeNothing) {
       EXPECT_GT(watch.frames, (fairing ? 4 : 0) * shape.components);
       expect_same_bytes(watched.skeleton, extract(shape.surface, options, {}).skeleton);
     }
+  }
+}
+
+TEST(Frames, BeginAgainWithASecondContraction) {
+  const Shape sieve = shapes::sieve(2);
+  for (const double weight : {3.0, 1000.0}) {  // the second fails, too
+    ExtractOptions options;
+    options.resolution = 600;
+    options.least_resolution = 200;
+    options.fair_if_outside = false;
+    options.contraction.collapse_length = 2;
+    options.contraction.contraction_weight = weight;
+    FrameWatch watch(sieve.surface);
+    Monitor monitor;
+    monitor.frame = [&](const Frame& frame) { watch(frame); };
+    const Extraction watched = extract(sieve.surface, options, monitor);
+    ASSERT_EQ(watched.components.front().attempts, 2);
+    watch.expect_last_steps_of(watched);
+    expect_same_bytes(watched.skeleton, extract(sieve.surface, options, {}).skeleton);
   }
 }
 

@@ -108,8 +108,8 @@ const std::vector<Change>& changes() {
        [](ExtractOptions& o) { o.fair.program_cache = o.contraction.program_cache = "/tmp/none"; }},
       {"fair iterations", "fair", [](ExtractOptions& o) { o.fair.iterations = 2; }},
       {"fair smoothing", "fair", [](ExtractOptions& o) { o.fair.smoothing = 0.5; }},
-      {"resolution", "coarsen", [](ExtractOptions& o) { o.resolution = 1700; }},
-      {"least resolution", "coarsen", [](ExtractOptions& o) { o.least_resolution = 1600; }},
+      {"resolution", "coarsen", [](ExtractOptions& o) { o.resolution = 800; }},
+      {"least resolution", "coarsen", [](ExtractOptions& o) { o.least_resolution = 700; }},
       {"contraction weight", "contract",
        [](ExtractOptions& o) { o.contraction.contraction_weight = 2; }},
       {"most iterations", "contract", [](ExtractOptions& o) { o.contraction.max_iterations = 9; }},
@@ -129,14 +129,14 @@ const std::vector<Change>& changes() {
 
 /// A component of its own, and several of which some go side by side.
 std::vector<Shape> subjects() {
-  return {shapes::tube_union("y", shapes::star(3, 8, 0.8), {0.25, 2.5}),
-          shapes::linked_rings(3, 0.6, 16)};
+  return {shapes::tube_union("y", shapes::star(3, 8, 0.8), {0.25, 1.7}),
+          shapes::linked_rings(3, 0.6, 12)};
 }
 
 ExtractOptions starting_options(bool fairing) {
   ExtractOptions options;
-  options.resolution = 2500;
-  options.least_resolution = 800;
+  options.resolution = 1000;
+  options.least_resolution = 300;
   options.fairing = fairing;
   options.fair.iterations = 1;
   options.fair_if_outside = false;
@@ -176,7 +176,7 @@ TEST_P(Cached, IsUnharmedByARunThatWasCancelledAnywhere) {
     const ExtractOptions start = starting_options(fairing);
     ExtractOptions other = start;
     other.fair.smoothing = 0.5;
-    other.resolution = 1700;
+    other.resolution = 800;
     other.embed.detail = 0.9;
     const Extraction fresh_start = extract(shape.surface, start, {});
     const Extraction fresh_other = extract(shape.surface, other, {});
@@ -213,6 +213,39 @@ TEST_P(Cached, IsUnharmedByARunThatWasCancelledAnywhere) {
 INSTANTIATE_TEST_SUITE_P(Extraction, Cached, testing::Bool(), [](const auto& each) {
   return std::string(each.param ? "Faired" : "AsItIs");
 });
+
+TEST(CachedSurface, IsFreshThroughSecondContractionsAndBands) {
+  const Surface sieve = shapes::sieve(2).surface;
+  const auto options_with = [](double weight, double collapse, double shape, double detail) {
+    ExtractOptions options;
+    options.resolution = 600;
+    options.least_resolution = 200;
+    options.fair_if_outside = false;
+    options.contraction.contraction_weight = weight;
+    options.contraction.collapse_length = collapse;
+    options.surgery.shape_weight = shape;
+    options.embed.detail = detail;
+    return options;
+  };
+  ExtractionCache cache;
+  std::set<std::pair<int, bool>> met;
+  const auto expect_from = [&](const std::string& first, const ExtractOptions& options) {
+    const Extraction cached = extract(sieve, options, {}, cache);
+    expect_run_from(first, false, cached);
+    expect_equal(cached, extract(sieve, options, {}));
+    met.emplace(cached.components.front().attempts, cached.components.front().bands);
+  };
+  expect_from("normalise", options_with(3, 0.3, 1, 0.5));
+  expect_from("contract", options_with(3, 2, 1, 0.5));
+  expect_from("", options_with(3, 2, 1, 0.5));
+  expect_from("embed", options_with(3, 2, 1, 0.9));
+  expect_from("contract", options_with(1000, 2, 1, 0.9));
+  expect_from("", options_with(1000, 2, 1, 0.9));
+  expect_from("embed", options_with(1000, 2, 1, 0.5));
+  expect_from("contract", options_with(3, 0.3, 1, 0.5));
+  const std::set<std::pair<int, bool>> all{{1, false}, {2, false}, {2, true}};
+  EXPECT_EQ(met, all);
+}
 
 TEST(CachedSurface, OfOtherContentStartsAnew) {
   ExtractionCache cache;

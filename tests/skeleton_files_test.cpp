@@ -195,6 +195,30 @@ TEST(SkeletonSwc, IsATreeWithPositiveRadiiAndOneCutPerLoop) {
   }
 }
 
+TEST(SkeletonRoot, IsTheFirstSampleOfSwcAndChangesNothingElse) {
+  for (const auto& [name, skeleton] : skeleton_samples()) {
+    const auto with_root = [&skeleton = skeleton](int root, SkeletonFormat format) {
+      return format_skeleton(skeleton, format, {nullptr, "", {}, root});
+    };
+    const auto nodes = static_cast<int>(skeleton.nodes.rows());
+    for (int root = 0; root < nodes; ++root) {
+      SCOPED_TRACE(name + ", root " + std::to_string(root));
+      const CurveSkeleton back = read_text("a.swc", with_root(root, SkeletonFormat::swc));
+      EXPECT_EQ(back.nodes.row(0), skeleton.nodes.row(root));
+      EXPECT_EQ(shape_of(back, true), shape_of(skeleton, true));
+      const std::string text = with_root(root, SkeletonFormat::json);
+      EXPECT_EQ(nlohmann::json::parse(text)["root"], root);
+      EXPECT_TRUE(same(read_text("a.json", text).nodes, skeleton.nodes));
+    }
+    for (const SkeletonFormat format : {SkeletonFormat::swc, SkeletonFormat::json}) {
+      EXPECT_EQ(with_root(-1, format), format_skeleton(skeleton, format, {}));
+      EXPECT_THROW((void)with_root(nodes, format), Error);
+      EXPECT_THROW((void)with_root(-2, format), Error);
+    }
+    EXPECT_FALSE(nlohmann::json::parse(with_root(-1, SkeletonFormat::json)).contains("root"));
+  }
+}
+
 TEST(SkeletonCsv, HasOneRowPerBranchAndTheWholeLength) {
   for (const auto& [name, skeleton] : skeleton_samples()) {
     std::istringstream text(format_skeleton(skeleton, SkeletonFormat::csv, {}));

@@ -56,6 +56,8 @@ struct Look {
   bool transparent_background = false;  ///< for screenshots
   float opacity = 0.5F;                 ///< of the transparent surface, 0..1
   float thickness = 1;                  ///< of tubes and lines; 1 = as fits the picture
+
+  bool operator==(const Look&) const = default;
 };
 
 /// Everything that a theme decides.

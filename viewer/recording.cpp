@@ -22,6 +22,13 @@ void append(ShownSurface& whole, const ShownSurface& part) {
                  [&](const glm::uvec3& triangle) { return triangle + first; });
 }
 
+/// The pipeline's own.
+int order_of(std::string_view stage) {
+  if (stage == "input") return 0;
+  if (stage == "fair") return 1;
+  return stage == "contract" ? 2 : 3;
+}
+
 }  // namespace
 
 std::string title_of(const Moment& moment) {
@@ -40,10 +47,11 @@ void Recording::add(Moment moment) {
 }
 
 void Recording::cut_from(std::string_view stage) {
-  const auto first = std::find_if(moments_.begin(), moments_.end(),
-                                  [&](const Moment& moment) { return moment.stage == stage; });
-  for (auto moment = first; moment != moments_.end(); ++moment) bytes_ -= bytes_of(*moment);
-  moments_.erase(first, moments_.end());
+  std::erase_if(moments_, [this, first = order_of(stage)](const Moment& moment) {
+    if (order_of(moment.stage) < first) return false;
+    bytes_ -= bytes_of(moment);
+    return true;
+  });
 }
 
 ShownSurface Recording::surface_at(std::size_t index) const {

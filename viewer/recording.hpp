@@ -34,7 +34,7 @@ class Recording {
   /// Only the input.
   Recording();
   void add(Moment moment);
-  /// Forgets what came after the first moment of `stage`, that one included.
+  /// Forgets the moments of `stage` and of those that come after it, of all components.
   void cut_from(std::string_view stage);
   [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

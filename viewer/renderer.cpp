@@ -93,6 +93,7 @@ void Renderer::set_surface(Layer layer, const ShownSurface& surface) {
 
 void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
   Mesh& target = mesh(layer);
+  ++target.version;
   glBindVertexArray(target.array.get());
   fill(target.positions, GL_ARRAY_BUFFER, std::span(surface.positions));
   bind_attribute(position, target.positions, 3, GL_FLOAT, false, 0, 0);
@@ -103,6 +104,7 @@ void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
 
 void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
   Mesh& target = mesh(layer);
+  ++target.version;
   target.coloured = !colours.empty();
   glBindVertexArray(target.array.get());
   if (target.coloured) {
@@ -143,14 +145,14 @@ void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Renderer::draw_wires(const Mesh& shown, float alpha, const Seen& seen) const {
+void Renderer::draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   wire_.use();
-  wire_.set("line", glm::vec4(seen.palette.wire, alpha));
+  wire_.set("line", line);
   draw_mesh(wire_, shown, seen.palette.wire, seen);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDepthMask(GL_TRUE);
@@ -200,13 +202,36 @@ void Renderer::draw_screen(const GlProgram& program) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/// The level wanted, or the whole where it has not been set.
+const Renderer::Mesh& Renderer::given_at(int level) const {
+  const Mesh& wanted = meshes_[static_cast<std::size_t>(level)];
+  return wanted.corners > 0 ? wanted : meshes_[0];
+}
+
+unsigned Renderer::given_version() const {
+  return meshes_[0].version + meshes_[1].version + meshes_[2].version;
+}
+
+/// Whether the last glass was the same, or finer.
+bool Renderer::has_glass(const GlassKey& wanted, const Frame& frame) const {
+  return glass_.view == wanted.view && glass_.projection == wanted.projection &&
+         glass_.opacity == wanted.opacity && glass_.theme == wanted.theme &&
+         glass_.version == wanted.version && glass_.fineness.level <= wanted.fineness.level &&
+         glass_.fineness.samples >= wanted.fineness.samples && skin_.form().width == frame.width &&
+         skin_.form().height == frame.height;
+}
+
 /// The skin (its nearest layer, lit) and the thickness of the body, each in a target of its own;
 /// neither depends on the order of the triangles.
-void Renderer::draw_glass(const Seen& seen) {
-  const Mesh& given = mesh(Layer::given);
+bool Renderer::draw_glass(const Seen& seen) {
+  const Mesh& given = given_at(seen.frame.fineness.level);
+  const GlassKey key{seen.view,       seen.projection,     seen.look.opacity,
+                     seen.look.theme, seen.frame.fineness, given_version()};
+  if (has_glass(key, seen.frame)) return false;  // only what is in it has changed
+  glass_ = key;
   const GlTarget::Form pixels{seen.frame.width, seen.frame.height, 1, GL_RGBA8, true};
   GlTarget::Form samples = pixels;
-  samples.samples = scene_.form().samples;
+  samples.samples = std::clamp(seen.frame.fineness.samples, 1, std::max(most_samples_, 1));
   skin_.shape(pixels);
   skin_samples_.shape(samples);
   skin_samples_.bind();
@@ -231,18 +256,19 @@ void Renderer::draw_glass(const Seen& seen) {
   glBlendFunc(GL_ONE, GL_ONE);
   draw_mesh(thickness_program_, given, seen.palette.surface, seen);
   glDisable(GL_BLEND);
+  return true;
 }
 
-void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
+bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
   const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
   const Seen seen{camera,        look,
                   frame,         palette_of(look.theme),
                   camera.view(), camera.projection(aspect, frame.bounds)};
-  const int samples = std::clamp(frame.samples, 1, std::max(most_samples_, 1));
+  const int samples = std::clamp(frame.fineness.samples, 1, std::max(most_samples_, 1));
   scene_.shape({frame.width, frame.height, samples, GL_RGBA8, true});
   picture_.shape({frame.width, frame.height, 1, GL_RGBA8, true});
   const bool glass = look.surface == SurfaceStyle::transparent && mesh(Layer::given).corners > 0;
-  if (glass) draw_glass(seen);
+  const bool all_anew = !glass || draw_glass(seen);
 
   scene_.bind();
   glClearColor(0, 0, 0, 0);
@@ -266,19 +292,21 @@ void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
     draw_screen(body_);
     glDisable(GL_BLEND);
   }
-  const Mesh& given = mesh(Layer::given);
+  const Mesh& given = given_at(frame.fineness.level);
   if (look.surface == SurfaceStyle::opaque) draw_opaque(given, seen.palette.surface, seen);
   draw_opaque(mesh(Layer::contracted), seen.palette.contracted, seen);
-  if (look.edges) draw_wires(mesh(Layer::contracted), 0.35F, seen);
+  // Without its edges, what has contracted to a line would be gone where it is thinner than a
+  // pixel.
+  draw_wires(mesh(Layer::contracted), glm::vec4(seen.palette.contracted * 0.6F, 0.7F), seen);
   if (look.surface == SurfaceStyle::wireframe) {
-    draw_wires(given, 0.3F, seen);
+    draw_wires(given, glm::vec4(seen.palette.wire, 0.3F), seen);
   } else if (look.edges && look.surface == SurfaceStyle::opaque) {
-    draw_wires(given, 0.28F, seen);
+    draw_wires(given, glm::vec4(seen.palette.wire, 0.28F), seen);
   }
   if (look.surface == SurfaceStyle::opaque && look.through) glClear(GL_DEPTH_BUFFER_BIT);
   draw_skeleton(seen);
   if (glass) {
-    if (look.edges) draw_wires(given, 0.2F, seen);
+    if (look.edges) draw_wires(given, glm::vec4(seen.palette.wire, 0.2F), seen);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_DEPTH_TEST);
@@ -292,6 +320,7 @@ void Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
   }
   scene_.resolve_into(picture_, false);
   glBindVertexArray(0);
+  return all_anew;
 }
 
 PixelRows Renderer::read() const {

@@ -10,12 +10,13 @@
 #include "viewer/camera.hpp"
 #include "viewer/gl_objects.hpp"
 #include "viewer/look.hpp"
+#include "viewer/pace.hpp"
 #include "viewer/shapes_shown.hpp"
 
 namespace curveskel::viewer {
 
-/// The surface given, and what it has become on the way to the skeleton.
-enum class Layer { given, contracted };
+/// The surface given and its simpler forms, and what it has become on the way to the skeleton.
+enum class Layer { given, simpler, simplest, contracted };
 
 /// Premultiplied RGBA rows from the bottom, as OpenGL reads them.
 struct PixelRows {
@@ -38,13 +39,14 @@ class Renderer {
   void set_skeleton(const ShownSkeleton& skeleton);
 
   struct Frame {
-    int width = 0;    ///< pixels
-    int height = 0;   ///< pixels
-    int samples = 4;  ///< a pixel; as many as the driver has
-    Bounds bounds;    ///< of all that is shown
+    int width = 0;      ///< pixels
+    int height = 0;     ///< pixels
+    Fineness fineness;  ///< no more samples than the driver has
+    Bounds bounds;      ///< of all that is shown
   };
-  /// The picture is then in `picture()`. O(faces + pixels).
-  void draw(const Camera& camera, const Look& look, const Frame& frame);
+  /// The picture is then in `picture()`. O(faces + pixels). False if the given surface was taken
+  /// from the last picture, as neither it nor the camera has changed.
+  bool draw(const Camera& camera, const Look& look, const Frame& frame);
   [[nodiscard]] const GlTarget& picture() const { return picture_; }
   [[nodiscard]] PixelRows read() const;
 
@@ -57,6 +59,16 @@ class Renderer {
     GlBuffer triangles;
     GLsizei corners = 0;
     bool coloured = false;
+    unsigned version = 0;  // counts changes
+  };
+  /// What the glass was drawn from; equal = it need not be drawn again.
+  struct GlassKey {
+    glm::mat4 view{0};
+    glm::mat4 projection{0};
+    float opacity = -1;
+    Theme theme = Theme::light;
+    Fineness fineness;
+    unsigned version = 0;
   };
   struct Instances {
     GlArray array;
@@ -70,14 +82,17 @@ class Renderer {
 
   static void make_shape(Instances& instances, const std::vector<glm::vec4>& points,
                          const std::vector<std::uint32_t>& corners);
+  [[nodiscard]] const Mesh& given_at(int level) const;
+  [[nodiscard]] unsigned given_version() const;
+  [[nodiscard]] bool has_glass(const GlassKey& wanted, const Frame& frame) const;
   [[nodiscard]] Mesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
   void draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
                  const Seen& seen) const;
   void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
-  void draw_wires(const Mesh& shown, float alpha, const Seen& seen) const;
+  void draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const;
   void draw_skeleton(const Seen& seen) const;
   void draw_instances(const Instances& instances, bool ball) const;
-  void draw_glass(const Seen& seen);
+  bool draw_glass(const Seen& seen);
   void draw_screen(const GlProgram& program) const;
 
   GlProgram surface_;
@@ -87,7 +102,7 @@ class Renderer {
   GlProgram skin_program_;
   GlProgram wire_;
   GlProgram tube_;
-  std::array<Mesh, 2> meshes_;
+  std::array<Mesh, 4> meshes_;
   Instances edges_;
   Instances nodes_;
   GlArray screen_;
@@ -96,6 +111,7 @@ class Renderer {
   GlTarget skin_samples_;
   GlTarget skin_;
   GlTarget thickness_;
+  GlassKey glass_;
   int most_samples_ = 1;
 };
 

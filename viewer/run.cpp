@@ -93,7 +93,7 @@ void Run::extract_all(const Monitor& monitor) {
   Monitor noting = monitor;
   noting.note = [&result](std::string_view line) { result.notes.emplace_back(line); };
   result.extraction = std::make_shared<const Extraction>(
-      extract(result.repaired->surface, extract_options, noting));
+      extract(result.repaired->surface, extract_options, noting, memory_->extraction));
   result.skeleton = std::make_shared<const CurveSkeleton>(
       on_file_vertices(*result.repaired, result.extraction->skeleton));
   result.seconds = seconds();

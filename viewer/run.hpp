@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "skeleton/extract.hpp"
+#include "skeleton/extraction_cache.hpp"
 #include "surface/error.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
@@ -29,6 +30,7 @@ struct RunOptions {
 struct RunMemory {
   std::shared_ptr<const RepairedSurface> repaired;
   RepairOptions repair_options;
+  ExtractionCache extraction;
 };
 
 /// What a finished run leaves.

@@ -56,6 +56,19 @@ Scene::Scene(Document opened)
       best_axes_(first_axes(document)) {
   if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
   look_from(camera, Side::best, best_axes_);
+  constexpr std::array<std::size_t, 2> vertices{50000, 8000};
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    // Not worth it for what is nearly as simple.
+    if (given_->positions.size() < 2 * vertices[i]) continue;
+    simpler_[i] = simpler_surface(*given_, vertices[i]);
+  }
+}
+
+Pace::Sizes Scene::sizes() const {
+  const std::size_t whole = given_->triangles.size();
+  const auto or_else = [](std::size_t size, std::size_t other) { return size > 0 ? size : other; };
+  return {whole, or_else(simpler_[0].surface.triangles.size(), whole),
+          or_else(simpler_[1].surface.triangles.size(), whole)};
 }
 
 std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
@@ -71,28 +84,45 @@ Look Scene::look_now() const {
   return now;
 }
 
+/// The surface that stands for the given one now, and its simpler forms.
+void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
+  constexpr std::array layers{Layer::simpler, Layer::simplest};
+  renderer.set_surface(Layer::given, now.faired ? recording.faired_at(moment) : *given_);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    renderer.set_surface(layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
+  }
+}
+
+void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
+  constexpr std::array layers{Layer::simpler, Layer::simplest};
+  const std::vector<Rgba> colours =
+      surface_colours(document.surface, now.skeleton.get(), look, highlights);
+  renderer.set_colours(Layer::given, colours);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    std::vector<Rgba> fewer;
+    if (!colours.empty()) {
+      fewer.reserve(simpler_[i].vertex_of_given.size());
+      for (const std::uint32_t vertex : simpler_[i].vertex_of_given) {
+        fewer.push_back(colours[vertex]);
+      }
+    }
+    renderer.set_colours(layers[i], fewer);
+  }
+}
+
 void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const Moment& shown = recording.moments()[moment];
   const bool faired = shown.stage == "fair" && shown.surface;
   now.faired = faired ? shown.surface : nullptr;
   now.contracted = faired ? nullptr : shown.surface;
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
-  if (all || now.faired != uploaded_->faired) {
-    if (faired) {
-      renderer.set_surface(Layer::given, recording.faired_at(moment));
-    } else if (all || had_faired) {
-      renderer.set_surface(Layer::given, *given_);
-    }
-  }
+  if (all || now.faired != uploaded_->faired) upload_given(renderer, now);
   const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
                           now.highlights != uploaded_->highlights ||
                           look.surface_colour != uploaded_->look.surface_colour ||
                           look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
                           had_faired != faired;
-  if (recoloured && !faired) {
-    renderer.set_colours(Layer::given,
-                         surface_colours(document.surface, now.skeleton.get(), look, highlights));
-  }
+  if (recoloured && !faired) colour_given(renderer, now);
   if (all || now.contracted != uploaded_->contracted) {
     renderer.set_surface(Layer::contracted,
                          now.contracted ? recording.surface_at(moment) : ShownSurface{});

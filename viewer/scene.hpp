@@ -1,6 +1,7 @@
 // What is seen at one time: a moment of the recording, in a look, from a camera.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "viewer/recording.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/scene_colours.hpp"
+#include "viewer/simpler_surface.hpp"
 
 namespace curveskel::viewer {
 
@@ -36,6 +38,9 @@ class Scene {
   /// Rows right, up, to the viewer of the first view.
   [[nodiscard]] const glm::mat3& best_axes() const { return best_axes_; }
 
+  /// Triangles of the given surface at each level of fineness.
+  [[nodiscard]] Pace::Sizes sizes() const;
+
   /// Brings the renderer up to date; only what has changed since the last call is uploaded.
   void upload(Renderer& renderer);
   /// Forgets what was uploaded: the renderer is a new one.
@@ -51,10 +56,13 @@ class Scene {
     Look look;
     Highlights highlights;
   };
+  void upload_given(Renderer& renderer, const Uploaded& now) const;
+  void colour_given(Renderer& renderer, const Uploaded& now) const;
   void upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
   void upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
 
   std::shared_ptr<const ShownSurface> given_;
+  std::array<SimplerSurface, 2> simpler_;  // empty where the surface is small
   std::vector<glm::vec3> points_;
   Bounds bounds_;
   glm::mat3 best_axes_{1};

@@ -102,7 +102,7 @@ std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) 
   const int factor = 2 * std::max(width, height) <= largest_side ? 2 : 1;
   scene.upload(renderer);
   renderer.draw(scene.camera, scene.look_now(),
-                {width * factor, height * factor, 4, scene.bounds()});
+                {width * factor, height * factor, {}, scene.bounds()});
   return png_of(shrunk(renderer.read(), factor));
 }
 

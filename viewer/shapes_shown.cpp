@@ -14,6 +14,8 @@ std::uint32_t packed(const glm::vec3& normal) {
   return part(normal.x) | part(normal.y) << 10U | part(normal.z) << 20U;
 }
 
+}  // namespace
+
 void set_normals(ShownSurface& shown) {
   std::vector<glm::vec3> sums(shown.positions.size(), glm::vec3(0));
   for (const glm::uvec3& triangle : shown.triangles) {
@@ -28,8 +30,6 @@ void set_normals(ShownSurface& shown) {
     shown.normals[v] = packed(length > 0 ? sums[v] / length : glm::vec3(0));
   }
 }
-
-}  // namespace
 
 glm::vec3 shown_point(const Eigen::RowVector3d& point, const Eigen::RowVector3d& origin) {
   const Eigen::RowVector3f moved = (point - origin).cast<float>();

@@ -20,8 +20,10 @@ struct ShownSurface {
   std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
 };
 
-/// Angle-free, area-weighted vertex normals. O(#V + #F).
+/// With normals, without colours. O(#V + #F).
 [[nodiscard]] ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin);
+/// Area-weighted vertex normals from positions and triangles. O(#V + #F).
+void set_normals(ShownSurface& shown);
 /// The same where only positions have moved: triangles and colours stay.
 void move_surface(ShownSurface& shown, const Positions& positions,
                   const Eigen::RowVector3d& origin);

@@ -126,6 +126,10 @@ Verb add_view(CLI::App& program) {
   parser->add_flag_callback(
       "--no-run", [options] { options->run = false; }, "do not extract the skeleton at once");
   add_look(*parser, options->look);
+  parser
+      ->add_option("--frame-times", options->frame_times,
+                   "milliseconds of each picture in the window, written when it is closed")
+      ->type_name("FILE.csv");
   ExtractOptions& extract_options = options->pipeline.extract;
   extract_options.fair.iterations = 0;
   extract_options.contraction.program_cache = kernel_cache();

@@ -1,0 +1,64 @@
+// How long a picture takes, by what is in it: milliseconds, the median of some, as CSV.
+// usage: draw_times MESH [WIDTH HEIGHT]
+#include <epoxy/gl.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <vector>
+
+#include "viewer/document.hpp"
+#include "viewer/headless.hpp"
+#include "viewer/renderer.hpp"
+#include "viewer/scene.hpp"
+
+namespace {
+
+using namespace curveskel;
+using namespace curveskel::viewer;
+
+double median_milliseconds(Scene& scene, Renderer& renderer, const Renderer::Frame& frame) {
+  constexpr int pictures = 7;
+  std::vector<double> times;
+  for (int i = 0; i <= pictures; ++i) {
+    orbit(scene.camera, 0.05F, 0);
+    const auto began = std::chrono::steady_clock::now();
+    renderer.draw(scene.camera, scene.look_now(), frame);
+    glFinish();
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - began;
+    if (i > 0) times.push_back(taken.count());  // the first one compiles shaders
+  }
+  std::nth_element(times.begin(), times.begin() + pictures / 2, times.end());
+  return times[pictures / 2];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: draw_times MESH [WIDTH HEIGHT]\n");
+    return 2;
+  }
+  Scene scene(open_document({argv[1]}, Monitor{}));
+  const HeadlessContext context;
+  Renderer renderer;
+  scene.upload(renderer);
+  const int width = argc > 3 ? std::atoi(argv[2]) : 1000;
+  const int height = argc > 3 ? std::atoi(argv[3]) : 800;
+  fit(scene.camera, scene.points(), static_cast<float>(width) / static_cast<float>(height));
+  fmt::print("driver,surface,triangles,samples,milliseconds\n");
+  for (const auto& style : surface_styles) {
+    for (int level = 0; level < Pace::levels; ++level) {
+      for (const int samples : {1, 4}) {
+        scene.look.surface = style.value;
+        const double time =
+            median_milliseconds(scene, renderer, {width, height, {level, samples}, scene.bounds()});
+        fmt::print("{},{},{},{},{:.2f}\n", gl_name(), style.name,
+                   scene.sizes()[static_cast<std::size_t>(level)], samples, time);
+      }
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,57 @@
+// What stands round the picture: run and parameters, look, certificate, timeline, status.
+#pragma once
+
+#include <string>
+
+#include "viewer/file_browser.hpp"
+#include "viewer/frame_times.hpp"
+#include "viewer/pick.hpp"
+#include "viewer/workbench.hpp"
+
+namespace curveskel::viewer {
+
+/// A part of the window, in ImGui's units from the upper left corner.
+struct Area {
+  float x = 0;
+  float y = 0;
+  float width = 0;
+  float height = 0;
+};
+
+/// Where things are. What is too small to be shown has no width.
+struct Layout {
+  Area picture;
+  Area left;
+  Area right;
+  Area timeline;
+  Area status;
+};
+
+/// What the panels keep from one frame to the next.
+struct Panels {
+  bool shown = true;
+  bool help = false;
+  FileBrowser browser;
+  FrameTimes times;
+  Pick hovered;
+  std::string gl;        ///< what draws
+  std::string transfer;  ///< how positions come to be drawn
+  bool wants_picture = false;
+};
+
+/// For a window of this size in ImGui's units; small windows have narrow panels.
+[[nodiscard]] Layout lay_out(float width, float height, float scale, bool panels);
+
+/// All of them, within an ImGui frame; what a person does there is done to the workbench at once.
+void draw_panels(Workbench& bench, Panels& panels, const Layout& layout);
+
+/// Every moment as a step, with area, volume and residual as curves; a drag goes to a moment.
+void draw_timeline(Workbench& bench, const Area& area);
+
+/// Colours and roundness; light or dark.
+void style_panels(Theme theme, float scale);
+
+/// Text beside the pointer: what is under it, in numbers and units.
+[[nodiscard]] std::string description_of(const Pick& picked, const Workbench& bench);
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,33 @@
+// What lies under the pointer.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "surface/tree.hpp"
+#include "viewer/scene.hpp"
+
+namespace curveskel::viewer {
+
+struct Pick {
+  enum class Kind { nothing, node, edge, face };
+  Kind kind = Kind::nothing;
+  int index = -1;      ///< node, row of the edges, or triangle of the surface
+  int vertex = -1;     ///< of a face: its corner next to the pointer
+  glm::vec3 place{0};  ///< as drawn, about the document's origin
+  bool operator==(const Pick& other) const {
+    return kind == other.kind && index == other.index && vertex == other.vertex;
+  }
+};
+
+/// (x, y) in pixels from the upper left corner of a picture of width x height. Nodes come before
+/// edges, edges before the surface, if the skeleton can be seen there. `tree` (over the document's
+/// surface) may be null. O(#N + #E + log #F).
+[[nodiscard]] Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int width,
+                        int height);
+
+/// Where a point is seen, in pixels from the upper left corner; z: the depth, -1..1 if it is within
+/// the picture's depth.
+[[nodiscard]] glm::vec3 pixel_of(const Camera& camera, const Bounds& bounds, const glm::vec3& point,
+                                 int width, int height);
+
+}  // namespace curveskel::viewer

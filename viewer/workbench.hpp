@@ -1,0 +1,173 @@
+// Everything a person does with the viewer, without window, mouse or panels: files, runs, the
+// timeline, selection, corrections. The window draws it and calls it.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "skeleton/edit.hpp"
+#include "skeleton/findings.hpp"
+#include "surface/tree.hpp"
+#include "viewer/history.hpp"
+#include "viewer/pick.hpp"
+#include "viewer/run.hpp"
+#include "viewer/scene.hpp"
+#include "viewer/view_options.hpp"
+
+namespace curveskel::viewer {
+
+/// A line for the person, shown for a while.
+struct Message {
+  std::string text;
+  bool bad = false;
+  std::chrono::steady_clock::time_point since;
+};
+
+/// What skeletons are judged against.
+struct Ground {
+  std::shared_ptr<const RepairedSurface> repaired;
+  SurfaceTree tree;
+  double diagonal = 0;  ///< D
+  int components = 0;
+  int genus = 0;
+};
+
+/// A certificate and where it fails, of one skeleton.
+struct Judgement {
+  std::shared_ptr<const CurveSkeleton> skeleton;
+  std::shared_ptr<const Ground> ground;
+  Certificate certificate;
+  Findings findings;
+  std::string error;  ///< why there is none
+};
+
+class Workbench {
+ public:
+  explicit Workbench(ViewOptions options);
+  ~Workbench();
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+
+  /// Takes in what other threads have finished; true if something that is seen has changed. Never
+  /// waits.
+  bool update();
+  /// Whether another thread is at work, so that `update` should be called soon again.
+  [[nodiscard]] bool busy() const;
+
+  // Files. What goes wrong becomes a message, and what was open stays.
+  void open(const std::vector<std::filesystem::path>& files);
+  void reload();
+  /// Reloads if the files on the disk are newer than what was read.
+  void watch_files();
+  /// The skeleton, as it is now, in the format of the extension; also a picture.
+  void save(const std::filesystem::path& file);
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
+  // The run.
+  void start(bool paused);
+  void pause();
+  void resume();  ///< starts one where none is under way
+  void step();    ///< one moment on: of the run, or of what was recorded
+  void cancel();
+  void rewind();
+  [[nodiscard]] Run::State run_state() const { return news_.state; }
+  [[nodiscard]] bool running() const { return run_ != nullptr; }
+  [[nodiscard]] const Run::News& news() const { return news_; }
+  void go_to(std::size_t moment);
+
+  // Selection: nodes in the order in which they were picked, or one edge.
+  void select(const Pick& picked, bool more);
+  void clear_selection();
+  [[nodiscard]] const std::vector<int>& selected_nodes() const { return selected_nodes_; }
+  [[nodiscard]] int selected_edge() const { return selected_edge_; }
+  /// Between the two selected nodes along the curve; empty otherwise.
+  [[nodiscard]] const Path& measured() const { return measured_; }
+  void show_exits();
+  void show_spurs();
+
+  // Corrections of the skeleton.
+  void prune();
+  void remove();
+  void merge();
+  void cut();
+  void join();
+  void split();
+  void move(int node, const glm::vec3& place);
+  void set_root();
+  void undo();
+  void redo();
+  [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] int root() const { return history_.empty() ? -1 : history_.now().root; }
+
+  void say(std::string text, bool bad = false);
+  [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
+  /// Over the document's surface; null until it has grown.
+  [[nodiscard]] const SurfaceTree* tree() const { return tree_ ? tree_.get() : nullptr; }
+  /// Of the skeleton that is shown, once it is known.
+  [[nodiscard]] const Judgement* judgement() const;
+  [[nodiscard]] const RunResult* result() const { return result_ ? &*result_ : nullptr; }
+
+  std::shared_ptr<Scene> scene;  ///< never null
+  RunOptions pipeline;
+  /// Set when the camera should go to where the scene is seen best.
+  bool wants_fit = true;
+  /// Set when the camera should fly here; about the document's origin.
+  std::optional<glm::vec3> wants_look_at;
+
+ private:
+  struct Opened {
+    std::shared_ptr<Scene> scene;
+    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::file_time_type> times;
+    std::string error;
+  };
+  bool take_opened();
+  bool take_news();
+  bool take_tree();
+  bool take_judgement();
+  void take_moments(std::vector<Moment> moments);
+  void take_result(RunResult result);
+  void plant_tree();
+  void retire_run();
+  void begin_history(std::shared_ptr<const CurveSkeleton> skeleton);
+  void edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
+            const std::string& what);
+  void show_state();
+  void judge();
+  void set_highlights();
+
+  ViewOptions options_;
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::file_time_type> read_times_;
+  std::future<Opened> opening_;
+  bool reloading_ = false;
+  std::unique_ptr<Run> run_;
+  std::vector<std::unique_ptr<Run>> retired_;  // cancelled, not yet at their ends
+  std::optional<bool> wants_start_;            // paused or not, once those are gone
+  std::shared_ptr<RunMemory> run_memory_;
+  Run::News news_;
+  bool first_moment_ = true;
+  bool follow_ = true;
+  std::optional<RunResult> result_;
+  History history_;
+  std::shared_ptr<const SurfaceTree> tree_;
+  std::vector<std::future<void>> background_;  // so that nobody has to wait for them
+  std::future<std::shared_ptr<const SurfaceTree>> growing_;
+  std::shared_ptr<const Ground> ground_;
+  std::optional<Judgement> judgement_;
+  std::future<Judgement> judging_;
+  std::vector<int> selected_nodes_;
+  int selected_edge_ = -1;
+  std::vector<int> failed_edges_;
+  Path measured_;
+  std::deque<Message> messages_;
+};
+
+}  // namespace curveskel::viewer
