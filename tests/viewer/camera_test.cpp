@@ -228,7 +228,9 @@ TEST(Fit, FillsItsShareOfThePictureAndNoMore) {
         fit(camera, points, aspect, share);
         float furthest = 0;
         for (const glm::vec3& point : points) {
-          if (!orthographic) ASSERT_LT(seen(camera, point).z, 0);
+          if (!orthographic) {
+            ASSERT_LT(seen(camera, point).z, 0);
+          }
           const glm::vec3 at = projected(camera, point, aspect, bounds_of(points));
           furthest = std::max({furthest, std::abs(at.x), std::abs(at.y)});
         }

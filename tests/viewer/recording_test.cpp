@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <random>
@@ -140,18 +141,17 @@ TEST(Recording, HasEveryComponentAsItWasFaired) {
 TEST(Recording, CutFromAStageIsAsIfItHadNeverCome) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     std::mt19937 random(seed);
-    const std::vector<Moment> run = random_run(random, 1);
-    for (const std::string stage : {"fair", "contract", "skeleton"}) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", " + stage);
+    const std::vector<Moment> run = random_run(random, 1 + static_cast<int>(seed % 4));
+    const std::vector<std::string> order{"fair", "contract", "skeleton"};
+    for (auto stage = order.begin(); stage != order.end(); ++stage) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", " + *stage);
       Recording cut;
       Recording expected;
-      bool come = false;
       for (const Moment& moment : run) {
         cut.add(moment);
-        come = come || moment.stage == stage;
-        if (!come) expected.add(moment);
+        if (std::find(order.begin(), stage, moment.stage) != stage) expected.add(moment);
       }
-      cut.cut_from(stage);
+      cut.cut_from(*stage);
       ASSERT_EQ(cut.moments().size(), expected.moments().size());
       EXPECT_EQ(cut.bytes(), expected.bytes());
       EXPECT_EQ(drawn(cut.surface_at(cut.moments().size() - 1)),
@@ -165,7 +165,7 @@ TEST(Recording, CutFromWhatNeverCameKeepsAll) {
   recording.add(surface_moment("contract", 0, 0, fan(3, 1)));
   const std::size_t bytes = recording.bytes();
   EXPECT_GT(bytes, 0U);
-  recording.cut_from("fair");
+  recording.cut_from("skeleton");
   EXPECT_EQ(recording.moments().size(), 2U);
   EXPECT_EQ(recording.bytes(), bytes);
 }
