@@ -152,7 +152,9 @@ TEST(Run, ShowsEachIterationOfEachComponentOnce) {
     before = now;
   }
   for (const Moment& moment : watched.moments) {
-    EXPECT_EQ(moment.surface != nullptr, moment.stage != "skeleton");
+    const bool curve = moment.stage == "surgery" || moment.stage == "skeleton";
+    EXPECT_EQ(moment.surface != nullptr, !curve);
+    EXPECT_EQ(moment.skeleton != nullptr, curve);
   }
 }
 

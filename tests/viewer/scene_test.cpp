@@ -52,6 +52,7 @@ Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nul
 Look look_by(ColourBy by) {
   Look look;
   look.surface_colour = look.skeleton_colour = by;
+  look.skeleton = SkeletonStyle::balls;  // a ball for every node, in their order
   return look;
 }
 
@@ -149,8 +150,14 @@ TEST(SkeletonColours, ByRadiusSpanTheMap) {
     Eigen::Index thickest = 0;
     one.skeleton.radii.minCoeff(&thinnest);
     one.skeleton.radii.maxCoeff(&thickest);
-    EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thinnest)].from_colour,
-              rgba(mapped(look.map, 0)));
+    // A tenth of the thickest is the least that spans the whole map.
+    const double range = 1 - one.skeleton.radii.minCoeff() / one.skeleton.radii.maxCoeff();
+    const auto lowest = static_cast<float>(std::max(0.0, 1 - range / 0.1));
+    const Rgba expected = rgba(mapped(look.map, lowest));
+    const Rgba found = shown.nodes[static_cast<std::size_t>(thinnest)].from_colour;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(found[channel], expected[channel], 1);
+    }
     EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thickest)].from_colour,
               rgba(mapped(look.map, 1)));
   }
