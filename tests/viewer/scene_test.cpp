@@ -256,17 +256,51 @@ TEST(ShownSkeleton, IsWhereTheSkeletonIs) {
       look.joints = false;
       const ShownSkeleton shown =
           shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
-      ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
-      for (std::size_t n = 0; n < shown.nodes.size(); ++n) {
-        const auto node = static_cast<Eigen::Index>(n);
-        for (int axis = 0; axis < 3; ++axis) {
-          EXPECT_FLOAT_EQ(shown.nodes[n].from[axis],
-                          static_cast<float>(one.skeleton.nodes(node, axis)));
-        }
-        if (style.value == SkeletonStyle::balls) {
-          EXPECT_FLOAT_EQ(shown.nodes[n].from.w, static_cast<float>(one.skeleton.radii[node]));
+      ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(one.skeleton.edges.rows()));
+      for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+        const auto row = static_cast<Eigen::Index>(e);
+        for (const bool second : {false, true}) {
+          const Eigen::Index node = one.skeleton.edges(row, second ? 1 : 0);
+          const glm::vec4 end = second ? shown.edges[e].to : shown.edges[e].from;
+          for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_FLOAT_EQ(end[axis], static_cast<float>(one.skeleton.nodes(node, axis)));
+          }
+          if (style.value == SkeletonStyle::balls) {
+            EXPECT_FLOAT_EQ(end.w, static_cast<float>(one.skeleton.radii[node]));
+          }
         }
       }
+    }
+  }
+}
+
+TEST(ShownSkeleton, FitsSeamlesslyOrHasABall) {
+  for (const Extracted& one : family()) {
+    Look look;
+    look.joints = false;
+    const ShownSkeleton shown =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+    const auto has_ball = [&](Eigen::Index node) {
+      return std::any_of(shown.nodes.begin(), shown.nodes.end(), [&](const TubeInstance& ball) {
+        return glm::vec3(ball.from) ==
+               shown_point(one.skeleton.nodes.row(node), Eigen::RowVector3d::Zero());
+      });
+    };
+    std::map<Eigen::Index, std::vector<glm::vec3>> mitres;
+    for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+      const auto row = static_cast<Eigen::Index>(e);
+      const TubeInstance& edge = shown.edges[e];
+      const glm::vec3 along = glm::vec3(edge.to) - glm::vec3(edge.from);
+      mitres[one.skeleton.edges(row, 0)].push_back(edge.from_mitre);
+      mitres[one.skeleton.edges(row, 1)].push_back(edge.to_mitre);
+      for (const glm::vec3& mitre : {edge.from_mitre, edge.to_mitre}) {
+        EXPECT_GE(glm::dot(mitre, along), 0);
+      }
+    }
+    for (const auto& [node, planes] : mitres) {
+      if (has_ball(node)) continue;
+      ASSERT_EQ(planes.size(), 2U);
+      EXPECT_NEAR(std::abs(glm::dot(planes[0], planes[1])), 1, 1e-5);
     }
   }
 }
