@@ -20,6 +20,7 @@
 #include "surface/error.hpp"
 #include "surface/write_file.hpp"
 #include "viewer/controls.hpp"
+#include "viewer/key_queue.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/recent_files.hpp"
 #include "viewer/renderer.hpp"
@@ -64,6 +65,7 @@ class GlfwWindow {
     float scale_y = 1;
     glfwGetWindowContentScale(window_, &scale_, &scale_y);
     start_imgui();
+    listen_to_keys();
   }
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
@@ -77,6 +79,19 @@ class GlfwWindow {
 
   [[nodiscard]] GLFWwindow* get() const { return window_; }
   [[nodiscard]] float scale() const { return scale_; }
+  /// Before a frame: hands ImGui what was typed, as much of it as one frame can take. False if
+  /// there is more.
+  bool type() {
+    for (const KeyEvent& event : typed_.take()) {
+      if (event.letter != 0) {
+        ImGui_ImplGlfw_CharCallback(window_, event.letter);
+      } else {
+        ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode,
+                                   event.down ? GLFW_PRESS : GLFW_RELEASE, event.modifiers);
+      }
+    }
+    return typed_.empty();
+  }
   std::vector<fs::path> dropped;
 
  private:
@@ -104,8 +119,23 @@ class GlfwWindow {
     ImGui::GetIO().FontGlobalScale = scale_;
   }
 
+  /// In place of ImGui's own, which are called from `type`.
+  void listen_to_keys() {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int with) {
+      if (action == GLFW_REPEAT || key == GLFW_KEY_UNKNOWN) return;
+      const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+      static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
+          ->typed_.add({key, code, action == GLFW_PRESS, modifier, with, 0});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
+      static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
+          ->typed_.add({0, 0, false, false, 0, letter});
+    });
+  }
+
   GLFWwindow* window_ = nullptr;
   float scale_ = 1;
+  KeyQueue typed_;
 };
 
 /// What the last picture showed; equal = it need not be drawn again.
@@ -156,14 +186,17 @@ class Viewer {
       const Clock::time_point began = Clock::now();
       take_files();
       if (bench_.update()) awake();
+      if (!window_.type()) awake();
       draw_frame();
       glfwSwapBuffers(window_.get());
+      set_title();
       const double milliseconds = 1000 * seconds_since(began);
       if (!drawn_anew_) continue;
       panels_.times.add(milliseconds);
       if (all_anew_) pace_.measured(drawn_.fineness, load_, milliseconds);
     }
     if (!options_.frame_times.empty()) write_file(options_.frame_times, panels_.times.text());
+    session_.interruption.check();
     return ExitCode::done;
   }
 
@@ -198,13 +231,24 @@ class Viewer {
       files_seen_ = Clock::now();
       bench_.watch_files();
     }
-    if (bench_.files() == titled_) return;
-    titled_ = bench_.files();
+    if (bench_.files() == remembered_) return;
+    remembered_ = bench_.files();
+    for (const fs::path& file : remembered_) remember_file(file);
+  }
+
+  /// What is open, which moment of it is shown, and whether more is to come.
+  void set_title() {
     std::string title = "curveskel";
-    for (const fs::path& file : titled_) {
-      title += " - " + file.filename().string();
-      remember_file(file);
+    for (const fs::path& file : bench_.files()) title += " - " + file.filename().string();
+    if (!bench_.files().empty()) {
+      title += " (" + title_of(bench_.scene->recording.moments()[bench_.scene->moment]);
+      if (bench_.running()) {
+        title += bench_.run_state() == Run::State::paused ? ", paused" : ", running";
+      }
+      title += ")";
     }
+    if (title == title_) return;
+    title_ = title;
     glfwSetWindowTitle(window_.get(), title.c_str());
   }
 
@@ -327,7 +371,8 @@ class Viewer {
   Clock::time_point last_frame_ = Clock::now();
   Clock::time_point files_seen_ = Clock::now();
   std::optional<Theme> styled_;
-  std::vector<fs::path> titled_;
+  std::vector<fs::path> remembered_;
+  std::string title_;
 };
 
 }  // namespace

@@ -1,0 +1,95 @@
+// Laws of the workbench over many documents. Waits are bounded by a minute, which only a hang
+// takes.
+#include "viewer/workbench.hpp"
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "viewer/headless.hpp"
+#include "viewer/renderer.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::filesystem::path mesh(const char* name) {
+  return std::filesystem::path(CURVESKEL_SOURCE_DIR) / "meshes" / name;
+}
+
+template <typename Condition>
+bool wait(Workbench& bench, const Condition& wanted) {
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  for (bench.update(); !wanted(); bench.update()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+void draw(Scene& scene, Renderer& renderer) {
+  scene.forget_uploads();
+  scene.upload(renderer);
+  renderer.draw(scene.camera, scene.look_now(), {160, 100, {}, scene.bounds()});
+}
+
+double resident_megabytes() {
+  malloc_trim(0);  // what is free is not leaked
+  std::ifstream in("/proc/self/statm");
+  double all = 0;
+  double resident = 0;
+  in >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// Opens it and draws it, while it is worked on and when it is done, with a correction taken back;
+/// or leaves it to the next one to end its run.
+void look_at(Workbench& bench, Renderer& renderer, const std::filesystem::path& file, bool whole) {
+  const Scene* const before = bench.scene.get();
+  bench.open({file});
+  ASSERT_TRUE(wait(bench, [&] { return bench.scene.get() != before; })) << file;
+  draw(*bench.scene, renderer);
+  ASSERT_TRUE(wait(bench, [&] { return bench.scene->recording.moments().size() > 2; })) << file;
+  bench.go_to(1);
+  draw(*bench.scene, renderer);
+  if (!whole) return;
+  ASSERT_TRUE(wait(bench, [&] { return bench.result() != nullptr && !bench.busy(); })) << file;
+  bench.resume();  // to the end, whatever was looked at meanwhile
+  ASSERT_TRUE(wait(bench, [&] { return !bench.busy(); })) << file;
+  draw(*bench.scene, renderer);
+  ASSERT_NE(bench.scene->skeleton(), nullptr);
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  bench.select(edge, false);
+  bench.split();
+  draw(*bench.scene, renderer);
+  bench.undo();
+}
+
+TEST(Workbench, HundredDocumentsTakeNoMoreMemoryThanTwenty) {
+  // A document of this kind takes 1 MB or so; arenas of threads, which come and go, some.
+  constexpr double most_megabytes = 6;
+  const HeadlessContext context;
+  Renderer renderer;
+  Workbench bench(ViewOptions{});
+  double early = 0;
+  for (int cycle = 1; cycle <= 100; ++cycle) {
+    look_at(bench, renderer, mesh(cycle % 2 == 0 ? "y.off" : "torus.off"), cycle % 4 < 2);
+    ASSERT_FALSE(HasFatalFailure()) << cycle;
+    if (cycle == 20) early = resident_megabytes();
+  }
+  const double late = resident_megabytes();
+  RecordProperty("early", std::to_string(early));
+  RecordProperty("late", std::to_string(late));
+  EXPECT_LT(late - early, most_megabytes) << early << " MB, then " << late << " MB";
+}
+
+}  // namespace
+}  // namespace curveskel::viewer
