@@ -243,4 +243,23 @@ VertexGraph graph_of_groups(const Surface& surface, const Eigen::VectorXi& group
   return graph;
 }
 
+Positions middles_of_groups(const VertexGraph& graph, const Positions& positions) {
+  Positions middles = Positions::Zero(graph.nodes(), 3);
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(graph.nodes());
+  const auto count_in = [&](int node, int vertex) {
+    middles.row(node) += positions.row(vertex);
+    counts[node] += 1;
+  };
+  for (Eigen::Index v = 0; v < graph.group_of_vertex.size(); ++v) {
+    count_in(graph.group_of_vertex[v], static_cast<int>(v));
+  }
+  for (std::size_t c = 0; c < graph.circles.size(); ++c) {
+    for (const auto& [a, b] : graph.circles[c]) {
+      count_in(graph.groups + static_cast<int>(c), a);
+      count_in(graph.groups + static_cast<int>(c), b);
+    }
+  }
+  return middles.array().colwise() / counts.array();
+}
+
 }  // namespace curveskel

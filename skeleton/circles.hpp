@@ -76,6 +76,10 @@ struct VertexGraph {
   [[nodiscard]] int nodes() const { return groups + static_cast<int>(circles.size()); }
 };
 
+/// Where the graph's nodes lie (#N by 3): each in the middle of the positions (#V by 3) of its
+/// group, or of the vertices of the edges that cross its circle.
+[[nodiscard]] Positions middles_of_groups(const VertexGraph& graph, const Positions& positions);
+
 /// Groups are renumbered by their smallest vertex, circles by their smallest crossing edge.
 /// Precondition: no triangle of the surface has corners in three groups. O(#F log #F).
 [[nodiscard]] VertexGraph graph_of_groups(const Surface& surface,

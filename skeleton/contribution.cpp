@@ -121,7 +121,9 @@ class Pipeline {
           stage_("contract", attempt.contraction, {balls, what_counts(contraction)},
                  [&] { return contract(working, balls->balls.centres, contraction, monitor_); });
       const auto graph = stage_("surgery", attempt.graph, {contracted, options_.surgery}, [&] {
-        return surgery(working, *contracted, options_.surgery, monitor_);
+        auto made = surgery(working, *contracted, options_.surgery, monitor_);
+        if (made && monitor_.curve) show_curve(*made, *contracted);
+        return made;
       });
       record.steps = contracted->steps;
       record.stop = contracted->stop;
@@ -131,6 +133,12 @@ class Pipeline {
       contraction.collapse_length /= 2;
     }
     return nullptr;
+  }
+
+  /// The graph where the contraction has left its vertices.
+  void show_curve(const VertexGraph& graph, const Contraction& contracted) const {
+    const Positions at = contracted.surface.positions(contracted.vertex_of_input, Eigen::all);
+    monitor_.curve({"surgery", 0, middles_of_groups(graph, at), graph.edges});
   }
 
   Shared<Bands> bands_of(const Coarsened& working, const Shared<WorkingBalls>& balls) {
@@ -168,10 +176,16 @@ class Pipeline {
   GrowingTree& fine_;
 };
 
-/// The same, but for frames of component `number`, which come in the canonical frame and leave in
-/// the model's. Refers to both.
+/// The same, but for frames and curves of component `number`, which come in the canonical frame and
+/// leave in the model's. Refers to both.
 Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number) {
   Monitor within = monitor;
+  if (monitor.curve) {
+    within.curve = [&monitor, &canonical, number](const CurveFrame& curve) {
+      const Positions moved = canonical.to_model(curve.nodes);
+      monitor.curve({curve.stage, number, moved, curve.edges});
+    };
+  }
   if (!monitor.frame) return within;
   within.frame = [&monitor, &canonical, number](const Frame& frame) {
     const Surface moved{canonical.to_model(frame.surface.positions), frame.surface.triangles};

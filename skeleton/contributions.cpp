@@ -48,7 +48,7 @@ std::vector<Contribution> contributions_of(const Parts& whole, const ExtractOpti
   };
   const bool on_host = options.contraction.solver == Solver::automatic ||
                        options.contraction.solver == Solver::cholesky;
-  const bool may_share = on_host && !options.fairing && !monitor.frame;
+  const bool may_share = on_host && !options.fairing && !monitor.frame && !monitor.curve;
   for (std::size_t c = 0; c < all.size(); ++c) {
     const WorkingSize size = part_of(c).size;
     if (may_share && std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {

@@ -1,6 +1,8 @@
 // How progress leaves the core and how a cancellation enters it.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string_view>
@@ -22,6 +24,14 @@ struct Frame {
                             ///< model's; lives as long as the call
 };
 
+/// A curve on its way: what the surgery made of a component, before it is embedded.
+struct CurveFrame {
+  std::string_view stage;  ///< "surgery"
+  int component = 0;       ///< of `topology`
+  const Positions& nodes;  ///< #N by 3, in the model's frame
+  const Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>& edges;  ///< #E by 2
+};
+
 /// Callbacks, all optional, called from the thread that runs the stage. A stage calls `report` at
 /// least once per 100 ms of work, so a requested stop takes effect within that time.
 struct Monitor {
@@ -32,6 +42,8 @@ struct Monitor {
   /// The surface before the first and after each iteration of `fair` and `contract`. When `extract`
   /// contracts a second time or fairs after all, iterations count from 0 again.
   std::function<void(const Frame& frame)> frame;
+  /// A component's curve when its surgery has succeeded.
+  std::function<void(const CurveFrame& curve)> curve;
   std::stop_token stop;
 
   /// Throws Cancelled if a stop was requested, then passes the progress on.

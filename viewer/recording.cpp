@@ -26,16 +26,15 @@ void append(ShownSurface& whole, const ShownSurface& part) {
 int order_of(std::string_view stage) {
   if (stage == "input") return 0;
   if (stage == "fair") return 1;
-  return stage == "contract" ? 2 : 3;
+  if (stage == "contract") return 2;
+  return stage == "surgery" ? 3 : 4;
 }
 
 }  // namespace
 
 std::string title_of(const Moment& moment) {
-  if (moment.stage == "input" || moment.stage == "skeleton") return moment.stage;
-  const std::string name = moment.stage == "fair"       ? "fairing"
-                           : moment.stage == "contract" ? "contraction"
-                                                        : moment.stage;
+  if (moment.stage != "fair" && moment.stage != "contract") return moment.stage;
+  const std::string name = moment.stage == "fair" ? "fairing" : "contraction";
   return name + " " + std::to_string(moment.iteration);
 }
 
@@ -56,13 +55,34 @@ void Recording::cut_from(std::string_view stage) {
 
 ShownSurface Recording::surface_at(std::size_t index) const {
   ShownSurface whole;
-  if (index >= moments_.size() || moments_[index].skeleton) return whole;
+  if (index >= moments_.size() || moments_[index].stage == "skeleton") return whole;
   std::map<int, const ShownSurface*> latest;
   for (std::size_t i = 0; i <= index; ++i) {
     if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();
   }
   for (const auto& [component, surface] : latest) append(whole, *surface);
   return whole;
+}
+
+ShownSurface Recording::faired_at(std::size_t index) const {
+  std::map<int, const ShownSurface*> faired;
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    const Moment& moment = moments_[i];
+    if (moment.stage != "fair" || !moment.surface) continue;
+    if (i <= index || !faired.contains(moment.component)) {
+      faired[moment.component] = moment.surface.get();
+    }
+  }
+  ShownSurface whole;
+  for (const auto& [component, surface] : faired) append(whole, *surface);
+  return whole;
+}
+
+std::shared_ptr<const ShownSurface> Recording::newest_surface(std::size_t index) const {
+  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
+    if (moments_[i].surface) return moments_[i].surface;
+  }
+  return nullptr;
 }
 
 std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) const {
@@ -82,6 +102,23 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   moment.residual = frame.residual;
   moment.seconds = seconds;
   moment.surface = std::make_shared<const ShownSurface>(shown_surface(frame.surface, origin));
+  return moment;
+}
+
+Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before, double seconds) {
+  CurveSkeleton whole;
+  if (before != nullptr) whole = *before;
+  const Eigen::Index nodes = whole.nodes.rows();
+  const Eigen::Index edges = whole.edges.rows();
+  whole.nodes.conservativeResize(nodes + curve.nodes.rows(), 3);
+  whole.nodes.bottomRows(curve.nodes.rows()) = curve.nodes;
+  whole.edges.conservativeResize(edges + curve.edges.rows(), 2);
+  whole.edges.bottomRows(curve.edges.rows()) = curve.edges.array() + static_cast<int>(nodes);
+  Moment moment;
+  moment.stage = curve.stage;
+  moment.component = curve.component;
+  moment.seconds = seconds;
+  moment.skeleton = std::make_shared<const CurveSkeleton>(std::move(whole));
   return moment;
 }
 

@@ -14,7 +14,7 @@ namespace curveskel::viewer {
 
 /// One entry of the timeline.
 struct Moment {
-  std::string stage;  ///< "input", "fair", "contract", "skeleton"
+  std::string stage;  ///< "input", "fair", "contract", "surgery", "skeleton"
   int component = 0;
   int iteration = 0;
   double area_ratio = 1;                          ///< of the component's area when the stage began
@@ -42,6 +42,11 @@ class Recording {
   /// The components' surfaces as they were at moment `index`, put together; empty where none has
   /// changed yet or the skeleton is there. O(vertices shown + moments).
   [[nodiscard]] ShownSurface surface_at(std::size_t index) const;
+  /// The components' surfaces as fairing had left them at moment `index`; those that it came to
+  /// later as it found them. O(vertices shown + moments).
+  [[nodiscard]] ShownSurface faired_at(std::size_t index) const;
+  /// That of the last moment up to `index` that has one, or null.
+  [[nodiscard]] std::shared_ptr<const ShownSurface> newest_surface(std::size_t index) const;
   /// The latest skeleton up to moment `index`, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
 
@@ -52,6 +57,9 @@ class Recording {
 
 /// A moment from what a stage shows.
 [[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin,
+                               double seconds);
+/// The component's curve beside those of `before`, the last surgery's moment or null.
+[[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,
                                double seconds);
 
 }  // namespace curveskel::viewer

@@ -144,6 +144,8 @@ void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm:
   if (shown.corners == 0) return;
   seen.set(program);
   glBindVertexArray(shown.array.get());
+  program.set("categories", static_cast<int>(seen.look.surface_colour != ColourBy::plain &&
+                                             seen.look.surface_colour != ColourBy::radius));
   if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
   glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
 }
@@ -324,12 +326,15 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_DEPTH_TEST);
+    // At a silhouette the one depth that is kept may be the background's.
+    glDepthFunc(GL_LEQUAL);
     bind_texture(0, skin_.colour());
     bind_texture(1, skin_.depth());
     skin_program_.use();
     skin_program_.set("skin", 0);
     skin_program_.set("skin_depth", 1);
     draw_screen(skin_program_);
+    glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
   }
   scene_.resolve_into(picture_, false);

@@ -117,6 +117,11 @@ void Run::work(const std::stop_token& stop) {
     news_.fraction = fraction;
   };
   monitor.frame = [&](const Frame& frame) { show(moment_of(frame, origin_, seconds()), stop); };
+  monitor.curve = [&](const CurveFrame& curve) {
+    Moment moment = moment_of(curve, operated_.get(), seconds());
+    operated_ = moment.skeleton;
+    show(std::move(moment), stop);
+  };
   const auto end = [this](State state, const std::string& why, Fault fault = Fault::solver) {
     const std::lock_guard lock(mutex_);
     news_.state = state;

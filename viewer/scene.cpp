@@ -78,7 +78,8 @@ std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
 Look Scene::look_now() const {
   Look now = look;
   const Moment& shown = recording.moments()[moment];
-  if (shown.stage == "contract" && now.surface == SurfaceStyle::opaque) {
+  const bool within = shown.stage == "contract" || shown.stage == "surgery";
+  if (within && now.surface == SurfaceStyle::opaque) {
     now.surface = SurfaceStyle::transparent;
   }
   return now;
@@ -87,7 +88,7 @@ Look Scene::look_now() const {
 /// The surface that stands for the given one now, and its simpler forms.
 void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
   constexpr std::array layers{Layer::simpler, Layer::simplest};
-  renderer.set_surface(Layer::given, now.faired ? *now.faired : *given_);
+  renderer.set_surface(Layer::given, now.faired ? recording.faired_at(moment) : *given_);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     renderer.set_surface(layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
   }
@@ -114,7 +115,9 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const Moment& shown = recording.moments()[moment];
   const bool faired = shown.stage == "fair" && shown.surface;
   now.faired = faired ? shown.surface : nullptr;
-  now.contracted = faired ? nullptr : shown.surface;
+  now.contracted = faired                     ? nullptr
+                   : shown.stage == "surgery" ? recording.newest_surface(moment)
+                                              : shown.surface;
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
   if (all || now.faired != uploaded_->faired) upload_given(renderer, now);
   const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||

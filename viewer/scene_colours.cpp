@@ -231,8 +231,11 @@ std::vector<int> components_of(const CurveSkeleton& skeleton) {
 
 std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton) {
   if (skeleton.radii.size() == 0) return std::nullopt;
-  return ColourScale{static_cast<float>(skeleton.radii.minCoeff()),
-                     static_cast<float>(skeleton.radii.maxCoeff())};
+  const auto low = static_cast<float>(skeleton.radii.minCoeff());
+  const auto high = static_cast<float>(skeleton.radii.maxCoeff());
+  // What hardly differs is shown as alike.
+  constexpr float least_range = 0.1F;
+  return ColourScale{std::min(low, high * (1 - least_range)), high};
 }
 
 ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVector3d& origin,
@@ -273,7 +276,7 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
     const bool lit = holds(lit_nodes, node);
     const bool joint = look.joints && degree[static_cast<std::size_t>(node)] != 2;
     glm::vec4 place = at(node);
-    if (joint) place.w = std::max(place.w, 1.9F * thin);
+    if (joint && !thick) place.w = std::max(place.w, 1.9F * thin);
     if (lit) place.w = std::max(place.w, 2.4F * thin);
     const auto index = static_cast<int>(node);
     const Rgba own = rgba(joint ? colours.joint(index) : colours.node(index));

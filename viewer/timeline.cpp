@@ -21,6 +21,7 @@ ImU32 colour_of(const std::string& stage) {
   if (stage == "input") return IM_COL32(130, 140, 150, 90);
   if (stage == "fair") return IM_COL32(80, 150, 220, 90);
   if (stage == "contract") return IM_COL32(60, 170, 140, 90);
+  if (stage == "surgery") return IM_COL32(220, 170, 50, 100);
   return IM_COL32(220, 90, 60, 110);
 }
 

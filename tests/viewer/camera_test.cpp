@@ -59,8 +59,8 @@ std::vector<glm::vec3> random_points(Random& random) {
       {{1, 1, 1}, {1, 0.01F, 0.3F}, {0.002F, 1, 0.5F}, {0.2F, 0.1F, 1}}};
   const glm::vec3 half = forms[static_cast<std::size_t>(random.below(4))] * size;
   const glm::vec3 middle = random.in_box(glm::vec3(10 * size));
-  std::vector<glm::vec3> points;
-  for (int i = 0; i < 100; ++i) points.push_back(middle + random.in_box(half));
+  std::vector<glm::vec3> points(100);
+  for (glm::vec3& point : points) point = middle + random.in_box(half);
   return points;
 }
 
@@ -140,7 +140,8 @@ TEST(Orbit, NeverPassesAPole) {
 TEST(Orbit, RisesByTheAngleUpToThePole) {
   for (const bool z_up : {false, true}) {
     for (const auto& side : {Side::best, Side::front, Side::left, Side::back}) {
-      for (float down = -3; down <= 3; down += 0.125F) {
+      for (int eighths = -24; eighths <= 24; ++eighths) {
+        const float down = static_cast<float>(eighths) / 8;
         Camera camera;
         look_from(camera, side, upright(z_up));
         orbit(camera, 0.7F, down);
@@ -227,7 +228,9 @@ TEST(Fit, FillsItsShareOfThePictureAndNoMore) {
         fit(camera, points, aspect, share);
         float furthest = 0;
         for (const glm::vec3& point : points) {
-          if (!orthographic) ASSERT_LT(seen(camera, point).z, 0);
+          if (!orthographic) {
+            ASSERT_LT(seen(camera, point).z, 0);
+          }
           const glm::vec3 at = projected(camera, point, aspect, bounds_of(points));
           furthest = std::max({furthest, std::abs(at.x), std::abs(at.y)});
         }
@@ -390,8 +393,8 @@ TEST(Between, EndsAtItsEndsAndStaysACamera) {
     expect_same_place(between(from, to, 1), to);
     float least = std::numeric_limits<float>::infinity();
     float most = 0;
-    for (float t = 0; t <= 1; t += 0.0625F) {
-      const Camera camera = between(from, to, t);
+    for (int step = 0; step <= 16; ++step) {
+      const Camera camera = between(from, to, static_cast<float>(step) / 16);
       expect_orthonormal(camera);
       least = std::min(least, camera.distance);
       most = std::max(most, camera.distance);

@@ -87,6 +87,7 @@ struct Timed {
 
 std::vector<Timed> timeline(const std::vector<Moment>& moments) {
   std::vector<Timed> entries;
+  entries.reserve(moments.size());
   for (const Moment& moment : moments) {
     entries.push_back({moment.stage, moment.component, moment.iteration});
   }
@@ -151,7 +152,9 @@ TEST(Run, ShowsEachIterationOfEachComponentOnce) {
     before = now;
   }
   for (const Moment& moment : watched.moments) {
-    EXPECT_EQ(moment.surface != nullptr, moment.stage != "skeleton");
+    const bool curve = moment.stage == "surgery" || moment.stage == "skeleton";
+    EXPECT_EQ(moment.surface != nullptr, !curve);
+    EXPECT_EQ(moment.skeleton != nullptr, curve);
   }
 }
 

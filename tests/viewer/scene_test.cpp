@@ -52,6 +52,7 @@ Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nul
 Look look_by(ColourBy by) {
   Look look;
   look.surface_colour = look.skeleton_colour = by;
+  look.skeleton = SkeletonStyle::balls;  // a ball for every node, in their order
   return look;
 }
 
@@ -149,8 +150,14 @@ TEST(SkeletonColours, ByRadiusSpanTheMap) {
     Eigen::Index thickest = 0;
     one.skeleton.radii.minCoeff(&thinnest);
     one.skeleton.radii.maxCoeff(&thickest);
-    EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thinnest)].from_colour,
-              rgba(mapped(look.map, 0)));
+    // A tenth of the thickest is the least that spans the whole map.
+    const double range = 1 - one.skeleton.radii.minCoeff() / one.skeleton.radii.maxCoeff();
+    const auto lowest = static_cast<float>(std::max(0.0, 1 - range / 0.1));
+    const Rgba expected = rgba(mapped(look.map, lowest));
+    const Rgba found = shown.nodes[static_cast<std::size_t>(thinnest)].from_colour;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(found[channel], expected[channel], 1);
+    }
     EXPECT_EQ(shown.nodes[static_cast<std::size_t>(thickest)].from_colour,
               rgba(mapped(look.map, 1)));
   }
@@ -249,17 +256,51 @@ TEST(ShownSkeleton, IsWhereTheSkeletonIs) {
       look.joints = false;
       const ShownSkeleton shown =
           shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
-      ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
-      for (std::size_t n = 0; n < shown.nodes.size(); ++n) {
-        const auto node = static_cast<Eigen::Index>(n);
-        for (int axis = 0; axis < 3; ++axis) {
-          EXPECT_FLOAT_EQ(shown.nodes[n].from[axis],
-                          static_cast<float>(one.skeleton.nodes(node, axis)));
-        }
-        if (style.value == SkeletonStyle::balls) {
-          EXPECT_FLOAT_EQ(shown.nodes[n].from.w, static_cast<float>(one.skeleton.radii[node]));
+      ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(one.skeleton.edges.rows()));
+      for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+        const auto row = static_cast<Eigen::Index>(e);
+        for (const bool second : {false, true}) {
+          const Eigen::Index node = one.skeleton.edges(row, second ? 1 : 0);
+          const glm::vec4 end = second ? shown.edges[e].to : shown.edges[e].from;
+          for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_FLOAT_EQ(end[axis], static_cast<float>(one.skeleton.nodes(node, axis)));
+          }
+          if (style.value == SkeletonStyle::balls) {
+            EXPECT_FLOAT_EQ(end.w, static_cast<float>(one.skeleton.radii[node]));
+          }
         }
       }
+    }
+  }
+}
+
+TEST(ShownSkeleton, FitsSeamlesslyOrHasABall) {
+  for (const Extracted& one : family()) {
+    Look look;
+    look.joints = false;
+    const ShownSkeleton shown =
+        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+    const auto has_ball = [&](Eigen::Index node) {
+      return std::any_of(shown.nodes.begin(), shown.nodes.end(), [&](const TubeInstance& ball) {
+        return glm::vec3(ball.from) ==
+               shown_point(one.skeleton.nodes.row(node), Eigen::RowVector3d::Zero());
+      });
+    };
+    std::map<Eigen::Index, std::vector<glm::vec3>> mitres;
+    for (std::size_t e = 0; e < shown.edges.size(); ++e) {
+      const auto row = static_cast<Eigen::Index>(e);
+      const TubeInstance& edge = shown.edges[e];
+      const glm::vec3 along = glm::vec3(edge.to) - glm::vec3(edge.from);
+      mitres[one.skeleton.edges(row, 0)].push_back(edge.from_mitre);
+      mitres[one.skeleton.edges(row, 1)].push_back(edge.to_mitre);
+      for (const glm::vec3& mitre : {edge.from_mitre, edge.to_mitre}) {
+        EXPECT_GE(glm::dot(mitre, along), 0);
+      }
+    }
+    for (const auto& [node, planes] : mitres) {
+      if (has_ball(node)) continue;
+      ASSERT_EQ(planes.size(), 2U);
+      EXPECT_NEAR(std::abs(glm::dot(planes[0], planes[1])), 1, 1e-5);
     }
   }
 }

@@ -119,6 +119,15 @@ class Stages(ViewTest):
                 self.refused(INPUT, "view", *files, "--stage", stage, "--screenshot", out,
                              says=[stage.split(":")[0]])
 
+    def test_of_fairing_show_every_component(self):
+        def reach(*words):
+            alpha = self.picture(LINKED_RINGS, "--transparent", *words)[..., 3]
+            return numpy.array([[axis.min(), axis.max()] for axis in numpy.nonzero(alpha)])
+
+        for iteration in (0, 2):
+            faired = reach("--fair", 2, "--stage", f"fairing:{iteration}")
+            self.assertLessEqual(numpy.abs(faired - reach("--no-run")).max(), 3)
+
     def test_of_fairing_come_where_it_is_asked_for(self):
         self.assert_differ(self.picture(Y, "--fair", 3, "--stage", "fairing:3"),
                            self.picture(Y, "--fair", 3))

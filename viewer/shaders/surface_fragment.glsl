@@ -5,6 +5,8 @@ uniform vec3 inner;      // tint of what is seen from inside
 in vec3 seen;
 in vec3 normal_seen;
 in vec4 tint;
+flat in vec4 tint_of_face;
+uniform bool categories;  // no colours between two of them
 out vec4 result;
 void main() {
   vec3 to_viewer = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-seen);
@@ -13,12 +15,15 @@ void main() {
   normal = normalize(normal);
   bool front = dot(normal, to_viewer) > 0.0;
   if (!front && !gl_FrontFacing) normal = -normal;
-  vec3 colour = lit(gl_FrontFacing ? tint.rgb : tint.rgb * inner, normal, to_viewer);
+  vec3 own = categories ? tint_of_face.rgb : tint.rgb;
+  if (!gl_FrontFacing) own *= inner;
+  vec3 colour = lit(own, normal, to_viewer);
   if (!skin) {
     result = vec4(colour, 1.0);
     return;
   }
   float away = 1.0 - abs(dot(normal, to_viewer));
+  colour = mix(colour, own * 0.82, 0.75 * away * away);  // glass is not black where it turns away
   float alpha = clamp(strength * (0.30 + 0.95 * away * away), 0.0, 1.0);
   result = vec4(colour * alpha, alpha);
 }

@@ -7,10 +7,11 @@ uniform mat4 projection;
 out vec3 seen;
 out vec3 normal_seen;
 out vec4 tint;
+flat out vec4 tint_of_face;
 void main() {
   vec4 at = view * vec4(position, 1.0);
   seen = at.xyz;
   normal_seen = mat3(view) * normal.xyz;
-  tint = colour;
+  tint = tint_of_face = colour;
   gl_Position = projection * at;
 }
