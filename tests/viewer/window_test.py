@@ -168,6 +168,8 @@ class Timeline(WindowTest):
     def test_scrubbing(self):
         window = self.opened()
         window.key("Left")
+        window.wait_for_title(r"\(surgery\)")
+        window.key("Left")
         last = int(window.wait_for_title(r"\(contraction (\d+)\)")[1])
         window.key("Left")
         window.wait_for_title(rf"\(contraction {last - 1}\)")
@@ -181,28 +183,42 @@ class Timeline(WindowTest):
         self.assertGreater(different(window.rest(), start), 0.005)
         self.leave(window)
 
-    def test_pausing_stepping_and_going_on(self):
+    def long_run(self):
+        """Hundreds of moments, so that keys come in the middle."""
         file = write_torus(self.folder / "torus.ply", 200, 80)
-        window = self.open(file)
-        window.wait_for_title("contraction .*running")
+        window = self.open(file, "--fair", 400)
+        window.wait_for_title("fairing .*running")
+        return window
+
+    def test_pausing_and_going_on(self):
+        window = self.long_run()
         window.key("space")
-        at = int(window.wait_for_title(r"contraction (\d+), paused")[1])
+        at = int(window.wait_for_title(r"fairing (\d+), paused")[1])
         window.rest()
-        window.wait_for_title(rf"contraction {at}, paused")
+        window.wait_for_title(rf"fairing {at}, paused")
         window.key("Right")
-        window.wait_for_title(rf"contraction {at + 1}, paused")
+        window.wait_for_title(rf"fairing {at + 1}, paused")
         window.key("Left")
-        window.wait_for_title(rf"contraction {at}, paused")
+        window.wait_for_title(rf"fairing {at}, paused")
+        window.key("space")
+        window.wait_for_title("fairing .*running")
+        window.wait_for_skeleton()
+        self.leave(window)
+
+    def test_stepping_from_the_input(self):
+        window = self.open(Y, "--no-run")
+        window.wait_for_title(r"\(input\)")
+        for number in (1, 2, 3):
+            window.key("Right")
+            window.wait_for_title(rf"contraction {number}, paused")
         window.key("space")
         window.wait_for_skeleton()
         self.leave(window)
 
     def test_cancelled_and_run_again(self):
-        file = write_torus(self.folder / "torus.ply", 200, 80)
-        window = self.open(file)
-        window.wait_for_title("contraction .*running")
+        window = self.long_run()
         window.key("Escape")
-        window.wait_for_title(r"contraction \d+\)")
+        window.wait_for_title(r"fairing \d+\)")
         window.key("space")
         window.wait_for_skeleton()
         self.leave(window)
