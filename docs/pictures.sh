@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# usage: docs/pictures.sh [SECONDS]
+# Makes the viewer's pictures in docs/pictures. Run ./run first: it builds, and fetches the models.
+# SECONDS: until the run in the window is done and its messages are gone. Needs xvfb, xdotool,
+# imagemagick.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+program=build/release/bin/curveskel
+model=meshes/real/camel.off
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Four moments side by side.
+for stage in input contraction:3 surgery skeleton; do
+  "$program" view "$model" --screenshot "$work/$stage.png" --size 400x360 --stage "$stage" 2>/dev/null
+done
+convert "$work"/{input,contraction:3,surgery,skeleton}.png +append docs/pictures/viewer-stages.png
+
+# The window itself needs a display; a virtual one will do.
+Xvfb :98 -screen 0 1280x800x24 &
+display=$!
+trap 'kill "$display"; rm -rf "$work"' EXIT
+sleep 1
+export DISPLAY=:98 XDG_STATE_HOME=$work
+"$program" view "$model" --size 1280x800 &
+viewer=$!
+sleep "${1:-15}"
+xdotool mousemove 640 2
+sleep 2
+import -window root docs/pictures/viewer-window.png
+kill "$viewer"
+wait "$viewer" || true
