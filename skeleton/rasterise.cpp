@@ -75,12 +75,12 @@ Fragments move_to_window(std::vector<Corner>& corners, int width, int height) {
 }
 
 /// Which triangles touch which band: those of band b are triangles[first[b]] .. [first[b+1] - 1].
-struct Bands {
+struct PixelBands {
   std::vector<std::size_t> first;
   std::vector<std::int32_t> triangles;
 };
 
-Bands sort_into_bands(const Surface& surface, const std::vector<Corner>& corners, int height) {
+PixelBands sort_into_bands(const Surface& surface, const std::vector<Corner>& corners, int height) {
   constexpr double samples_per_band = samples_across * rows_per_band;
   const int bands = (height + rows_per_band - 1) / rows_per_band;
   const auto range_of = [&](Eigen::Index f) {
@@ -93,7 +93,7 @@ Bands sort_into_bands(const Surface& surface, const std::vector<Corner>& corners
     return std::pair(static_cast<int>(std::clamp(std::floor(*low), 0.0, bands * 1.0)),
                      static_cast<int>(std::clamp(std::floor(*high), -1.0, bands - 1.0)));
   };
-  Bands result{std::vector<std::size_t>(static_cast<std::size_t>(bands) + 1, 0), {}};
+  PixelBands result{std::vector<std::size_t>(static_cast<std::size_t>(bands) + 1, 0), {}};
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
     const auto [low, high] = range_of(f);
     for (int b = low; b <= high; ++b) ++result.first[static_cast<std::size_t>(b) + 1];
@@ -201,7 +201,7 @@ Fragments rasterise(const Surface& surface, const Positions& normals, const View
                     int height, int threads) {
   std::vector<Corner> corners = corners_of(surface, normals, view, threads);
   Fragments result = move_to_window(corners, width, height);
-  const Bands bands = sort_into_bands(surface, corners, result.height);
+  const PixelBands bands = sort_into_bands(surface, corners, result.height);
   const auto columns = static_cast<std::size_t>(result.width);
   result.pixels.resize(columns * static_cast<std::size_t>(result.height));
   parallel_for(bands.first.size() - 1, 1, threads, [&](std::size_t band, std::size_t) {

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$1"
 cmake --preset tidy -DCURVESKEL_BUILD_BENCH=ON >/dev/null 2>&1
-ninja -C build/tidy kernels/sources.cpp >/dev/null
+ninja -C build/tidy kernels/sources.cpp viewer/shaders.cpp >/dev/null
 
 # The largest first, so that no core ends up with a long one alone.
 units() {
