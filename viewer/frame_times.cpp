@@ -12,7 +12,7 @@ double FrameTimes::percentile(double share) const {
   constexpr std::ptrdiff_t window = 300;
   const auto count = std::min(window, static_cast<std::ptrdiff_t>(all_.size()));
   if (count == 0) return 0;
-  std::vector<float> recent(all_.end() - count, all_.end());
+  std::vector<double> recent(all_.end() - count, all_.end());
   const auto place = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(count))) - 1;
   const auto wanted = recent.begin() + std::clamp<std::ptrdiff_t>(place, 0, count - 1);
   std::nth_element(recent.begin(), wanted, recent.end());
@@ -21,7 +21,7 @@ double FrameTimes::percentile(double share) const {
 
 std::string FrameTimes::text() const {
   std::string lines = "milliseconds\n";
-  for (const float time : all_) lines += fmt::format("{:.3f}\n", time);
+  for (const double time : all_) lines += fmt::format("{:.3f}\n", time);
   return lines;
 }
 

@@ -355,7 +355,7 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   facts.push_back(panels.transfer);
   std::string line;
   for (const std::string& fact : facts) {
-    const std::string longer = line.empty() ? fact : line + "   |   " + fact;
+    const std::string longer = line.empty() ? fact : fmt::format("{}   |   {}", line, fact);
     const bool fits = ImGui::CalcTextSize(longer.c_str()).x <= ImGui::GetContentRegionAvail().x;
     if (!fits && !line.empty()) break;
     line = longer;
@@ -365,8 +365,7 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
 }
 
 void messages(const Workbench& bench, const Area& picture) {
-  using Clock = std::chrono::steady_clock;
-  const auto now = Clock::now();
+  const auto now = std::chrono::steady_clock::now();
   float y = picture.y + 10;
   for (const Message& message : bench.messages()) {
     const double shown_seconds = message.bad ? 12 : 4;

@@ -65,11 +65,9 @@ Pick pick_edge(const CurveSkeleton& skeleton, const std::vector<glm::vec3>& pixe
 
 Pick pick_face(const Scene& scene, const SurfaceTree& tree, const PickRay& ray) {
   const auto in_model = [&](const glm::vec3& point) {
-    return Eigen::Vector3d(Eigen::Vector3d(point.x, point.y, point.z) +
-                           scene.document.origin.transpose());
+    return Eigen::Vector3d(model_vector(point) + scene.document.origin.transpose());
   };
-  const Eigen::Vector3d direction =
-      Eigen::Vector3d(ray.direction.x, ray.direction.y, ray.direction.z).normalized();
+  const Eigen::Vector3d direction = model_vector(ray.direction).normalized();
   const auto hit = tree.ray(in_model(ray.origin), direction);
   if (hit.triangle < 0) return {};
   const Eigen::Vector3d place = in_model(ray.origin) + direction * hit.distance;

@@ -27,8 +27,10 @@ void bind_attribute(GLuint attribute, const GlBuffer& buffer, GLint parts, GLenu
                     bool normalised, GLsizei stride, std::size_t offset) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
   glEnableVertexAttribArray(attribute);
-  glVertexAttribPointer(attribute, parts, type, normalised ? GL_TRUE : GL_FALSE, stride,
-                        reinterpret_cast<const void*>(offset));  // OpenGL's way to say an offset
+  glVertexAttribPointer(
+      attribute, parts, type, normalised ? GL_TRUE : GL_FALSE, stride,
+      // OpenGL's way to say an offset.
+      reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
 }
 
 }  // namespace

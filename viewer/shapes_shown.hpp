@@ -45,6 +45,11 @@ struct ShownSkeleton {
   std::vector<TubeInstance> nodes;  ///< balls: `to` and `to_colour` are not used
 };
 
+/// In double precision; of a point as drawn it is still about the origin.
+[[nodiscard]] inline Eigen::Vector3d model_vector(const glm::vec3& vector) {
+  return {static_cast<double>(vector.x), static_cast<double>(vector.y),
+          static_cast<double>(vector.z)};
+}
 [[nodiscard]] glm::vec3 shown_point(const Eigen::RowVector3d& point,
                                     const Eigen::RowVector3d& origin);
 

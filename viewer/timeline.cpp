@@ -34,7 +34,7 @@ struct Plot {
 constexpr Plot plots[] = {
     {"area", &Moment::area_ratio, IM_COL32(40, 110, 200, 255)},
     {"volume", &Moment::volume_ratio, IM_COL32(200, 60, 40, 255)},
-    {"residual", &Moment::residual, IM_COL32(140, 90, 190, 255)},
+    {"residual", &Moment::residual, IM_COL32(165, 110, 225, 255)},
 };
 
 }  // namespace
@@ -49,10 +49,13 @@ void draw_timeline(Workbench& bench, const Area& area) {
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   const auto& moments = bench.scene->recording.moments();
   const Moment& shown = moments[bench.scene->moment];
-  const std::string title =
-      fmt::format("{}   {} of {}   area {:.3g}   volume {:.3g}   residual {:.2g}   {:.2f} s",
-                  title_of(shown), bench.scene->moment, moments.size() - 1, shown.area_ratio,
-                  shown.volume_ratio, shown.residual, shown.seconds);
+  std::string title =
+      fmt::format("{}   {} of {}", title_of(shown), bench.scene->moment, moments.size() - 1);
+  const bool roomy = area.width > ImGui::GetFontSize() * 44;
+  if (roomy && shown.surface) {
+    title += fmt::format("   area {:.3g}   volume {:.3g}   residual {:.2g}", shown.area_ratio,
+                         shown.volume_ratio, shown.residual);
+  }
   ImGui::TextUnformatted(title.c_str());
   for (const Plot& plot : plots) {
     ImGui::SameLine(0, plot.value == &Moment::area_ratio ? 30.0F : 12.0F);

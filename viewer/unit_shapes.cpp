@@ -17,8 +17,8 @@ float turn(std::uint32_t part, std::uint32_t parts, float whole) {
 
 UnitShape unit_tube() {
   UnitShape shape;
-  shape.points.reserve(2 * sides_round);
-  shape.corners.reserve(6 * sides_round);
+  shape.points.reserve(std::size_t{2} * sides_round);
+  shape.corners.reserve(std::size_t{6} * sides_round);
   for (std::uint32_t side = 0; side < sides_round; ++side) {
     const float angle = turn(side, sides_round, 2 * std::numbers::pi_v<float>);
     shape.points.emplace_back(std::cos(angle), std::sin(angle), 0, 0);
@@ -34,8 +34,8 @@ UnitShape unit_tube() {
 
 UnitShape unit_ball() {
   UnitShape shape;
-  shape.points.reserve(rings * sides_round);
-  shape.corners.reserve(6 * rings * sides_round);
+  shape.points.reserve(std::size_t{rings} * sides_round);
+  shape.corners.reserve(std::size_t{6} * rings * sides_round);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     const float down = turn(ring, rings - 1, std::numbers::pi_v<float>);
     for (std::uint32_t side = 0; side < sides_round; ++side) {

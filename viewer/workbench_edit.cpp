@@ -228,8 +228,7 @@ void Workbench::split() {
 }
 
 void Workbench::move(int node, const glm::vec3& place) {
-  const Eigen::Vector3d position =
-      Eigen::Vector3d(place.x, place.y, place.z) + scene->document.origin.transpose();
+  const Eigen::Vector3d position = model_vector(place) + scene->document.origin.transpose();
   edit([&](const CurveSkeleton& now) { return move_node(now, node, position, tree()); },
        "moved a node");
 }
