@@ -314,8 +314,10 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
   if (look.surface == SurfaceStyle::opaque) draw_opaque(given, seen.palette.surface, seen);
   draw_opaque(mesh(Layer::contracted), seen.palette.contracted, seen);
   // Without its edges, what has contracted to a line would be gone where it is thinner than a
-  // pixel.
-  draw_wires(mesh(Layer::contracted), glm::vec4(seen.palette.contracted * 0.75F, 0.45F), seen);
+  // pixel. They take as long as all the rest, so they are left out where time is short.
+  if (frame.fineness.shrink == 1) {
+    draw_wires(mesh(Layer::contracted), glm::vec4(seen.palette.contracted * 0.75F, 0.45F), seen);
+  }
   if (look.surface == SurfaceStyle::wireframe) {
     draw_wires(given, glm::vec4(seen.palette.wire, 0.3F), seen);
   } else if (look.edges && look.surface == SurfaceStyle::opaque) {

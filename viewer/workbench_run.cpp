@@ -1,5 +1,6 @@
 // The workbench's runs and its timeline.
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 #include "viewer/workbench.hpp"
@@ -27,6 +28,11 @@ void Workbench::start(bool paused) {
   }
   RunOptions options = pipeline;
   options.extract.fairing = options.extract.fair.iterations > 0;
+  // One core stays for the picture; the result is the same.
+  if (options.extract.threads == 0) {
+    options.extract.threads =
+        std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+  }
   options.extract.certificate.threads = options.extract.threads;
   options.extract.fair.threads = options.extract.threads;
   run_ = std::make_unique<Run>(scene->document.soup, options, scene->document.origin, run_memory_,
