@@ -295,6 +295,24 @@ void certificate(Workbench& bench) {
   line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
 }
 
+/// What had to be repaired, or could not be.
+void input_defects(Workbench& bench) {
+  const Defects& found = *bench.defects();
+  const auto line = [&](const char* name, const std::vector<int>& faces, const char* meaning) {
+    if (faces.empty()) return;
+    ImGui::Text("%s: %d", name, static_cast<int>(faces.size()));
+    tip(meaning);
+    ImGui::SameLine();
+    ImGui::PushID(name);
+    if (ImGui::SmallButton("show")) bench.show_faces(faces);
+    ImGui::PopID();
+  };
+  line("open", found.open, "with an edge that no other face has: at a hole or a rim");
+  line("non-manifold", found.non_manifold, "with an edge that three faces or more have");
+  line("flipped", found.flipped, "facing the other way than a neighbour");
+  line("degenerate", found.degenerate, "with a corner twice, or no area");
+}
+
 void colour_bar(const Workbench& bench) {
   const Look& look = bench.scene->look;
   const bool by_radius =
@@ -331,6 +349,10 @@ void right_panel(Workbench& bench, const Area& area) {
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
+  const bool defective = bench.defects() != nullptr && !bench.defects()->none();
+  if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {
+    input_defects(bench);
+  }
   ImGui::End();
 }
 

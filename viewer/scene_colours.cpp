@@ -300,10 +300,17 @@ std::vector<Rgba> surface_colours(const Surface& surface, const CurveSkeleton* s
   } else if (look.surface_colour != ColourBy::plain && has_map) {
     colours = colours_by_map(*skeleton, look, palette);
   }
-  if (has_map && !highlights.nodes.empty()) {
-    if (colours.empty()) {
-      colours.assign(static_cast<std::size_t>(surface.positions.rows()), rgba(palette.surface));
+  const bool lights_up = has_map && !highlights.nodes.empty();
+  if (colours.empty() && (lights_up || !highlights.failed_faces.empty())) {
+    colours.assign(static_cast<std::size_t>(surface.positions.rows()), rgba(palette.surface));
+  }
+  constexpr glm::vec3 defective{0.90F, 0.12F, 0.10F};
+  for (const int face : highlights.failed_faces) {
+    for (const int vertex : surface.triangles.row(face)) {
+      colours[static_cast<std::size_t>(vertex)] = rgba(defective);
     }
+  }
+  if (lights_up) {
     const std::vector<int> lit = in_order(highlights.nodes);
     for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
       if (holds(lit, skeleton->node_of_vertex[v])) {

@@ -25,6 +25,7 @@ struct Highlights {
   std::vector<int> nodes;
   std::vector<int> edges;
   std::vector<int> failed_edges;  ///< outside, or spurs
+  std::vector<int> failed_faces;  ///< of the given surface: what had to be repaired
   bool operator==(const Highlights&) const = default;
 };
 

@@ -127,6 +127,7 @@ bool Workbench::take_opened() {
   history_ = History();
   clear_selection();
   failed_edges_.clear();
+  failed_faces_.clear();
   if (scene->own_skeleton) begin_history(scene->own_skeleton);
   plant_tree();
   say("opened " + names_of(files_));
@@ -178,23 +179,27 @@ void Workbench::save(const fs::path& file) {
 /// For picking; nobody waits for it.
 void Workbench::plant_tree() {
   tree_.reset();
+  defects_.reset();
   if (growing_.valid()) {
     // Its own end is waited for by a thread that has nothing else to do.
     background_.push_back(std::async(
-        std::launch::async, [](std::future<std::shared_ptr<const SurfaceTree>> old) { old.wait(); },
-        std::move(growing_)));
+        std::launch::async, [](std::future<Inspected> old) { old.wait(); }, std::move(growing_)));
   }
   std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
   if (scene->document.surface.triangles.rows() == 0) return;
   growing_ = std::async(std::launch::async, [held = scene] {
-    return std::make_shared<const SurfaceTree>(held->document.surface);
+    const Surface& surface = held->document.surface;
+    return Inspected{std::make_shared<const SurfaceTree>(surface),
+                     std::make_shared<const Defects>(defects_of(surface))};
   });
 }
 
 bool Workbench::take_tree() {
   if (!is_ready(growing_)) return false;
-  tree_ = growing_.get();
-  return false;
+  Inspected found = growing_.get();
+  tree_ = std::move(found.tree);
+  defects_ = std::move(found.defects);
+  return true;
 }
 
 const Judgement* Workbench::judgement() const {

@@ -15,6 +15,7 @@
 #include "skeleton/edit.hpp"
 #include "skeleton/findings.hpp"
 #include "surface/tree.hpp"
+#include "viewer/defects.hpp"
 #include "viewer/history.hpp"
 #include "viewer/pick.hpp"
 #include "viewer/run.hpp"
@@ -91,6 +92,8 @@ class Workbench {
   [[nodiscard]] const Path& measured() const { return measured_; }
   void show_exits();
   void show_spurs();
+  /// Colours faces of the given surface red and flies to the first.
+  void show_faces(const std::vector<int>& faces);
 
   // Corrections of the skeleton.
   void prune();
@@ -110,6 +113,8 @@ class Workbench {
   [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
   /// Over the document's surface; null until it has grown.
   [[nodiscard]] const SurfaceTree* tree() const { return tree_ ? tree_.get() : nullptr; }
+  /// Of the surface as it was read; null until they are known.
+  [[nodiscard]] const Defects* defects() const { return defects_.get(); }
   /// Of the skeleton that is shown, once it is known.
   [[nodiscard]] const Judgement* judgement() const;
   [[nodiscard]] const RunResult* result() const { return result_ ? &*result_ : nullptr; }
@@ -159,13 +164,19 @@ class Workbench {
   History history_;
   std::shared_ptr<const SurfaceTree> tree_;
   std::vector<std::future<void>> background_;  // so that nobody has to wait for them
-  std::future<std::shared_ptr<const SurfaceTree>> growing_;
+  std::shared_ptr<const Defects> defects_;
+  struct Inspected {
+    std::shared_ptr<const SurfaceTree> tree;
+    std::shared_ptr<const Defects> defects;
+  };
+  std::future<Inspected> growing_;
   std::shared_ptr<const Ground> ground_;
   std::optional<Judgement> judgement_;
   std::future<Judgement> judging_;
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
   std::vector<int> failed_edges_;
+  std::vector<int> failed_faces_;
   Path measured_;
   std::deque<Message> messages_;
 };

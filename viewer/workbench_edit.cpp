@@ -97,6 +97,7 @@ void Workbench::set_highlights() {
     lit.edges.insert(lit.edges.end(), path.begin(), path.end());
   }
   lit.failed_edges = failed_edges_;
+  lit.failed_faces = failed_faces_;
   scene->highlights = std::move(lit);
 }
 
@@ -136,6 +137,16 @@ void Workbench::show_spurs() {
     wants_look_at =
         shown_point(found->skeleton->nodes.row(found->findings.spurs.front().nodes.front()),
                     scene->document.origin);
+  }
+  set_highlights();
+}
+
+void Workbench::show_faces(const std::vector<int>& faces) {
+  failed_faces_ = faces;
+  if (!faces.empty()) {
+    const auto corners = scene->document.surface.triangles.row(faces.front());
+    wants_look_at =
+        shown_point(scene->document.surface.positions.row(corners[0]), scene->document.origin);
   }
   set_highlights();
 }
