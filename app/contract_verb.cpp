@@ -78,15 +78,6 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
   return files;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw Error(Fault::output, folder.string() + ": cannot be created (" + error.message() +
-                                   "); name another folder");
-  }
-}
-
 /// How the contraction of one component went, in a line.
 std::string outcome(const Contraction& contraction, int component) {
   const Step last = contraction.steps.empty() ? Step{} : contraction.steps.back();

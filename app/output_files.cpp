@@ -52,6 +52,15 @@ void check_outputs(const std::vector<std::string>& names, const fs::path& input)
   }
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw Error(Fault::output, folder.string() + ": cannot be created (" + error.message() +
+                                   "); name another folder");
+  }
+}
+
 void write_outputs(const std::vector<OutputFile>& files, Session& session) {
   for (const OutputFile& file : files) {
     session.interruption.check();

@@ -37,6 +37,10 @@ template <typename Format, std::size_t Count>
 /// Error(Fault::output) where its folder does not exist.
 void check_outputs(const std::vector<std::string>& names, const std::filesystem::path& input);
 
+/// Makes a folder for outputs, and those that it is in; one that exists will do. Throws
+/// Error(Fault::output).
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes each file whole; an interruption takes effect between files.
 void write_outputs(const std::vector<OutputFile>& files, Session& session);
 

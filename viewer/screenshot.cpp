@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "app/output_files.hpp"
 #include "surface/error.hpp"
 #include "surface/write_file.hpp"
 #include "viewer/headless.hpp"
@@ -55,15 +56,6 @@ void go_to(Scene& scene, const StageWish& wish) {
   if (wish.iteration > last) {
     throw Error(Fault::input, name_of(wish) + " took " + std::to_string(last) +
                                   " iterations, so there is no " + std::to_string(wish.iteration));
-  }
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw Error(Fault::output, folder.string() + ": cannot be created (" + error.message() +
-                                   "); name another folder");
   }
 }
 
