@@ -1,14 +1,28 @@
 #!/usr/bin/env bash
-# usage: sanitized.sh SOURCE_DIR PRESET TEST...
-# Builds these test programs with the sanitizers of the preset (dev: AddressSanitizer,
-# UndefinedBehaviorSanitizer, warnings as errors; threads: ThreadSanitizer) and runs them, one per
-# core at a time: name the slowest first.
+# usage: sanitized.sh SOURCE_DIR PRESET [PROGRAM [NAME...]]
+# Builds a test program with the sanitizers of the preset (dev: AddressSanitizer and checks for
+# undefined behaviour, warnings as errors; threads: ThreadSanitizer) and runs its tests of these
+# files; without names all of them, without a program all programs.
 set -euo pipefail
 cd "$1"
 preset=$2
 shift 2
+program=${1:-}
+[ $# -eq 0 ] || shift
 cmake --preset "$preset" >/dev/null
-ninja -C "build/$preset" -j "$(packages/jobs)" "${@/%/_test}"
-export TSAN_OPTIONS=halt_on_error=1
+programs=${program:-surface contraction skeleton rig meshes viewer}
+read -ra targets <<<"${programs// /_tests }_tests"
+ninja -C "build/$preset" -j "$(packages/jobs)" "${targets[@]}"
+export TSAN_OPTIONS="halt_on_error=1 suppressions=$PWD/tests/viewer/threads.supp"
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-printf '%s\n' "$@" | xargs -P "$(nproc)" -I {} env "build/$preset/bin/{}_test" --gtest_brief=1
+names=("$@")
+if [ ${#names[@]} -eq 0 ]; then
+  for layer in $programs; do
+    for file in tests/"$layer"/*_test.cpp; do
+      file=${file##*/}
+      names+=("${file%_test.cpp}")
+    done
+  done
+fi
+joined=$(IFS='|'; echo "${names[*]}")
+ctest --test-dir "build/$preset" -j "$(nproc)" --output-on-failure -R "^($joined)\$"

@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# usage: tidy.sh SOURCE_DIR
-# clang-tidy 14 over every C++ file that the build compiles, many files to a unit.
+# usage: tidy.sh SOURCE_DIR [bench]
+# clang-tidy 14 over every C++ file that the build compiles, many files to a unit; or over the
+# benchmarks, which are as much work again.
 set -euo pipefail
 cd "$1"
-cmake --preset tidy -DCURVESKEL_BUILD_BENCH=ON >/dev/null 2>&1
+export only=${2:-}
+cmake --preset tidy -DCURVESKEL_BUILD_BENCH="$([ "$only" = bench ] && echo ON || echo OFF)" \
+  >/dev/null 2>&1
 ninja -C build/tidy kernels/sources.cpp viewer/shaders.cpp >/dev/null
 
 # The largest first, so that no core ends up with a long one alone.
@@ -15,6 +18,8 @@ def size(unit):
     return sum(map(os.path.getsize, re.findall(r'#include "(/.+\.cpp)"', open(unit).read())))
 
 units = {entry["file"] for entry in json.load(open("build/tidy/compile_commands.json"))}
+if os.environ["only"]:
+    units = {unit for unit in units if f"/{os.environ['only']}/" in unit}
 print("\n".join(sorted(units, key=size, reverse=True)))
 PYTHON
 }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "../skeleton_samples.hpp"
+#include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {
 

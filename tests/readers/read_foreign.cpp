@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "../skeleton_samples.hpp"
 #include "skeleton/skeleton_files.hpp"
+#include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "../skeleton_samples.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "surface/write_file.hpp"
+#include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::camera_laws {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
@@ -435,4 +435,4 @@ TEST(CameraWish, RefusesTheRest) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::camera_laws

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::colours_laws {
 namespace {
 
 /// CIE 1976 L*a*b* of an sRGB colour, white D65.
@@ -126,4 +126,4 @@ TEST(Rgba, RoundsAndClamps) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::colours_laws

@@ -9,7 +9,7 @@
 #include "meshes/shapes.hpp"
 #include "viewer/scene_colours.hpp"
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::defects_laws {
 namespace {
 
 std::vector<Surface> family() {
@@ -99,7 +99,7 @@ TEST(Defects, AreRedAndNothingElseIs) {
   for (const Surface& surface : family()) {
     Highlights highlights;
     highlights.failed_faces = {3};
-    const std::vector<Rgba> colours = surface_colours(surface, nullptr, {}, highlights);
+    const std::vector<Rgba> colours = surface_colours(surface, {}, {}, highlights);
     ASSERT_EQ(colours.size(), static_cast<std::size_t>(surface.positions.rows()));
     const std::set<int> corners{surface.triangles(3, 0), surface.triangles(3, 1),
                                 surface.triangles(3, 2)};
@@ -111,4 +111,4 @@ TEST(Defects, AreRedAndNothingElseIs) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::defects_laws

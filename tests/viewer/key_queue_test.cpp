@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::key_queue_laws {
 namespace {
 
 constexpr int ctrl = 1;
@@ -81,4 +81,4 @@ TEST(KeyQueue, NothingIsLostOrOutOfOrder) {
 TEST(KeyQueue, EmptyGivesNothing) { EXPECT_TRUE(KeyQueue().take().empty()); }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::key_queue_laws

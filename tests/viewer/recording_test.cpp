@@ -12,7 +12,7 @@
 
 #include "meshes/shapes.hpp"
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::recording_laws {
 namespace {
 
 using SharedSurface = std::shared_ptr<const ShownSurface>;
@@ -233,4 +233,4 @@ TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::recording_laws

@@ -11,7 +11,7 @@
 
 #include "meshes/shapes.hpp"
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::run_laws {
 namespace {
 
 using namespace std::chrono_literals;
@@ -308,4 +308,4 @@ TEST(Memory, SparesTheNextRunTheRepair) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::run_laws

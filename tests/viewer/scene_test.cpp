@@ -16,7 +16,7 @@
 #include "viewer/headless.hpp"
 #include "viewer/screenshot.hpp"
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::scene_laws {
 namespace {
 
 struct Extracted {
@@ -78,7 +78,7 @@ TEST(SurfaceColours, AreThoseOfTheirNodes) {
       const ShownSkeleton shown =
           shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
       ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
-      const std::vector<Rgba> colours = surface_colours(one.surface, &one.skeleton, look, {});
+      const std::vector<Rgba> colours = surface_colours(one.surface, {&one.skeleton}, look, {});
       ASSERT_EQ(colours.size(), static_cast<std::size_t>(one.surface.positions.rows()));
       for (std::size_t v = 0; v < colours.size(); ++v) {
         const int node = one.skeleton.node_of_vertex[static_cast<Eigen::Index>(v)];
@@ -92,7 +92,7 @@ TEST(SurfaceColours, ByBranchAreThoseOfABranchOfTheirNodes) {
   for (const Extracted& one : family()) {
     SCOPED_TRACE(one.name);
     const std::vector<Rgba> colours =
-        surface_colours(one.surface, &one.skeleton, look_by(ColourBy::branch), {});
+        surface_colours(one.surface, {&one.skeleton}, look_by(ColourBy::branch), {});
     ASSERT_EQ(colours.size(), static_cast<std::size_t>(one.surface.positions.rows()));
     for (std::size_t v = 0; v < colours.size(); ++v) {
       const int node = one.skeleton.node_of_vertex[static_cast<Eigen::Index>(v)];
@@ -171,12 +171,12 @@ TEST(SurfaceColours, OfHighlightedNodesAreLitUpAndNoOther) {
       const Look look = look_by(colouring.value);
       Highlights lit;
       lit.nodes = {count - 1, count / 2, 0};
-      std::vector<Rgba> before = surface_colours(one.surface, &one.skeleton, look, {});
+      std::vector<Rgba> before = surface_colours(one.surface, {&one.skeleton}, look, {});
       if (before.empty()) {
         before.assign(static_cast<std::size_t>(one.surface.positions.rows()),
                       rgba(palette_of(look.theme).surface));
       }
-      const std::vector<Rgba> after = surface_colours(one.surface, &one.skeleton, look, lit);
+      const std::vector<Rgba> after = surface_colours(one.surface, {&one.skeleton}, look, lit);
       const ShownSkeleton shown =
           shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, lit);
       ASSERT_EQ(after.size(), before.size());
@@ -222,10 +222,10 @@ TEST(SurfaceColours, ArePlainWithoutAMapOfThisSurface) {
   CurveSkeleton of_another = one.skeleton;
   of_another.node_of_vertex.conservativeResize(of_another.node_of_vertex.size() - 1);
   for (const ColourBy by : {ColourBy::node, ColourBy::branch, ColourBy::radius}) {
-    EXPECT_TRUE(surface_colours(one.surface, nullptr, look_by(by), {}).empty());
-    EXPECT_TRUE(surface_colours(one.surface, &of_another, look_by(by), {}).empty());
+    EXPECT_TRUE(surface_colours(one.surface, {}, look_by(by), {}).empty());
+    EXPECT_TRUE(surface_colours(one.surface, {&of_another}, look_by(by), {}).empty());
   }
-  EXPECT_TRUE(surface_colours(one.surface, &one.skeleton, look_by(ColourBy::plain), {}).empty());
+  EXPECT_TRUE(surface_colours(one.surface, {&one.skeleton}, look_by(ColourBy::plain), {}).empty());
 }
 
 TEST(ComponentsOf, ASurfaceAreNumberedByTheirFirstVertices) {
@@ -443,4 +443,4 @@ TEST(Scene, DrawnChangeByChangeIsDrawnAtOnce) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::scene_laws

@@ -14,7 +14,7 @@
 #include "viewer/headless.hpp"
 #include "viewer/renderer.hpp"
 
-namespace curveskel::viewer {
+namespace curveskel::viewer::workbench_laws {
 namespace {
 
 using namespace std::chrono_literals;
@@ -97,4 +97,4 @@ TEST(Workbench, HundredDocumentsTakeNoMoreMemoryThanTwenty) {
 }
 
 }  // namespace
-}  // namespace curveskel::viewer
+}  // namespace curveskel::viewer::workbench_laws

@@ -1,0 +1,209 @@
+// Laws of the local flow, over shapes with and without noise.
+#include "contraction/fair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <stop_token>
+
+#include "surface/measures.hpp"
+#include "surface/topology.hpp"
+#include "tests/contraction/faired.hpp"
+
+namespace curveskel::fair_laws {
+namespace {
+
+using shapes::Shape;
+
+double mean_normal_error_degrees(const Surface& surface, const Surface& clean) {
+  double sum = 0;
+  double weight = 0;
+  for (Eigen::Index f = 0; f < clean.triangles.rows(); ++f) {
+    const auto normal = [&](const Surface& s) -> Eigen::Vector3d {
+      const Eigen::Vector3d a = s.positions.row(s.triangles(f, 0));
+      const Eigen::Vector3d b = s.positions.row(s.triangles(f, 1));
+      const Eigen::Vector3d c = s.positions.row(s.triangles(f, 2));
+      return (b - a).cross(c - a);
+    };
+    const Eigen::Vector3d found = normal(surface);
+    const Eigen::Vector3d wanted = normal(clean);
+    sum += wanted.norm() * std::atan2(found.cross(wanted).norm(), found.dot(wanted));
+    weight += wanted.norm();
+  }
+  return sum / weight * 180 / std::numbers::pi;
+}
+
+TEST(Fair, HostClosedFormIsTheQrSolution) {
+  for (const Shape& shape : noisy_and_clean_shapes()) {
+    for (const double smoothing : {0.1, 1.0, 30.0}) {
+      FairOptions options = with(FairMethod::cpu, 1);
+      options.smoothing = smoothing;
+      options.volume = VolumeRule::keep;
+      const Surface by_qr = fair(shape.surface, options, {});
+      options.method = FairMethod::host;
+      const Surface closed = fair(shape.surface, options, {});
+      EXPECT_LT(largest_difference(closed, by_qr), 1e-12) << shape.name << ", mu " << smoothing;
+      EXPECT_GT(largest_difference(closed, shape.surface), 1e-5) << shape.name << " did not move";
+    }
+  }
+}
+
+TEST(Fair, DeviceAgreesWithTheReferenceAfterTenIterations) {
+  SKIP_WITHOUT_DEVICE();
+  for (const Shape& shape : noisy_and_clean_shapes()) {
+    const Surface reference = fair(shape.surface, with(FairMethod::cpu, 10), {});
+    const Surface single = fair(shape.surface, with(FairMethod::opencl, 10), {});
+    const Surface twice = fair(shape.surface, with(FairMethod::opencl, 10, true), {});
+    EXPECT_LT(largest_difference(single, reference), 1e-4) << shape.name;
+    EXPECT_LT(largest_difference(twice, reference), 1e-10) << shape.name;
+  }
+}
+
+TEST(Fair, AnyValenceWillDo) {
+  const Shape cone = shapes::cone(1, 2, 5000);
+  const Surface reference = fair(cone.surface, with(FairMethod::cpu, 1), {});
+  const Surface host = fair(cone.surface, with(FairMethod::host, 1), {});
+  EXPECT_LT(largest_difference(host, reference), 1e-10);
+  SKIP_WITHOUT_DEVICE();
+  EXPECT_LT(largest_difference(fair(cone.surface, with(FairMethod::opencl, 1), {}), reference),
+            1e-4);
+  EXPECT_LT(
+      largest_difference(fair(cone.surface, with(FairMethod::opencl, 1, true), {}), reference),
+      1e-10);
+}
+
+TEST(Fair, ChangesNoTriangleAndMovesWithTheSurface) {
+  const Shape shape = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 5);
+  const Surface faired = fair(shape.surface, with(FairMethod::host, 5), {});
+  EXPECT_EQ(faired.triangles, shape.surface.triangles);
+  for (const double factor : {1e-9, 1e-3, 1e3, 1e9}) {
+    Surface expected = faired;
+    expected.positions *= factor;
+    const Surface scaled =
+        fair(shapes::scaled(shape, factor).surface, with(FairMethod::host, 5), {});
+    EXPECT_LT(largest_difference(scaled, expected), 1e-12) << factor;
+  }
+  Surface expected = faired;
+  expected.positions.rowwise() += Eigen::RowVector3d(100, -200, 300);
+  const Surface moved =
+      fair(shapes::translated(shape, {100, -200, 300}).surface, with(FairMethod::host, 5), {});
+  EXPECT_LT(largest_difference(moved, expected), 1e-11);
+}
+
+TEST(Fair, SameBytesForAnyNumberOfThreads) {
+  const Shape shape = shapes::noisy(shapes::ellipsoid({1, 1.5, 2}, 4), 0.02, 6);
+  FairOptions options;
+  options.threads = 1;
+  const Surface one = fair(shape.surface, options, {});
+  for (const int threads : {0, 2, 3}) {
+    options.threads = threads;
+    EXPECT_EQ(fair(shape.surface, options, {}).positions, one.positions) << threads;
+  }
+  options.method = choose_fair_method(FairMethod::automatic);
+  EXPECT_EQ(fair(shape.surface, options, {}).positions, one.positions);
+}
+
+TEST(Fair, EveryComponentGetsItsVolumeBack) {
+  Shape ball = shapes::ellipsoid({0.3, 0.3, 0.5}, 3);
+  Shape inward = shapes::translated(shapes::torus(2, 0.6, 12), {0, 0, 5});
+  inward.surface.triangles.col(1).swap(inward.surface.triangles.col(2));
+  const Shape both = shapes::together("both", {shapes::noisy(ball, 0.01, 7), inward});
+  const Topology parts = topology(both.surface);
+  ASSERT_EQ(parts.components(), 2);
+  const auto before = split_components(both.surface, parts);
+  for (const VolumeRule rule : {VolumeRule::offset, VolumeRule::scale}) {
+    FairOptions options = with(FairMethod::host, 10);
+    options.volume = rule;
+    const auto after = split_components(fair(both.surface, options, {}), parts);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double wanted = volume(before[i].surface);
+      EXPECT_NEAR(volume(after[i].surface) / wanted, 1, 1e-9) << name_of(volume_rules, rule);
+    }
+  }
+  FairOptions options = with(FairMethod::host, 10);
+  options.volume = VolumeRule::keep;
+  EXPECT_LT(volume(fair(ball.surface, options, {})), 0.99 * volume(ball.surface));
+}
+
+TEST(Fair, NormalErrorOfANoisySurfaceHalves) {
+  for (const Shape& clean : {shapes::tube("tube", shapes::s_curve(6, 2), shapes::constant(0.5), 24),
+                             shapes::ellipsoid({1, 1.5, 2}, 4), shapes::torus(2, 0.6, 24)}) {
+    const double noise = 0.002 * bounding_box_diagonal(clean.surface.positions);
+    const Shape noisy = shapes::noisy(clean, noise, 8);
+    const Surface faired = fair(noisy.surface, {}, {});
+    EXPECT_LT(mean_normal_error_degrees(faired, clean.surface),
+              mean_normal_error_degrees(noisy.surface, clean.surface) / 2)
+        << clean.name;
+  }
+}
+
+TEST(Fair, BoundaryVerticesStayWhereTheyAre) {
+  Shape open = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 9);
+  const Eigen::Index faces = open.surface.triangles.rows();
+  open.surface.triangles.conservativeResize(faces - 7, 3);  // holes
+  std::vector<bool> on_boundary(static_cast<std::size_t>(open.surface.positions.rows()));
+  const Triangles lost = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 9).surface.triangles;
+  for (Eigen::Index f = faces - 7; f < faces; ++f) {
+    for (int k = 0; k < 3; ++k) on_boundary[static_cast<std::size_t>(lost(f, k))] = true;
+  }
+  const Surface faired = fair(open.surface, with(FairMethod::host, 3), {});
+  int moved = 0;
+  for (Eigen::Index v = 0; v < faired.positions.rows(); ++v) {
+    const bool same = faired.positions.row(v) == open.surface.positions.row(v);
+    if (on_boundary[static_cast<std::size_t>(v)]) {
+      EXPECT_TRUE(same) << v;
+    }
+    moved += same ? 0 : 1;
+  }
+  EXPECT_GT(moved, 0.9 * static_cast<double>(faired.positions.rows()));
+}
+
+TEST(Fair, DegenerateFacesAndNothingAtAllAreNoTrouble) {
+  EXPECT_EQ(fair(Surface{}, {}, {}).positions.rows(), 0);
+  Shape ball = shapes::ellipsoid({1, 1, 1}, 2);
+  ball.surface.positions.row(ball.surface.triangles(0, 1)) =
+      ball.surface.positions.row(ball.surface.triangles(0, 0));
+  for (const FairMethod method : {FairMethod::cpu, FairMethod::host}) {
+    EXPECT_TRUE(fair(ball.surface, with(method, 3), {}).positions.allFinite());
+  }
+  ball.surface.positions.setOnes();
+  EXPECT_EQ(fair(ball.surface, {}, {}).positions, ball.surface.positions);
+}
+
+TEST(Fair, ShowsWhatFewerIterationsWouldHaveGiven) {
+  const Shape shape = noisy_and_clean_shapes().front();
+  for (const FairMethod method : {FairMethod::cpu, FairMethod::host}) {
+    FairOptions options = with(method, 3);
+    for (const VolumeRule volume_rule : {VolumeRule::offset, VolumeRule::keep}) {
+      options.volume = volume_rule;
+      int shown = 0;
+      Monitor monitor;
+      monitor.frame = [&](const Frame& frame) {
+        EXPECT_EQ(frame.stage, "fair");
+        EXPECT_EQ(frame.component, 0);
+        EXPECT_EQ(frame.iteration, shown++);
+        FairOptions fewer = options;
+        fewer.iterations = frame.iteration;
+        EXPECT_EQ(frame.surface.positions, fair(shape.surface, fewer, {}).positions);
+        EXPECT_NEAR(frame.area_ratio, area(frame.surface) / area(shape.surface), 1e-12);
+        EXPECT_NEAR(frame.volume_ratio, volume(frame.surface) / volume(shape.surface), 1e-12);
+      };
+      const Surface watched = fair(shape.surface, options, monitor);
+      EXPECT_EQ(shown, options.iterations + 1);
+      EXPECT_EQ(watched.positions, fair(shape.surface, options, {}).positions);
+    }
+  }
+}
+
+TEST(Fair, StopsWhenAskedTo) {
+  std::stop_source source;
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  source.request_stop();
+  EXPECT_THROW((void)fair(shapes::ellipsoid({1, 1, 1}, 2).surface, {}, monitor), Cancelled);
+}
+
+}  // namespace
+}  // namespace curveskel::fair_laws

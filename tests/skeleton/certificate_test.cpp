@@ -1,0 +1,324 @@
+#include "skeleton/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "surface/measures.hpp"
+
+namespace curveskel::certificate_laws {
+namespace {
+
+using Eigen::Vector3d;
+using shapes::Shape;
+
+constexpr double pi = std::numbers::pi;
+
+// Tubes of even radius about curves that bend gently.
+std::vector<Shape> even_tubes() {
+  return {shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 24),
+          shapes::tube("arc", shapes::arc(1, 2), shapes::constant(0.15), 24),
+          shapes::tube("helix", shapes::helix(1, 1.2, 1.5), shapes::constant(0.15), 24),
+          shapes::torus(1, 0.2, 24)};
+}
+
+Certificate certify(const Shape& shape, const CurveSkeleton& skeleton) {
+  return evaluate(shape.surface, skeleton, {}, {});
+}
+
+CurveSkeleton chain(const std::vector<Vector3d>& points) {
+  CurveSkeleton skeleton;
+  const auto count = static_cast<Eigen::Index>(points.size());
+  skeleton.nodes.resize(count, 3);
+  skeleton.edges.resize(std::max<Eigen::Index>(count - 1, 0), 2);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    skeleton.nodes.row(i) = points[static_cast<std::size_t>(i)];
+    if (i > 0) skeleton.edges.row(i - 1) << static_cast<int>(i) - 1, static_cast<int>(i);
+  }
+  return skeleton;
+}
+
+CurveSkeleton moved(CurveSkeleton skeleton, const Vector3d& offset) {
+  skeleton.nodes.rowwise() += offset.transpose();
+  return skeleton;
+}
+
+// A new tip joined to a node.
+CurveSkeleton with_tip(CurveSkeleton skeleton, int node, const Vector3d& tip) {
+  const Eigen::Index nodes = skeleton.nodes.rows();
+  skeleton.nodes.conservativeResize(nodes + 1, 3);
+  skeleton.nodes.row(nodes) = tip;
+  Edges edges(skeleton.edges.rows() + 1, 2);
+  Eigen::Index row = 0;
+  for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+    if (row == e && skeleton.edges(e, 0) > node) edges.row(row++) << node, static_cast<int>(nodes);
+    edges.row(row++) = skeleton.edges.row(e);
+  }
+  if (row < edges.rows()) edges.row(row) << node, static_cast<int>(nodes);
+  skeleton.edges = edges;
+  return skeleton;
+}
+
+// Every edge cut into `pieces`.
+CurveSkeleton finer(const CurveSkeleton& skeleton, int pieces) {
+  CurveSkeleton result;
+  const Eigen::Index nodes = skeleton.nodes.rows();
+  const Eigen::Index edges = skeleton.edges.rows();
+  result.nodes.resize(nodes + edges * (pieces - 1), 3);
+  result.nodes.topRows(nodes) = skeleton.nodes;
+  std::vector<std::pair<int, int>> rows;
+  for (Eigen::Index e = 0; e < edges; ++e) {
+    int last = skeleton.edges(e, 0);
+    const Vector3d a = skeleton.nodes.row(skeleton.edges(e, 0));
+    const Vector3d b = skeleton.nodes.row(skeleton.edges(e, 1));
+    for (int k = 1; k < pieces; ++k) {
+      const auto node = static_cast<int>(nodes + e * (pieces - 1) + k - 1);
+      result.nodes.row(node) = a + (b - a) * k / pieces;
+      rows.emplace_back(std::min(last, node), std::max(last, node));
+      last = node;
+    }
+    rows.emplace_back(std::min(last, skeleton.edges(e, 1)), std::max(last, skeleton.edges(e, 1)));
+  }
+  std::sort(rows.begin(), rows.end());
+  result.edges.resize(static_cast<Eigen::Index>(rows.size()), 2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.edges.row(static_cast<Eigen::Index>(i)) << rows[i].first, rows[i].second;
+  }
+  return result;
+}
+
+void expect_same(const Certificate& a, const Certificate& b, double tolerance) {
+  EXPECT_EQ(a.components, b.components);
+  EXPECT_EQ(a.cycle_rank, b.cycle_rank);
+  EXPECT_EQ(a.tips, b.tips);
+  EXPECT_EQ(a.junctions, b.junctions);
+  EXPECT_EQ(a.spurs, b.spurs);
+  EXPECT_NEAR(a.length, b.length, tolerance);
+  EXPECT_NEAR(a.inside_fraction, b.inside_fraction, tolerance);
+  EXPECT_NEAR(a.deepest_exit, b.deepest_exit, tolerance);
+  EXPECT_NEAR(a.centredness_median, b.centredness_median, tolerance);
+  EXPECT_NEAR(a.centredness_p90, b.centredness_p90, tolerance);
+  EXPECT_NEAR(a.coverage, b.coverage, tolerance);
+  EXPECT_NEAR(a.reach, b.reach, tolerance);
+  EXPECT_NEAR(a.turning, b.turning, tolerance);
+}
+
+TEST(Certificate, TheAxisOfATubeIsPerfect) {
+  for (const Shape& shape : even_tubes()) {
+    SCOPED_TRACE(shape.name);
+    const Certificate certificate = certify(shape, shape.axis);
+    EXPECT_TRUE(certificate.topology_correct());
+    EXPECT_TRUE(certificate.inside_enough);
+    EXPECT_EQ(certificate.inside_fraction, 1);
+    EXPECT_EQ(certificate.deepest_exit, 0);
+    EXPECT_LT(certificate.centredness_median, 0.02);
+    EXPECT_LT(certificate.centredness_p90, 0.05);
+    EXPECT_EQ(certificate.coverage, 1);
+    EXPECT_LT(certificate.reach, 0.005);
+    EXPECT_EQ(certificate.spurs, 0);
+  }
+}
+
+TEST(Certificate, TurningIsTheAngleThatTheCurveTurnsThrough) {
+  const Shape ring = shapes::torus(1, 0.2, 24);
+  const double diagonal = bounding_box_diagonal(ring.surface.positions);
+  const Certificate circle = certify(ring, ring.axis);
+  EXPECT_NEAR(circle.turning * circle.length, 2 * pi, 0.02);
+  EXPECT_NEAR(circle.length * diagonal, 2 * pi, 0.02);
+
+  const Certificate line = certify(ring, chain({{0, 0, 0}, {0.3, 0.1, 0.2}}));
+  EXPECT_NEAR(line.turning, 0, 1e-6);
+  const Certificate corner = certify(ring, chain({{0.5, 0, 0}, {0, 0, 0}, {0, 0.5, 0}}));
+  EXPECT_NEAR(corner.turning * corner.length, pi / 2, 1e-6);
+}
+
+TEST(Certificate, AShiftedCurveIsOffCentreByAsMuch) {
+  const Shape shape = shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 48);
+  double last = 0;
+  for (const double shift : {0.1, 0.3, 0.5}) {
+    const CurveSkeleton skeleton = moved(shape.axis, {0, 0.15 * shift, 0});
+    const Certificate certificate = certify(shape, skeleton);
+    EXPECT_EQ(certificate.inside_fraction, 1);
+    // Of the chords from a point off the centre of a circle, to second order.
+    EXPECT_NEAR(certificate.centredness_median, shift / std::sqrt(2.0), 0.06 * shift + 0.005);
+    EXPECT_GT(certificate.centredness_median, last);
+    last = certificate.centredness_median;
+  }
+}
+
+TEST(Certificate, ACurveOutsideIsReportedWithItsDepth) {
+  const Shape shape = shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 48);
+  const double diagonal = bounding_box_diagonal(shape.surface.positions);
+  const Certificate out = certify(shape, moved(shape.axis, {0, 0.15 * 1.5, 0}));
+  EXPECT_EQ(out.inside_fraction, 0);
+  EXPECT_FALSE(out.inside_enough);
+  EXPECT_NEAR(out.deepest_exit, 0.075 / diagonal, 0.002);
+  EXPECT_TRUE(std::isinf(out.centredness_median));
+  EXPECT_EQ(out.coverage, 0);
+
+  const Certificate partly = certify(shape, chain({{0, 0, 0}, {0, 0.3, 0}}));
+  EXPECT_NEAR(partly.inside_fraction, 0.5, 0.02);
+  EXPECT_NEAR(partly.deepest_exit, 0.15 / diagonal, 0.002);
+}
+
+TEST(Certificate, HalfAnAxisCoversHalf) {
+  const Shape shape = shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 24);
+  const double diagonal = bounding_box_diagonal(shape.surface.positions);
+  const Certificate half = certify(shape, chain({{-1, 0, 0}, {0, 0, 0}}));
+  EXPECT_NEAR(half.coverage, 0.55, 0.06);
+  // 95 % of the vertices lie before x = 0.9 or so, the last ball ends at about 0.15.
+  EXPECT_NEAR(half.reach, 0.85 / diagonal, 0.1);
+  EXPECT_EQ(half.inside_fraction, 1);
+}
+
+TEST(Certificate, SpursAreLeafBranchesWithinTheirJunctionsBall) {
+  const Shape shape = shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 24);
+  const CurveSkeleton axis = chain({{-1, 0, 0}, {-0.4, 0, 0}, {0.3, 0, 0}, {1, 0, 0}});
+  EXPECT_EQ(certify(shape, axis).spurs, 0);
+  const CurveSkeleton one = with_tip(axis, 1, {-0.4, 0.1, 0});
+  const Certificate certificate = certify(shape, one);
+  EXPECT_EQ(certificate.spurs, 1);
+  EXPECT_EQ(certificate.tips, 3);
+  EXPECT_EQ(certificate.junctions, 1);
+  EXPECT_EQ(certify(shape, with_tip(one, 2, {0.3, 0, 0.1})).spurs, 2);
+  EXPECT_EQ(certify(shape, with_tip(axis, 1, {-0.4, 0.16, 0})).spurs, 0)
+      << "longer than the radius";
+  EXPECT_EQ(certify(shape, chain({{0, 0, 0}, {0.01, 0, 0}})).spurs, 0) << "has no junction";
+}
+
+TEST(Certificate, TopologyIsComparedWithTheSurface) {
+  const Shape ring = shapes::torus(1, 0.2, 16);
+  EXPECT_TRUE(certify(ring, ring.axis).topology_correct());
+  const Certificate open = certify(ring, chain({{1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(open.cycle_rank, 0);
+  EXPECT_EQ(open.genus, 1);
+  EXPECT_FALSE(open.topology_correct());
+  const Shape two = shapes::linked_rings(1, 0.2, 16);
+  EXPECT_FALSE(certify(two, ring.axis).topology_correct());
+  EXPECT_TRUE(certify(two, two.axis).topology_correct());
+}
+
+TEST(Certificate, SizeAndPlaceDoNotMatter) {
+  const Shape shape =
+      shapes::tube_union("Y", shapes::star(3, 1, 0.15), shapes::TubeUnionOptions{0.25, 2});
+  const CurveSkeleton skeleton = moved(shape.axis, {0.02, 0.03, 0.01});
+  const Certificate original = certify(shape, skeleton);
+  EXPECT_GT(original.centredness_median, 0.05);
+  for (const double factor : {1e-6, 1e6}) {
+    CurveSkeleton scaled = skeleton;
+    scaled.nodes *= factor;
+    expect_same(certify(shapes::scaled(shape, factor), scaled), original, 1e-6);
+  }
+  const Vector3d offset(200, -100, 300);
+  expect_same(certify(shapes::translated(shape, offset), moved(skeleton, offset)), original, 1e-6);
+}
+
+TEST(Certificate, HowFinelyTheCurveIsCutDoesNotMatter) {
+  for (const Shape& shape : even_tubes()) {
+    SCOPED_TRACE(shape.name);
+    const CurveSkeleton skeleton = moved(shape.axis, {0.02, 0.03, 0.01});
+    expect_same(certify(shape, finer(skeleton, 7)), certify(shape, skeleton), 2e-3);
+  }
+}
+
+TEST(Certificate, TheNumberOfThreadsDoesNotMatter) {
+  const Shape shape = shapes::linked_rings(1, 0.2, 16);
+  const CurveSkeleton skeleton = moved(shape.axis, {0.02, 0.03, 0.01});
+  CertificateOptions options;
+  options.threads = 1;
+  const Certificate one = evaluate(shape.surface, skeleton, options, {});
+  options.threads = 5;
+  expect_same(evaluate(shape.surface, skeleton, options, {}), one, 0);
+}
+
+TEST(Certificate, ALoneNodeIsASkeletonOfABall) {
+  const Shape ball = shapes::ellipsoid({1, 1, 1}, 4);
+  const Certificate certificate = certify(ball, chain({{0, 0, 0}}));
+  EXPECT_TRUE(certificate.topology_correct());
+  EXPECT_EQ(certificate.inside_fraction, 1);
+  EXPECT_LT(certificate.centredness_p90, 0.01);
+  EXPECT_EQ(certificate.coverage, 1);
+  EXPECT_LT(certificate.reach, 0.01);
+  EXPECT_EQ(certificate.turning, 0);
+}
+
+TEST(Certificate, NoSkeletonCoversNothing) {
+  const Certificate none = certify(shapes::ellipsoid({1, 1, 1}, 2), {});
+  EXPECT_FALSE(none.topology_correct());
+  EXPECT_FALSE(none.inside_enough);
+  EXPECT_EQ(none.coverage, 0);
+  EXPECT_TRUE(std::isinf(none.reach));
+}
+
+TEST(Certificate, RefusesPositionsThatAreNoNumbers) {
+  const Shape ball = shapes::ellipsoid({1, 1, 1}, 2);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)certify(ball, chain({{0, 0, 0}, {nan, 0, 0}})), Error);
+}
+
+TEST(Certificate, StopsWhenAsked) {
+  const Shape ball = shapes::ellipsoid({1, 1, 1}, 2);
+  std::stop_source source;
+  source.request_stop();
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  EXPECT_THROW((void)evaluate(ball.surface, chain({{0, 0, 0}}), {}, monitor), Cancelled);
+}
+
+TEST(Hausdorff, OfAMovedCurveIsAtMostTheMove) {
+  const CurveSkeleton graph = shapes::random_graph(3, 12, 2, 0.05);
+  EXPECT_LT(hausdorff_distance(graph, graph, 0.01), 1e-12);
+  EXPECT_LT(mean_distance(graph, graph, 0.01), 1e-12);
+  const Vector3d offset(0.01, 0.02, -0.005);
+  const double distance = hausdorff_distance(graph, moved(graph, offset), 0.01);
+  EXPECT_LE(distance, offset.norm() * (1 + 1e-12));
+  EXPECT_GT(distance, 0.5 * offset.norm());
+}
+
+TEST(Hausdorff, LooksBothWays) {
+  const CurveSkeleton line = chain({{0, 0, 0}, {1, 0, 0}});
+  const CurveSkeleton longer = chain({{0, 0, 0}, {3, 0, 0}});
+  EXPECT_NEAR(hausdorff_distance(line, longer, 0.01), 2, 1e-12);
+  EXPECT_NEAR(hausdorff_distance(longer, line, 0.01), 2, 1e-12);
+  EXPECT_NEAR(mean_distance(line, longer, 0.001), 1.0 / 3, 1e-3);  // 0 there, 2/3 back
+  EXPECT_NEAR(hausdorff_distance(line, chain({{0, 1, 0}}), 0.01), std::sqrt(2.0), 1e-12);
+  EXPECT_TRUE(std::isinf(hausdorff_distance(line, {}, 0.01)));
+  EXPECT_TRUE(std::isinf(mean_distance(line, {}, 0.01)));
+}
+
+TEST(Hausdorff, SeesTheMiddleOfLongEdges) {
+  const CurveSkeleton direct = chain({{-1, 0, 0}, {1, 0, 0}});
+  const CurveSkeleton round = chain({{-1, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+  EXPECT_NEAR(hausdorff_distance(direct, round, 0.001), 1, 1e-12);
+  const CurveSkeleton away = with_tip(round, 0, {-1, -0.5, 0});
+  // From (0, 0, 0) to the slope; every node of `direct` is a node of `away`.
+  const CurveSkeleton flat = with_tip(with_tip(direct, 0, {0, 1, 0}), 0, {-1, -0.5, 0});
+  EXPECT_NEAR(hausdorff_distance(flat, away, 0.001), std::sqrt(0.5), 0.002);
+}
+
+TEST(Hausdorff, IsWhatTryingEveryPairOfSamplesFinds) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const CurveSkeleton a = shapes::random_graph(seed, 10, 1, 0.05);
+    const CurveSkeleton b = shapes::random_graph(seed + 10, 14, 3, 0.05);
+    const CurveSkeleton samples_a = finer(a, 100);
+    const CurveSkeleton samples_b = finer(b, 100);
+    double expected = 0;
+    const auto one_sided = [&](const Positions& from, const Positions& to) {
+      for (Eigen::Index i = 0; i < from.rows(); ++i) {
+        expected = std::max(expected, (to.rowwise() - from.row(i)).rowwise().norm().minCoeff());
+      }
+    };
+    one_sided(samples_a.nodes, samples_b.nodes);
+    one_sided(samples_b.nodes, samples_a.nodes);
+    EXPECT_NEAR(hausdorff_distance(a, b, 0.002), expected, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::certificate_laws

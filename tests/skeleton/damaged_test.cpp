@@ -1,0 +1,113 @@
+// What becomes of surfaces that were open or noisy: the whole way from repair to certificate.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "skeleton/extract.hpp"
+#include "surface/repair.hpp"
+#include "tests/soups.hpp"
+
+namespace curveskel::damaged_laws {
+namespace {
+
+/// The shape's faces whose middle fulfils the predicate.
+template <typename Predicate>
+PolygonSoup part_of(const Surface& surface, const Predicate& stays) {
+  PolygonSoup soup;
+  soup.positions = surface.positions;
+  soup.offsets = {0};
+  for (const auto& t : surface.triangles.rowwise()) {
+    const Eigen::RowVector3d middle = surface.positions(t.transpose(), Eigen::all).colwise().mean();
+    if (stays(middle)) append(soup, {t(0), t(1), t(2)});
+  }
+  return soup;
+}
+
+Extraction extracted(const PolygonSoup& soup) {
+  const RepairedSurface repaired = repair(soup, {}, {});
+  ExtractOptions options;
+  options.openings = repaired.openings;
+  return extract(repaired.surface, options, {});
+}
+
+double nearest_tip(const CurveSkeleton& skeleton, const Eigen::RowVector3d& to, int& tip) {
+  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()), 0);
+  for (const std::int32_t node : skeleton.edges.reshaped()) {
+    ++degree[static_cast<std::size_t>(node)];
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int node = 0; node < skeleton.nodes.rows(); ++node) {
+    const double distance = (skeleton.nodes.row(node) - to).norm();
+    if (degree[static_cast<std::size_t>(node)] != 1 || distance >= nearest) continue;
+    nearest = distance;
+    tip = node;
+  }
+  return nearest;
+}
+
+TEST(Damaged, AnOpenTubesSkeletonReachesItsOpenings) {
+  for (const double radius : {0.2, 0.5, 1.0}) {
+    SCOPED_TRACE(radius);
+    const auto tube = shapes::tube("tube", shapes::straight(8), shapes::constant(radius), 32);
+    const auto soup = part_of(tube.surface, [](const auto& p) { return std::abs(p.x()) < 3; });
+    const Extraction found = extracted(soup);
+    EXPECT_TRUE(found.certificate.topology_correct());
+    EXPECT_GE(found.certificate.inside_fraction, 0.999);
+    EXPECT_EQ(found.certificate.tips, 2);
+    const double end = soup.positions(soup.corners, Eigen::all).col(0).maxCoeff();
+    for (const double side : {-1.0, 1.0}) {
+      int tip = -1;
+      EXPECT_LT(nearest_tip(found.skeleton, {side * end, 0, 0}, tip), 0.3 * radius);
+      EXPECT_NEAR(found.skeleton.radii[tip], radius, 0.15 * radius);
+    }
+  }
+}
+
+TEST(Damaged, EveryArmOfAnOpenStarReachesItsOpening) {
+  const auto star = shapes::tube_union("star", shapes::star(4, 3, 0.3));
+  const auto soup = part_of(star.surface, [](const auto& p) { return p.norm() < 2.5; });
+  const RepairedSurface repaired = repair(soup, {}, {});
+  ASSERT_EQ(repaired.openings.size(), 4U);
+  const Extraction found = extracted(soup);
+  EXPECT_EQ(found.certificate.tips, 4);
+  EXPECT_TRUE(found.certificate.topology_correct());
+  for (const auto& opening : repaired.openings) {
+    const Eigen::RowVector3d middle =
+        repaired.surface.positions(opening, Eigen::all).colwise().mean();
+    int tip = -1;
+    EXPECT_LT(nearest_tip(found.skeleton, middle, tip), 0.1);
+  }
+}
+
+TEST(Damaged, AHoleInASideIsNoOpening) {
+  const auto tube = shapes::tube("tube", shapes::straight(8), shapes::constant(0.5), 32);
+  const auto whole = extracted(soup_of(tube.surface));
+  const auto found = extracted(
+      part_of(tube.surface, [](const auto& p) { return std::abs(p.x()) > 0.2 || p.y() < 0.4; }));
+  EXPECT_EQ(found.certificate.tips, 2);
+  EXPECT_EQ(found.certificate.junctions, 0);
+  EXPECT_LT(hausdorff_distance(whole.skeleton, found.skeleton, 0.02), 0.15);
+}
+
+TEST(Damaged, NoiseAsThickAsTheLimbsIsSmoothedAway) {
+  shapes::TubeUnionOptions fine;
+  fine.resolution = 6;
+  const auto star = shapes::tube_union("star", shapes::star(5, 3, 0.3), fine);
+  const double noise = 0.01 * bounding_box_diagonal(star.surface.positions);
+  const auto noisy = shapes::noisy(star, noise, 11);
+  const Extraction found = extract(noisy.surface, {}, {});
+  EXPECT_TRUE(found.certificate.inside_enough) << found.certificate.inside_fraction;
+  EXPECT_EQ(found.certificate.tips, 5);
+  ExtractOptions as_it_is;
+  as_it_is.fair_if_outside = false;
+  // Otherwise this shape would show nothing.
+  EXPECT_FALSE(extract(noisy.surface, as_it_is, {}).certificate.inside_enough);
+  EXPECT_TRUE(found.faired_again);
+}
+
+}  // namespace
+}  // namespace curveskel::damaged_laws

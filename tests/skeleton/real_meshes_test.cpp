@@ -1,0 +1,204 @@
+// What the skeletons of real surfaces must show, mesh by mesh and property by property.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "skeleton/extract.hpp"
+#include "surface/canonical.hpp"
+#include "surface/clean.hpp"
+#include "surface/measures.hpp"
+#include "surface/read.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+#include "tests/skeleton/shortfalls.hpp"
+
+namespace curveskel::real_meshes_laws {
+namespace {
+
+constexpr std::array known{
+    // Flat parts and strands, whose medial axis is a sheet: there is no one centred curve.
+    Shortfall{"gears-7parts-10k.ply", "centredness behind CGAL's", 0.04},
+    Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.14},
+    // Behind by a hair.
+    Shortfall{"diplodocus-24k.ply", "centredness behind CGAL's", 0.004},
+    Shortfall{"hand-10k.ply", "centredness behind CGAL's", 0.003},
+};
+
+const std::filesystem::path meshes = CURVESKEL_SHARED_MESHES;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream cut(line);
+  for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// The closed, manifold, orientable surfaces that the index lists outside defects/.
+std::vector<std::string> listed_meshes() {
+  std::vector<std::string> files;
+  std::ifstream index(meshes / "INDEX.csv");
+  for (std::string line; std::getline(index, line);) {
+    const auto cells = cells_of(line);
+    if (cells.size() < 9 || cells[0].starts_with("defects/")) continue;
+    if (cells[6] == "y" && cells[7] == "y" && cells[8] == "y") files.push_back(cells[0]);
+  }
+  return files;
+}
+
+/// A row of cgal_baseline.csv: what `evaluate` says of CGAL's mean curvature flow skeleton.
+using Baseline = std::map<std::string, double>;
+
+std::optional<Baseline> baseline_of(const std::string& mesh) {
+  std::ifstream table(std::filesystem::path(CURVESKEL_SOURCE_DIR) /
+                      "tests/skeleton/cgal_baseline.csv");
+  std::string line;
+  std::getline(table, line);
+  const auto columns = cells_of(line);
+  const std::string file = std::filesystem::path(mesh).filename().string();
+  while (std::getline(table, line)) {
+    const auto cells = cells_of(line);
+    if (cells.empty() || std::filesystem::path(cells[0]).filename() != file) continue;
+    Baseline row;
+    for (std::size_t c = 1; c < std::min(cells.size(), columns.size()); ++c) {
+      char* end = nullptr;
+      const double value = std::strtod(cells[c].c_str(), &end);
+      if (*end == '\0') row[columns[c]] = value;
+    }
+    return row;
+  }
+  return std::nullopt;
+}
+
+class RealMesh : public testing::TestWithParam<std::string> {
+ protected:
+  struct Case {
+    Surface surface;
+    Topology topology;
+    Extraction extraction;
+  };
+  static const Case& made() {
+    static std::map<std::string, Case> cases;
+    const auto [found, is_new] = cases.try_emplace(GetParam());
+    if (is_new) {
+      Case& fresh = found->second;
+      fresh.surface = clean(read_polygons(meshes / GetParam(), {}), {}).surface;
+      fresh.topology = topology(fresh.surface);
+      fresh.extraction = extract(fresh.surface, {}, {});
+    }
+    return found->second;
+  }
+  static const CurveSkeleton& skeleton() { return made().extraction.skeleton; }
+  static const Certificate& certificate() { return made().extraction.certificate; }
+  static void expect(std::string_view property, double found, double wanted) {
+    expect_at_most(known, GetParam(), property, found, wanted);
+  }
+};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealMesh);
+
+TEST_P(RealMesh, HasTheComponentsAndCyclesOfItsSurface) {
+  int genus = 0;
+  for (const int g : made().topology.genus) genus += g;
+  const GraphTopology found = graph_topology(skeleton());
+  EXPECT_EQ(found.components, made().topology.components());
+  EXPECT_EQ(found.cycle_rank, genus);
+}
+
+TEST_P(RealMesh, HasEachComponentsCyclesInItsOwnPart) {
+  // The sum alone would let one part lend a cycle to another.
+  const Topology& surface = made().topology;
+  std::vector<int> part_of_node(static_cast<std::size_t>(skeleton().nodes.rows()), -1);
+  for (Eigen::Index v = 0; v < skeleton().node_of_vertex.size(); ++v) {
+    int& part = part_of_node[static_cast<std::size_t>(skeleton().node_of_vertex[v])];
+    EXPECT_TRUE(part == -1 || part == surface.component_of_vertex[v]) << "vertex " << v;
+    part = surface.component_of_vertex[v];
+  }
+  // Nodes without a vertex lie on a branch: they are of the part that their edges lead to.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Eigen::Index e = 0; e < skeleton().edges.rows(); ++e) {
+      int& a = part_of_node[static_cast<std::size_t>(skeleton().edges(e, 0))];
+      int& b = part_of_node[static_cast<std::size_t>(skeleton().edges(e, 1))];
+      changed = changed || (a < 0) != (b < 0);
+      if (a < 0) a = b;
+      if (b < 0) b = a;
+    }
+  }
+  std::vector<int> cycles(static_cast<std::size_t>(surface.components()), 1);
+  for (const int part : part_of_node) {
+    ASSERT_GE(part, 0);
+    --cycles[static_cast<std::size_t>(part)];
+  }
+  for (Eigen::Index e = 0; e < skeleton().edges.rows(); ++e)
+    ++cycles[static_cast<std::size_t>(
+        part_of_node[static_cast<std::size_t>(skeleton().edges(e, 0))])];
+  EXPECT_EQ(cycles, surface.genus);
+}
+
+TEST_P(RealMesh, LiesInside) { expect("length outside", 1 - certificate().inside_fraction, 1e-3); }
+
+TEST_P(RealMesh, HasNoSpur) { expect("spurs", certificate().spurs, 0); }
+
+TEST_P(RealMesh, HasEveryVertexInOneNode) {
+  const Eigen::VectorXi& node_of_vertex = skeleton().node_of_vertex;
+  ASSERT_EQ(node_of_vertex.size(), made().surface.positions.rows());
+  EXPECT_GE(node_of_vertex.minCoeff(), 0);
+  EXPECT_LT(node_of_vertex.maxCoeff(), skeleton().nodes.rows());
+}
+
+TEST_P(RealMesh, HasTheDistancesToTheSurfaceAsRadii) {
+  const SurfaceTree tree(made().surface);
+  const double tolerance = 4 * canonical_step * bounding_box_diagonal(made().surface.positions);
+  ASSERT_EQ(skeleton().radii.size(), skeleton().nodes.rows());
+  for (Eigen::Index i = 0; i < skeleton().nodes.rows(); ++i) {
+    const double distance = tree.inscribed_radius(skeleton().nodes.row(i));
+    EXPECT_NEAR(skeleton().radii[i], std::max(0.0, distance), tolerance) << "node " << i;
+  }
+}
+
+TEST_P(RealMesh, CoversAsMuchAsCgal) {
+  const auto cgal = baseline_of(GetParam());
+  if (!cgal) GTEST_SKIP() << "no row in tests/cgal_baseline.csv";
+  expect("coverage behind CGAL's", cgal->at("coverage") - certificate().coverage, 1e-5);
+}
+
+TEST_P(RealMesh, IsAsCentredAsCgal) {
+  const auto cgal = baseline_of(GetParam());
+  if (!cgal) GTEST_SKIP() << "no row in tests/cgal_baseline.csv";
+  expect("centredness behind CGAL's",
+         certificate().centredness_median - cgal->at("centredness_median"), 1e-5);
+}
+
+std::string identifier(const testing::TestParamInfo<std::string>& entry) {
+  std::string name = entry.param;
+  const auto is_other = [](unsigned char c) { return std::isalnum(c) == 0; };
+  std::replace_if(name.begin(), name.end(), is_other, '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Shared, RealMesh, testing::ValuesIn(listed_meshes()), identifier);
+
+// A short leaf is no spur as long as it can be prolonged: a thumb was lost that way.
+TEST(RealMeshes, TheArmadilloKeepsEveryFinger) {
+  const auto file = meshes / "armadillo-43k.ply";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const Surface surface = clean(read_polygons(file, {}), {}).surface;
+  EXPECT_GE(extract(surface, {}, {}).certificate.tips, 18);
+}
+
+TEST(RealMeshes, AreThere) {
+  if (!std::filesystem::exists(meshes / "INDEX.csv"))
+    GTEST_SKIP() << "no shared meshes at " << meshes << ": nothing of the real kind was tested";
+  EXPECT_GE(listed_meshes().size(), 30U);
+}
+
+}  // namespace
+}  // namespace curveskel::real_meshes_laws

@@ -1,0 +1,123 @@
+// Laws of the cut into pieces: circles, genus, and the graph that must come out.
+
+#include "skeleton/surgery.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "meshes/shapes.hpp"
+#include "skeleton/bands.hpp"
+#include "surface/inscribed_balls.hpp"
+#include "surface/topology.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel::surgery_laws {
+namespace {
+
+int cycle_rank(const VertexGraph& graph) {
+  CurveSkeleton skeleton;
+  skeleton.nodes = Positions::Zero(graph.nodes(), 3);
+  skeleton.edges = graph.edges;
+  const GraphTopology counted = graph_topology(skeleton);
+  EXPECT_EQ(counted.components, 1);
+  return counted.cycle_rank;
+}
+
+/// The connected surfaces of the catalogue, made once.
+const std::vector<shapes::Shape>& connected_shapes() {
+  static const std::vector<shapes::Shape> found = [] {
+    std::vector<shapes::Shape> made;
+    for (const auto& entry : shapes::catalogue()) {
+      auto shape = entry.make();
+      if (shape.components == 1) made.push_back(std::move(shape));
+    }
+    return made;
+  }();
+  return found;
+}
+
+TEST(Groups, GenusOfTheWholeIsTheSurfaces) {
+  for (const auto& shape : connected_shapes()) {
+    SurfaceGroups groups(shape.surface);
+    const int vertices = static_cast<int>(shape.surface.positions.rows());
+    // Any merge order will do as long as the two share an edge; vertices 0.. are grown from 0.
+    std::vector<char> taken(static_cast<std::size_t>(vertices), 0);
+    taken.at(0) = 1;
+    std::vector<std::vector<int>> neighbours(taken.size());
+    for (const auto& [a, b] : index_edges(shape.surface.triangles).edges) {
+      neighbours[static_cast<std::size_t>(a)].push_back(b);
+      neighbours[static_cast<std::size_t>(b)].push_back(a);
+    }
+    std::vector<int> queue{0};
+    int last_genus = 0;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      for (const int v : neighbours[static_cast<std::size_t>(queue[i])]) {
+        if (taken[static_cast<std::size_t>(v)] != 0) continue;
+        taken[static_cast<std::size_t>(v)] = 1;
+        queue.push_back(v);
+        if (queue.size() % 64 == 0 || static_cast<int>(queue.size()) == vertices) {
+          const int genus = groups.genus_of_union(v, 0);
+          EXPECT_GE(genus, last_genus) << shape.name << ": genus of a growing piece never shrinks";
+          last_genus = genus;
+        }
+        groups.merge(v, 0);
+      }
+    }
+    EXPECT_EQ(last_genus, shape.genus) << shape.name;
+    EXPECT_EQ(groups.triples(), 0) << shape.name;
+  }
+}
+
+TEST(Groups, HalvesOfATorusMeetInTwoCircles) {
+  const auto torus = shapes::torus(3, 1, 24);
+  Eigen::VectorXi half(torus.surface.positions.rows());
+  for (Eigen::Index v = 0; v < half.size(); ++v)
+    half[v] = static_cast<int>(torus.surface.positions(v, 0) > 0);
+  const VertexGraph graph = graph_of_groups(torus.surface, half);
+  EXPECT_EQ(graph.groups, 2);
+  ASSERT_EQ(graph.circles.size(), 2U);
+  EXPECT_EQ(cycle_rank(graph), 1);
+  EXPECT_EQ(genus_of_groups(torus.surface, graph), (std::vector<int>{0, 0}));
+  for (const auto& circle : graph.circles) {
+    EXPECT_GE(circle.size(), 24U);
+    for (const auto& [a, b] : circle) {
+      EXPECT_NE(graph.group_of_vertex[a], graph.group_of_vertex[b]);
+    }
+  }
+}
+
+TEST(Bands, CycleRankIsTheGenusOfEveryShape) {
+  for (const auto& shape : connected_shapes()) {
+    const BandGraph bands = band_graph(shape.surface, {});
+    EXPECT_EQ(cycle_rank(bands.graph), shape.genus) << shape.name;
+    const auto genus = genus_of_groups(bands.surface, bands.graph);
+    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups) << shape.name;
+  }
+}
+
+TEST(Bands, HandlesFinerThanABandAreFoundBySubdividing) {
+  // A torus of three by three rings: any cut by distance needs finer triangles first.
+  const auto torus = shapes::torus(1, 0.6, 3);
+  EXPECT_EQ(cycle_rank(band_graph(torus.surface, {}).graph), 1);
+}
+
+TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {
+  for (const auto& shape : connected_shapes()) {
+    const SurfaceTree tree(shape.surface);
+    const auto balls = inscribed_balls(shape.surface, tree, 1);
+    const auto contracted = contract(shape.surface, balls.centres, {}, {});
+    const auto graph = surgery(shape.surface, contracted, {}, {});
+    ASSERT_TRUE(graph.has_value()) << shape.name << ": triangles remain";
+    EXPECT_EQ(cycle_rank(*graph), shape.genus) << shape.name;
+    EXPECT_EQ(graph->group_of_vertex.size(), shape.surface.positions.rows());
+    EXPECT_GE(graph->group_of_vertex.minCoeff(), 0);
+    EXPECT_LT(graph->group_of_vertex.maxCoeff(), graph->groups);
+    const auto genus = genus_of_groups(shape.surface, *graph);
+    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), graph->groups) << shape.name;
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::surgery_laws

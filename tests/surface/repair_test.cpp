@@ -1,0 +1,319 @@
+// Laws of repair: what was whole before the damage is whole after the repair.
+#include "surface/repair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "tests/soups.hpp"
+
+namespace curveskel::repair_laws {
+namespace {
+
+using Position = Eigen::RowVector3d;
+
+/// The polygons for which the predicate holds; vertices stay.
+PolygonSoup with_polygons(const PolygonSoup& soup, const std::function<bool(std::size_t)>& stays) {
+  PolygonSoup result = soup;
+  result.corners.clear();
+  result.offsets = {0};
+  for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
+    if (!stays(p)) continue;
+    result.corners.insert(result.corners.end(), soup.corners.begin() + soup.offsets[p],
+                          soup.corners.begin() + soup.offsets[p + 1]);
+    result.offsets.push_back(static_cast<std::int64_t>(result.corners.size()));
+  }
+  return result;
+}
+
+Position centre(const PolygonSoup& soup, std::size_t polygon) {
+  Position sum = Position::Zero();
+  for (auto i = soup.offsets[polygon]; i < soup.offsets[polygon + 1]; ++i) {
+    sum += soup.positions.row(soup.corners[static_cast<std::size_t>(i)]);
+  }
+  return sum / double(soup.offsets[polygon + 1] - soup.offsets[polygon]);
+}
+
+int genus_of(const Surface& surface) { return topology(surface).total_genus(); }
+
+std::string refusal_of(const PolygonSoup& soup) {
+  try {
+    (void)repair(soup, {}, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    return error.what();
+  }
+  return "";
+}
+
+/// Vertices of the file that belong to no vertex of the surface, although a polygon uses them.
+int used_but_dropped(const PolygonSoup& soup, const RepairedSurface& result) {
+  int count = 0;
+  for (const std::int32_t v : soup.corners) count += result.vertex_of_input[v] < 0 ? 1 : 0;
+  return count;
+}
+
+// ---- Over shapes --------------------------------------------------------------------------------
+
+class AnyShape : public testing::TestWithParam<shapes::Shape> {
+ protected:
+  [[nodiscard]] const shapes::Shape& shape() const { return GetParam(); }
+  void expect_the_shape(const RepairedSurface& result, double volume_tolerance) const {
+    expect_closed_outward_manifold(result.surface);
+    EXPECT_EQ(topology(result.surface).components(), shape().components);
+    EXPECT_EQ(genus_of(result.surface), shape().genus);
+    const double wanted = volume(shape().surface);
+    EXPECT_NEAR(volume(result.surface), wanted, volume_tolerance * wanted);
+  }
+};
+
+TEST_P(AnyShape, IsLeftAloneWhenWhole) {
+  const RepairedSurface result = repair(soup_of(shape().surface), {}, {});
+  EXPECT_EQ(result.surface.positions, shape().surface.positions);
+  EXPECT_EQ(result.surface.triangles, shape().surface.triangles);
+  EXPECT_TRUE(result.repairs.lines.empty());
+}
+
+TEST_P(AnyShape, IsWholeAgainAfterLosingFaces) {
+  const PolygonSoup whole = soup_of(shape().surface);
+  std::mt19937 random(7);
+  const PolygonSoup damaged = with_polygons(whole, [&](std::size_t) { return random() % 40 != 0; });
+  const RepairedSurface result = repair(damaged, {}, {});
+  expect_the_shape(result, 0.02);
+  EXPECT_GT(result.repairs.holes_closed, 0);
+  EXPECT_EQ(used_but_dropped(damaged, result), 0);
+  EXPECT_EQ(result.openings.size(), static_cast<std::size_t>(result.repairs.holes_closed));
+}
+
+TEST_P(AnyShape, IsWholeAgainFromTrianglesThatNearlyMeet) {
+  PolygonSoup soup = torn(soup_of(shape().surface));
+  const double step = 1e-7 * bounding_box_diagonal(soup.positions);
+  std::mt19937 random(3);
+  for (double& x : soup.positions.reshaped()) {
+    x += step * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+  }
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_the_shape(result, 1e-5);
+  EXPECT_EQ(result.surface.positions.rows(), shape().surface.positions.rows());
+  EXPECT_EQ(used_but_dropped(soup, result), 0);
+}
+
+TEST_P(AnyShape, LosesAFinAndNothingElse) {
+  PolygonSoup soup = soup_of(shape().surface);
+  const auto& t = shape().surface.triangles.row(0);
+  const auto tip = static_cast<std::int32_t>(soup.positions.rows());
+  soup.positions.conservativeResize(tip + 1, 3);
+  const Position a = soup.positions.row(t(0));
+  const Position b = soup.positions.row(t(1));
+  const Position c = soup.positions.row(t(2));
+  soup.positions.row(tip) = a + (b - a).cross(c - a) / (b - a).norm();
+  append(soup, {t(0), t(1), tip});
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_the_shape(result, 1e-12);
+  EXPECT_EQ(result.repairs.sheets_dropped, 1);
+  EXPECT_EQ(result.repairs.wrap_opening, 0);
+  EXPECT_EQ(result.vertex_of_input[tip], -1);
+  EXPECT_EQ(result.surface.positions.rows(), shape().surface.positions.rows());
+}
+
+TEST_P(AnyShape, IsCountedOnceWhenItIsThereTwice) {
+  const PolygonSoup once = soup_of(shape().surface);
+  const PolygonSoup twice = together(once, once, Position::Zero());
+  const RepairedSurface result = repair(twice, {}, {});
+  expect_the_shape(result, 1e-12);
+  EXPECT_EQ(result.repairs.copies_dropped, shape().components);
+}
+
+TEST_P(AnyShape, IsFoundAmongSpecks) {
+  PolygonSoup soup = soup_of(shape().surface);
+  const double size = 1e-3 * bounding_box_diagonal(soup.positions);
+  PolygonSoup speck = soup_of(shapes::ellipsoid({size, size, size}, 0).surface);
+  const double side = 3 * size;
+  const Position start = soup.positions.colwise().maxCoeff();
+  for (int i = 0; i < 50; ++i) {
+    soup = together(soup, speck, start + Position::Constant(side * (i + 1)));
+  }
+  RepairOptions options;
+  const RepairedSurface result = repair(soup, options, {});
+  expect_the_shape(result, 1e-12);
+  EXPECT_EQ(result.repairs.specks_dropped, 50);
+  options.least_area = 0;
+  EXPECT_EQ(topology(repair(soup, options, {}).surface).components(), shape().components + 50);
+  options.components = 1;
+  const RepairedSurface one = repair(soup, options, {});
+  EXPECT_EQ(topology(one.surface).components(), 1);
+  EXPECT_EQ(one.repairs.not_chosen, shape().components + 49);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, AnyShape,
+                         testing::Values(shapes::torus(3, 1, 16), shapes::ellipsoid({1, 2, 3}, 3),
+                                         shapes::linked_rings(3, 0.5, 14),
+                                         shapes::box({1, 2, 3}, 8),
+                                         shapes::algebraic_double_torus(0.1)),
+                         [](const auto& entry) { return "shape" + std::to_string(entry.index); });
+
+// ---- Damage of a kind ---------------------------------------------------------------------------
+
+TEST(Repairing, ATubeOpenAtBothEnds) {
+  const shapes::Shape tube = shapes::tube("tube", shapes::straight(6), shapes::constant(0.5), 24);
+  PolygonSoup soup = soup_of(tube.surface);
+  soup = with_polygons(soup, [&](std::size_t p) { return std::abs(centre(soup, p).x()) < 2.5; });
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_EQ(genus_of(result.surface), 0);
+  EXPECT_EQ(result.repairs.holes_closed, 2);
+  ASSERT_EQ(result.openings.size(), 2U);
+  for (const auto& opening : result.openings) {
+    EXPECT_EQ(opening.size(), 24U);
+    for (const std::int32_t v : opening) {
+      EXPECT_NEAR(std::abs(result.surface.positions(v, 0)), 2.5, 0.15);
+    }
+  }
+}
+
+TEST(Repairing, CountsTheVerticesThatNoFaceUses) {
+  PolygonSoup soup = soup_of(shapes::torus(3, 1, 16).surface);
+  soup.positions.conservativeResize(soup.positions.rows() + 5, 3);
+  soup.positions.bottomRows(5).setConstant(7);
+  EXPECT_EQ(repair(soup, {}, {}).changes.isolated_vertices_dropped, 5);
+  const PolygonSoup open = with_polygons(soup, [](std::size_t p) { return p > 0; });
+  EXPECT_EQ(repair(open, {}, {}).changes.isolated_vertices_dropped, 5);
+}
+
+TEST(Repairing, BoxesThatShareAnEdgeComeApart) {
+  PolygonSoup soup = cube();
+  const PolygonSoup other = cube();
+  for (std::size_t p = 0; p + 1 < other.offsets.size(); ++p) {
+    std::vector<std::int32_t> polygon;
+    for (auto i = other.offsets[p]; i < other.offsets[p + 1]; ++i) {
+      polygon.push_back(other.corners[static_cast<std::size_t>(i)]);
+    }
+    // The second cube stands at (1, 1, 0): its edge 0-4 is the first one's edge 2-6.
+    for (std::int32_t& v : polygon) v = v == 0 ? 2 : v == 4 ? 6 : v + 8;
+    append(soup, polygon);
+  }
+  soup.positions.conservativeResize(16, 3);
+  soup.positions.bottomRows(8) = other.positions.rowwise() + Position(1, 1, 0);
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_EQ(topology(result.surface).components(), 2);
+  EXPECT_EQ(result.repairs.holes_closed, 0);
+  EXPECT_NEAR(volume(result.surface), 2, 1e-12);
+}
+
+TEST(Repairing, FlippedPatchesOfAnOpenSurface) {
+  const shapes::Shape ball = shapes::ellipsoid({1, 2, 3}, 3);
+  PolygonSoup soup = soup_of(ball.surface);
+  soup = with_polygons(soup, [](std::size_t p) { return p > 3; });
+  int flipped = 0;
+  for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
+    if (centre(soup, p).x() < 0.6) continue;
+    turn(soup, static_cast<std::int64_t>(p));
+    ++flipped;
+  }
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_GT(flipped, 0);
+  EXPECT_EQ(result.changes.faces_flipped, flipped);
+  EXPECT_NEAR(volume(result.surface), volume(ball.surface), 0.01 * volume(ball.surface));
+}
+
+/// Every triangle by itself, shrunk towards its middle: no two share a position.
+PolygonSoup shrunk_apart(const Surface& surface, double share) {
+  PolygonSoup soup = torn(soup_of(surface));
+  const Positions given = soup.positions;
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    const Position middle = given.middleRows(3 * f, 3).colwise().mean();
+    for (Eigen::Index i = 3 * f; i < 3 * f + 3; ++i) {
+      soup.positions.row(i) = middle + (1 - share) * (given.row(i) - middle);
+    }
+  }
+  return soup;
+}
+
+TEST(Repairing, WrapsWhatHasGapsEverywhere) {
+  const shapes::Shape ring = shapes::torus(3, 1, 24);
+  const PolygonSoup soup = shrunk_apart(ring.surface, 0.05);
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_EQ(genus_of(result.surface), 1);
+  EXPECT_NEAR(volume(result.surface), volume(ring.surface), 0.1 * volume(ring.surface));
+  EXPECT_EQ(result.repairs.faces_wrapped, ring.surface.triangles.rows());
+  EXPECT_GT(result.repairs.wrap_distance, 0);
+  EXPECT_LT(result.repairs.wrap_distance, 0.02);
+  ASSERT_EQ(result.repairs.lines.size(), 1U);
+  expect_said(result.repairs.lines[0], {"wrapped"});
+  EXPECT_EQ(used_but_dropped(soup, result), 0);
+  const double diagonal = bounding_box_diagonal(soup.positions);
+  for (Eigen::Index v = 0; v < soup.positions.rows(); ++v) {
+    const auto mapped = result.surface.positions.row(result.vertex_of_input[v]);
+    ASSERT_LT((mapped - soup.positions.row(v)).norm(), 0.03 * diagonal);
+  }
+}
+
+TEST(Repairing, IsTheSameForAnyNumberOfThreads) {
+  const PolygonSoup soup = shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05);
+  const RepairedSurface one = repair(soup, {}, {}, 1);
+  const RepairedSurface two = repair(soup, {}, {}, 2);
+  EXPECT_EQ(one.surface.positions, two.surface.positions);
+  EXPECT_EQ(one.surface.triangles, two.surface.triangles);
+  EXPECT_EQ(one.vertex_of_input, two.vertex_of_input);
+}
+
+TEST(Repairing, StopsWhenAsked) {
+  std::stop_source stop;
+  Monitor monitor;
+  monitor.stop = stop.get_token();
+  monitor.progress = [&](std::string_view stage, double) {
+    if (stage == "wrap") stop.request_stop();
+  };
+  EXPECT_THROW((void)repair(shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05), {}, monitor),
+               Cancelled);
+}
+
+// ---- What encloses nothing ----------------------------------------------------------------------
+
+/// A square cut into n x n x 2 triangles, bent over a circle round the y axis by this angle.
+PolygonSoup bent_square(std::int32_t n, double angle) {
+  PolygonSoup soup;
+  soup.positions.resize(Eigen::Index{n + 1} * (n + 1), 3);
+  soup.offsets = {0};
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double x = double(i) / n - 0.5;
+      const double bend = angle * x;
+      soup.positions.row(Eigen::Index{i} * (n + 1) + j) << (angle > 0 ? std::sin(bend) / angle : x),
+          double(j) / n, (angle > 0 ? std::cos(bend) / angle : 0);
+      if (i == n || j == n) continue;
+      const std::int32_t first = i * (n + 1) + j;
+      append(soup, {first, first + 1, first + n + 2});
+      append(soup, {first, first + n + 2, first + n + 1});
+    }
+  }
+  return soup;
+}
+
+TEST(Refusing, SheetsSinceTheyEncloseNothing) {
+  for (const double angle : {0.0, 0.3, 0.8}) {
+    SCOPED_TRACE(angle);
+    expect_said(refusal_of(bent_square(20, angle)), {"encloses nothing", "thickness"});
+  }
+  Positions corners(3, 3);
+  corners << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  expect_said(refusal_of(soup_of(corners, {{0, 1, 2}})), {"encloses nothing"});
+  expect_said(refusal_of(soup_of(Positions::Ones(3, 3), {{0, 1, 2}})), {"no face"});
+  expect_said(refusal_of(soup_of(corners, {{0, 1, 1}})), {"no face"});
+}
+
+}  // namespace
+}  // namespace curveskel::repair_laws
