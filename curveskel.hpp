@@ -11,6 +11,8 @@
 #include "contraction/fair.hpp"
 #include "contraction/laplacian.hpp"
 #include "contraction/least_squares.hpp"
+#include "rig/read_rig.hpp"
+#include "rig/rig.hpp"
 #include "skeleton/certificate.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/edit.hpp"

@@ -32,6 +32,8 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/skeleton_files.hpp
   skeleton/surgery.hpp
   skeleton/view.hpp
+  rig/read_rig.hpp
+  rig/rig.hpp
 )
 target_sources(curveskel PUBLIC FILE_SET HEADERS
   BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${CURVESKEL_PUBLIC_HEADERS})

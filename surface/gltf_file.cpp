@@ -83,6 +83,19 @@ void check_depth(const FileBytes& file, bool binary) {
             "at most " + std::to_string(deepest_json), "export the file again");
 }
 
+int type_of_rows(int components) {
+  switch (components) {
+    case 3:
+      return TINYGLTF_TYPE_VEC3;
+    case 4:
+      return TINYGLTF_TYPE_VEC4;
+    case 16:
+      return TINYGLTF_TYPE_MAT4;
+    default:
+      return TINYGLTF_TYPE_SCALAR;
+  }
+}
+
 std::optional<GltfNumbers::Type> number_type(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -160,7 +173,7 @@ GltfNumbers gltf_numbers(const FileBytes& file, const tinygltf::Model& model, in
   const auto& view = gltf_element(file, model.bufferViews, rows.bufferView, "buffer view");
   const auto& buffer = gltf_element(file, model.buffers, view.buffer, "buffer");
   const auto type = number_type(rows.componentType);
-  const int wanted = components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
+  const int wanted = type_of_rows(components);
   const int stride = rows.ByteStride(view);
   if (!type || rows.type != wanted || stride <= 0) {
     refuse("numbers of type " + std::to_string(rows.type) + "/" +

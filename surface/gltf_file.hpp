@@ -66,7 +66,8 @@ class GltfNumbers {
   bool normalized_;
 };
 
-/// `components` numbers per row, 1 or 3; `meaning` is for messages. Throws Error(Fault::input).
+/// `components` numbers per row: 1, 3, 4 or 16 (a matrix by columns); `meaning` is for messages.
+/// Throws Error(Fault::input).
 [[nodiscard]] GltfNumbers gltf_numbers(const FileBytes& file, const tinygltf::Model& model,
                                        int accessor, int components, const std::string& meaning);
 

@@ -1,0 +1,168 @@
+// Laws of reading rigs: the joints and weights of a bar that is known, however the file says them.
+#include "rig/read_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "surface/error.hpp"
+#include "surface/measures.hpp"
+#include "surface/read.hpp"
+#include "tests/rig/rigged_bar.hpp"
+
+namespace curveskel::read_rig_laws {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReadRig : public testing::Test {
+ protected:
+  ReadRig() {
+    std::string name = (fs::temp_directory_path() / "curveskel-rig-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~ReadRig() override { fs::remove_all(folder_); }
+  ReadRig(const ReadRig&) = delete;
+  ReadRig& operator=(const ReadRig&) = delete;
+
+  [[nodiscard]] std::optional<Rig> read(const RiggedBar& bar) const {
+    write_rigged_bar(file(), bar);
+    return read_rig(file(), {});
+  }
+  [[nodiscard]] std::string refusal(const RiggedBar& bar) const {
+    try {
+      (void)read(bar);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::input);
+      return error.what();
+    }
+    return "";
+  }
+  [[nodiscard]] fs::path file() const { return folder_ / "bar.gltf"; }
+
+ private:
+  fs::path folder_;
+};
+
+void expect_sums_of_one(const SkinWeights& weights) {
+  for (Eigen::Index vertex = 0; vertex < weights.rows(); ++vertex) {
+    float sum = 0;
+    for (SkinWeights::InnerIterator it(weights, vertex); it; ++it) {
+      EXPECT_GT(it.value(), 0);
+      sum += it.value();
+    }
+    if (sum != 0) {
+      EXPECT_NEAR(sum, 1, 1e-6) << vertex;
+    }
+  }
+}
+
+std::vector<RiggedBar> ways_to_say_it() {
+  return {{},
+          {.joints = 1},
+          {.joints = 2, .children_first = true},
+          {.joints = 9, .children_first = true, .helper_nodes = true},
+          {.helper_nodes = true},
+          {.inverse_bind = false},
+          {.helper_nodes = true, .inverse_bind = false},
+          {.normalized_bytes = true},
+          {.unit = 0.25},
+          {.joints = 40, .children_first = true, .normalized_bytes = true}};
+}
+
+TEST_F(ReadRig, SameJointsAndWeightsHoweverTheFileSaysThem) {
+  int way = 0;
+  for (const RiggedBar& bar : ways_to_say_it()) {
+    SCOPED_TRACE(way++);
+    const auto rig = read(bar);
+    ASSERT_TRUE(rig);
+    ASSERT_EQ(rig->joints.rows(), bar.joints);
+    ASSERT_EQ(rig->names.size(), static_cast<std::size_t>(bar.joints));
+    for (int joint = 0; joint < bar.joints; ++joint) {
+      EXPECT_EQ(rig->names[static_cast<std::size_t>(joint)], "joint " + std::to_string(joint));
+      EXPECT_EQ(rig->parents[joint], joint - 1);
+      EXPECT_LT((rig->joints.row(joint) - Eigen::RowVector3d(joint, 0, 0)).norm(), 1e-5);
+    }
+    const Positions positions = read_polygons(file(), {}).positions;
+    ASSERT_EQ(rig->weights.rows(), positions.rows());
+    ASSERT_EQ(rig->weights.cols(), bar.joints);
+    expect_sums_of_one(rig->weights);
+    for (int vertex = 0; vertex < positions.rows(); ++vertex) {
+      for (int joint = 0; joint < bar.joints; ++joint) {
+        const double reach = std::abs(positions(vertex, 0) - joint);
+        const bool end = vertex < 4 || vertex >= positions.rows() - 4;
+        const double expected = reach > 0.75 ? 0 : end ? 1 : 0.5;
+        EXPECT_NEAR(rig->weights.coeff(vertex, joint), expected, 0.003) << vertex << ' ' << joint;
+      }
+    }
+  }
+}
+
+TEST_F(ReadRig, VerticesThatNothingMovesHaveEmptyRows) {
+  const auto rig = read({.first_weight = 0});
+  ASSERT_TRUE(rig);
+  EXPECT_EQ(rig->weights.row(0).nonZeros(), 0);
+  EXPECT_EQ(rig->weights.row(1).nonZeros(), 1);
+}
+
+TEST_F(ReadRig, NothingWhereThereIsNoSkin) {
+  write_file(file(), encodings::gltf_embedded());
+  EXPECT_FALSE(read_rig(file(), {}));
+  write_file(file(), encodings::obj());
+  EXPECT_FALSE(read_rig(file(), {}));
+}
+
+TEST_F(ReadRig, WhatIsWrongIsNamed) {
+  EXPECT_NE(refusal({.first_weight = -1}).find("weight -1.0"), std::string::npos);
+  EXPECT_NE(refusal({.joints = 4, .first_joint = 4}).find("the skin's 4 joints"),
+            std::string::npos);
+  EXPECT_NE(refusal({.matrix_scale = 0}).find("without an inverse"), std::string::npos);
+}
+
+TEST_F(ReadRig, RiggedMeshesHaveTheJointsOfTheirIndex) {
+  const fs::path folder = fs::path(CURVESKEL_SHARED_MESHES) / "rigs";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no meshes at " << folder;
+  int rigs = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.path().string().ends_with(".joints.json")) continue;
+    const auto truth = nlohmann::json::parse(std::ifstream(entry.path()));
+    const std::string original = truth["original"];
+    if (!original.ends_with(".glb") && !original.ends_with(".gltf")) continue;
+    SCOPED_TRACE(original);
+    ++rigs;
+    const auto rig = read_rig(folder / original, {});
+    ASSERT_TRUE(rig);
+    expect_sums_of_one(rig->weights);
+    EXPECT_EQ(rig->weights.rows(), read_polygons(folder / original, {}).positions.rows());
+    const double size =
+        (rig->joints.colwise().maxCoeff() - rig->joints.colwise().minCoeff()).norm();
+    std::map<std::string, int> joint_of_name;
+    for (int joint = 0; joint < rig->joints.rows(); ++joint) {
+      EXPECT_LT(rig->parents[joint], joint);
+      joint_of_name[rig->names[static_cast<std::size_t>(joint)]] = joint;
+    }
+    const auto& joints = truth["joints"];
+    ASSERT_EQ(joints.size(), joint_of_name.size());
+    for (const auto& joint : joints) {
+      const int found = joint_of_name.at(joint["name"]);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(rig->joints(found, axis), joint["position"][static_cast<std::size_t>(axis)],
+                    1e-4 * size);
+      }
+      const int parent = joint["parent"];
+      const std::string above = parent < 0 ? "" : joints[static_cast<std::size_t>(parent)]["name"];
+      const int own = rig->parents[found];
+      EXPECT_EQ(own < 0 ? "" : rig->names[static_cast<std::size_t>(own)], above);
+    }
+  }
+  EXPECT_EQ(rigs, 4);
+}
+
+}  // namespace
+}  // namespace curveskel::read_rig_laws
