@@ -16,6 +16,15 @@ for stage in input contraction:3 surgery skeleton; do
 done
 convert "$work"/{input,contraction:3,surgery,skeleton}.png +append docs/pictures/viewer-stages.png
 
+# A rig, where the collection of meshes is: the weights of all joints, and those of one.
+rig=../shared/meshes/rigs/quaternius-horse-1k.glb
+if [ -e "$rig" ]; then
+  "$program" view "$rig" --screenshot "$work/all.png" --size 640x520 2>/dev/null
+  "$program" view "$rig" --screenshot "$work/one.png" --size 640x520 \
+    --surface opaque --joint Neck1 2>/dev/null
+  convert "$work"/{all,one}.png +append docs/pictures/viewer-rig.png
+fi
+
 # The window itself needs a display; a virtual one will do.
 Xvfb :98 -screen 0 1280x800x24 &
 display=$!

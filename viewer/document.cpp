@@ -1,7 +1,9 @@
 #include "viewer/document.hpp"
 
+#include <algorithm>
 #include <string>
 
+#include "rig/read_rig.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "surface/clean.hpp"
 #include "surface/error.hpp"
@@ -19,10 +21,16 @@ bool has_surface_name(const fs::path& file) {
   return !extension.empty() && choice_of(surface_formats, extension.substr(1)).has_value();
 }
 
-void add_surface(Document& document, PolygonSoup soup, const fs::path& file) {
+void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
+                 const Monitor& monitor) {
   if (document.soup) {
     throw Error(Fault::input, file.string() + ": a second surface, beside " +
                                   document.mesh_file.string() + "; open one at a time");
+  }
+  if (soup.format == SurfaceFormat::gltf || soup.format == SurfaceFormat::glb) {
+    if (auto rig = read_rig(file, monitor)) {
+      document.rig = std::make_shared<const Rig>(std::move(*rig));
+    }
   }
   document.surface = Surface{soup.positions, triangulate(soup)};
   document.soup = std::make_shared<const PolygonSoup>(std::move(soup));
@@ -46,7 +54,7 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
       return;
     } catch (const Error& skeleton_error) {
       try {
-        add_surface(document, read_polygons(file, monitor), file);
+        add_surface(document, read_polygons(file, monitor), file, monitor);
         return;
       } catch (const Error&) {
         throw skeleton_error;
@@ -70,11 +78,17 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
   if (lines_only) {
     add_skeleton(document, read_skeleton(file), file);
   } else {
-    add_surface(document, std::move(*soup), file);
+    add_surface(document, std::move(*soup), file, monitor);
   }
 }
 
 }  // namespace
+
+int joint_named(const Rig& rig, const std::string& name) {
+  if (name.empty()) return -1;
+  const auto found = std::find(rig.names.begin(), rig.names.end(), name);
+  return found == rig.names.end() ? -1 : static_cast<int>(found - rig.names.begin());
+}
 
 Document open_document(const std::vector<fs::path>& files, const Monitor& monitor) {
   Document document;

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "rig/rig.hpp"
 #include "skeleton/certificate.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "surface/read.hpp"
@@ -20,12 +22,17 @@ struct Document {
   std::filesystem::path skeleton_file;      ///< empty = none was opened
   std::shared_ptr<const PolygonSoup> soup;  ///< as read; empty without a mesh
   Surface surface;                          ///< the soup's triangles, nothing repaired
+  std::shared_ptr<const Rig> rig;           ///< in the mesh's file; null without one
   std::optional<CurveSkeleton> skeleton;    ///< node_of_vertex by the file's vertices, or empty
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();  ///< of what is drawn
 };
 
-/// Opens one surface, one skeleton, or both; which is which follows from the content.
-/// Throws Error(Fault::input) where a file is neither, or there are two of a kind.
+/// -1 = there is none.
+[[nodiscard]] int joint_named(const Rig& rig, const std::string& name);
+
+/// Opens one surface (with its rig, if the file has one), one skeleton, or both; which is which
+/// follows from the content. Throws Error(Fault::input) where a file is neither, or there are two
+/// of a kind.
 [[nodiscard]] Document open_document(const std::vector<std::filesystem::path>& files,
                                      const Monitor& monitor);
 

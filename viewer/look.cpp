@@ -12,6 +12,8 @@ Palette palette_of(Theme theme) {
             .wire = {0.80F, 0.86F, 0.92F},
             .skeleton = {1.00F, 0.56F, 0.20F},
             .joint = {1.00F, 0.86F, 0.55F},
+            .bone = {0.52F, 0.66F, 0.95F},
+            .bone_joint = {0.84F, 0.91F, 1.00F},
             .casing = {0.05F, 0.06F, 0.08F},
             .contracted = {0.45F, 0.75F, 0.65F}};
   }
@@ -23,6 +25,8 @@ Palette palette_of(Theme theme) {
           .wire = {0.15F, 0.20F, 0.26F},
           .skeleton = {0.80F, 0.20F, 0.09F},
           .joint = {0.35F, 0.06F, 0.04F},
+          .bone = {0.27F, 0.36F, 0.66F},
+          .bone_joint = {0.10F, 0.15F, 0.36F},
           .casing = {1.00F, 1.00F, 1.00F},
           .contracted = {0.36F, 0.66F, 0.56F}};
 }

@@ -26,14 +26,15 @@ inline constexpr NameTable<SkeletonStyle, 4> skeleton_styles{{
     {SkeletonStyle::hidden, "hidden", "the surface alone"},
 }};
 
-enum class ColourBy { plain, component, node, branch, radius };
+enum class ColourBy { plain, component, node, branch, radius, weight };
 
-inline constexpr NameTable<ColourBy, 5> colourings{{
+inline constexpr NameTable<ColourBy, 6> colourings{{
     {ColourBy::plain, "plain", "one colour"},
     {ColourBy::component, "component", "connected parts"},
     {ColourBy::node, "node", "which part of the surface collapsed to which node"},
     {ColourBy::branch, "branch", "chains between junctions and tips"},
     {ColourBy::radius, "radius", "inscribed radius at the node, in model units"},
+    {ColourBy::weight, "weight", "of a rig: what the chosen joint moves, or all of them mixed"},
 }};
 
 enum class Theme { light, dark };
@@ -52,6 +53,7 @@ struct Look {
   Theme theme = Theme::light;
   bool edges = false;                   ///< the surface's edges over its faces
   bool joints = true;                   ///< tips and junctions as balls
+  bool bones = true;                    ///< of a rig
   bool through = true;                  ///< the skeleton shows through an opaque surface
   bool transparent_background = false;  ///< for screenshots
   float opacity = 0.5F;                 ///< of the transparent surface, 0..1
@@ -70,7 +72,9 @@ struct Palette {
   glm::vec3 wire;
   glm::vec3 skeleton;  ///< plain
   glm::vec3 joint;     ///< tips and junctions
-  glm::vec3 casing;    ///< round the skeleton
+  glm::vec3 bone;
+  glm::vec3 bone_joint;
+  glm::vec3 casing;  ///< round the skeleton
   glm::vec3 contracted;
 };
 [[nodiscard]] Palette palette_of(Theme theme);

@@ -131,6 +131,19 @@ std::string description_of_node(int node, const CurveSkeleton& skeleton) {
   return text;
 }
 
+std::string description_of_joint(int joint, const Rig& rig) {
+  const auto name_of = [&](int index) {
+    const std::string& name = rig.names[static_cast<std::size_t>(index)];
+    return name.empty() ? fmt::format("joint {}", index) : name;
+  };
+  std::string text = fmt::format("{}\n({:.5g}, {:.5g}, {:.5g})", name_of(joint),
+                                 rig.joints(joint, 0), rig.joints(joint, 1), rig.joints(joint, 2));
+  const int parent = rig.parents[joint];
+  text += parent < 0 ? "\na root" : fmt::format("\nbelow {}", name_of(parent));
+  const auto moved = (rig.weights.col(joint).toDense().array() > 0).count();
+  return text + fmt::format("\nmoves {} vertices", moved);
+}
+
 }  // namespace
 
 bool begin_panel(const char* name, const Area& area) {
@@ -172,6 +185,11 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
   switch (picked.kind) {
     case Pick::Kind::nothing:
       break;
+    case Pick::Kind::joint: {
+      const auto& rig = bench.scene->document.rig;
+      if (!rig || picked.index >= rig->joints.rows()) break;
+      return description_of_joint(picked.index, *rig);
+    }
     case Pick::Kind::node:
       if (!skeleton || picked.index >= skeleton->nodes.rows()) break;
       return description_of_node(picked.index, *skeleton);

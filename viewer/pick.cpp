@@ -27,8 +27,8 @@ class Projection {
   glm::mat4 matrix_;
 };
 
-/// The nearest node within reach; of those that lie over each other, the one in front.
-Pick pick_node(const std::vector<glm::vec3>& pixels, const glm::vec2& at) {
+/// The nearest of these points within reach; of those that lie over each other, the one in front.
+Pick pick_point(const std::vector<glm::vec3>& pixels, const glm::vec2& at, Pick::Kind kind) {
   Pick best;
   float best_cost = node_pixels;
   for (std::size_t node = 0; node < pixels.size(); ++node) {
@@ -37,10 +37,20 @@ Pick pick_node(const std::vector<glm::vec3>& pixels, const glm::vec2& at) {
     const float cost = distance + pixels[node].z;  // depth is -1..1: it decides between equals
     if (cost >= best_cost) continue;
     best_cost = cost;
-    best.kind = Pick::Kind::node;
+    best.kind = kind;
     best.index = static_cast<int>(node);
   }
   return best;
+}
+
+std::vector<glm::vec3> pixels_of(const Projection& projection, const Positions& points,
+                                 const Scene& scene) {
+  std::vector<glm::vec3> pixels;
+  pixels.reserve(static_cast<std::size_t>(points.rows()));
+  for (const auto& point : points.rowwise()) {
+    pixels.push_back(projection.pixel(shown_point(point, scene.document.origin)));
+  }
+  return pixels;
 }
 
 Pick pick_edge(const CurveSkeleton& skeleton, const std::vector<glm::vec3>& pixels,
@@ -95,19 +105,22 @@ glm::vec3 pixel_of(const Camera& camera, const Bounds& bounds, const glm::vec3& 
 
 Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int width, int height) {
   const auto skeleton = scene.skeleton();
-  const bool hidden = scene.look.skeleton == SkeletonStyle::hidden ||
-                      (scene.look.surface == SurfaceStyle::opaque && !scene.look.through);
-  if (skeleton && !hidden) {
-    const Projection projection(scene.camera, scene.bounds(), width, height);
-    std::vector<glm::vec3> pixels;
-    pixels.reserve(static_cast<std::size_t>(skeleton->nodes.rows()));
+  const bool covered = scene.look.surface == SurfaceStyle::opaque && !scene.look.through;
+  const Projection projection(scene.camera, scene.bounds(), width, height);
+  if (scene.document.rig && scene.look.bones && !covered) {
+    const Positions& joints = scene.document.rig->joints;
+    Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint);
+    if (found.kind == Pick::Kind::joint) {
+      found.place = shown_point(joints.row(found.index), scene.document.origin);
+      return found;
+    }
+  }
+  if (skeleton && !covered && scene.look.skeleton != SkeletonStyle::hidden) {
+    const std::vector<glm::vec3> pixels = pixels_of(projection, skeleton->nodes, scene);
     const auto shown = [&](Eigen::Index node) {
       return shown_point(skeleton->nodes.row(node), scene.document.origin);
     };
-    for (Eigen::Index node = 0; node < skeleton->nodes.rows(); ++node) {
-      pixels.push_back(projection.pixel(shown(node)));
-    }
-    Pick found = pick_node(pixels, at);
+    Pick found = pick_point(pixels, at, Pick::Kind::node);
     if (found.kind == Pick::Kind::node) {
       found.place = shown(found.index);
       return found;

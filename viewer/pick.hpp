@@ -9,9 +9,9 @@
 namespace curveskel::viewer {
 
 struct Pick {
-  enum class Kind { nothing, node, edge, face };
+  enum class Kind { nothing, joint, node, edge, face };
   Kind kind = Kind::nothing;
-  int index = -1;      ///< node, row of the edges, or triangle of the surface
+  int index = -1;      ///< joint, node, row of the edges, or triangle of the surface
   int vertex = -1;     ///< of a face: its corner next to the pointer
   glm::vec3 place{0};  ///< as drawn, about the document's origin
   bool operator==(const Pick& other) const {
@@ -19,9 +19,9 @@ struct Pick {
   }
 };
 
-/// (x, y) in pixels from the upper left corner of a picture of width x height. Nodes come before
-/// edges, edges before the surface, if the skeleton can be seen there. `tree` (over the document's
-/// surface) may be null. O(#N + #E + log #F).
+/// (x, y) in pixels from the upper left corner of a picture of width x height. Joints come
+/// before nodes, nodes before edges, edges before the surface, if they can be seen there. `tree`
+/// (over the document's surface) may be null. O(#N + #E + log #F).
 [[nodiscard]] Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int width,
                         int height);
 

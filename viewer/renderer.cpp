@@ -146,8 +146,9 @@ void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm:
   if (shown.corners == 0) return;
   seen.set(program);
   glBindVertexArray(shown.array.get());
-  program.set("categories", static_cast<int>(seen.look.surface_colour != ColourBy::plain &&
-                                             seen.look.surface_colour != ColourBy::radius));
+  const ColourBy by = seen.look.surface_colour;
+  program.set("categories", static_cast<int>(by == ColourBy::component || by == ColourBy::node ||
+                                             by == ColourBy::branch));
   if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
   glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
 }
@@ -186,7 +187,6 @@ void Renderer::draw_instances(const Instances& instances, bool ball) const {
 }
 
 void Renderer::draw_skeleton(const Seen& seen) const {
-  if (seen.look.skeleton == SkeletonStyle::hidden) return;
   const auto height = static_cast<float>(seen.frame.height);
   seen.set(tube_);
   const float unit = 2 * std::tan(seen.camera.field_of_view / 2) / height;

@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/panel_parts.hpp"
@@ -29,6 +31,9 @@ void look_controls(Look& look, Camera& camera) {
   ImGui::SameLine();
   ImGui::Checkbox("through", &look.through);
   tip("the skeleton shows through an opaque surface");
+  ImGui::Checkbox("bones", &look.bones);
+  tip("joints and bones of a rig");
+  ImGui::SameLine();
   ImGui::Checkbox("parallel projection", &camera.orthographic);
   tip("O");
 }
@@ -114,14 +119,26 @@ void input_defects(Workbench& bench) {
   line("degenerate", found.degenerate, "with a corner twice, or no area");
 }
 
-void colour_bar(const Workbench& bench) {
+/// What the colour bar spells out, and its name; nothing where colours are no numbers.
+std::optional<std::pair<ColourScale, const char*>> scale_shown(const Workbench& bench) {
   const Look& look = bench.scene->look;
+  if (look.surface_colour == ColourBy::weight && bench.selected_joint() >= 0) {
+    return std::pair{ColourScale{0, 1}, "weight"};
+  }
   const bool by_radius =
       look.surface_colour == ColourBy::radius || look.skeleton_colour == ColourBy::radius;
   const auto skeleton = bench.scene->skeleton();
-  if (!by_radius || !skeleton) return;
+  if (!by_radius || !skeleton) return std::nullopt;
   const auto scale = radius_scale(*skeleton);
-  if (!scale) return;
+  if (!scale) return std::nullopt;
+  return std::pair{*scale, "radius"};
+}
+
+void colour_bar(const Workbench& bench) {
+  const auto shown = scale_shown(bench);
+  if (!shown) return;
+  const auto& [scale, name] = *shown;
+  const Look& look = bench.scene->look;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const float height = ImGui::GetFontSize();
@@ -134,13 +151,46 @@ void colour_bar(const Workbench& bench) {
         IM_COL32(colour[0], colour[1], colour[2], 255));
   }
   ImGui::Dummy({width, height});
-  const std::string low = fmt::format("{:.4g}", scale->low);
-  const std::string high = fmt::format("{:.4g}", scale->high);
+  const std::string low = fmt::format("{:.4g}", scale.low);
+  const std::string high = fmt::format("{:.4g}", scale.high);
   ImGui::TextUnformatted(low.c_str());
   ImGui::SameLine(width / 2 - ImGui::GetFontSize() * 2);
-  ImGui::TextUnformatted("radius");
+  ImGui::TextUnformatted(name);
   ImGui::SameLine(width - ImGui::CalcTextSize(high.c_str()).x);
   ImGui::TextUnformatted(high.c_str());
+}
+
+/// The joints below this one (-1: the roots), each line to be clicked.
+void joints_below(Workbench& bench, const Rig& rig, const std::vector<std::vector<int>>& children,
+                  int parent) {
+  for (const int joint : children[static_cast<std::size_t>(parent + 1)]) {
+    const bool leaf = children[static_cast<std::size_t>(joint) + 1].empty();
+    const ImGuiTreeNodeFlags flags =
+        ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen |
+        ImGuiTreeNodeFlags_SpanAvailWidth | (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
+        (joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
+    const std::string& name = rig.names[static_cast<std::size_t>(joint)];
+    ImGui::PushID(joint);
+    const bool open = ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
+    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+      bench.select_joint(joint == bench.selected_joint() ? -1 : joint);
+    }
+    if (open) {
+      joints_below(bench, rig, children, joint);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+}
+
+void hierarchy(Workbench& bench, const Rig& rig) {
+  std::vector<std::vector<int>> children(rig.names.size() + 1);
+  for (int joint = 0; joint < rig.parents.size(); ++joint) {
+    children[static_cast<std::size_t>(rig.parents[joint] + 1)].push_back(joint);
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, ImGui::GetFontSize() * 0.5F);
+  joints_below(bench, rig, children, -1);
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
@@ -152,6 +202,10 @@ void draw_right_panel(Workbench& bench, const Area& area) {
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
+  const auto rig = bench.scene->document.rig;
+  if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
+    hierarchy(bench, *rig);
+  }
   const bool defective = bench.defects() != nullptr && !bench.defects()->none();
   if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {
     input_defects(bench);

@@ -25,6 +25,11 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
   for (std::size_t v = 0; v < given.positions.size(); v += every) {
     points.push_back(given.positions[v]);
   }
+  if (document.rig) {
+    for (const auto& joint : document.rig->joints.rowwise()) {
+      points.push_back(shown_point(joint, document.origin));
+    }
+  }
   if (points.empty() && document.skeleton) {
     const CurveSkeleton& skeleton = *document.skeleton;
     for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
@@ -97,7 +102,7 @@ void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
 void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
   constexpr std::array layers{Layer::simpler, Layer::simplest};
   const std::vector<Rgba> colours =
-      surface_colours(document.surface, now.skeleton.get(), look, highlights);
+      surface_colours(document.surface, {now.skeleton.get(), document.rig.get()}, look, highlights);
   renderer.set_colours(Layer::given, colours);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     std::vector<Rgba> fewer;
@@ -133,17 +138,25 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
 }
 
 void Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
-  const bool same_look = !all && look.skeleton == uploaded_->look.skeleton &&
-                         look.skeleton_colour == uploaded_->look.skeleton_colour &&
-                         look.map == uploaded_->look.map && look.theme == uploaded_->look.theme &&
-                         look.joints == uploaded_->look.joints &&
-                         look.thickness == uploaded_->look.thickness;
+  const bool same_look =
+      !all && look.skeleton == uploaded_->look.skeleton &&
+      look.skeleton_colour == uploaded_->look.skeleton_colour && look.map == uploaded_->look.map &&
+      look.theme == uploaded_->look.theme && look.joints == uploaded_->look.joints &&
+      look.bones == uploaded_->look.bones && look.thickness == uploaded_->look.thickness;
   if (same_look && now.skeleton == uploaded_->skeleton && now.highlights == uploaded_->highlights) {
     return;
   }
-  renderer.set_skeleton(now.skeleton ? shown_skeleton(*now.skeleton, document.origin,
-                                                      bounds_.diagonal(), look, highlights)
-                                     : ShownSkeleton{});
+  ShownSkeleton shown;
+  if (now.skeleton && look.skeleton != SkeletonStyle::hidden) {
+    shown = shown_skeleton(*now.skeleton, document.origin, bounds_.diagonal(), look, highlights);
+  }
+  if (document.rig && look.bones) {
+    const ShownSkeleton rig =
+        shown_rig(*document.rig, document.origin, bounds_.diagonal(), look, highlights);
+    shown.edges.insert(shown.edges.end(), rig.edges.begin(), rig.edges.end());
+    shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
+  }
+  renderer.set_skeleton(shown);
 }
 
 void Scene::upload(Renderer& renderer) {

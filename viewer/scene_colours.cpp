@@ -97,6 +97,7 @@ class SkeletonColours {
     switch (look_.skeleton_colour) {
       case ColourBy::plain:
       case ColourBy::branch:
+      case ColourBy::weight:
         break;
       case ColourBy::component:
         return category(static_cast<std::size_t>(component_[static_cast<std::size_t>(index)]));
@@ -114,9 +115,10 @@ class SkeletonColours {
     return branch < 0 ? palette_.skeleton : category(static_cast<std::size_t>(branch));
   }
   [[nodiscard]] glm::vec3 joint(int index) const {
-    return look_.skeleton_colour == ColourBy::plain || look_.skeleton_colour == ColourBy::branch
-               ? palette_.joint
-               : node(index);
+    const bool by_node = look_.skeleton_colour == ColourBy::component ||
+                         look_.skeleton_colour == ColourBy::node ||
+                         look_.skeleton_colour == ColourBy::radius;
+    return by_node ? node(index) : palette_.joint;
   }
 
  private:
@@ -179,6 +181,26 @@ std::vector<Rgba> category_colours(const std::vector<int>& number) {
   colours.reserve(number.size());
   for (const int part : number) {
     colours.push_back(rgba(part < 0 ? glm::vec3(0.5F) : category(static_cast<std::size_t>(part))));
+  }
+  return colours;
+}
+
+/// Shares of one joint by the map; of all, their colours mixed.
+std::vector<Rgba> weight_colours(const Rig& rig, int joint, const Look& look,
+                                 const Palette& palette) {
+  std::vector<Rgba> colours;
+  colours.reserve(static_cast<std::size_t>(rig.weights.rows()));
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    float share = 0;
+    float sum = 0;
+    glm::vec3 mixed(0);
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      sum += it.value();
+      mixed += it.value() * category(static_cast<std::size_t>(it.col()));
+      if (it.col() == joint) share = it.value();
+    }
+    const glm::vec3 own = joint < 0 ? mixed : mapped(look.map, share);
+    colours.push_back(rgba(sum > 0 ? own : palette.surface));
   }
   return colours;
 }
@@ -289,14 +311,46 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
   return shown;
 }
 
-std::vector<Rgba> surface_colours(const Surface& surface, const CurveSkeleton* skeleton,
-                                  const Look& look, const Highlights& highlights) {
+ShownSkeleton shown_rig(const Rig& rig, const Eigen::RowVector3d& origin, float size,
+                        const Look& look, const Highlights& highlights) {
+  // The shape that Blender and others draw: widest near the joint that turns it.
+  constexpr float widest_at = 0.12F;
+  constexpr float width = 0.07F;
+  constexpr float joint_share = 0.0055F;
   const Palette palette = palette_of(look.theme);
+  const float ball = joint_share * size * look.thickness;
+  ShownSkeleton shown;
+  for (int joint = 0; joint < rig.joints.rows(); ++joint) {
+    const bool lit = joint == highlights.joint;
+    const glm::vec3 at = shown_point(rig.joints.row(joint), origin);
+    const Rgba colour = rgba(lit ? lit_up : palette.bone_joint);
+    const glm::vec4 place(at, lit ? 1.4F * ball : ball);
+    shown.nodes.push_back({place, place, colour, colour, {}, {}});
+    const int parent = rig.parents[joint];
+    if (parent < 0) continue;
+    const glm::vec3 from = shown_point(rig.joints.row(parent), origin);
+    const glm::vec4 middle(glm::mix(from, at, widest_at),
+                           std::min(width * glm::length(at - from), 2 * ball));
+    const Rgba bone = rgba(parent == highlights.joint ? lit_up : palette.bone);
+    shown.edges.push_back({glm::vec4(from, 0), middle, bone, bone, {}, {}});
+    shown.edges.push_back({middle, glm::vec4(at, 0), bone, bone, {}, {}});
+  }
+  return shown;
+}
+
+std::vector<Rgba> surface_colours(const Surface& surface, const Meaning& meaning, const Look& look,
+                                  const Highlights& highlights) {
+  const Palette palette = palette_of(look.theme);
+  const CurveSkeleton* const skeleton = meaning.skeleton;
   const bool has_map =
       skeleton != nullptr && skeleton->node_of_vertex.size() == surface.positions.rows();
+  const bool has_weights =
+      meaning.rig != nullptr && meaning.rig->weights.rows() == surface.positions.rows();
   std::vector<Rgba> colours;
   if (look.surface_colour == ColourBy::component) {
     colours = category_colours(components_of(surface));
+  } else if (look.surface_colour == ColourBy::weight) {
+    if (has_weights) colours = weight_colours(*meaning.rig, highlights.joint, look, palette);
   } else if (look.surface_colour != ColourBy::plain && has_map) {
     colours = colours_by_map(*skeleton, look, palette);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rig/rig.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "surface/surface.hpp"
 #include "viewer/look.hpp"
@@ -25,6 +26,7 @@ struct Highlights {
   std::vector<int> nodes;
   std::vector<int> edges;
   std::vector<int> failed_edges;  ///< outside, or spurs
+  int joint = -1;                 ///< of the rig: its weights are shown; -1 = those of all
   std::vector<int> failed_faces;  ///< of the given surface: what had to be repaired
   bool operator==(const Highlights&) const = default;
 };
@@ -42,10 +44,19 @@ struct Highlights {
                                            const Eigen::RowVector3d& origin, float size,
                                            const Look& look, const Highlights& highlights);
 
-/// One colour per vertex of `surface`; empty where it is plain. `skeleton` may be null; its vertex
-/// map must be of this surface. Vertices of the highlighted nodes are lit up.
-[[nodiscard]] std::vector<Rgba> surface_colours(const Surface& surface,
-                                                const CurveSkeleton* skeleton, const Look& look,
-                                                const Highlights& highlights);
+/// Bones from each joint to those below it, and joints as balls.
+[[nodiscard]] ShownSkeleton shown_rig(const Rig& rig, const Eigen::RowVector3d& origin, float size,
+                                      const Look& look, const Highlights& highlights);
+
+/// What a surface's colours may come from; either may be null, and what is not of this surface's
+/// vertices is passed over.
+struct Meaning {
+  const CurveSkeleton* skeleton = nullptr;
+  const Rig* rig = nullptr;
+};
+/// One colour per vertex of `surface`; empty where it is plain. Vertices of the highlighted nodes
+/// are lit up.
+[[nodiscard]] std::vector<Rgba> surface_colours(const Surface& surface, const Meaning& meaning,
+                                                const Look& look, const Highlights& highlights);
 
 }  // namespace curveskel::viewer

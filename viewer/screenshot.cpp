@@ -59,6 +59,16 @@ void go_to(Scene& scene, const StageWish& wish) {
   }
 }
 
+void look_at_rig(Scene& scene, const ViewOptions& options) {
+  if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
+  const Rig& rig = *scene.document.rig;
+  scene.highlights.joint = joint_named(rig, options.joint);
+  if (scene.highlights.joint >= 0 || options.joint.empty()) return;
+  std::string names;
+  for (const std::string& name : rig.names) names += (names.empty() ? "" : ", ") + name;
+  throw Error(Fault::input, "no joint is called " + options.joint + "; there are " + names);
+}
+
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
                      const Monitor& monitor) {
   make_folder(options.turntable);
@@ -111,9 +121,11 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
+  if (scene.document.rig) look_at_rig(scene, options);
+  const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
     if (scene.document.soup) scene.own_skeleton = nullptr;
-  } else if (scene.document.soup && options.run && (!scene.own_skeleton || options.stage_given)) {
+  } else if (scene.document.soup && wants_run && (!scene.own_skeleton || options.stage_given)) {
     scene.own_skeleton = nullptr;
     finish_run(scene, options, monitor);
     go_to(scene, options.stage);

@@ -30,6 +30,7 @@ struct ViewOptions {
   bool stage_given = false;
   bool run = true;  ///< a surface without a skeleton is worked on at once
   double time_limit_seconds = 0;
+  std::string joint;        ///< of a rig: its name; empty = none
   std::string frame_times;  ///< CSV of the window's frame times, written at the end; empty = none
   Look look;
   RunOptions pipeline;

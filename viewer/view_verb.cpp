@@ -87,6 +87,8 @@ void add_look(CLI::App& parser, Look& look) {
   add_choice(parser, "--theme", look.theme, themes, "light or dark");
   add_number(parser, "--opacity", look.opacity, 0.0F, 1.0F, "of the transparent surface");
   add_number(parser, "--thickness", look.thickness, 0.05F, 20.0F, "of the skeleton's tubes");
+  parser.add_flag_callback(
+      "--no-bones", [&look] { look.bones = false; }, "leave out a rig's joints and bones");
   parser.add_flag("--edges", look.edges, "draw the surface's edges, too");
   parser.add_flag("--transparent", look.transparent_background, "pictures without a background");
 }
@@ -108,7 +110,7 @@ Verb add_view(CLI::App& program) {
   const auto options = std::make_shared<ViewOptions>();
   CLI::App* parser =
       program.add_subcommand("view", "Watch a surface become its skeleton, or look at one");
-  parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each")
+  parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each; a rig (glTF)")
       ->type_name("");
   parser->add_option("--screenshot", options->screenshot, "write a picture and open no window")
       ->type_name("OUT.png");
@@ -126,6 +128,8 @@ Verb add_view(CLI::App& program) {
   parser->add_flag_callback(
       "--no-run", [options] { options->run = false; }, "do not extract the skeleton at once");
   add_look(*parser, options->look);
+  parser->add_option("--joint", options->joint, "of a rig: the one whose weights are shown")
+      ->type_name("NAME");
   parser
       ->add_option("--frame-times", options->frame_times,
                    "milliseconds of each picture in the window, written when it is closed")

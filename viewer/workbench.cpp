@@ -131,8 +131,17 @@ bool Workbench::take_opened() {
   if (scene->own_skeleton) begin_history(scene->own_skeleton);
   plant_tree();
   say("opened " + names_of(files_));
-  if (options_.run && scene->document.soup && !scene->own_skeleton) start(false);
+  const Document& document = scene->document;
+  if (document.rig) look_at_rig();
+  if (options_.run && document.soup && !document.rig && !scene->own_skeleton) start(false);
   return true;
+}
+
+/// A rig is opened to be looked at: its weights, in place of the one colour.
+void Workbench::look_at_rig() {
+  if (scene->look.surface_colour == ColourBy::plain) scene->look.surface_colour = ColourBy::weight;
+  const int joint = joint_named(*scene->document.rig, options_.joint);
+  if (joint >= 0) select_joint(joint);
 }
 
 void Workbench::reload() {

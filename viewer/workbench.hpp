@@ -83,11 +83,14 @@ class Workbench {
   [[nodiscard]] const Run::News& news() const { return news_; }
   void go_to(std::size_t moment);
 
-  // Selection: nodes in the order in which they were picked, or one edge.
+  // Selection: nodes in the order in which they were picked, or one edge; and a joint of the rig.
   void select(const Pick& picked, bool more);
   void clear_selection();
   [[nodiscard]] const std::vector<int>& selected_nodes() const { return selected_nodes_; }
   [[nodiscard]] int selected_edge() const { return selected_edge_; }
+  [[nodiscard]] int selected_joint() const { return selected_joint_; }
+  /// -1 = none: the weights of all joints are shown.
+  void select_joint(int joint);
   /// Between the two selected nodes along the curve; empty otherwise.
   [[nodiscard]] const Path& measured() const { return measured_; }
   void show_exits();
@@ -134,6 +137,7 @@ class Workbench {
     std::string error;
   };
   bool take_opened();
+  void look_at_rig();
   bool take_news();
   bool take_tree();
   bool take_judgement();
@@ -175,6 +179,7 @@ class Workbench {
   std::future<Judgement> judging_;
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
+  int selected_joint_ = -1;
   std::vector<int> failed_edges_;
   std::vector<int> failed_faces_;
   Path measured_;

@@ -56,9 +56,14 @@ void Workbench::select(const Pick& picked, bool more) {
       skeleton->node_of_vertex.size() == scene->document.surface.positions.rows()) {
     node = skeleton->node_of_vertex[picked.vertex];
   }
+  if (picked.kind == Pick::Kind::joint) {
+    select_joint(picked.index == selected_joint_ ? -1 : picked.index);
+    return;
+  }
   if (!more) {
     selected_nodes_.clear();
     selected_edge_ = -1;
+    selected_joint_ = -1;
   }
   if (node >= 0) {
     selected_edge_ = -1;
@@ -81,9 +86,15 @@ void Workbench::select(const Pick& picked, bool more) {
   set_highlights();
 }
 
+void Workbench::select_joint(int joint) {
+  selected_joint_ = joint;
+  set_highlights();
+}
+
 void Workbench::clear_selection() {
   selected_nodes_.clear();
   selected_edge_ = -1;
+  selected_joint_ = -1;
   measured_ = {};
   set_highlights();
 }
@@ -96,6 +107,7 @@ void Workbench::set_highlights() {
     const std::vector<int> path = edges_along(*skeleton, measured_.nodes);
     lit.edges.insert(lit.edges.end(), path.begin(), path.end());
   }
+  lit.joint = selected_joint_;
   lit.failed_edges = failed_edges_;
   lit.failed_faces = failed_faces_;
   scene->highlights = std::move(lit);

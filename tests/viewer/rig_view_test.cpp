@@ -1,0 +1,146 @@
+// Laws of rigs in the viewer: what is drawn, coloured, picked and selected of a bar whose rig is
+// known.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "tests/rig/rigged_bar.hpp"
+#include "viewer/pick.hpp"
+#include "viewer/scene.hpp"
+#include "viewer/workbench.hpp"
+
+namespace curveskel::viewer::rig_view_laws {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RigView : public testing::Test {
+ protected:
+  RigView() {
+    std::string name = (fs::temp_directory_path() / "curveskel-rig-view-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    write_rigged_bar(file(), {.joints = joints, .first_weight = 0});
+  }
+  ~RigView() override { fs::remove_all(folder_); }
+  RigView(const RigView&) = delete;
+  RigView& operator=(const RigView&) = delete;
+
+  [[nodiscard]] fs::path file() const { return folder_ / "bar.gltf"; }
+  [[nodiscard]] Document document() const { return open_document({file()}, {}); }
+
+  static constexpr int joints = 5;
+
+ private:
+  fs::path folder_;
+};
+
+Look look_by_weight() {
+  Look look;
+  look.surface_colour = ColourBy::weight;
+  return look;
+}
+
+TEST_F(RigView, BonesGoFromJointToJoint) {
+  const Document opened = document();
+  ASSERT_TRUE(opened.rig);
+  const ShownSkeleton shown = shown_rig(*opened.rig, opened.origin, 5, {}, {});
+  ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(joints));
+  ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(2 * (joints - 1)));
+  for (int bone = 0; bone + 1 < joints; ++bone) {
+    const TubeInstance& head = shown.edges[static_cast<std::size_t>(2 * bone)];
+    const TubeInstance& tail = shown.edges[static_cast<std::size_t>(2 * bone + 1)];
+    EXPECT_EQ(head.to, tail.from);
+    EXPECT_GT(head.to.w, 0);
+    EXPECT_EQ(head.from.w, 0);
+    EXPECT_EQ(tail.to.w, 0);
+    const glm::vec3 along = glm::vec3(tail.to) - glm::vec3(head.from);
+    EXPECT_NEAR(along.x, 1, 1e-5);
+    EXPECT_NEAR(glm::length(along), 1, 1e-5);
+  }
+}
+
+TEST_F(RigView, WeightsOfOneJointGoThroughTheMap) {
+  const Document opened = document();
+  const Look look = look_by_weight();
+  for (int joint = 0; joint < joints; ++joint) {
+    Highlights lit;
+    lit.joint = joint;
+    const auto colours = surface_colours(opened.surface, {nullptr, opened.rig.get()}, look, lit);
+    ASSERT_EQ(colours.size(), static_cast<std::size_t>(opened.surface.positions.rows()));
+    EXPECT_EQ(colours[0], rgba(palette_of(look.theme).surface)) << "nothing moves it";
+    for (std::size_t v = 1; v < colours.size(); ++v) {
+      const float weight = opened.rig->weights.coeff(static_cast<Eigen::Index>(v), joint);
+      EXPECT_EQ(colours[v], rgba(mapped(look.map, weight))) << v << ' ' << joint;
+    }
+  }
+}
+
+TEST_F(RigView, WeightsOfAllJointsMixTheirColours) {
+  const Document opened = document();
+  const auto colours =
+      surface_colours(opened.surface, {nullptr, opened.rig.get()}, look_by_weight(), {});
+  EXPECT_EQ(colours[1], rgba(category(0)));
+  EXPECT_EQ(colours[4], rgba(glm::mix(category(0), category(1), 0.5F)));
+  EXPECT_EQ(colours.back(), rgba(category(joints - 1)));
+}
+
+TEST_F(RigView, WeightsOfAnotherSurfaceAreNotShown) {
+  const Document opened = document();
+  Surface other = opened.surface;
+  other.positions.conservativeResize(other.positions.rows() + 1, 3);
+  other.positions.bottomRows<1>().setZero();
+  EXPECT_TRUE(surface_colours(other, {nullptr, opened.rig.get()}, look_by_weight(), {}).empty());
+  EXPECT_TRUE(surface_colours(opened.surface, {}, look_by_weight(), {}).empty());
+}
+
+TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
+  constexpr int width = 640;
+  constexpr int height = 400;
+  Scene scene(document());
+  fit(scene.camera, scene.points(), float(width) / height);
+  for (int joint = 0; joint < joints; ++joint) {
+    const glm::vec3 place =
+        shown_point(scene.document.rig->joints.row(joint), scene.document.origin);
+    const glm::vec2 at(pixel_of(scene.camera, scene.bounds(), place, width, height));
+    const Pick found = pick(scene, nullptr, at, width, height);
+    EXPECT_EQ(found.kind, Pick::Kind::joint);
+    EXPECT_EQ(found.index, joint);
+    EXPECT_LT(glm::length(found.place - place), 1e-6);
+    scene.look.bones = false;
+    EXPECT_EQ(pick(scene, nullptr, at, width, height).kind, Pick::Kind::nothing);
+    scene.look.bones = true;
+  }
+}
+
+TEST_F(RigView, IsOpenedToBeLookedAt) {
+  ViewOptions options;
+  options.files = {file()};
+  options.joint = "joint 2";
+  Workbench bench(options);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (bench.busy()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+    bench.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(bench.scene->document.rig);
+  EXPECT_EQ(bench.scene->recording.moments().size(), 1U) << "no run";
+  EXPECT_EQ(bench.scene->look.surface_colour, ColourBy::weight);
+  EXPECT_EQ(bench.selected_joint(), 2);
+  EXPECT_EQ(bench.scene->highlights.joint, 2);
+  Pick other;
+  other.kind = Pick::Kind::joint;
+  other.index = 4;
+  bench.select(other, false);
+  EXPECT_EQ(bench.scene->highlights.joint, 4);
+  bench.select(other, false);
+  EXPECT_EQ(bench.scene->highlights.joint, -1) << "again: all of them";
+  bench.select_joint(1);
+  bench.clear_selection();
+  EXPECT_EQ(bench.selected_joint(), -1);
+}
+
+}  // namespace
+}  // namespace curveskel::viewer::rig_view_laws
