@@ -152,7 +152,7 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   const glm::vec2 at = pointer_in(picture);
   const bool over = !io.WantCaptureMouse && holds(picture, at);
   if (drag_ == Drag::none) {
-    panels.hovered = over ? pick(*bench.scene, bench.tree(), at, static_cast<int>(picture.width),
+    panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
                                  static_cast<int>(picture.height))
                           : Pick{};
     if (over) begin_drag(bench, panels);

@@ -21,9 +21,18 @@ bool has_surface_name(const fs::path& file) {
   return !extension.empty() && choice_of(surface_formats, extension.substr(1)).has_value();
 }
 
+bool has_same_triangles(const PolygonSoup& soup, const Triangles& triangles) {
+  const auto corners = static_cast<std::size_t>(triangles.size());
+  if (soup.corners.size() != corners || soup.offsets.size() != corners / 3 + 1) return false;
+  for (std::size_t polygon = 0; polygon < soup.offsets.size(); ++polygon) {
+    if (soup.offsets[polygon] != static_cast<std::int64_t>(3 * polygon)) return false;
+  }
+  return std::equal(soup.corners.begin(), soup.corners.end(), triangles.data());
+}
+
 void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
                  const Monitor& monitor) {
-  if (document.soup) {
+  if (document.has_surface()) {
     throw Error(Fault::input, file.string() + ": a second surface, beside " +
                                   document.mesh_file.string() + "; open one at a time");
   }
@@ -32,9 +41,15 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
       document.rig = std::make_shared<const Rig>(std::move(*rig));
     }
   }
-  document.surface = Surface{soup.positions, triangulate(soup)};
-  document.soup = std::make_shared<const PolygonSoup>(std::move(soup));
   document.mesh_file = file;
+  document.format = soup.format;
+  document.surface.triangles = triangulate(soup);
+  if (has_same_triangles(soup, document.surface.triangles)) {
+    document.surface.positions = std::move(soup.positions);
+  } else {
+    document.surface.positions = soup.positions;
+    document.soup = std::make_shared<const PolygonSoup>(std::move(soup));
+  }
 }
 
 void add_skeleton(Document& document, CurveSkeleton skeleton, const fs::path& file) {
@@ -90,16 +105,31 @@ int joint_named(const Rig& rig, const std::string& name) {
   return found == rig.names.end() ? -1 : static_cast<int>(found - rig.names.begin());
 }
 
+std::shared_ptr<const PolygonSoup> Document::polygons() const {
+  if (soup) return soup;
+  auto made = std::make_shared<PolygonSoup>();
+  made->positions = surface.positions;
+  made->corners.assign(surface.triangles.data(),
+                       surface.triangles.data() + surface.triangles.size());
+  made->offsets.reserve(static_cast<std::size_t>(surface.triangles.rows()) + 1);
+  for (std::int64_t polygon = 0; polygon <= surface.triangles.rows(); ++polygon) {
+    made->offsets.push_back(3 * polygon);
+  }
+  made->format = format;
+  made->file = mesh_file;
+  return made;
+}
+
 Document open_document(const std::vector<fs::path>& files, const Monitor& monitor) {
   Document document;
   for (const fs::path& file : files) add_file(document, file, monitor);
-  const Positions& points = document.soup       ? document.surface.positions
-                            : document.skeleton ? document.skeleton->nodes
-                                                : document.surface.positions;
+  const Positions& points = document.has_surface() ? document.surface.positions
+                            : document.skeleton    ? document.skeleton->nodes
+                                                   : document.surface.positions;
   if (points.rows() > 0) {
     document.origin = (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
   }
-  if (document.skeleton && document.soup &&
+  if (document.skeleton && document.has_surface() &&
       document.skeleton->node_of_vertex.size() != document.surface.positions.rows()) {
     document.skeleton->node_of_vertex.resize(0);  // of another surface
   }

@@ -18,13 +18,19 @@
 namespace curveskel::viewer {
 
 struct Document {
-  std::filesystem::path mesh_file;          ///< empty = none
-  std::filesystem::path skeleton_file;      ///< empty = none was opened
-  std::shared_ptr<const PolygonSoup> soup;  ///< as read; empty without a mesh
-  Surface surface;                          ///< the soup's triangles, nothing repaired
-  std::shared_ptr<const Rig> rig;           ///< in the mesh's file; null without one
-  std::optional<CurveSkeleton> skeleton;    ///< node_of_vertex by the file's vertices, or empty
+  std::filesystem::path mesh_file;      ///< empty = none
+  std::filesystem::path skeleton_file;  ///< empty = none was opened
+  /// As read; empty where its polygons are the surface's triangles, and without a mesh.
+  std::shared_ptr<const PolygonSoup> soup;
+  SurfaceFormat format = SurfaceFormat::obj;  ///< of the mesh's file
+  Surface surface;                            ///< the file's triangles, nothing repaired
+  std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one
+  std::optional<CurveSkeleton> skeleton;      ///< node_of_vertex by the file's vertices, or empty
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();  ///< of what is drawn
+
+  [[nodiscard]] bool has_surface() const { return surface.positions.rows() > 0; }
+  /// What the file has; a copy of the surface where that is the same. Precondition: has_surface().
+  [[nodiscard]] std::shared_ptr<const PolygonSoup> polygons() const;
 };
 
 /// -1 = there is none.

@@ -101,7 +101,7 @@ void parameters(Workbench& bench) {
     changed = true;
   }
   tip("all parameters as they are without choosing any");
-  if (changed && bench.scene->document.soup) bench.start(false);
+  if (changed && bench.scene->document.has_surface()) bench.start(false);
 }
 
 void corrections(Workbench& bench) {

@@ -23,7 +23,7 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   if (!begin_panel("status", area)) return;
   const Document& document = bench.scene->document;
   std::vector<std::string> facts;
-  if (document.soup) {
+  if (document.has_surface()) {
     facts.push_back(
         fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
                     document.surface.positions.rows(), document.surface.triangles.rows()));

@@ -73,20 +73,21 @@ Pick pick_edge(const CurveSkeleton& skeleton, const std::vector<glm::vec3>& pixe
   return best;
 }
 
-Pick pick_face(const Scene& scene, const SurfaceTree& tree, const PickRay& ray) {
+Pick pick_face(const Scene& scene, const PickRay& ray) {
   const auto in_model = [&](const glm::vec3& point) {
     return Eigen::Vector3d(model_vector(point) + scene.document.origin.transpose());
   };
   const Eigen::Vector3d direction = model_vector(ray.direction).normalized();
-  const auto hit = tree.ray(in_model(ray.origin), direction);
-  if (hit.triangle < 0) return {};
+  const FaceBlocks::Hit hit =
+      scene.face_blocks().first(scene.document.surface, in_model(ray.origin), direction);
+  if (hit.face < 0) return {};
   const Eigen::Vector3d place = in_model(ray.origin) + direction * hit.distance;
   Pick found;
   found.kind = Pick::Kind::face;
-  found.index = hit.triangle;
+  found.index = hit.face;
   found.place = shown_point(place.transpose(), scene.document.origin);
   double nearest = std::numeric_limits<double>::infinity();
-  for (const int vertex : scene.document.surface.triangles.row(hit.triangle)) {
+  for (const int vertex : scene.document.surface.triangles.row(hit.face)) {
     const double distance =
         (scene.document.surface.positions.row(vertex).transpose() - place).squaredNorm();
     if (distance >= nearest) continue;
@@ -103,7 +104,7 @@ glm::vec3 pixel_of(const Camera& camera, const Bounds& bounds, const glm::vec3& 
   return Projection(camera, bounds, width, height).pixel(point);
 }
 
-Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int width, int height) {
+Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
   const auto skeleton = scene.skeleton();
   const bool covered = scene.look.surface == SurfaceStyle::opaque && !scene.look.through;
   const Projection projection(scene.camera, scene.bounds(), width, height);
@@ -133,8 +134,8 @@ Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int 
       return found;
     }
   }
-  if (tree == nullptr || scene.look.surface == SurfaceStyle::hidden) return {};
-  return pick_face(scene, *tree, ray_through(scene.camera, at.x, at.y, width, height));
+  if (scene.look.surface == SurfaceStyle::hidden) return {};
+  return pick_face(scene, ray_through(scene.camera, at.x, at.y, width, height));
 }
 
 }  // namespace curveskel::viewer

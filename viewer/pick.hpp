@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 
-#include "surface/tree.hpp"
 #include "viewer/scene.hpp"
 
 namespace curveskel::viewer {
@@ -19,11 +18,10 @@ struct Pick {
   }
 };
 
-/// (x, y) in pixels from the upper left corner of a picture of width x height. Joints come
-/// before nodes, nodes before edges, edges before the surface, if they can be seen there. `tree`
-/// (over the document's surface) may be null. O(#N + #E + log #F).
-[[nodiscard]] Pick pick(const Scene& scene, const SurfaceTree* tree, const glm::vec2& at, int width,
-                        int height);
+/// (x, y) in pixels from the upper left corner of a picture of width x height. Joints come before
+/// nodes, nodes before edges, edges before the surface, if they can be seen there.
+/// O(#J + #N + #E), and what `FaceBlocks` takes.
+[[nodiscard]] Pick pick(const Scene& scene, const glm::vec2& at, int width, int height);
 
 /// Where a point is seen, in pixels from the upper left corner; z: the depth, -1..1 if it is within
 /// the picture's depth.

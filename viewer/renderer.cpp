@@ -98,10 +98,20 @@ void Renderer::make_shape(Instances& instances, const std::vector<glm::vec4>& po
 }
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface) {
+  set_surface(layer, surface, std::as_bytes(std::span(surface.triangles)));
+}
+
+void Renderer::set_surface(Layer layer, const ShownSurface& surface, const Triangles& triangles) {
+  const std::span corners(triangles.data(), static_cast<std::size_t>(triangles.size()));
+  set_surface(layer, surface, std::as_bytes(corners));
+}
+
+void Renderer::set_surface(Layer layer, const ShownSurface& surface,
+                           std::span<const std::byte> corners) {
   Mesh& target = mesh(layer);
   glBindVertexArray(target.array.get());
-  fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, std::span(surface.triangles));
-  target.corners = static_cast<GLsizei>(3 * surface.triangles.size());
+  fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, corners);
+  target.corners = static_cast<GLsizei>(corners.size() / sizeof(std::uint32_t));
   glBindVertexArray(0);
   move_surface(layer, surface);
   set_colours(layer, surface.colours);

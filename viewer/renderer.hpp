@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,8 @@ class Renderer {
 
   /// An empty surface takes the layer away.
   void set_surface(Layer layer, const ShownSurface& surface);
+  /// With these triangles instead of its own.
+  void set_surface(Layer layer, const ShownSurface& surface, const Triangles& triangles);
   /// The same triangles at other positions.
   void move_surface(Layer layer, const ShownSurface& surface);
   void set_colours(Layer layer, const std::vector<Rgba>& colours);
@@ -82,6 +86,7 @@ class Renderer {
 
   static void make_shape(Instances& instances, const std::vector<glm::vec4>& points,
                          const std::vector<std::uint32_t>& corners);
+  void set_surface(Layer layer, const ShownSurface& surface, std::span<const std::byte> corners);
   [[nodiscard]] const Mesh& given_at(int level) const;
   [[nodiscard]] unsigned given_version() const;
   [[nodiscard]] bool has_glass(const GlassKey& wanted, const Frame& frame) const;

@@ -58,7 +58,7 @@ void certificate_line(const char* name, const std::string& value, int verdict, T
 void certificate(Workbench& bench) {
   const Judgement* found = bench.judgement();
   if (found == nullptr) {
-    const bool alone = bench.scene->skeleton() && !bench.scene->document.soup;
+    const bool alone = bench.scene->skeleton() && !bench.scene->document.has_surface();
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextWrapped(alone ? "open the surface and the skeleton together to judge it"
                              : "not there yet");

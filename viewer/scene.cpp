@@ -55,8 +55,9 @@ glm::mat3 first_axes(const Document& document) {
 
 Scene::Scene(Document opened)
     : document(std::move(opened)),
-      given_(std::make_shared<ShownSurface>(shown_surface(document.surface, document.origin))),
-      points_(some_points(document, *given_)),
+      given_(shown_surface(document.surface, document.origin)),
+      face_blocks_(document.surface),
+      points_(some_points(document, given_)),
       bounds_(bounds_of(points_)),
       best_axes_(first_axes(document)) {
   if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
@@ -64,13 +65,14 @@ Scene::Scene(Document opened)
   constexpr std::array<std::size_t, 2> vertices{50000, 8000};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     // Not worth it for what is nearly as simple.
-    if (given_->positions.size() < 2 * vertices[i]) continue;
-    simpler_[i] = simpler_surface(*given_, vertices[i]);
+    if (given_.positions.size() < 2 * vertices[i]) continue;
+    simpler_[i] = simpler_surface(given_, vertices[i]);
   }
+  given_.triangles = {};
 }
 
 Pace::Sizes Scene::sizes() const {
-  const std::size_t whole = given_->triangles.size();
+  const auto whole = static_cast<std::size_t>(document.surface.triangles.rows());
   const auto or_else = [](std::size_t size, std::size_t other) { return size > 0 ? size : other; };
   return {whole, or_else(simpler_[0].surface.triangles.size(), whole),
           or_else(simpler_[1].surface.triangles.size(), whole)};
@@ -93,7 +95,11 @@ Look Scene::look_now() const {
 /// The surface that stands for the given one now, and its simpler forms.
 void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
   constexpr std::array layers{Layer::simpler, Layer::simplest};
-  renderer.set_surface(Layer::given, now.faired ? recording.faired_at(moment) : *given_);
+  if (now.faired) {
+    renderer.set_surface(Layer::given, recording.faired_at(moment));
+  } else {
+    renderer.set_surface(Layer::given, given_, document.surface.triangles);
+  }
   for (std::size_t i = 0; i < layers.size(); ++i) {
     renderer.set_surface(layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
   }

@@ -10,6 +10,7 @@
 
 #include "viewer/camera.hpp"
 #include "viewer/document.hpp"
+#include "viewer/face_blocks.hpp"
 #include "viewer/look.hpp"
 #include "viewer/recording.hpp"
 #include "viewer/renderer.hpp"
@@ -38,6 +39,9 @@ class Scene {
   /// Rows right, up, to the viewer of the first view.
   [[nodiscard]] const glm::mat3& best_axes() const { return best_axes_; }
 
+  /// Of the document's surface.
+  [[nodiscard]] const FaceBlocks& face_blocks() const { return face_blocks_; }
+
   /// Triangles of the given surface at each level of fineness.
   [[nodiscard]] Pace::Sizes sizes() const;
 
@@ -61,7 +65,8 @@ class Scene {
   void upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
   void upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
 
-  std::shared_ptr<const ShownSurface> given_;
+  ShownSurface given_;  // without triangles: those are the document's
+  FaceBlocks face_blocks_;
   std::array<SimplerSurface, 2> simpler_;  // empty where the surface is small
   std::vector<glm::vec3> points_;
   Bounds bounds_;

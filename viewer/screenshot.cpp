@@ -23,7 +23,7 @@ constexpr int largest_side = 16384;
 
 /// Waits for the run; the scene's recording has all of it then.
 void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
-  Run run(scene.document.soup, options.pipeline, scene.document.origin,
+  Run run(scene.document.polygons(), options.pipeline, scene.document.origin,
           std::make_shared<RunMemory>(), false);
   for (;;) {
     Run::News news = run.take();
@@ -124,8 +124,9 @@ void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   if (scene.document.rig) look_at_rig(scene, options);
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
-    if (scene.document.soup) scene.own_skeleton = nullptr;
-  } else if (scene.document.soup && wants_run && (!scene.own_skeleton || options.stage_given)) {
+    if (scene.document.has_surface()) scene.own_skeleton = nullptr;
+  } else if (scene.document.has_surface() && wants_run &&
+             (!scene.own_skeleton || options.stage_given)) {
     scene.own_skeleton = nullptr;
     finish_run(scene, options, monitor);
     go_to(scene, options.stage);

@@ -1,5 +1,7 @@
 #include "viewer/workbench.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -35,6 +37,13 @@ std::string names_of(const std::vector<fs::path>& files) {
   return names;
 }
 
+/// The C library keeps what reading and sorting took for a while: several times the surface.
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -66,14 +75,14 @@ void Workbench::say(std::string text, bool bad) {
 }
 
 bool Workbench::busy() const {
-  return opening_.valid() || run_ != nullptr || !retired_.empty() || growing_.valid() ||
+  return opening_.valid() || run_ != nullptr || !retired_.empty() || inspecting_.valid() ||
          judging_.valid();
 }
 
 bool Workbench::update() {
   bool changed = take_opened();
   changed = take_news() || changed;
-  changed = take_tree() || changed;
+  changed = take_defects() || changed;
   changed = take_judgement() || changed;
   std::erase_if(retired_, [](const std::unique_ptr<Run>& run) {
     return run->take().state != Run::State::running;
@@ -99,6 +108,7 @@ void Workbench::open(const std::vector<fs::path>& files) {
     } catch (const std::exception& error) {
       opened.error = error.what();
     }
+    give_back_memory();
     return opened;
   });
 }
@@ -129,11 +139,11 @@ bool Workbench::take_opened() {
   failed_edges_.clear();
   failed_faces_.clear();
   if (scene->own_skeleton) begin_history(scene->own_skeleton);
-  plant_tree();
+  inspect();
   say("opened " + names_of(files_));
   const Document& document = scene->document;
   if (document.rig) look_at_rig();
-  if (options_.run && document.soup && !document.rig && !scene->own_skeleton) start(false);
+  if (options_.run && document.has_surface() && !document.rig && !scene->own_skeleton) start(false);
   return true;
 }
 
@@ -177,7 +187,7 @@ void Workbench::save(const fs::path& file) {
     context.root = root();
     context.provenance = program_and_version() + ", " + names_of(files_) +
                          (history_.changed() ? ", corrected by hand" : "");
-    if (scene->document.soup) context.surface = &scene->document.surface;
+    if (scene->document.has_surface()) context.surface = &scene->document.surface;
     write_file(file, format_skeleton(*skeleton, *format, context));
     say("saved " + file.string());
   } catch (const std::exception& error) {
@@ -185,29 +195,26 @@ void Workbench::save(const fs::path& file) {
   }
 }
 
-/// For picking; nobody waits for it.
-void Workbench::plant_tree() {
-  tree_.reset();
+/// What is wrong with the surface as it was read; nobody waits for it.
+void Workbench::inspect() {
   defects_.reset();
-  if (growing_.valid()) {
+  if (inspecting_.valid()) {
     // Its own end is waited for by a thread that has nothing else to do.
     background_.push_back(std::async(
-        std::launch::async, [](std::future<Inspected> old) { old.wait(); }, std::move(growing_)));
+        std::launch::async, [](auto old) { old.wait(); }, std::move(inspecting_)));
   }
   std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
   if (scene->document.surface.triangles.rows() == 0) return;
-  growing_ = std::async(std::launch::async, [held = scene] {
-    const Surface& surface = held->document.surface;
-    return Inspected{std::make_shared<const SurfaceTree>(surface),
-                     std::make_shared<const Defects>(defects_of(surface))};
+  inspecting_ = std::async(std::launch::async, [held = scene] {
+    auto found = std::make_shared<const Defects>(defects_of(held->document.surface));
+    give_back_memory();
+    return found;
   });
 }
 
-bool Workbench::take_tree() {
-  if (!is_ready(growing_)) return false;
-  Inspected found = growing_.get();
-  tree_ = std::move(found.tree);
-  defects_ = std::move(found.defects);
+bool Workbench::take_defects() {
+  if (!is_ready(inspecting_)) return false;
+  defects_ = inspecting_.get();
   return true;
 }
 
@@ -220,7 +227,8 @@ const Judgement* Workbench::judgement() const {
 /// has changed meanwhile.
 void Workbench::judge() {
   const auto skeleton = scene->skeleton();
-  if (!skeleton || !scene->document.soup || judging_.valid() || judgement() != nullptr) return;
+  if (!skeleton || !scene->document.has_surface() || judging_.valid() || judgement() != nullptr)
+    return;
   auto repaired = result_ ? result_->repaired : nullptr;
   judging_ = std::async(std::launch::async, [skeleton, repaired, ground = ground_, held = scene,
                                              options = pipeline.extract.certificate,
@@ -230,7 +238,7 @@ void Workbench::judge() {
     try {
       if (!repaired) {
         repaired = std::make_shared<const RepairedSurface>(
-            repair(*held->document.soup, repair_options, Monitor{}));
+            repair(*held->document.polygons(), repair_options, Monitor{}));
       }
       if (!ground || ground->repaired != repaired) {
         const Topology counted = topology(repaired->surface);

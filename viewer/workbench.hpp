@@ -114,8 +114,8 @@ class Workbench {
 
   void say(std::string text, bool bad = false);
   [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
-  /// Over the document's surface; null until it has grown.
-  [[nodiscard]] const SurfaceTree* tree() const { return tree_ ? tree_.get() : nullptr; }
+  /// Over the repaired surface; null until a skeleton has been judged by it.
+  [[nodiscard]] const SurfaceTree* tree() const { return ground_ ? &ground_->tree : nullptr; }
   /// Of the surface as it was read; null until they are known.
   [[nodiscard]] const Defects* defects() const { return defects_.get(); }
   /// Of the skeleton that is shown, once it is known.
@@ -139,11 +139,11 @@ class Workbench {
   bool take_opened();
   void look_at_rig();
   bool take_news();
-  bool take_tree();
+  bool take_defects();
   bool take_judgement();
   void take_moments(std::vector<Moment> moments);
   void take_result(RunResult result);
-  void plant_tree();
+  void inspect();
   void retire_run();
   void begin_history(std::shared_ptr<const CurveSkeleton> skeleton);
   void edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
@@ -166,14 +166,9 @@ class Workbench {
   bool follow_ = true;
   std::optional<RunResult> result_;
   History history_;
-  std::shared_ptr<const SurfaceTree> tree_;
   std::vector<std::future<void>> background_;  // so that nobody has to wait for them
   std::shared_ptr<const Defects> defects_;
-  struct Inspected {
-    std::shared_ptr<const SurfaceTree> tree;
-    std::shared_ptr<const Defects> defects;
-  };
-  std::future<Inspected> growing_;
+  std::future<std::shared_ptr<const Defects>> inspecting_;
   std::shared_ptr<const Ground> ground_;
   std::optional<Judgement> judgement_;
   std::future<Judgement> judging_;

@@ -17,7 +17,7 @@ bool is_done(Run::State state) {
 
 void Workbench::start(bool paused) {
   wants_start_.reset();
-  if (!scene->document.soup) {
+  if (!scene->document.has_surface()) {
     say("open a surface first: a skeleton alone has nothing to be contracted", true);
     return;
   }
@@ -35,8 +35,8 @@ void Workbench::start(bool paused) {
   }
   options.extract.certificate.threads = options.extract.threads;
   options.extract.fair.threads = options.extract.threads;
-  run_ = std::make_unique<Run>(scene->document.soup, options, scene->document.origin, run_memory_,
-                               paused);
+  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.origin,
+                               run_memory_, paused);
   news_ = {};
   first_moment_ = true;
   follow_ = true;

@@ -104,12 +104,12 @@ TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
     const glm::vec3 place =
         shown_point(scene.document.rig->joints.row(joint), scene.document.origin);
     const glm::vec2 at(pixel_of(scene.camera, scene.bounds(), place, width, height));
-    const Pick found = pick(scene, nullptr, at, width, height);
+    const Pick found = pick(scene, at, width, height);
     EXPECT_EQ(found.kind, Pick::Kind::joint);
     EXPECT_EQ(found.index, joint);
     EXPECT_LT(glm::length(found.place - place), 1e-6);
     scene.look.bones = false;
-    EXPECT_EQ(pick(scene, nullptr, at, width, height).kind, Pick::Kind::nothing);
+    EXPECT_EQ(pick(scene, at, width, height).kind, Pick::Kind::face);
     scene.look.bones = true;
   }
 }

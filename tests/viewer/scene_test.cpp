@@ -41,7 +41,6 @@ const std::vector<Extracted>& family() {
 
 Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nullptr) {
   Document document;
-  document.soup = std::make_shared<const PolygonSoup>();
   document.surface = surface;
   if (skeleton != nullptr) document.skeleton = *skeleton;
   document.origin =

@@ -1,0 +1,52 @@
+// What is kept of a file is enough to have it back as it was read.
+#include "viewer/document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "surface/write_file.hpp"
+#include "tests/surface/encodings.hpp"
+
+namespace curveskel::viewer::document_laws {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DocumentOf : public testing::Test {
+ protected:
+  DocumentOf() {
+    std::string name = (fs::temp_directory_path() / "curveskel-document-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~DocumentOf() override { fs::remove_all(folder_); }
+  DocumentOf(const DocumentOf&) = delete;
+  DocumentOf& operator=(const DocumentOf&) = delete;
+  fs::path folder_;
+};
+
+TEST_F(DocumentOf, EveryEncodingHasThePolygonsThatWereRead) {
+  bool triangles = false;
+  bool polygons = false;
+  for (const encodings::Encoding& encoding : encodings::all()) {
+    SCOPED_TRACE(encoding.name);
+    const fs::path file = folder_ / (encoding.name + encoding.extension);
+    write_file(file, encoding.bytes);
+    const PolygonSoup read = read_polygons(file, {});
+    const Document document = open_document({file}, {});
+    ASSERT_TRUE(document.has_surface());
+    const auto kept = document.polygons();
+    EXPECT_EQ(kept->positions, read.positions);
+    EXPECT_EQ(kept->corners, read.corners);
+    EXPECT_EQ(kept->offsets, read.offsets);
+    EXPECT_EQ(kept->format, read.format);
+    EXPECT_EQ(kept->file, file);
+    (document.soup ? polygons : triangles) = true;
+  }
+  EXPECT_TRUE(triangles) << "kept once";
+  EXPECT_TRUE(polygons) << "kept beside their triangles";
+}
+
+}  // namespace
+}  // namespace curveskel::viewer::document_laws
