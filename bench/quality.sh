@@ -52,7 +52,7 @@ PYTHON
   cat "$work/table.md"
   printf '\n## Small changes\n'
   cat <<'TEXT'
-Tips and junctions after a small change of the surface, and the Hausdorff distance of the skeletons over *D*. What comes and goes is mostly one short, blunt branch whose slenderness lies near the limit: a muzzle, an ear, a foot.
+Tips and junctions after a small change of the surface, and the Hausdorff distance of the skeletons over *D*. What comes and goes is mostly one short, blunt branch whose slenderness lies near the limit, or a branch that the surgery did not make; or two junctions become one.
 
 TEXT
   cat "$work/stability.md"

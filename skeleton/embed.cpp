@@ -138,8 +138,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
                 const Monitor& monitor) {
   monitor.report("embed", 0);
   Network network = network_of_graph(graph, positions_from_balls(surface, balls, graph));
-  const Regions regions = regions_of(surface, graph);
-  prune_blunt(network, surface, regions, slenderness_limit(options.detail));
+  prune_blunt(network, surface, graph, slenderness_limit(options.detail));
   keep_inside(network, surface, balls, graph, tree);
   centre_junctions(network, tree);
   merge_junctions(network, tree, options.merge);
@@ -197,7 +196,11 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
 
 }  // namespace
 
-double slenderness_limit(double detail) { return detail < 0.5 ? 3 - 3 * detail : 3 * (1 - detail); }
+double slenderness_limit(double detail) {
+  constexpr double most = 3;
+  constexpr double usual = 1.15;
+  return detail < 0.5 ? most - 2 * detail * (most - usual) : 2 * (1 - detail) * usual;
+}
 
 CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
                     const std::function<const SurfaceTree&()>& finer, const InscribedBalls& balls,

@@ -27,7 +27,7 @@ struct EmbedOptions {
   [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
 };
 
-/// The slenderness below which `detail` prunes a branch: 3 at 0, 1.5 at 0.5, 0 at 1.
+/// The slenderness below which `detail` prunes a branch: 3 at 0, 1.15 at 0.5, 0 at 1.
 [[nodiscard]] double slenderness_limit(double detail);
 
 /// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges

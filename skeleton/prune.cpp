@@ -1,9 +1,12 @@
 #include "skeleton/prune.hpp"
 
-#include "surface/element_index.hpp"
-
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include "contraction/laplacian.hpp"
+#include "skeleton/slenderness.hpp"
+#include "surface/element_index.hpp"
 
 namespace curveskel {
 namespace {
@@ -12,17 +15,30 @@ int base_of(const Network& network, const Strand& strand) {
   return network.degree(strand.from) == 1 ? strand.to : strand.from;
 }
 
-/// The graph's nodes along a leaf strand, tip first.
-std::vector<int> nodes_from_tip(const Network& network, const Strand& strand) {
-  const bool reversed = base_of(network, strand) == strand.from;
-  const int tip = reversed ? strand.to : strand.from;
+/// The graph's nodes that belong to a leaf strand and its tip.
+std::vector<int> nodes_of(const Network& network, const Strand& strand) {
+  const int tip = base_of(network, strand) == strand.from ? strand.to : strand.from;
   std::vector<int> nodes = network.hubs[at(tip)].nodes;
-  if (reversed) {
-    nodes.insert(nodes.end(), strand.nodes.rbegin(), strand.nodes.rend());
-  } else {
-    nodes.insert(nodes.end(), strand.nodes.begin(), strand.nodes.end());
-  }
+  nodes.insert(nodes.end(), strand.nodes.begin(), strand.nodes.end());
   return nodes;
+}
+
+/// The vertex of the given groups that lies farthest from p, -1 if they have none; other nodes are
+/// circles.
+int farthest(const Surface& surface, const Point& p, const std::vector<std::vector<int>>& vertices,
+             const std::vector<int>& nodes) {
+  int best = -1;
+  double most = 0;
+  for (const int node : nodes) {
+    if (at(node) >= vertices.size()) continue;
+    for (const int v : vertices[at(node)]) {
+      const double distance = (surface.positions.row(v).transpose() - p).squaredNorm();
+      if (distance <= most) continue;
+      most = distance;
+      best = v;
+    }
+  }
+  return best;
 }
 
 /// Prunes the leaf strand with the least measure as long as that is below the limit.
@@ -48,51 +64,39 @@ bool prune_below(Network& network, double limit, const Measure& measure) {
 
 }  // namespace
 
-Regions regions_of(const Surface& surface, const VertexGraph& graph) {
-  Regions regions;
-  regions.groups = graph.groups;
-  regions.vertices.resize(at(graph.groups));
+void prune_blunt(Network& network, const Surface& surface, const VertexGraph& graph, double limit) {
+  std::vector<std::vector<int>> vertices(at(graph.groups));
   for (int v = 0; v < static_cast<int>(graph.group_of_vertex.size()); ++v) {
-    regions.vertices[at(graph.group_of_vertex[v])].push_back(v);
+    vertices[at(graph.group_of_vertex[v])].push_back(v);
   }
-  for (const auto& circle : graph.circles) {
-    Regions::Neck neck{Point::Zero(), 0};
-    const auto middle = [&](const std::array<int, 2>& edge) -> Point {
-      return 0.5 * (surface.positions.row(edge[0]) + surface.positions.row(edge[1])).transpose();
-    };
-    for (const auto& edge : circle) neck.centre += middle(edge);
-    neck.centre /= static_cast<double>(circle.size());
-    for (const auto& edge : circle) neck.radius += (middle(edge) - neck.centre).norm();
-    neck.radius /= static_cast<double>(circle.size());
-    regions.necks.push_back(neck);
-  }
-  return regions;
-}
-
-double slenderness(const Network& network, int strand, const Surface& surface,
-                   const Regions& regions) {
-  double best = 0;
-  std::vector<int> beyond;
-  for (const int node : nodes_from_tip(network, network.strands[at(strand)])) {
-    if (node < regions.groups) {
-      const auto& vertices = regions.vertices[at(node)];
-      beyond.insert(beyond.end(), vertices.begin(), vertices.end());
-      continue;
+  const Eigen::VectorXd areas = vertex_areas(surface);
+  const auto area_of = [&](const std::vector<int>& nodes) {
+    double sum = 0;
+    for (const int node : nodes) {
+      if (node < graph.groups) sum += areas(vertices[at(node)]).sum();
     }
-    const Regions::Neck& neck = regions.necks[at(node - regions.groups)];
-    double height = 0;
-    for (const int v : beyond) {
-      const Point offset = surface.positions.row(v).transpose() - neck.centre;
-      height = std::max(height, offset.norm());
+    return sum;
+  };
+  std::vector<char> is_own(at(graph.nodes()));
+  SlendernessSweep slenderness(surface);
+  prune_below(network, limit, [&](int s) {
+    const Strand& strand = network.strands[at(s)];
+    const Hub& base = network.hubs[at(base_of(network, strand))];
+    const auto own = nodes_of(network, strand);
+    const int summit = farthest(surface, base.position, vertices, own);
+    if (summit < 0) return 0.0;
+    for (const std::vector<int>* nodes : {&own, &base.nodes}) {
+      for (const int node : *nodes) is_own[at(node)] = 1;
     }
-    if (neck.radius > 0) best = std::max(best, height / neck.radius);
-  }
-  return best;
-}
-
-void prune_blunt(Network& network, const Surface& surface, const Regions& regions, double limit) {
-  prune_below(network, limit,
-              [&](int strand) { return slenderness(network, strand, surface, regions); });
+    const double found = slenderness(
+        base.position, summit, [&](int v) { return is_own[at(graph.group_of_vertex[v])] != 0; },
+        limit);
+    for (const std::vector<int>* nodes : {&own, &base.nodes}) {
+      for (const int node : *nodes) is_own[at(node)] = 0;
+    }
+    // Which of two corners of one blunt end stays must not hang on their order.
+    return found > 0 ? found : area_of(own);
+  });
 }
 
 bool prune_spurs(Network& network, const SurfaceTree& tree, double factor) {

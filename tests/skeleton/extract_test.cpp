@@ -26,9 +26,6 @@ namespace {
 using shapes::Shape;
 
 constexpr std::array known{
-    // A bulge where four tubes meet counts as a branch, just.
-    Shortfall{"random-seed-71", "tips off", 1},
-    Shortfall{"random-seed-71", "furthest node / D", 0.026},
     Shortfall{"random", "moved by subdivision / D", 0.05},
 };
 

@@ -1,0 +1,47 @@
+// How far a part of the surface sticks out, whatever its triangles and groups are.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+/// Sweeps the surface from a summit towards a base. Keeps its memory from sweep to sweep.
+class SlendernessSweep {
+ public:
+  explicit SlendernessSweep(const Surface& surface);  ///< kept by reference
+
+  /// Spheres about `base` cut off what lies farther out, together with the vertex `summit`. The
+  /// slenderness is the largest height of such a part, from the middle of its rim, over the mean
+  /// radius of its rim. A part counts as long as it holds vertices with `is_own` only, and once it
+  /// is a fifth of the way from the summit to the base, so that the triangles' size does not
+  /// matter; 0 if none counts. Ends as soon as `enough` is reached. O(n log n) in the vertices
+  /// passed.
+  [[nodiscard]] double operator()(const Eigen::Vector3d& base, int summit,
+                                  const std::function<bool(int)>& is_own, double enough);
+
+ private:
+  struct Rim {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius = 0;  ///< mean distance from the centre, by length
+  };
+  void take(int vertex);
+  [[nodiscard]] Rim rim_at(double depth) const;
+  [[nodiscard]] double ratio_at(double depth) const;
+  void forget();
+
+  const Surface& surface_;
+  std::vector<int> first_triangle_;  // per vertex and one more, into triangles_
+  std::vector<int> triangles_;       // around each vertex
+  std::vector<double> depth_;        // per vertex, below the summit's sphere; < 0 = not seen
+  std::vector<char> taken_;          // per vertex
+  std::vector<char> taken_corners_;  // per triangle
+  // What one sweep leaves for the next to clear.
+  std::vector<int> seen_;
+  std::vector<int> part_;     // vertices taken
+  std::vector<int> touched_;  // triangles with a corner taken
+};
+
+}  // namespace curveskel
