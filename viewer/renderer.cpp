@@ -357,9 +357,9 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
 }
 
 PixelRows Renderer::read() const {
-  PixelRows rows{picture_.form().width, picture_.form().height, {}};
-  rows.bytes.resize(static_cast<std::size_t>(rows.width) * static_cast<std::size_t>(rows.height) *
-                    4);
+  const GlTarget::Form& form = picture_.form();
+  const auto pixels = static_cast<std::size_t>(form.width) * static_cast<std::size_t>(form.height);
+  PixelRows rows{form.width, form.height, std::vector<std::uint8_t>(4 * pixels)};
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, rows.width, rows.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.bytes.data());
