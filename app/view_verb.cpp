@@ -3,13 +3,13 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
 #include "app/verbs.hpp"
+#include "app/viewer_program.hpp"
 #include "surface/error.hpp"
 
 namespace curveskel {
@@ -17,9 +17,7 @@ namespace {
 
 /// Returns only by an exception: the process becomes the viewer.
 int become_viewer(const std::vector<std::string>& arguments) {
-  std::error_code error;
-  const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  const std::string program = (here / "curveskel-view").string();
+  const std::string program = viewer_program().string();
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;

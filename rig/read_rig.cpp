@@ -77,7 +77,7 @@ class JointReader {
     for (Eigen::Index k = 0; k < 16; ++k) {
       inverse_bind(k) = matrices.at(row, static_cast<std::size_t>(k));  // both by columns
     }
-    const Eigen::Vector3d rest = inverse_bind.inverse().topRightCorner<3, 1>();
+    Eigen::Vector3d rest = inverse_bind.inverse().topRightCorner<3, 1>();
     if (!inverse_bind.allFinite() || !rest.allFinite()) {
       file_.fail("an inverse bind matrix of joint " + std::to_string(node) + " without an inverse",
                  "finite, invertible matrices", rig_remedy);

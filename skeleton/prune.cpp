@@ -70,12 +70,13 @@ void prune_blunt(Network& network, const Surface& surface, const VertexGraph& gr
     vertices[at(graph.group_of_vertex[v])].push_back(v);
   }
   const Eigen::VectorXd areas = vertex_areas(surface);
-  const auto area_of = [&](const std::vector<int>& nodes) {
+  const double all = areas.sum();
+  const auto share_of_area = [&](const std::vector<int>& nodes) {
     double sum = 0;
     for (const int node : nodes) {
       if (node < graph.groups) sum += areas(vertices[at(node)]).sum();
     }
-    return sum;
+    return sum / all;
   };
   std::vector<char> is_own(at(graph.nodes()));
   SlendernessSweep slenderness(surface);
@@ -94,8 +95,10 @@ void prune_blunt(Network& network, const Surface& surface, const VertexGraph& gr
     for (const std::vector<int>* nodes : {&own, &base.nodes}) {
       for (const int node : *nodes) is_own[at(node)] = 0;
     }
-    // Which of two corners of one blunt end stays must not hang on their order.
-    return found > 0 ? found : area_of(own);
+    // What nowhere sticks out goes before all others; which of two corners of one blunt end goes
+    // first must not hang on their order.
+    constexpr double below_all = 1e-6;
+    return found > 0 ? found : below_all * limit * share_of_area(own);
   });
 }
 

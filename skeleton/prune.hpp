@@ -10,7 +10,7 @@ namespace curveskel {
 
 /// Prunes leaf strands whose slenderness (see SlendernessSweep), from the vertex of theirs that is
 /// farthest from the junction towards it, is below the limit, least first, as long as something is
-/// left; those that nowhere stick out before all others, least area first. Precondition: D = 1.
+/// left; those that nowhere stick out before all others, least area first.
 /// `graph` is what the network was made from.
 void prune_blunt(Network& network, const Surface& surface, const VertexGraph& graph, double limit);
 

@@ -187,7 +187,6 @@ void Controls::escape(Workbench& bench, Panels& panels) const {
 }
 
 void Controls::command_keys(Workbench& bench, Panels& panels, const Area& picture) {
-  if (pressed(GLFW_KEY_Q)) wants_to_leave = true;
   if (pressed(GLFW_KEY_O)) panels.browser.ask(FileBrowser::Purpose::open, "");
   if (pressed(GLFW_KEY_S)) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
   if (pressed(GLFW_KEY_Z) && !ImGui::GetIO().KeyShift) bench.undo();
@@ -230,6 +229,7 @@ void Controls::edit_keys(Workbench& bench) const {
 
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
+  if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
   if (ImGui::GetIO().WantTextInput || panels.browser.shown()) return;
   if (ImGui::GetIO().KeyCtrl) {
     command_keys(bench, panels, picture);

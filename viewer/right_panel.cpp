@@ -160,11 +160,14 @@ void colour_bar(const Workbench& bench) {
   ImGui::TextUnformatted(high.c_str());
 }
 
+/// The children of joint -1 are the roots.
+std::size_t slot_of(int joint) { return joint < 0 ? 0 : static_cast<std::size_t>(joint) + 1; }
+
 /// The joints below this one (-1: the roots), each line to be clicked.
 void joints_below(Workbench& bench, const Rig& rig, const std::vector<std::vector<int>>& children,
                   int parent) {
-  for (const int joint : children[static_cast<std::size_t>(parent + 1)]) {
-    const bool leaf = children[static_cast<std::size_t>(joint) + 1].empty();
+  for (const int joint : children[slot_of(parent)]) {
+    const bool leaf = children[slot_of(joint)].empty();
     const ImGuiTreeNodeFlags flags =
         ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen |
         ImGuiTreeNodeFlags_SpanAvailWidth | (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
@@ -186,7 +189,7 @@ void joints_below(Workbench& bench, const Rig& rig, const std::vector<std::vecto
 void hierarchy(Workbench& bench, const Rig& rig) {
   std::vector<std::vector<int>> children(rig.names.size() + 1);
   for (int joint = 0; joint < rig.parents.size(); ++joint) {
-    children[static_cast<std::size_t>(rig.parents[joint] + 1)].push_back(joint);
+    children[slot_of(rig.parents[joint])].push_back(joint);
   }
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, ImGui::GetFontSize() * 0.5F);
   joints_below(bench, rig, children, -1);

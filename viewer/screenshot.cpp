@@ -1,13 +1,17 @@
 #include "viewer/screenshot.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <thread>
 
 #include "app/output_files.hpp"
+#include "skeleton/view.hpp"
 #include "surface/error.hpp"
 #include "surface/write_file.hpp"
 #include "viewer/headless.hpp"
@@ -98,14 +102,90 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
   }
 }
 
-}  // namespace
-
-std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) {
+PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height) {
   const int factor = 2 * std::max(width, height) <= largest_side ? 2 : 1;
   scene.upload(renderer);
   renderer.draw(scene.camera, scene.look_now(),
                 {width * factor, height * factor, {}, scene.bounds()});
-  return png_of(shrunk(renderer.read(), factor));
+  return shrunk(renderer.read(), factor);
+}
+
+/// Sees what the view shows in a picture of this size.
+void look_through(Scene& scene, const View& view, int width, int height) {
+  Camera& camera = scene.camera;
+  glm::mat3 rows(1);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      rows[row][column] = static_cast<float>(view.axes(row, column));
+    }
+  }
+  look_from(camera, Side::best, rows);
+  camera.orthographic = true;
+  const Eigen::Vector2d aside = view.centre - Eigen::Vector2d(width, height) / 2;
+  const Eigen::Vector3d target =
+      view.target + (view.axes.row(1) * aside.y() - view.axes.row(0) * aside.x()).transpose() /
+                        view.pixels_per_unit;
+  camera.target = shown_point(target.transpose(), scene.document.origin);
+  camera.distance *= static_cast<float>(1 / view.pixels_per_unit) / camera.unit_per_pixel(height);
+}
+
+/// Where two views of a surface part: along x or y, midway between the nearest of what they show.
+struct Parting {
+  int axis = 0;
+  double at = 0;        ///< pixels from the upper left corner
+  bool first_is_lower;  ///< the first view is on the side of the smaller coordinates
+};
+
+Parting parting_of(const std::array<View, 2>& views, const Positions& points) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::array<Eigen::AlignedBox2d, 2> seen;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    for (const auto& point : points.rowwise()) {
+      seen[view].extend(views[view].project(point).head<2>());
+    }
+  }
+  Parting best;
+  double widest = -far;
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const bool first_is_lower : {true, false}) {
+      const auto& lower = seen[first_is_lower ? 0 : 1];
+      const auto& upper = seen[first_is_lower ? 1 : 0];
+      const double gap = upper.min()[axis] - lower.max()[axis];
+      if (gap <= widest) continue;
+      widest = gap;
+      best = {axis, (upper.min()[axis] + lower.max()[axis]) / 2, first_is_lower};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) {
+  return png_of(drawn(scene, renderer, width, height));
+}
+
+std::string screenshot_of_two_sides(Scene& scene, Renderer& renderer, int width, int height) {
+  const Surface& surface = scene.document.surface;
+  const std::array<View, 2> views = best_views(surface, width, height);
+  const Parting parting = parting_of(views, surface.positions);
+  look_through(scene, views[0], width, height);
+  PixelRows both = drawn(scene, renderer, width, height);
+  look_through(scene, views[1], width, height);
+  const PixelRows second = drawn(scene, renderer, width, height);
+  const auto pixel = [&](int x, int y) {
+    return (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(x)) *
+           4;
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool lower = (parting.axis == 0 ? x : y) + 0.5 < parting.at;
+      if (lower == parting.first_is_lower) continue;
+      std::copy_n(second.bytes.data() + pixel(x, y), 4, both.bytes.data() + pixel(x, y));
+    }
+  }
+  return png_of(both);
 }
 
 void place_camera(Scene& scene, const ViewOptions& options) {
@@ -121,7 +201,7 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
-  if (scene.document.rig) look_at_rig(scene, options);
+  if (scene.document.rig && scene.look.bones) look_at_rig(scene, options);
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
     if (scene.document.has_surface()) scene.own_skeleton = nullptr;
@@ -138,7 +218,11 @@ void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Renderer renderer;
   place_camera(scene, options);
   if (!options.screenshot.empty()) {
-    write_file(options.screenshot, screenshot(scene, renderer, options.width, options.height));
+    if (options.two_sides && scene.document.surface.triangles.rows() == 0) {
+      throw Error(Fault::input, "--two-sides needs a surface, which a skeleton alone has not");
+    }
+    const auto draw = options.two_sides ? screenshot_of_two_sides : screenshot;
+    write_file(options.screenshot, draw(scene, renderer, options.width, options.height));
   }
   if (!options.turntable.empty()) write_turntable(scene, renderer, options, monitor);
 }

@@ -13,6 +13,11 @@ namespace curveskel::viewer {
 /// Needs a current context. `camera` is fitted already.
 [[nodiscard]] std::string screenshot(Scene& scene, Renderer& renderer, int width, int height);
 
+/// The same from two sides at one scale, without perspective: the views of `best_views`, side by
+/// side or one above the other. Precondition: the document has triangles.
+[[nodiscard]] std::string screenshot_of_two_sides(Scene& scene, Renderer& renderer, int width,
+                                                  int height);
+
 /// The scene's camera as the options wish, fitted to the picture.
 void place_camera(Scene& scene, const ViewOptions& options);
 

@@ -21,9 +21,10 @@ struct ViewOptions {
   std::vector<std::filesystem::path> files;
   std::string screenshot;           ///< PNG to write instead of a window; empty = none
   std::filesystem::path turntable;  ///< folder for pictures all around; empty = none
-  int frames = 36;                  ///< of the turntable
-  int width = 1600;                 ///< pixels, of the window or the picture
-  int height = 1000;                ///< pixels
+  bool two_sides = false;  ///< the screenshot: from the best side and from a right angle to it
+  int frames = 36;         ///< of the turntable
+  int width = 1600;        ///< pixels, of the window or the picture
+  int height = 1000;       ///< pixels
   CameraWish camera;
   bool perspective = true;
   StageWish stage;

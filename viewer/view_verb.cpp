@@ -97,6 +97,9 @@ int run_view(ViewOptions options, Session& session) {
   options.pipeline.extract.fairing = options.pipeline.extract.fair.iterations > 0;
   session.interruption.limit(options.time_limit_seconds);
   const bool pictures = !options.screenshot.empty() || !options.turntable.empty();
+  if (options.two_sides && options.screenshot.empty()) {
+    throw UsageError("--two-sides is for --screenshot");
+  }
   if (!pictures) return run_window(options, session);
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
   write_pictures(options, session.monitor());
@@ -114,6 +117,9 @@ Verb add_view(CLI::App& program) {
       ->type_name("");
   parser->add_option("--screenshot", options->screenshot, "write a picture and open no window")
       ->type_name("OUT.png");
+  parser->add_flag(
+      "--two-sides", options->two_sides,
+      "the screenshot shows the surface from its best side and at a right angle to it");
   parser->add_option("--turntable", options->turntable, "folder for pictures from all around")
       ->type_name("DIR");
   add_number(*parser, "--frames", options->frames, 1, 10000, "of the turntable");

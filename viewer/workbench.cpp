@@ -142,7 +142,7 @@ bool Workbench::take_opened() {
   inspect();
   say("opened " + names_of(files_));
   const Document& document = scene->document;
-  if (document.rig) look_at_rig();
+  if (document.rig && scene->look.bones) look_at_rig();
   if (options_.run && document.has_surface() && !document.rig && !scene->own_skeleton) start(false);
   return true;
 }

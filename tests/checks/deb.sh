@@ -1,17 +1,23 @@
 #!/usr/bin/env bash
 # usage: deb.sh BUILD_DIR
-# The Debian package has everything in it and depends on the libraries that it needs.
+# The Debian packages have everything in them and depend on the libraries that they need; the one
+# without the window depends on nothing that only a window needs.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cpack --config "$1/CPackConfig.cmake" -G DEB -B "$work" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-package=$(ls "$work"/*.deb)
-dpkg-deb -c "$package" >"$work/contents"
-dpkg-deb -f "$package" Depends >"$work/depends"
-cat "$work/contents" "$work/depends"
 
 failed=0
-needs() { grep -Eq "$2" "$work/$1" || { echo "the package's $1 lack $2"; failed=1; }; }
+open_package() {
+  package=$1
+  dpkg-deb -c "$work/${package}"_*.deb >"$work/contents"
+  dpkg-deb -f "$work/${package}"_*.deb Depends >"$work/depends"
+  cat "$work/contents" "$work/depends"
+}
+needs() { grep -Eq "$2" "$work/$1" || { echo "the $1 of $package lack $2"; failed=1; }; }
+lacks() { if grep -E "$2" "$work/$1"; then echo "the $1 of $package have $2"; failed=1; fi; }
+
+open_package curveskel
 needs contents ' \./usr/bin/curveskel$'
 needs contents ' \./usr/lib/.*/libcurveskel\.so'
 needs contents ' \./usr/lib/.*/cmake/curveskel/curveskelConfig\.cmake$'
@@ -21,8 +27,12 @@ needs contents ' \./usr/share/doc/curveskel/README\.md$'
 needs contents ' \./usr/share/doc/curveskel/docs/formats\.md$'
 needs depends 'libc6 '
 needs depends 'libcholmod3 '
-if grep -E '/tests?/|_test$|\.cpp$|curveskel-shapes' "$work/contents"; then
-  echo "the package has files in it that belong to development"
-  failed=1
-fi
+lacks contents '/tests?/|_tests?$|\.cpp$|curveskel-shapes|curveskel-view'
+lacks depends 'libglfw|libimgui|libgl1'
+
+open_package curveskel-view
+needs contents ' \./usr/bin/curveskel-view$'
+needs depends 'curveskel \(= '
+needs depends 'libglfw3 '
+lacks contents ' \./usr/bin/curveskel$|libcurveskel'
 exit $failed

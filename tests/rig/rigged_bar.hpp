@@ -105,7 +105,7 @@ inline std::string gltf_of(const RiggedBar& bar) {
 
   nlohmann::json file{{"asset", {{"version", "2.0"}}}, {"scene", 0}};
   std::string buffer;
-  const auto vertices = static_cast<std::size_t>(4 * rings);
+  const auto vertices = 4 * static_cast<std::size_t>(rings);
   const nlohmann::json attributes{
       {"POSITION", add_rows(file, buffer, positions, 5126, "VEC3", vertices)},
       {"JOINTS_0", add_rows(file, buffer, which, 5121, "VEC4", vertices)},

@@ -49,8 +49,8 @@ TEST_F(RigView, BonesGoFromJointToJoint) {
   ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(joints));
   ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(2 * (joints - 1)));
   for (int bone = 0; bone + 1 < joints; ++bone) {
-    const TubeInstance& head = shown.edges[static_cast<std::size_t>(2 * bone)];
-    const TubeInstance& tail = shown.edges[static_cast<std::size_t>(2 * bone + 1)];
+    const TubeInstance& head = shown.edges[2 * static_cast<std::size_t>(bone)];
+    const TubeInstance& tail = shown.edges[2 * static_cast<std::size_t>(bone) + 1];
     EXPECT_EQ(head.to, tail.from);
     EXPECT_GT(head.to.w, 0);
     EXPECT_EQ(head.from.w, 0);

@@ -24,6 +24,12 @@ def pixels(file):
         return numpy.asarray(picture).astype(int)
 
 
+def runs(profile):
+    """Lengths of the stretches that are true."""
+    edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], profile.astype(int), [0]])))
+    return list(edges[1::2] - edges[::2])
+
+
 class ViewTest(CommandLineTest):
     def picture(self, *arguments, size="160x100", name="picture.png", **options):
         file = self.folder / name
@@ -81,6 +87,23 @@ class Screenshot(ViewTest):
     def test_replaces_an_old_one(self):
         (self.folder / "picture.png").write_text("old")
         self.picture(TORUS, "--no-run")
+
+    def test_from_two_sides_has_room_for_both(self):
+        # A flat ring: round from its best side, thin at a right angle to it.
+        for size in ("300x200", "200x300"):
+            seen = self.picture(TORUS, "--two-sides", "--transparent", "--skeleton", "hidden",
+                                size=size)[..., 3] > 0
+            for border in (seen[0], seen[-1], seen[:, 0], seen[:, -1]):
+                self.assertFalse(border.any())
+            split = [axis for axis in (0, 1) if len(runs(seen.any(axis=axis))) == 2]
+            self.assertEqual(len(split), 1, "beside or below each other")
+            first, second = runs(seen.any(axis=split[0]))
+            self.assertGreater(max(first, second), 1.5 * min(first, second))
+
+    def test_from_two_sides_needs_a_surface(self):
+        self.refused(INPUT, "view", self.skeleton(), "--two-sides", "--screenshot",
+                     self.folder / "x.png", says=["--two-sides needs a surface"])
+        self.refused(USAGE, "view", TORUS, "--two-sides", says=["--two-sides is for --screenshot"])
 
     def test_options_make_a_difference(self):
         plain = self.picture(Y)
