@@ -99,12 +99,6 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
 
 }  // namespace
 
-int joint_named(const Rig& rig, const std::string& name) {
-  if (name.empty()) return -1;
-  const auto found = std::find(rig.names.begin(), rig.names.end(), name);
-  return found == rig.names.end() ? -1 : static_cast<int>(found - rig.names.begin());
-}
-
 std::shared_ptr<const PolygonSoup> Document::polygons() const {
   if (soup) return soup;
   auto made = std::make_shared<PolygonSoup>();

@@ -33,9 +33,6 @@ struct Document {
   [[nodiscard]] std::shared_ptr<const PolygonSoup> polygons() const;
 };
 
-/// -1 = there is none.
-[[nodiscard]] int joint_named(const Rig& rig, const std::string& name);
-
 /// Opens one surface (with its rig, if the file has one), one skeleton, or both; which is which
 /// follows from the content. Throws Error(Fault::input) where a file is neither, or there are two
 /// of a kind.

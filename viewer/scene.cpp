@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "skeleton/view.hpp"
+#include "surface/error.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -174,6 +175,22 @@ void Scene::upload(Renderer& renderer) {
   upload_surfaces(renderer, now, all);
   upload_skeleton(renderer, now, all);
   uploaded_ = std::move(now);
+}
+
+void look_at_rig(Scene& scene, const std::string& joint) {
+  if (!scene.document.rig || !scene.look.bones) return;
+  if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
+  scene.highlights.joint = -1;
+  if (joint.empty()) return;
+  const std::vector<std::string>& names = scene.document.rig->names;
+  const auto found = std::find(names.begin(), names.end(), joint);
+  if (found != names.end()) {
+    scene.highlights.joint = static_cast<int>(found - names.begin());
+    return;
+  }
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw Error(Fault::input, "no joint is called " + joint + "; there are " + all);
 }
 
 }  // namespace curveskel::viewer

@@ -74,4 +74,9 @@ class Scene {
   std::optional<Uploaded> uploaded_;
 };
 
+/// Shows what the joints of the document's rig move, in place of the one colour: the joint of this
+/// name, or all for "". Nothing where there is no rig, or its bones are not shown.
+/// Throws Error(Fault::input) where no joint has the name; all of them are shown then.
+void look_at_rig(Scene& scene, const std::string& joint);
+
 }  // namespace curveskel::viewer

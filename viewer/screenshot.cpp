@@ -63,16 +63,6 @@ void go_to(Scene& scene, const StageWish& wish) {
   }
 }
 
-void look_at_rig(Scene& scene, const ViewOptions& options) {
-  if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
-  const Rig& rig = *scene.document.rig;
-  scene.highlights.joint = joint_named(rig, options.joint);
-  if (scene.highlights.joint >= 0 || options.joint.empty()) return;
-  std::string names;
-  for (const std::string& name : rig.names) names += (names.empty() ? "" : ", ") + name;
-  throw Error(Fault::input, "no joint is called " + options.joint + "; there are " + names);
-}
-
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
                      const Monitor& monitor) {
   make_folder(options.turntable);
@@ -132,8 +122,8 @@ void look_through(Scene& scene, const View& view, int width, int height) {
 /// Where two views of a surface part: along x or y, midway between the nearest of what they show.
 struct Parting {
   int axis = 0;
-  double at = 0;        ///< pixels from the upper left corner
-  bool first_is_lower;  ///< the first view is on the side of the smaller coordinates
+  double at = 0;               ///< pixels from the upper left corner
+  bool first_is_lower = true;  ///< the first view is on the side of the smaller coordinates
 };
 
 Parting parting_of(const std::array<View, 2>& views, const Positions& points) {
@@ -201,7 +191,7 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
-  if (scene.document.rig && scene.look.bones) look_at_rig(scene, options);
+  look_at_rig(scene, options.joint);
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
     if (scene.document.has_surface()) scene.own_skeleton = nullptr;

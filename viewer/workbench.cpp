@@ -142,16 +142,15 @@ bool Workbench::take_opened() {
   inspect();
   say("opened " + names_of(files_));
   const Document& document = scene->document;
-  if (document.rig && scene->look.bones) look_at_rig();
+  try {
+    look_at_rig(*scene, options_.joint);
+    selected_joint_ = scene->highlights.joint;
+  } catch (const Error& error) {
+    say(error.what(), true);
+    options_.joint.clear();  // it is said once
+  }
   if (options_.run && document.has_surface() && !document.rig && !scene->own_skeleton) start(false);
   return true;
-}
-
-/// A rig is opened to be looked at: its weights, in place of the one colour.
-void Workbench::look_at_rig() {
-  if (scene->look.surface_colour == ColourBy::plain) scene->look.surface_colour = ColourBy::weight;
-  const int joint = joint_named(*scene->document.rig, options_.joint);
-  if (joint >= 0) select_joint(joint);
 }
 
 void Workbench::reload() {

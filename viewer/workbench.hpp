@@ -137,7 +137,6 @@ class Workbench {
     std::string error;
   };
   bool take_opened();
-  void look_at_rig();
   bool take_news();
   bool take_defects();
   bool take_judgement();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "surface/error.hpp"
 #include "tests/rig/rigged_bar.hpp"
 #include "viewer/pick.hpp"
 #include "viewer/scene.hpp"
@@ -40,6 +41,15 @@ Look look_by_weight() {
   Look look;
   look.surface_colour = ColourBy::weight;
   return look;
+}
+
+void open_all(Workbench& bench) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (bench.busy()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+    bench.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 TEST_F(RigView, BonesGoFromJointToJoint) {
@@ -114,17 +124,30 @@ TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
   }
 }
 
+TEST_F(RigView, JointThatThereIsNotIsNamed) {
+  Scene scene(document());
+  scene.look = {};
+  EXPECT_THROW(look_at_rig(scene, "elbow"), Error);
+  EXPECT_EQ(scene.highlights.joint, -1);
+  EXPECT_EQ(scene.look.surface_colour, ColourBy::weight) << "all of them are shown";
+  ViewOptions options;
+  options.files = {file()};
+  options.joint = "elbow";
+  Workbench bench(options);
+  open_all(bench);
+  ASSERT_FALSE(bench.messages().empty());
+  const Message& last = bench.messages().back();
+  EXPECT_TRUE(last.bad);
+  EXPECT_NE(last.text.find("no joint is called elbow; there are joint 0, "), std::string::npos)
+      << last.text;
+}
+
 TEST_F(RigView, IsOpenedToBeLookedAt) {
   ViewOptions options;
   options.files = {file()};
   options.joint = "joint 2";
   Workbench bench(options);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (bench.busy()) {
-    ASSERT_LT(std::chrono::steady_clock::now(), end);
-    bench.update();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  open_all(bench);
   ASSERT_TRUE(bench.scene->document.rig);
   EXPECT_EQ(bench.scene->recording.moments().size(), 1U) << "no run";
   EXPECT_EQ(bench.scene->look.surface_colour, ColourBy::weight);
