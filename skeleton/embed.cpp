@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "contraction/laplacian.hpp"
+#include "skeleton/grow.hpp"
 #include "skeleton/inside.hpp"
 #include "skeleton/network.hpp"
 #include "skeleton/prune.hpp"
@@ -132,6 +133,23 @@ void keep_simple(Network& network) {
   }
 }
 
+/// What the surgery has left out or left short.
+void grow_and_centre(Network& network, const Surface& surface, const InscribedBalls& balls,
+                     const VertexGraph& graph, const SurfaceTree& tree, const EmbedOptions& options,
+                     int threads) {
+  constexpr double least_slenderness = 1;  // that of a half-ball
+  const double limit = std::max(least_slenderness, slenderness_limit(options.detail));
+  if (grow_branches(network, surface, tree, balls, graph, limit) == 0) return;
+  RelaxOptions centring;
+  centring.keep = options.keep_radius;
+  centring.rounds = options.first_rounds;
+  keep_inside(network, surface, balls, graph, tree);
+  straighten_at_junctions(network, tree, options.straight, false);
+  resample(network, tree);
+  relax(network, tree, centring, threads);
+  prune_spurs(network, tree, 1);
+}
+
 /// Within the coarsened surface, whose tree is quick to ask: all that takes many rays.
 Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
                 const VertexGraph& graph, const EmbedOptions& options, int threads,
@@ -156,6 +174,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
+  grow_and_centre(network, surface, balls, graph, tree, options, threads);
   merge_junctions(network, tree, options.merge);  // centred, they may have come together
   centring.rounds = options.relax_rounds;
   relax(network, tree, centring, threads);

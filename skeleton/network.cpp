@@ -114,6 +114,37 @@ void Network::dissolve(int hub) {
   attach(hubs[at(first.to)], around[0]);
 }
 
+int Network::split(int strand, std::size_t segment, const Point& place) {
+  const auto hub = static_cast<int>(hubs.size());
+  const auto rest = static_cast<int>(strands.size());
+  hubs.push_back({place, {}});
+  Strand& first = strands[at(strand)];
+  Strand second = first;
+  const auto cut = static_cast<std::ptrdiff_t>(segment);
+  second.from = hub;
+  second.points.erase(second.points.begin(), second.points.begin() + cut);
+  first.points.resize(segment);
+  const int end = std::exchange(first.to, hub);
+  if (first.from != end) detach(hubs[at(end)], strand);
+  attach(hubs[at(end)], rest);
+  attach(hubs[at(hub)], strand);
+  attach(hubs[at(hub)], rest);
+  strands.push_back(std::move(second));
+  return hub;
+}
+
+int Network::add_leaf(int base, const Point& tip, std::vector<int> groups) {
+  const bool goes_on = degree(base) == 1;
+  const auto end = static_cast<int>(hubs.size());
+  const auto strand = static_cast<int>(strands.size());
+  hubs.push_back({tip, {}});
+  strands.push_back({base, end, {}, goes_on ? std::vector<int>{} : std::move(groups)});
+  attach(hubs[at(end)], strand);
+  attach(hubs[at(base)], strand);
+  if (goes_on) dissolve(base);
+  return end;
+}
+
 Network network_of_graph(const VertexGraph& graph, const std::vector<Point>& positions) {
   const int nodes = graph.nodes();
   std::vector<std::vector<int>> neighbours(at(nodes));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "skeleton/circles.hpp"
@@ -26,7 +27,7 @@ struct Strand {
   int from = -1;
   int to = -1;
   std::vector<Point> points;  ///< between the two hubs, in order; may be empty
-  std::vector<int> nodes;     ///< groups and circles of the graph along it, in order
+  std::vector<int> nodes;     ///< groups and circles of the graph that belong to it
   bool alive = true;
 };
 
@@ -50,6 +51,12 @@ struct Network {
   void collapse(int strand, int into, const Point& position);
   /// Joins the two strands at a hub of degree 2 into one; nothing to do at a closed curve's hub.
   void dissolve(int hub);
+  /// A new hub at a place on the strand's segment (counted along its polyline); both parts belong
+  /// to what the strand belonged to.
+  int split(int strand, std::size_t segment, const Point& place);
+  /// A new tip, joined to `base` by a strand without points that belongs to the given groups;
+  /// where the base was a tip, the strand there goes on to the new one and belongs to what it did.
+  int add_leaf(int base, const Point& tip, std::vector<int> groups);
 };
 
 /// positions: one per node of the graph (groups, then circles).

@@ -89,9 +89,11 @@ void prune_blunt(Network& network, const Surface& surface, const VertexGraph& gr
     for (const std::vector<int>* nodes : {&own, &base.nodes}) {
       for (const int node : *nodes) is_own[at(node)] = 1;
     }
-    const double found = slenderness(
-        base.position, summit, [&](int v) { return is_own[at(graph.group_of_vertex[v])] != 0; },
-        limit);
+    const double found =
+        slenderness(
+            base.position, summit, [&](int v) { return is_own[at(graph.group_of_vertex[v])] != 0; },
+            limit)
+            .slenderness;
     for (const std::vector<int>* nodes : {&own, &base.nodes}) {
       for (const int node : *nodes) is_own[at(node)] = 0;
     }

@@ -40,8 +40,9 @@ SlendernessSweep::SlendernessSweep(const Surface& surface)
   }
 }
 
-double SlendernessSweep::operator()(const Vector3d& base, int summit,
-                                    const std::function<bool(int)>& is_own, double enough) {
+Standout SlendernessSweep::operator()(const Vector3d& base, int summit,
+                                      const std::function<bool(int)>& is_own, double enough,
+                                      std::size_t least_vertices) {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> shore;  // highest first
   const double reach = (place(surface_, summit) - base).norm();
@@ -51,10 +52,10 @@ double SlendernessSweep::operator()(const Vector3d& base, int summit,
     seen_.push_back(v);
     shore.emplace(depth_[at(v)], v);
   };
-  double best = 0;
+  Standout best;
   bool own = true;
   see(summit);
-  for (int sphere = 1; sphere <= spheres && own && best < enough; ++sphere) {
+  for (int sphere = 1; sphere <= spheres && own && best.slenderness < enough; ++sphere) {
     const double depth = reach * sphere / spheres;
     while (own && !shore.empty() && shore.top().first <= depth) {
       const int v = shore.top().second;
@@ -65,7 +66,10 @@ double SlendernessSweep::operator()(const Vector3d& base, int summit,
         for (const int other : surface_.triangles.row(triangles_[at(i)])) see(other);
       }
     }
-    if (own && sphere >= first_sphere) best = std::max(best, ratio_at(depth));
+    if (own && sphere >= first_sphere && part_.size() >= least_vertices) {
+      const Standout here = standout_at(depth);
+      if (here.slenderness > best.slenderness) best = here;
+    }
   }
   forget();
   return best;
@@ -112,14 +116,14 @@ SlendernessSweep::Rim SlendernessSweep::rim_at(double depth) const {
   return rim;
 }
 
-double SlendernessSweep::ratio_at(double depth) const {
+Standout SlendernessSweep::standout_at(double depth) const {
   const Rim rim = rim_at(depth);
-  if (!(rim.radius > 0)) return 0;
+  if (!(rim.radius > 0)) return {};
   double height = 0;
   for (const int v : part_) {
     height = std::max(height, (place(surface_, v) - rim.centre).norm());
   }
-  return height / rim.radius;
+  return {height / rim.radius, rim.centre};
 }
 
 void SlendernessSweep::forget() {

@@ -1,12 +1,19 @@
 // How far a part of the surface sticks out, whatever its triangles and groups are.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 #include "surface/surface.hpp"
 
 namespace curveskel {
+
+/// How far a part sticks out, and where its rim has its middle.
+struct Standout {
+  double slenderness = 0;
+  Eigen::Vector3d rim_centre = Eigen::Vector3d::Zero();
+};
 
 /// Sweeps the surface from a summit towards a base. Keeps its memory from sweep to sweep.
 class SlendernessSweep {
@@ -15,12 +22,13 @@ class SlendernessSweep {
 
   /// Spheres about `base` cut off what lies farther out, together with the vertex `summit`. The
   /// slenderness is the largest height of such a part, from the middle of its rim, over the mean
-  /// radius of its rim. A part counts as long as it holds vertices with `is_own` only, and once it
-  /// is a fifth of the way from the summit to the base, so that the triangles' size does not
-  /// matter; 0 if none counts. Ends as soon as `enough` is reached. O(n log n) in the vertices
-  /// passed.
-  [[nodiscard]] double operator()(const Eigen::Vector3d& base, int summit,
-                                  const std::function<bool(int)>& is_own, double enough);
+  /// radius of its rim. A part counts as long as it holds vertices with `is_own` only, once it
+  /// holds `least_vertices` and is a fifth of the way from the summit to the base, so that the
+  /// triangles' size does not matter; 0 if none counts. Ends as soon as `enough` is reached.
+  /// O(n log n) in the vertices passed.
+  [[nodiscard]] Standout operator()(const Eigen::Vector3d& base, int summit,
+                                    const std::function<bool(int)>& is_own, double enough,
+                                    std::size_t least_vertices = 1);
 
  private:
   struct Rim {
@@ -29,7 +37,7 @@ class SlendernessSweep {
   };
   void take(int vertex);
   [[nodiscard]] Rim rim_at(double depth) const;
-  [[nodiscard]] double ratio_at(double depth) const;
+  [[nodiscard]] Standout standout_at(double depth) const;
   void forget();
 
   const Surface& surface_;

@@ -22,7 +22,7 @@ double slenderness_towards(const Surface& surface, const Eigen::Vector3d& outwar
   }
   SlendernessSweep slenderness(surface);
   const auto is_own = [&](int v) { return height(v) > 0; };
-  return slenderness(Eigen::Vector3d::Zero(), summit, is_own, far_beyond);
+  return slenderness(Eigen::Vector3d::Zero(), summit, is_own, far_beyond).slenderness;
 }
 
 TEST(Slenderness, IsAboutOneForTheCornerOfABox) {
@@ -41,7 +41,8 @@ TEST(Slenderness, IsAboutOneForTheCornerOfABox) {
     }
     const auto in_the_octant = [&](int v) { return centred.positions.row(v).minCoeff() > 0; };
     SlendernessSweep slenderness(centred);
-    const double found = slenderness(Eigen::Vector3d::Zero(), summit, in_the_octant, far_beyond);
+    const double found =
+        slenderness(Eigen::Vector3d::Zero(), summit, in_the_octant, far_beyond).slenderness;
     EXPECT_LT(found, 1.15) << cells << " cells";
   }
 }
@@ -72,15 +73,16 @@ TEST(Slenderness, IsTheSameInTheNextSweep) {
   const auto limb = shapes::tube("limb", shapes::straight(6), shapes::constant(1), 24);
   SlendernessSweep slenderness(limb.surface);
   const auto anything = [](int) { return true; };
-  const double first = slenderness({-3, 0, 0}, 0, anything, 1.5);
-  EXPECT_EQ(slenderness({-3, 0, 0}, 0, anything, 1.5), first);
+  const double first = slenderness({-3, 0, 0}, 0, anything, 1.5).slenderness;
+  EXPECT_EQ(slenderness({-3, 0, 0}, 0, anything, 1.5).slenderness, first);
 }
 
 TEST(Slenderness, IsZeroWhereNothingIsItsOwn) {
   const auto limb = shapes::tube("limb", shapes::straight(6), shapes::constant(1), 24);
   SlendernessSweep slenderness(limb.surface);
   EXPECT_EQ(slenderness(
-                {0, 0, 0}, 0, [](int) { return false; }, far_beyond),
+                {0, 0, 0}, 0, [](int) { return false; }, far_beyond)
+                .slenderness,
             0);
 }
 

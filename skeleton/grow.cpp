@@ -1,0 +1,250 @@
+#include "skeleton/grow.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "skeleton/slenderness.hpp"
+#include "surface/element_index.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr int most_passes = 8;
+constexpr std::size_t least_vertices = 8;
+// In inscribed radii where the branch begins.
+constexpr double least_branch = 1.5;
+constexpr double least_extension = 2;
+constexpr double least_ball = 0.1;  // at the tip of a branch: a crease is no limb
+constexpr double most_ball = 1.2;   // a wider one is where the strand comes from
+constexpr double least_extension_slenderness = 1.5;
+/// What lies this much nearer to the sphere's centre than the vertex does is within the sphere.
+constexpr double within = 0.6;
+
+/// The place of the network that a vertex belongs to.
+struct Host {
+  int strand = -1;
+  std::size_t segment = 0;  // along the strand's polyline
+  Point place = Point::Zero();
+};
+
+struct Summit {
+  int vertex = -1;
+  int hub = -1;  // where the branch begins, -1 = at the vertex's host
+  double slenderness = 0;
+  Point tip = Point::Zero();
+};
+
+class Growth {
+ public:
+  Growth(Network& network, const Surface& surface, const SurfaceTree& tree,
+         const InscribedBalls& balls, const VertexGraph& graph)
+      : network_(network),
+        surface_(surface),
+        tree_(tree),
+        balls_(balls),
+        graph_(graph),
+        sweep_(surface),
+        hosts_(at(surface.positions.rows())),
+        grown_(hosts_.size(), 0) {}
+
+  int run(double limit) {
+    int count = 0;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      find_hosts();
+      const int before = count;
+      touched_.clear();
+      for (const Summit& summit : summits(limit)) count += grow(summit) ? 1 : 0;
+      if (count == before) break;
+    }
+    return count;
+  }
+
+ private:
+  [[nodiscard]] Point place(int v) const { return surface_.positions.row(v); }
+  [[nodiscard]] double height(int v) const { return (place(v) - hosts_[at(v)].place).norm(); }
+
+  /// Where a vertex looks for its host. A ball that does not touch it is one of its neighbours'.
+  [[nodiscard]] Point centre(int v) const {
+    constexpr double touching = 1.2;
+    const Point ball = balls_.centres.row(v);
+    return (ball - place(v)).norm() <= touching * balls_.radii[v] ? ball : place(v);
+  }
+
+  [[nodiscard]] std::vector<std::vector<int>> strands_of_groups() const {
+    std::vector<std::vector<int>> strands(at(graph_.groups));
+    const auto claim = [&](const std::vector<int>& nodes, int strand) {
+      for (const int node : nodes) {
+        if (node < graph_.groups) strands[at(node)].push_back(strand);
+      }
+    };
+    for (int s = 0; s < static_cast<int>(network_.strands.size()); ++s) {
+      const Strand& strand = network_.strands[at(s)];
+      if (!strand.alive) continue;
+      claim(strand.nodes, s);
+      claim(network_.hubs[at(strand.from)].nodes, s);
+      if (strand.to != strand.from) claim(network_.hubs[at(strand.to)].nodes, s);
+    }
+    return strands;
+  }
+
+  void find_hosts() {
+    const auto strands = strands_of_groups();
+    std::vector<std::vector<Point>> lines;
+    for (const Strand& strand : network_.strands) {
+      lines.push_back(strand.alive ? network_.polyline(strand) : std::vector<Point>{});
+    }
+    for (int v = 0; v < static_cast<int>(hosts_.size()); ++v) {
+      const Point from = centre(v);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const int s : strands[at(graph_.group_of_vertex[v])]) {
+        const auto& line = lines[at(s)];
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+          const Point along = line[i + 1] - line[i];
+          const double squared = along.squaredNorm();
+          const double share =
+              squared > 0 ? std::clamp((from - line[i]).dot(along) / squared, 0.0, 1.0) : 0;
+          const Point here = share < 1 ? Point(line[i] + share * along) : line[i + 1];
+          const double distance = (here - from).squaredNorm();
+          if (distance >= nearest) continue;
+          nearest = distance;
+          hosts_[at(v)] = {s, i, here};
+        }
+      }
+    }
+  }
+
+  /// The hub that stands for a place of a strand: the tip whose ball holds it, or the hub that is
+  /// there; -1 if there is none.
+  [[nodiscard]] int hub_at(const Host& host, double radius) const {
+    const Strand& strand = network_.strands[at(host.strand)];
+    for (const int hub : {strand.from, strand.to}) {
+      const double distance = (network_.hubs[at(hub)].position - host.place).norm();
+      if (distance == 0 || (network_.degree(hub) == 1 && distance <= radius)) return hub;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] Standout standout(const Point& base, int summit) {
+    const auto is_own = [&](int v) {
+      return (hosts_[at(v)].place - base).norm() < within * (place(v) - base).norm();
+    };
+    return sweep_(base, summit, is_own, std::numeric_limits<double>::infinity(), least_vertices);
+  }
+
+  /// Vertices from which no edge leads farther away from the network.
+  [[nodiscard]] std::vector<int> farthest_around() const {
+    std::vector<char> lower(hosts_.size(), 0);
+    for (const auto& t : surface_.triangles.rowwise()) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = t(k);
+        const int b = t((k + 1) % 3);
+        (height(a) < height(b) ? lower[at(a)] : lower[at(b)]) = 1;
+      }
+    }
+    std::vector<int> vertices;
+    for (int v = 0; v < static_cast<int>(hosts_.size()); ++v) {
+      if (lower[at(v)] == 0 && hosts_[at(v)].strand >= 0 && grown_[at(v)] == 0) {
+        vertices.push_back(v);
+      }
+    }
+    return vertices;
+  }
+
+  /// The branch from a hub, or from the vertex's host where there is none; no slenderness if there
+  /// can be none.
+  [[nodiscard]] Summit made(int v, int hub, const Standout& found, double least, double radius) {
+    const Point inwards = found.rim_centre - place(v);
+    const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
+    const bool fits = ball.radius > least * radius && ball.radius < most_ball * radius;
+    return {v, hub, fits ? found.slenderness : 0, ball.centre};
+  }
+
+  [[nodiscard]] Summit extension(int v, int tip) {
+    const Point& base = network_.hubs[at(tip)].position;
+    const double radius = tree_.inscribed_radius(base);
+    if ((place(v) - base).norm() < least_extension * radius) return {};
+    return made(v, tip, standout(base, v), 0, radius);
+  }
+
+  [[nodiscard]] Summit branch(int v, int hub, double radius) {
+    const Host& host = hosts_[at(v)];
+    Standout best = standout(host.place, v);
+    const Strand& strand = network_.strands[at(host.strand)];
+    for (const int end : {strand.from, strand.to}) {
+      const Point& junction = network_.hubs[at(end)].position;
+      if (network_.degree(end) < 3) continue;
+      if ((junction - host.place).norm() > least_branch * radius) continue;
+      const Standout here = standout(junction, v);
+      if (here.slenderness <= best.slenderness) continue;
+      best = here;
+      hub = end;
+    }
+    return made(v, hub, best, least_ball, radius);
+  }
+
+  /// Those that deserve a branch, most slender first.
+  [[nodiscard]] std::vector<Summit> summits(double limit) {
+    std::vector<Summit> found;
+    for (const int v : farthest_around()) {
+      const double radius = tree_.inscribed_radius(hosts_[at(v)].place);
+      if (height(v) < least_branch * radius) continue;
+      const int hub = hub_at(hosts_[at(v)], radius);
+      const bool extends = hub >= 0 && network_.degree(hub) == 1;
+      const Summit summit = extends ? extension(v, hub) : branch(v, hub, radius);
+      if (summit.slenderness >= (extends ? least_extension_slenderness : limit)) {
+        found.push_back(summit);
+      }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Summit& a, const Summit& b) {
+      return a.slenderness > b.slenderness;
+    });
+    return found;
+  }
+
+  /// False if the strands there have changed since the hosts were found.
+  bool grow(const Summit& summit) {
+    const Host& host = hosts_[at(summit.vertex)];
+    int base = summit.hub;
+    std::vector<int> around{host.strand};
+    if (base >= 0) {
+      const auto& there = network_.hubs[at(base)].strands;
+      around.insert(around.end(), there.begin(), there.end());
+    }
+    const auto is_around = [&](int s) {
+      return std::find(around.begin(), around.end(), s) != around.end();
+    };
+    if (std::any_of(touched_.begin(), touched_.end(), is_around)) return false;
+    std::vector<int> groups;
+    for (std::size_t v = 0; v < hosts_.size(); ++v) {
+      if (is_around(hosts_[v].strand)) groups.push_back(graph_.group_of_vertex[int(v)]);
+    }
+    std::sort(groups.begin(), groups.end());
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    if (base < 0) base = network_.split(host.strand, host.segment, host.place);
+    const int tip = network_.add_leaf(base, summit.tip, std::move(groups));
+    grown_[at(summit.vertex)] = 1;
+    touched_.insert(touched_.end(), around.begin(), around.end());
+    touched_.push_back(network_.hubs[at(tip)].strands.front());
+    return true;
+  }
+
+  Network& network_;
+  const Surface& surface_;
+  const SurfaceTree& tree_;
+  const InscribedBalls& balls_;
+  const VertexGraph& graph_;
+  SlendernessSweep sweep_;
+  std::vector<Host> hosts_;   // per vertex
+  std::vector<char> grown_;   // per vertex: it has had its branch
+  std::vector<int> touched_;  // strands, in this pass
+};
+
+}  // namespace
+
+int grow_branches(Network& network, const Surface& surface, const SurfaceTree& tree,
+                  const InscribedBalls& balls, const VertexGraph& graph, double limit) {
+  return Growth(network, surface, tree, balls, graph).run(limit);
+}
+
+}  // namespace curveskel
