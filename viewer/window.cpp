@@ -124,12 +124,14 @@ class GlfwWindow {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int with) {
       if (action == GLFW_REPEAT || key == GLFW_KEY_UNKNOWN) return;
       const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+      const bool ends =
+          key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_ESCAPE;
       static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
-          ->typed_.add({key, code, action == GLFW_PRESS, modifier, with, 0});
+          ->typed_.add({key, code, action == GLFW_PRESS, modifier, ends, with, 0});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
       static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
-          ->typed_.add({0, 0, false, false, 0, letter});
+          ->typed_.add({0, 0, false, false, false, 0, letter});
     });
   }
 
@@ -186,7 +188,8 @@ class Viewer {
       const Clock::time_point began = Clock::now();
       take_files();
       if (bench_.update()) awake();
-      if (!window_.type()) awake();
+      // What is typed while a dialogue opens is for that.
+      if (panels_.browser.opening() || !window_.type()) awake();
       draw_frame();
       glfwSwapBuffers(window_.get());
       set_title();

@@ -175,6 +175,11 @@ class Window:
     def key(self, *names):
         self.display.xdotool("key", "--delay", 5, *names)
 
+    def key_at_once(self, *names, text, then):
+        """Keys, a text and keys, without waiting for anything in between."""
+        self.display.xdotool("key", "--delay", 0, *names, "type", "--delay", 0, "--args", 1, text,
+                             "key", "--delay", 0, *then)
+
     def type_into_dialogue(self, key, text):
         """Opens the dialogue with this key, and answers."""
         before = self.rest(self.whole)

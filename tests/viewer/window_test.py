@@ -334,6 +334,18 @@ class Files(WindowTest):
         window.wait_for_title(r"torus\.off .*\(skeleton\)$")
         self.leave(window)
 
+    def test_keys_that_follow_a_dialogue_at_once_are_for_the_picture(self):
+        window = self.opened()
+        for number, (key, title) in enumerate((("Home", "input"), ("End", "skeleton"))):
+            file = self.folder / f"saved-{number}.json"
+            window.key_at_once("ctrl+s", "ctrl+a", text=file, then=["Return", key])
+            window.wait_for_title(rf"\({title}\)")
+            until(file.exists, f"{file}")
+        for key, title in (("Home", "input"), ("End", "skeleton")):
+            window.key_at_once("ctrl+o", text="any", then=["Escape", key])
+            window.wait_for_title(rf"\({title}\)")
+        self.leave(window)
+
     def test_are_read_again_when_they_change(self):
         file = self.folder / "shape.off"
         shutil.copy(Y, file)
