@@ -216,7 +216,7 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
 
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   draw_left_panel(bench, panels, layout.left);
-  draw_right_panel(bench, layout.right);
+  draw_right_panel(bench, panels, layout.right);
   draw_timeline(bench, layout.timeline);
   status_bar(bench, panels, layout.status);
   messages(bench, layout.picture);

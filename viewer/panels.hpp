@@ -5,6 +5,7 @@
 
 #include "viewer/file_browser.hpp"
 #include "viewer/frame_times.hpp"
+#include "viewer/hierarchy.hpp"
 #include "viewer/pick.hpp"
 #include "viewer/workbench.hpp"
 
@@ -32,6 +33,7 @@ struct Panels {
   bool shown = true;
   bool help = false;
   FileBrowser browser;
+  Outline outline;  ///< of the rig
   FrameTimes times;
   Pick hovered;
   std::string gl;        ///< what draws

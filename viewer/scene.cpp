@@ -188,9 +188,13 @@ void look_at_rig(Scene& scene, const std::string& joint) {
     scene.highlights.joint = static_cast<int>(found - names.begin());
     return;
   }
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw Error(Fault::input, "no joint is called " + joint + "; there are " + all);
+  constexpr std::size_t most = 100;
+  std::string some;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    some += (some.empty() ? "" : ", ") + names[i];
+  }
+  if (names.size() > most) some += " and " + std::to_string(names.size() - most) + " more";
+  throw Error(Fault::input, "no joint is called " + joint + "; there are " + some);
 }
 
 }  // namespace curveskel::viewer
