@@ -32,6 +32,7 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
     facts.push_back(
         fmt::format("{} nodes, {} edges", skeleton->nodes.rows(), skeleton->edges.rows()));
   }
+  if (panels.coarse) facts.emplace_back("drawing coarsely while it moves");
   facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
   facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.times.last(),
                               panels.times.percentile(0.99)));

@@ -32,6 +32,8 @@ struct Layout {
 struct Panels {
   bool shown = true;
   bool help = false;
+  bool may_be_coarse = true;  ///< while things move, where the machine is slow
+  bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
   Outline outline;  ///< of the rig
   FrameTimes times;

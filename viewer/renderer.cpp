@@ -43,7 +43,16 @@ struct Renderer::Seen {
   Palette palette;
   glm::mat4 view;
   glm::mat4 projection;
+  Part part;
 
+  /// The target holds the part only.
+  void bind(const GlTarget& target) const {
+    target.bind();
+    glViewport(-part.x, -part.y, frame.width, frame.height);
+  }
+  [[nodiscard]] GlTarget::Form form(int samples) const {
+    return {part.width, part.height, samples, GL_RGBA8, true};
+  }
   void set(const GlProgram& program) const {
     program.use();
     program.set("view", view);
@@ -130,6 +139,7 @@ void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
 
 void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
   Mesh& target = mesh(layer);
+  if (colours.empty() && !target.coloured) return;
   ++target.version;
   target.coloured = !colours.empty();
   glBindVertexArray(target.array.get());
@@ -230,39 +240,43 @@ void Renderer::draw_screen(const GlProgram& program) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The level wanted, or the whole where it has not been set.
+/// The level wanted, or the next finer one that has been set.
 const Renderer::Mesh& Renderer::given_at(int level) const {
-  const Mesh& wanted = meshes_[static_cast<std::size_t>(level)];
-  return wanted.corners > 0 ? wanted : meshes_[0];
+  auto found = static_cast<std::size_t>(level);
+  while (found > 0 && meshes_[found].corners == 0) --found;
+  return meshes_[found];
 }
 
 unsigned Renderer::given_version() const {
-  return meshes_[0].version + meshes_[1].version + meshes_[2].version;
+  unsigned version = 0;
+  for (std::size_t level = 0; level < Pace::levels; ++level) version += meshes_[level].version;
+  return version;
+}
+
+int Renderer::samples_of(const Frame& frame) const {
+  return std::clamp(frame.fineness.samples, 1, std::max(most_samples_, 1));
 }
 
 /// Whether the last glass was the same, or finer.
-bool Renderer::has_glass(const GlassKey& wanted, const Frame& frame) const {
+bool Renderer::has_glass(const GlassKey& wanted) const {
   return glass_.view == wanted.view && glass_.projection == wanted.projection &&
          glass_.opacity == wanted.opacity && glass_.theme == wanted.theme &&
          glass_.version == wanted.version && glass_.fineness.level <= wanted.fineness.level &&
-         glass_.fineness.samples >= wanted.fineness.samples && skin_.form().width == frame.width &&
-         skin_.form().height == frame.height;
+         glass_.fineness.samples >= wanted.fineness.samples && glass_.part == wanted.part;
 }
 
 /// The skin (its nearest layer, lit) and the thickness of the body, each in a target of its own;
 /// neither depends on the order of the triangles.
 bool Renderer::draw_glass(const Seen& seen) {
   const Mesh& given = given_at(seen.frame.fineness.level);
-  const GlassKey key{seen.view,       seen.projection,     seen.look.opacity,
-                     seen.look.theme, seen.frame.fineness, given_version()};
-  if (has_glass(key, seen.frame)) return false;  // only what is in it has changed
+  const GlassKey key{seen.view,           seen.projection, seen.look.opacity, seen.look.theme,
+                     seen.frame.fineness, seen.part,       given_version()};
+  if (has_glass(key)) return false;  // only what is in it has changed
   glass_ = key;
-  const GlTarget::Form pixels{seen.frame.width, seen.frame.height, 1, GL_RGBA8, true};
-  GlTarget::Form samples = pixels;
-  samples.samples = std::clamp(seen.frame.fineness.samples, 1, std::max(most_samples_, 1));
-  skin_.shape(pixels);
-  skin_samples_.shape(samples);
-  skin_samples_.bind();
+  skin_.shape(seen.form(1));
+  const int samples = samples_of(seen.frame);
+  if (samples > 1) skin_samples_.shape(seen.form(samples));
+  seen.bind(samples > 1 ? skin_samples_ : skin_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
@@ -271,13 +285,13 @@ bool Renderer::draw_glass(const Seen& seen) {
   surface_.set("strength", 2 * seen.look.opacity);
   surface_.set("inner", seen.palette.inside);
   draw_mesh(surface_, given, seen.palette.surface, seen);
-  skin_samples_.resolve_into(skin_, true);
+  if (samples > 1) skin_samples_.resolve_into(skin_, true);
 
-  GlTarget::Form sums = pixels;
+  GlTarget::Form sums = seen.form(1);
   sums.colour = GL_R32F;
   sums.depth = false;
   thickness_.shape(sums);
-  thickness_.bind();
+  seen.bind(thickness_);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
@@ -289,16 +303,20 @@ bool Renderer::draw_glass(const Seen& seen) {
 
 bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
   const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
-  const Seen seen{camera,        look,
-                  frame,         palette_of(look.theme),
-                  camera.view(), camera.projection(aspect, frame.bounds)};
-  const int samples = std::clamp(frame.fineness.samples, 1, std::max(most_samples_, 1));
-  scene_.shape({frame.width, frame.height, samples, GL_RGBA8, true});
-  picture_.shape({frame.width, frame.height, 1, GL_RGBA8, true});
+  const Seen seen{camera,
+                  look,
+                  frame,
+                  palette_of(look.theme),
+                  camera.view(),
+                  camera.projection(aspect, frame.bounds),
+                  frame.part.value_or(Part{0, 0, frame.width, frame.height})};
+  const int samples = samples_of(frame);
+  if (samples > 1) scene_.shape(seen.form(samples));
+  picture_.shape(seen.form(1));
   const bool glass = look.surface == SurfaceStyle::transparent && mesh(Layer::given).corners > 0;
   const bool all_anew = !glass || draw_glass(seen);
 
-  scene_.bind();
+  seen.bind(samples > 1 ? scene_ : picture_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
@@ -351,7 +369,7 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
   }
-  scene_.resolve_into(picture_, false);
+  if (samples > 1) scene_.resolve_into(picture_, false);
   glBindVertexArray(0);
   return all_anew;
 }
@@ -364,11 +382,6 @@ PixelRows Renderer::read() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, rows.width, rows.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.bytes.data());
   return rows;
-}
-
-std::string gl_name() {
-  const auto* const name = glGetString(GL_RENDERER);
-  return name == nullptr ? "?" : reinterpret_cast<const char*>(name);
 }
 
 }  // namespace curveskel::viewer

@@ -205,6 +205,8 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("look", area)) return;
   if (ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
     look_controls(bench.scene->look, bench.scene->camera);
+    ImGui::Checkbox("coarser while it moves", &panels.may_be_coarse);
+    tip("only where this machine cannot draw sixty whole pictures a second");
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);

@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "viewer/priority.hpp"
+
 namespace curveskel::viewer {
 namespace {
 
@@ -109,6 +111,7 @@ void Run::extract_all(const Monitor& monitor) {
 
 /// Every exception ends here; what went wrong is news.
 void Run::work(const std::stop_token& stop) {
+  if (options_.gives_way) give_way();
   Monitor monitor;
   monitor.stop = stop;
   monitor.progress = [this](std::string_view stage, double fraction) {

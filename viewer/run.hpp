@@ -23,6 +23,7 @@ namespace curveskel::viewer {
 struct RunOptions {
   RepairOptions repair;
   ExtractOptions extract;
+  bool gives_way = false;  ///< to the threads that draw
 };
 
 /// What the runs over one file share, so that a later one with other options starts at the first

@@ -347,6 +347,54 @@ TEST(Scene, FitsWhatItHas) {
   }
 }
 
+TEST(Scene, HasRoomForASkeletonBesideItsSurface) {
+  for (const Extracted& one : family()) {
+    CurveSkeleton skeleton = one.skeleton;
+    skeleton.nodes.rowwise() += Eigen::RowVector3d(40, 0, 0);
+    const Scene scene(document_of(one.surface, &skeleton));
+    for (const auto& node : skeleton.nodes.rowwise()) {
+      const glm::vec3 at = shown_point(node, scene.document.origin);
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(scene.bounds().low, at)));
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(at, scene.bounds().high)));
+    }
+  }
+}
+
+TEST(Scene, PartsOfAPictureAreThoseOfTheWhole) {
+  const HeadlessContext context;
+  constexpr int width = 160;
+  constexpr int height = 120;
+  for (const SurfaceStyle style : {SurfaceStyle::transparent, SurfaceStyle::opaque}) {
+    Scene scene(document_of(family()[2].surface, &family()[2].skeleton));
+    fit(scene.camera, scene.points(), float(width) / height);
+    scene.look.surface = style;
+    Renderer renderer;
+    scene.upload(renderer);
+    Renderer::Frame frame{width, height, {}, scene.bounds(), {}};
+    renderer.draw(scene.camera, scene.look, frame);
+    const PixelRows whole = renderer.read();
+    for (const Renderer::Part& part :
+         {Renderer::Part{0, 0, 64, height}, Renderer::Part{64, 0, 96, height},
+          Renderer::Part{30, 50, 60, 40}}) {
+      frame.part = part;
+      renderer.draw(scene.camera, scene.look, frame);
+      const PixelRows rows = renderer.read();
+      ASSERT_EQ(rows.width, part.width);
+      ASSERT_EQ(rows.height, part.height);
+      int different = 0;
+      for (int y = 0; y < part.height; ++y) {
+        for (int i = 0; i < 4 * part.width; ++i) {
+          const auto at = static_cast<std::size_t>(4 * part.width * y + i);
+          const auto in_whole = static_cast<std::size_t>(4 * (width * (part.y + y) + part.x) + i);
+          different += rows.bytes[at] == whole.bytes[in_whole] ? 0 : 1;
+        }
+      }
+      // Rounding may put an edge on the other side of a sample.
+      EXPECT_LT(different, 4 * part.width * part.height / 500);
+    }
+  }
+}
+
 TEST(Scene, ContractedShowsThroughAnOpaqueSurface) {
   Scene scene(document_of(family()[0].surface));
   scene.look.surface = SurfaceStyle::opaque;
