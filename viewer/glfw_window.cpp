@@ -8,6 +8,9 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +36,27 @@ bool draws_in_software() {
          name.find("swrast") != std::string::npos;
 }
 
+/// Whether one buffer is drawn into and copied from, frame after frame: three pixels of as many
+/// frames are all there in the end.
+bool keeps_what_is_drawn(GLFWwindow* window) {
+  constexpr int frames = 3;
+  glEnable(GL_SCISSOR_TEST);
+  for (int frame = 0; frame < frames; ++frame) {
+    glScissor(frame, 0, 1, 1);
+    glClearColor(0.2F * static_cast<float>(frame + 1), 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glfwSwapBuffers(window);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  std::array<std::uint8_t, 4 * frames> pixels{};
+  glReadPixels(0, 0, frames, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  for (int frame = 0; frame < frames; ++frame) {
+    const int found = pixels[4 * static_cast<std::size_t>(frame)];
+    if (std::abs(found - 51 * (frame + 1)) > 2) return false;
+  }
+  return true;
+}
+
 GlfwWindow& owner_of(GLFWwindow* window) {
   return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
 }
@@ -45,6 +69,9 @@ GlfwWindow::GlfwWindow(int width, int height) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
   window_ = glfwCreateWindow(width, height, "curveskel", nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string why = last_glfw_error();
@@ -54,6 +81,7 @@ GlfwWindow::GlfwWindow(int width, int height) {
   glfwMakeContextCurrent(window_);
   software_ = draws_in_software();
   glfwSwapInterval(software_ ? 0 : 1);
+  keeps_ = software_ && keeps_what_is_drawn(window_);
   constexpr int least_width = 320;
   constexpr int least_height = 240;
   glfwSetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -73,6 +101,8 @@ GlfwWindow::~GlfwWindow() {
   glfwTerminate();
 }
 
+void GlfwWindow::show() { glfwShowWindow(window_); }
+
 bool GlfwWindow::type() {
   for (const KeyEvent& event : typed_.take()) {
     if (event.letter != 0) {
@@ -86,6 +116,8 @@ bool GlfwWindow::type() {
 }
 
 bool GlfwWindow::take_touched() { return std::exchange(touched_, false); }
+
+bool GlfwWindow::take_kept() { return keeps_ && !std::exchange(spoilt_, false); }
 
 void GlfwWindow::finish_frame() {
   if (software_) glfwSwapBuffers(window_);
@@ -141,9 +173,10 @@ void GlfwWindow::listen_to_all() {
   glfwSetScrollCallback(window_,
                         [](GLFWwindow* w, double, double) { owner_of(w).touched_ = true; });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { owner_of(w).touched_ = true; });
-  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { owner_of(w).touched_ = true; });
-  glfwSetFramebufferSizeCallback(window_,
-                                 [](GLFWwindow* w, int, int) { owner_of(w).touched_ = true; });
+  glfwSetWindowRefreshCallback(
+      window_, [](GLFWwindow* w) { owner_of(w).touched_ = owner_of(w).spoilt_ = true; });
+  glfwSetFramebufferSizeCallback(
+      window_, [](GLFWwindow* w, int, int) { owner_of(w).touched_ = owner_of(w).spoilt_ = true; });
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     owner_of(window).touched_ = true;
     owner_of(window).dropped_.assign(paths, paths + count);

@@ -15,12 +15,14 @@ namespace curveskel::viewer {
 class GlfwWindow {
  public:
   /// Throws Error(Fault::device) where there is no display or no OpenGL 3.3.
+  /// Not to be seen before `show`.
   GlfwWindow(int width, int height);
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
   ~GlfwWindow();
 
   [[nodiscard]] GLFWwindow* get() const { return window_; }
+  void show();
   /// Of letters, by the display.
   [[nodiscard]] float scale() const { return scale_; }
   /// Before a frame: hands ImGui what was typed, as much of it as one frame can take. False if
@@ -28,6 +30,9 @@ class GlfwWindow {
   bool type();
   /// Whether anything happened to it (keys, mouse, size, files) since the last call.
   [[nodiscard]] bool take_touched();
+  /// Whether what was drawn in the last frame is still there, so that a part of it can be drawn
+  /// again alone: without a graphics card, where nothing was hidden or resized meanwhile.
+  [[nodiscard]] bool take_kept();
   /// Waits until all that was drawn is there.
   void finish_frame();
   /// Shows it. Where there is a graphics card this waits for the screen.
@@ -43,6 +48,8 @@ class GlfwWindow {
   GLFWwindow* window_ = nullptr;
   float scale_ = 1;
   bool software_ = false;  // draws without a graphics card
+  bool keeps_ = false;     // what was drawn
+  bool spoilt_ = true;     // it has to be drawn again
   bool touched_ = true;
   KeyQueue typed_;
   std::vector<std::filesystem::path> dropped_;

@@ -8,7 +8,7 @@ namespace {
 /// In triangles drawn once. The figures were measured with Mesa's software renderer: for a graphics
 /// card, which is always fast enough, they do not matter.
 double work_of(const Fineness& fineness, const Pace::Load& load) {
-  constexpr double triangles_per_pixel = 0.06;
+  const double triangles_per_pixel = fineness.lit_at_vertices() ? 0.08 : 0.2;
   constexpr double more_samples = 2;  // four of them against one
   const double pixels = load.pixels / (fineness.shrink * fineness.shrink);
   const double drawn =

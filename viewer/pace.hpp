@@ -11,6 +11,7 @@ struct Fineness {
   int samples = 4;  ///< a pixel
   int shrink = 1;   ///< each side of the picture is drawn this many times smaller
   bool operator==(const Fineness&) const = default;
+  [[nodiscard]] bool lit_at_vertices() const { return level >= 2; }
 };
 
 /// Whether `one` shows more than `other` in any respect.

@@ -18,6 +18,13 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
                                           ImGuiWindowFlags_NoSavedSettings |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+void glance_at(const Workbench& bench, Panels& panels) {
+  constexpr std::chrono::milliseconds often(250);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - panels.glance.since < often) return;
+  panels.glance = {panels.times.last(), panels.times.percentile(0.99), bench.news().fraction, now};
+}
+
 /// As many of the facts as fit, the first ones first.
 void status_bar(const Workbench& bench, const Panels& panels, const Area& area) {
   if (!begin_panel("status", area)) return;
@@ -34,8 +41,8 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   }
   if (panels.coarse) facts.emplace_back("drawing coarsely while it moves");
   facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
-  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.times.last(),
-                              panels.times.percentile(0.99)));
+  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.glance.last_milliseconds,
+                              panels.glance.slow_milliseconds));
   facts.push_back(panels.gl);
   facts.push_back(panels.transfer);
   std::string line;
@@ -147,6 +154,12 @@ std::string description_of_joint(int joint, const Rig& rig) {
 
 }  // namespace
 
+Area whole_pixels(const Area& area) {
+  const float x = std::floor(area.x);
+  const float y = std::floor(area.y);
+  return {x, y, std::ceil(area.x + area.width) - x, std::ceil(area.y + area.height) - y};
+}
+
 bool begin_panel(const char* name, const Area& area) {
   if (area.width <= 0 || area.height <= 0) return false;
   ImGui::SetNextWindowPos({area.x, area.y});
@@ -216,6 +229,7 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
 }
 
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
+  glance_at(bench, panels);
   draw_left_panel(bench, panels, layout.left);
   draw_right_panel(bench, panels, layout.right);
   draw_timeline(bench, layout.timeline);

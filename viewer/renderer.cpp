@@ -62,13 +62,14 @@ struct Renderer::Seen {
 };
 
 Renderer::Renderer()
-    : surface_("surface", surface_vertex_source, lit_fragment(surface_fragment_source)),
-      thickness_program_("thickness", surface_vertex_source, thickness_fragment_source),
+    : surface_("surface", surface_vertex_source, with_light(surface_fragment_source)),
+      coarse_("coarse", with_light(coarse_vertex_source), coarse_fragment_source),
+      thickness_program_("thickness", place_vertex_source, thickness_fragment_source),
       background_("background", screen_vertex_source, background_fragment_source),
       body_("body", screen_vertex_source, body_fragment_source),
       skin_program_("skin", screen_vertex_source, skin_fragment_source),
-      wire_("wire", surface_vertex_source, wire_fragment_source),
-      tube_("tube", tube_vertex_source, lit_fragment(tube_fragment_source)),
+      wire_("wire", place_vertex_source, wire_fragment_source),
+      tube_("tube", tube_vertex_source, with_light(tube_fragment_source)),
       screen_(make_array()) {
   for (Mesh& one : meshes_) one.array = make_array();
   const UnitShape tube = unit_tube();
@@ -173,14 +174,19 @@ void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm:
   glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
 }
 
+const GlProgram& Renderer::program_for(const Seen& seen) const {
+  return seen.frame.fineness.lit_at_vertices() ? coarse_ : surface_;
+}
+
 void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_POLYGON_OFFSET_FILL);  // lets the edges lie on the faces
   glPolygonOffset(1, 1);
-  surface_.use();
-  surface_.set("skin", 0);
-  surface_.set("inner", seen.palette.inside);
-  draw_mesh(surface_, shown, plain, seen);
+  const GlProgram& program = program_for(seen);
+  program.use();
+  program.set("skin", 0);
+  program.set("inner", seen.palette.inside);
+  draw_mesh(program, shown, plain, seen);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -280,11 +286,12 @@ bool Renderer::draw_glass(const Seen& seen) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  surface_.use();
-  surface_.set("skin", 1);
-  surface_.set("strength", 2 * seen.look.opacity);
-  surface_.set("inner", seen.palette.inside);
-  draw_mesh(surface_, given, seen.palette.surface, seen);
+  const GlProgram& program = program_for(seen);
+  program.use();
+  program.set("skin", 1);
+  program.set("strength", 2 * seen.look.opacity);
+  program.set("inner", seen.palette.inside);
+  draw_mesh(program, given, seen.palette.surface, seen);
   if (samples > 1) skin_samples_.resolve_into(skin_, true);
 
   GlTarget::Form sums = seen.form(1);

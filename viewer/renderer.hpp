@@ -105,6 +105,7 @@ class Renderer {
   [[nodiscard]] Mesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
   void draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
                  const Seen& seen) const;
+  [[nodiscard]] const GlProgram& program_for(const Seen& seen) const;
   void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
   void draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const;
   void draw_skeleton(const Seen& seen) const;
@@ -113,6 +114,7 @@ class Renderer {
   void draw_screen(const GlProgram& program) const;
 
   GlProgram surface_;
+  GlProgram coarse_;
   GlProgram thickness_program_;
   GlProgram background_;
   GlProgram body_;

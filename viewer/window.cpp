@@ -20,6 +20,7 @@
 #include "surface/write_file.hpp"
 #include "viewer/controls.hpp"
 #include "viewer/glfw_window.hpp"
+#include "viewer/panel_changes.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/recent_files.hpp"
 #include "viewer/screenshot.hpp"
@@ -43,6 +44,7 @@ class Viewer {
         session_(session),
         window_(options.width, options.height),
         bench_(options) {
+    window_.show();
     panels_.gl = gl_name();
     panels_.may_be_coarse = options.may_be_coarse;
     panels_.transfer = "positions copied to OpenGL";
@@ -136,8 +138,23 @@ class Viewer {
     const auto pixels = [ratio](float length) { return static_cast<int>(length * ratio); };
     const Area& area = layout.picture;
     const double picture_seconds = draw_picture(pixels(area.width), pixels(area.height));
-    picture_.show(pixels(area.x), height - pixels(area.y) - pixels(area.height));
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    std::vector<Area> changed = changes_.since_last(*ImGui::GetDrawData());
+    if (picture_seconds > 0) changed.push_back(whole_pixels(area));
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (!window_.take_kept()) {
+      changed = {{0, 0, static_cast<float>(width) / ratio, static_cast<float>(height) / ratio}};
+      glClearColor(0.5F, 0.5F, 0.5F, 1);
+      glClear(GL_COLOR_BUFFER_BIT);
+    }
+    if (changed.empty()) return;
+    for (const Area& part : changed) {
+      glEnable(GL_SCISSOR_TEST);
+      glScissor(pixels(part.x), height - pixels(part.y + part.height), pixels(part.width),
+                pixels(part.height));
+      picture_.show(pixels(area.x), height - pixels(area.y) - pixels(area.height));
+      glDisable(GL_SCISSOR_TEST);
+      draw_within(*ImGui::GetDrawData(), part);
+    }
     window_.finish_frame();
     const double seconds = seconds_since(began);
     window_.present();
@@ -195,9 +212,10 @@ class Viewer {
   const ViewOptions& options_;
   Session& session_;
   GlfwWindow window_;
+  Workbench bench_;  // opens the files meanwhile
   WindowPicture picture_;
-  Workbench bench_;
   Panels panels_;
+  PanelChanges changes_;
   Controls controls_;
   int frames_to_come_ = 3;
   Clock::time_point last_wait_ = Clock::now();

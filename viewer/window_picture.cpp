@@ -70,9 +70,8 @@ bool WindowPicture::draw(Scene& scene, int width, int height) {
 }
 
 void WindowPicture::show(int left, int bottom) const {
+  if (drawn_.width == 0) return;
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glClearColor(0.5F, 0.5F, 0.5F, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.picture().framebuffer());
   const GlTarget::Form& drawn = renderer_.picture().form();
   glBlitFramebuffer(0, 0, drawn.width, drawn.height, left, bottom, left + drawn_.width,

@@ -9,11 +9,15 @@
 #include "viewer/pace.hpp"
 #include "viewer/renderer.hpp"
 #include "viewer/scene.hpp"
+#include "viewer/warm_up.hpp"
 
 namespace curveskel::viewer {
 
 class WindowPicture {
  public:
+  /// Compiles what the driver compiles at the first picture.
+  WindowPicture() { warm_up(renderer_, pace_); }
+
   /// Brings it up to date; false if there was nothing to do. Waits until it is drawn.
   bool draw(Scene& scene, int width, int height);
   /// Into the window, its lower left corner there.
