@@ -117,7 +117,8 @@ void Workbench::open(const std::vector<fs::path>& files) {
 bool Workbench::take_opened() {
   if (!is_ready(opening_)) return false;
   Opened opened = opening_.get();
-  read_times_ = opened.times;
+  // Where another file could not be opened, those that are open have not changed.
+  if (opened.scene || reloading_) read_times_ = opened.times;
   if (!opened.scene) {
     reloading_ = false;
     say(opened.error, true);

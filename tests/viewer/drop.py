@@ -115,6 +115,7 @@ def drop(display, window, files, at=(400, 300)):
             source.send(window, "XdndLeave")
             return False
         source.send(window, "XdndDrop")
-        return bool(source.answer("XdndFinished")[1] & 1)
+        # Bit 0, says the standard; GLFW 3.3 answers with the number of bytes.
+        return bool(source.answer("XdndFinished")[1])
     finally:
         source.close()
