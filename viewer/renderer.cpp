@@ -122,6 +122,10 @@ void Renderer::set_surface(Layer layer, const ShownSurface& surface,
   glBindVertexArray(target.array.get());
   fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, corners);
   target.corners = static_cast<GLsizei>(corners.size() / sizeof(std::uint32_t));
+  target.fewer_corners = static_cast<GLsizei>(3 * surface.fewer.size());
+  if (!surface.fewer.empty()) {
+    fill(target.fewer, GL_ELEMENT_ARRAY_BUFFER, std::span(surface.fewer));
+  }
   glBindVertexArray(0);
   move_surface(layer, surface);
   set_colours(layer, surface.colours);
@@ -171,7 +175,9 @@ void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm:
   program.set("categories", static_cast<int>(by == ColourBy::component || by == ColourBy::node ||
                                              by == ColourBy::branch));
   if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
-  glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
+  const bool few = seen.frame.fineness.lit_at_vertices() && shown.fewer_corners > 0;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, few ? shown.fewer.get() : shown.triangles.get());
+  glDrawElements(GL_TRIANGLES, few ? shown.fewer_corners : shown.corners, GL_UNSIGNED_INT, nullptr);
 }
 
 const GlProgram& Renderer::program_for(const Seen& seen) const {

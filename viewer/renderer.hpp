@@ -71,7 +71,9 @@ class Renderer {
     GlBuffer normals;
     GlBuffer colours;
     GlBuffer triangles;
+    GlBuffer fewer;  // triangles of a simpler form
     GLsizei corners = 0;
+    GLsizei fewer_corners = 0;
     bool coloured = false;
     unsigned version = 0;  // counts changes
   };

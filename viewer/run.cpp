@@ -119,7 +119,11 @@ void Run::work(const std::stop_token& stop) {
     news_.stage = stage;
     news_.fraction = fraction;
   };
-  monitor.frame = [&](const Frame& frame) { show(moment_of(frame, origin_, seconds()), stop); };
+  monitor.frame = [&](const Frame& frame) {
+    Moment moment = moment_of(frame, origin_, seconds(), shown_.get());
+    shown_ = moment.surface;
+    show(std::move(moment), stop);
+  };
   monitor.curve = [&](const CurveFrame& curve) {
     Moment moment = moment_of(curve, operated_.get(), seconds());
     operated_ = moment.skeleton;

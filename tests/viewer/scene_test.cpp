@@ -395,6 +395,36 @@ TEST(Scene, PartsOfAPictureAreThoseOfTheWhole) {
   }
 }
 
+TEST(Scene, DrawnCoarselyLooksMuchTheSame) {
+  const HeadlessContext context;
+  constexpr int width = 200;
+  constexpr int height = 150;
+  Scene scene(document_of(shapes::torus(3, 1, 100).surface));
+  ASSERT_LT(scene.sizes()[3], scene.sizes()[0] / 2);
+  fit(scene.camera, scene.points(), float(width) / height);
+  scene.look.transparent_background = true;
+  Renderer renderer;
+  scene.upload(renderer);
+  for (const SurfaceStyle style : {SurfaceStyle::transparent, SurfaceStyle::opaque}) {
+    scene.look.surface = style;
+    const auto drawn = [&](const Fineness& fineness) {
+      renderer.draw(scene.camera, scene.look, {width, height, fineness, scene.bounds()});
+      return renderer.read().bytes;
+    };
+    const auto whole = drawn({0, 1, 1});
+    const auto coarse = drawn({3, 1, 1});
+    EXPECT_NE(whole, coarse);
+    double sum = 0;
+    int uncovered = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      sum += std::abs(static_cast<int>(whole[i]) - static_cast<int>(coarse[i]));
+      if (i % 4 == 3) uncovered += (whole[i] > 0) == (coarse[i] > 0) ? 0 : 1;
+    }
+    EXPECT_LT(sum / static_cast<double>(whole.size()), 4) << "of 255";
+    EXPECT_LT(uncovered, width * height / 100);
+  }
+}
+
 TEST(Scene, ContractedShowsThroughAnOpaqueSurface) {
   Scene scene(document_of(family()[0].surface));
   scene.look.surface = SurfaceStyle::opaque;
