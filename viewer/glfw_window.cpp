@@ -39,20 +39,20 @@ bool draws_in_software() {
 /// Whether one buffer is drawn into and copied from, frame after frame: three pixels of as many
 /// frames are all there in the end.
 bool keeps_what_is_drawn(GLFWwindow* window) {
-  constexpr int frames = 3;
+  constexpr std::size_t frames = 3;
   glEnable(GL_SCISSOR_TEST);
-  for (int frame = 0; frame < frames; ++frame) {
-    glScissor(frame, 0, 1, 1);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    glScissor(static_cast<GLint>(frame), 0, 1, 1);
     glClearColor(0.2F * static_cast<float>(frame + 1), 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     glfwSwapBuffers(window);
   }
   glDisable(GL_SCISSOR_TEST);
   std::array<std::uint8_t, 4 * frames> pixels{};
-  glReadPixels(0, 0, frames, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-  for (int frame = 0; frame < frames; ++frame) {
-    const int found = pixels[4 * static_cast<std::size_t>(frame)];
-    if (std::abs(found - 51 * (frame + 1)) > 2) return false;
+  glReadPixels(0, 0, static_cast<GLsizei>(frames), 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const int wanted = 51 * static_cast<int>(frame + 1);
+    if (std::abs(pixels[4 * frame] - wanted) > 2) return false;
   }
   return true;
 }

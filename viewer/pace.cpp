@@ -49,15 +49,16 @@ double Pace::predicted(const Fineness& fineness, const Load& load) const {
 }
 
 Fineness Pace::finest_within(const Load& load, double milliseconds) const {
-  const auto* const found = std::find_if(
-      choices.begin(), choices.end(),
-      [&](const Fineness& fineness) { return predicted(fineness, load) <= milliseconds; });
-  return found == choices.end() ? choices.back() : *found;
+  // What hardly saves any time is not worth its looks.
+  constexpr double worth = 1.25;
+  const double most = std::max(milliseconds, worth * predicted(choices.back(), load));
+  return *std::find_if(choices.begin(), choices.end(),
+                       [&](const Fineness& fineness) { return predicted(fineness, load) <= most; });
 }
 
 Fineness Pace::while_moving(const Load& load) {
   constexpr double frame_milliseconds = 1000.0 / 60;
-  constexpr double least_milliseconds = 4;  // where the rest takes all of a frame
+  constexpr double least_milliseconds = 6;  // where the rest takes all of a frame
   constexpr double to_spare = 0.7;
   const double allowed = std::max(frame_milliseconds - rest_, least_milliseconds);
   if (predicted(moving_, load) > allowed) {

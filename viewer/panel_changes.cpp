@@ -82,6 +82,7 @@ void PanelChanges::add_changes(const Kept& before, const Kept& now, std::vector<
 
 std::vector<Area> PanelChanges::since_last(const ImDrawData& data) {
   std::vector<Kept> now;
+  now.reserve(static_cast<std::size_t>(data.CmdListsCount));
   for (int i = 0; i < data.CmdListsCount; ++i) now.push_back(copy_of(*data.CmdLists[i]));
   std::vector<Area> areas;
   if (now.size() != kept_.size()) {

@@ -176,9 +176,10 @@ class Window:
         self.display.xdotool("key", "--delay", 5, *names)
 
     def key_at_once(self, *names, text, then):
-        """Keys, a text and keys, without waiting for anything in between."""
-        self.display.xdotool("key", "--delay", 0, *names, "type", "--delay", 0, "--args", 1, text,
-                             "key", "--delay", 0, *then)
+        """Keys, a text and keys, several in the time of a frame."""
+        delay = 2  # milliseconds; GLFW drops a key that goes down twice in one
+        self.display.xdotool("key", "--delay", delay, *names, "type", "--delay", delay, "--args", 1,
+                             text, "key", "--delay", delay, *then)
 
     def type_into_dialogue(self, key, text):
         """Opens the dialogue with this key, and answers."""

@@ -139,6 +139,19 @@ class Looking(WindowTest):
         self.assertLess(different(with_them[left], before[left]), 0.01)
         self.leave(window)
 
+    def test_parts_drawn_anew_fit_those_that_are_not(self):
+        window = self.opened()
+        window.away()
+        for key in ("h", "Home", "h", "l", "ctrl+o", "Escape", "End", "s"):
+            window.key(key)
+            window.rest(window.above_status)
+        before = window.rest(window.above_status)
+        for width in (window.width + 8, window.width):  # draws all anew
+            display.xdotool("windowsize", "--sync", window.id, width, window.height)
+            window.rest(window.above_status)
+        self.assertEqual(different(window.rest(window.above_status), before), 0)
+        self.leave(window)
+
     def test_pictures_of_windows_of_all_sizes(self):
         window = self.opened()
         sizes = []
