@@ -9,7 +9,7 @@ namespace curveskel::viewer {
 void give_way() {
 #ifdef __linux__
   // On Linux, process 0 is the calling thread alone, whatever POSIX says.
-  constexpr int nicer = 5;  // a third of the time where others want all of it
+  constexpr int nicer = 3;  // half of the time where others want all of it
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + nicer);
 #endif
 }
