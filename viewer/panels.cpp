@@ -179,13 +179,14 @@ void tip(const char* text) {
 }
 
 Layout lay_out(float width, float height, float scale, bool panels) {
+  // Of whole pixels, so that there is nothing between the parts.
   Layout layout;
-  const float line = 26 * scale;
+  const float line = std::floor(26 * scale);
   layout.status = {0, height - line, width, line};
   layout.picture = {0, 0, width, height - line};
   if (!panels) return layout;
-  const float side = std::min(290 * scale, width * 0.30F);
-  const float timeline = std::min(130 * scale, height * 0.2F);
+  const float side = std::floor(std::min(290 * scale, width * 0.30F));
+  const float timeline = std::floor(std::min(130 * scale, height * 0.2F));
   layout.left = {0, 0, side, height - line};
   layout.right = {width - side, 0, side, height - line};
   layout.timeline = {side, height - line - timeline, width - 2 * side, timeline};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -28,16 +29,15 @@ std::shared_ptr<const Rig> rig_of(const std::vector<int>& parents) {
 }
 
 std::shared_ptr<const Rig> chain(int count) {
-  std::vector<int> parents;
-  for (int joint = 0; joint < count; ++joint) parents.push_back(joint - 1);
+  std::vector<int> parents(static_cast<std::size_t>(count));
+  std::iota(parents.begin(), parents.end(), -1);
   return rig_of(parents);
 }
 
 std::shared_ptr<const Rig> random_rig(std::mt19937& random) {
-  std::vector<int> parents;
-  const int count = static_cast<int>(1 + random() % 60);
-  for (int joint = 0; joint < count; ++joint) {
-    parents.push_back(static_cast<int>(random() % static_cast<unsigned>(joint + 1)) - 1);
+  std::vector<int> parents(1 + random() % 60);
+  for (std::size_t joint = 0; joint < parents.size(); ++joint) {
+    parents[joint] = static_cast<int>(random() % (joint + 1)) - 1;
   }
   return rig_of(parents);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace curveskel::viewer::panel_changes_laws {
@@ -89,6 +90,29 @@ TEST_F(PanelChange, EverythingWhereAWindowComesOrGoes) {
     const auto areas = frame("a", "b", 0.5F, !third);
     ASSERT_EQ(areas.size(), 1U);
     EXPECT_TRUE(within({0, 0, 800, 600}, areas[0]));
+  }
+}
+
+TEST(Layout, PartsOfAnyWindowAreOfWholePixelsAndMeet) {
+  for (const float scale : {1.0F, 1.25F, 2.0F}) {
+    for (int width = 320; width < 2000; width += 37) {
+      for (int height = 240; height < 1200; height += 41) {
+        const auto wide = static_cast<float>(width);
+        const auto high = static_cast<float>(height);
+        const Layout layout = lay_out(wide, high, scale, true);
+        for (const Area& area : {layout.picture, layout.left, layout.right, layout.timeline}) {
+          for (const float number : {area.x, area.y, area.width, area.height}) {
+            ASSERT_EQ(number, std::floor(number)) << width << " x " << height;
+          }
+        }
+        EXPECT_EQ(layout.left.width, layout.picture.x);
+        EXPECT_EQ(layout.picture.x + layout.picture.width, layout.right.x);
+        EXPECT_EQ(layout.right.x + layout.right.width, wide);
+        EXPECT_EQ(layout.picture.height, layout.timeline.y);
+        EXPECT_EQ(layout.timeline.y + layout.timeline.height, layout.status.y);
+        EXPECT_EQ(layout.status.y + layout.status.height, high);
+      }
+    }
   }
 }
 

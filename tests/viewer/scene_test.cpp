@@ -381,12 +381,18 @@ TEST(Scene, PartsOfAPictureAreThoseOfTheWhole) {
       const PixelRows rows = renderer.read();
       ASSERT_EQ(rows.width, part.width);
       ASSERT_EQ(rows.height, part.height);
+      const auto byte = [](const PixelRows& of, int x, int y, int channel) {
+        const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width);
+        return of
+            .bytes[4 * (row + static_cast<std::size_t>(x)) + static_cast<std::size_t>(channel)];
+      };
       int different = 0;
       for (int y = 0; y < part.height; ++y) {
-        for (int i = 0; i < 4 * part.width; ++i) {
-          const auto at = static_cast<std::size_t>(4 * part.width * y + i);
-          const auto in_whole = static_cast<std::size_t>(4 * (width * (part.y + y) + part.x) + i);
-          different += rows.bytes[at] == whole.bytes[in_whole] ? 0 : 1;
+        for (int x = 0; x < part.width; ++x) {
+          for (int channel = 0; channel < 4; ++channel) {
+            different +=
+                byte(rows, x, y, channel) == byte(whole, part.x + x, part.y + y, channel) ? 0 : 1;
+          }
         }
       }
       // Rounding may put an edge on the other side of a sample.
