@@ -10,11 +10,16 @@ namespace {
 
 constexpr std::array simpler_layers{Layer::simpler, Layer::simpler_still, Layer::simplest};
 
-/// The corners of the cube about a ball.
-void add_box(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
-  for (const float x : {-radius, radius}) {
-    for (const float y : {-radius, radius}) {
-      for (const float z : {-radius, radius}) points.push_back(middle + glm::vec3(x, y, z));
+/// As wide as the ball from wherever it is seen, but for 6 in 100.
+void add_ball(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
+  constexpr float wider = 1.06F;  // than the ball, for what is between the points
+  for (const float x : {-1.0F, 0.0F, 1.0F}) {
+    for (const float y : {-1.0F, 0.0F, 1.0F}) {
+      for (const float z : {-1.0F, 0.0F, 1.0F}) {
+        const glm::vec3 way(x, y, z);
+        if (way == glm::vec3(0)) continue;
+        points.push_back(middle + glm::normalize(way) * (wider * radius));
+      }
     }
   }
 }
@@ -40,7 +45,7 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
     if (has_balls) {
-      add_box(points, at, static_cast<float>(skeleton.radii[node]));
+      add_ball(points, at, static_cast<float>(skeleton.radii[node]));
     } else {
       points.push_back(at);
     }
