@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "viewer/document.hpp"
@@ -48,15 +49,16 @@ int main(int argc, char** argv) {
   const int width = argc > 3 ? std::atoi(argv[2]) : 1000;
   const int height = argc > 3 ? std::atoi(argv[3]) : 800;
   fit(scene.camera, scene.points(), static_cast<float>(width) / static_cast<float>(height));
-  fmt::print("driver,surface,triangles,samples,milliseconds\n");
+  fmt::print("driver,surface,triangles,samples,shrink,milliseconds\n");
   for (const auto& style : surface_styles) {
     for (int level = 0; level < Pace::levels; ++level) {
-      for (const int samples : {1, 4}) {
+      for (const auto& [samples, shrink] : {std::pair(4, 1), std::pair(1, 1), std::pair(1, 2)}) {
         scene.look.surface = style.value;
-        const double time =
-            median_milliseconds(scene, renderer, {width, height, {level, samples}, scene.bounds()});
-        fmt::print("{},{},{},{},{:.2f}\n", gl_name(), style.name,
-                   scene.sizes()[static_cast<std::size_t>(level)], samples, time);
+        const double time = median_milliseconds(
+            scene, renderer,
+            {width / shrink, height / shrink, {level, samples, shrink}, scene.bounds()});
+        fmt::print("{},{},{},{},{},{:.2f}\n", gl_name(), style.name,
+                   scene.sizes()[static_cast<std::size_t>(level)], samples, shrink, time);
       }
     }
   }

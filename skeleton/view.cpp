@@ -1,5 +1,6 @@
 #include "skeleton/view.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
@@ -16,6 +17,31 @@ constexpr double margin_share = 0.035;  // of the picture's shorter side
 Eigen::Matrix3d principal_axes(const Surface& surface) {
   if (!(area(surface) > 0)) return Eigen::Matrix3d::Identity();
   return principal_frame(surface, 1).axes.front().transpose();
+}
+
+/// Rows: the same of the skeleton's edges, the shortest first.
+Eigen::Matrix3d principal_axes(const CurveSkeleton& skeleton) {
+  double total = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  const auto for_edges = [&](const auto& add) {
+    for (const auto& edge : skeleton.edges.rowwise()) {
+      const Eigen::Vector3d a = skeleton.nodes.row(edge[0]);
+      const Eigen::Vector3d b = skeleton.nodes.row(edge[1]);
+      add((a + b) / 2, b - a, (b - a).norm());
+    }
+  };
+  for_edges([&](const Eigen::Vector3d& middle, const Eigen::Vector3d&, double length) {
+    total += length;
+    mean += length * middle;
+  });
+  if (!(total > 0)) return Eigen::Matrix3d::Identity();
+  mean /= total;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for_edges([&](const Eigen::Vector3d& middle, const Eigen::Vector3d& along, double length) {
+    const Eigen::Vector3d from_mean = middle - mean;
+    moments += length * (from_mean * from_mean.transpose() + along * along.transpose() / 12);
+  });
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().transpose();
 }
 
 struct ViewExtent {
@@ -128,29 +154,27 @@ Layout best_layout(const Positions& positions, const Upright& first, double widt
   return {first.axes, first.seen_from_above, is_beside, is_beside ? beside : below};
 }
 
-}  // namespace
-
-std::array<View, 2> best_views(const Surface& surface, int width, int height) {
+std::array<View, 2> best_views_of(const Positions& positions, const Eigen::Matrix3d& principal,
+                                  int width, int height) {
   // A box that is this much smaller along the principal axes shows that the frame is arbitrary.
   constexpr double worth_turning = 0.75;
   const double margin = margin_share * std::min(width, height);
   const auto layout_of = [&](const Upright& first) {
-    return best_layout(surface.positions, first, width, height, margin);
+    return best_layout(positions, first, width, height, margin);
   };
 
-  const Eigen::Matrix3d principal = principal_axes(surface);
-  const ViewExtent box = extent_along(surface.positions, Eigen::Matrix3d::Identity());
-  const double smaller = extent_along(surface.positions, principal).size().prod();
+  const ViewExtent box = extent_along(positions, Eigen::Matrix3d::Identity());
+  const double smaller = extent_along(positions, principal).size().prod();
   Layout layout;
   if (smaller < worth_turning * box.size().prod()) {
-    const Layout lying = layout_of({principal_view(surface.positions, principal, false), false});
-    const Layout standing = layout_of({principal_view(surface.positions, principal, true), false});
+    const Layout lying = layout_of({principal_view(positions, principal, false), false});
+    const Layout standing = layout_of({principal_view(positions, principal, true), false});
     layout = lying.scale >= standing.scale ? lying : standing;
   } else {
-    layout = layout_of(upright_axes(surface.positions, box));
+    layout = layout_of(upright_axes(positions, box));
   }
 
-  const ViewExtent extent = extent_along(surface.positions, layout.axes);
+  const ViewExtent extent = extent_along(positions, layout.axes);
   const Eigen::Vector3d pixels = extent.size() * layout.scale;
   const Eigen::Vector3d target = layout.axes.transpose() * extent.middle();
   const Eigen::Vector3d right = layout.axes.row(0);
@@ -174,6 +198,16 @@ std::array<View, 2> best_views(const Surface& surface, int width, int height) {
     second.centre.y() = height - gap - pixels.z() / 2;
   }
   return {first, second};
+}
+
+}  // namespace
+
+std::array<View, 2> best_views(const Surface& surface, int width, int height) {
+  return best_views_of(surface.positions, principal_axes(surface), width, height);
+}
+
+std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height) {
+  return best_views_of(skeleton.nodes, principal_axes(skeleton), width, height);
 }
 
 }  // namespace curveskel

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "skeleton/curve_skeleton.hpp"
 #include "surface/surface.hpp"
 
 namespace curveskel {
@@ -26,5 +27,7 @@ struct View {
 /// be larger. A shape that stands straight in its coordinate frame keeps its up; one that does not
 /// is turned to its principal axes. O(#V + #F).
 [[nodiscard]] std::array<View, 2> best_views(const Surface& surface, int width, int height);
+/// The same of a skeleton alone, whose principal axes are those of its length. O(#N + #E).
+[[nodiscard]] std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height);
 
 }  // namespace curveskel

@@ -230,7 +230,9 @@ void Controls::edit_keys(Workbench& bench) const {
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
-  if (ImGui::GetIO().WantTextInput || panels.browser.shown()) return;
+  // WantTextInput outlives the field by a frame.
+  const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+  if (typing || panels.browser.shown()) return;
   if (ImGui::GetIO().KeyCtrl) {
     command_keys(bench, panels, picture);
     return;

@@ -42,6 +42,7 @@ void FileBrowser::ask(Purpose purpose, const std::string& suggested_name) {
   purpose_ = purpose;
   name_ = suggested_name;
   shown_ = opens_now_ = true;
+  frames_to_open_ = 5;  // ImGui takes two
   go_to(folder_.empty() ? fs::current_path() : folder_);
 }
 
@@ -81,6 +82,7 @@ std::optional<fs::path> FileBrowser::draw() {
   opens_now_ = false;
   ImGui::SetNextItemWidth(-160);
   const bool entered = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  frames_to_open_ = ImGui::IsItemActive() ? 0 : std::max(frames_to_open_ - 1, 0);
   ImGui::SameLine();
   const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {70, 0});
   ImGui::SameLine();

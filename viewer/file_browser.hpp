@@ -18,6 +18,8 @@ class FileBrowser {
   [[nodiscard]] std::optional<std::filesystem::path> draw();
   [[nodiscard]] Purpose purpose() const { return purpose_; }
   [[nodiscard]] bool shown() const { return shown_; }
+  /// Asked for, and not yet ready to be typed into.
+  [[nodiscard]] bool opening() const { return shown_ && frames_to_open_ > 0; }
   void close() { shown_ = false; }
   void go_to(const std::filesystem::path& folder);
 
@@ -31,6 +33,7 @@ class FileBrowser {
   Purpose purpose_ = Purpose::open;
   bool shown_ = false;
   bool opens_now_ = false;
+  int frames_to_open_ = 0;  // at most
   std::filesystem::path folder_;
   std::vector<Entry> entries_;
   std::string name_;

@@ -169,6 +169,11 @@ void GlTarget::resolve_into(const GlTarget& other, bool with_depth) const {
   if (with_depth) copy(GL_DEPTH_BUFFER_BIT);
 }
 
+std::string gl_name() {
+  const auto* const name = glGetString(GL_RENDERER);
+  return name == nullptr ? "?" : reinterpret_cast<const char*>(name);
+}
+
 void bind_texture(int unit, GLuint texture) {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(GL_TEXTURE_2D, texture);

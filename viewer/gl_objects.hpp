@@ -129,6 +129,9 @@ class GlTarget {
   GlRenderbuffer depth_samples_;
 };
 
+/// What the driver calls itself.
+[[nodiscard]] std::string gl_name();
+
 /// Binds a texture to a unit.
 void bind_texture(int unit, GLuint texture);
 

@@ -7,6 +7,7 @@ namespace curveskel::viewer {
 std::vector<KeyEvent> KeyQueue::take() {
   std::vector<KeyEvent> taken;
   const auto fits = [&](const KeyEvent& next) {
+    if (!taken.empty() && taken.back().ends && taken.back().down) return false;
     if (next.letter != 0) return true;
     return std::none_of(taken.begin(), taken.end(), [&](const KeyEvent& before) {
       if (before.letter != 0) return false;

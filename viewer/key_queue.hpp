@@ -12,6 +12,7 @@ struct KeyEvent {
   int scancode = 0;
   bool down = false;
   bool modifier = false;  ///< the key is Ctrl, Shift, Alt or Super
+  bool ends = false;      ///< the key is Enter or Escape, which end a dialogue
   int modifiers = 0;
   unsigned letter = 0;  ///< instead of a key, a letter was typed; 0 = none
   bool operator==(const KeyEvent&) const = default;
@@ -23,8 +24,8 @@ class KeyQueue {
  public:
   void add(const KeyEvent& event) { waiting_.push_back(event); }
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
-  /// What the next frame can be told, in order: up to the second change of a key, or the change of
-  /// a modifier after a key went down.
+  /// What the next frame can be told, in order: up to the second change of a key, the change of a
+  /// modifier after a key went down, or what was typed after a key that ends a dialogue.
   [[nodiscard]] std::vector<KeyEvent> take();
 
  private:

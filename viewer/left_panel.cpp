@@ -153,7 +153,7 @@ void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   ImGui::Separator();
   run_buttons(bench);
   if (bench.running()) {
-    ImGui::ProgressBar(static_cast<float>(bench.news().fraction), {-1, 0},
+    ImGui::ProgressBar(static_cast<float>(panels.glance.fraction), {-1, 0},
                        bench.news().stage.c_str());
   } else {
     ImGui::ProgressBar(bench.result() != nullptr ? 1.0F : 0.0F, {-1, 0},

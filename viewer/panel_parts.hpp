@@ -31,7 +31,7 @@ void choose(const char* label, Choice& value, const NameTable<Choice, Count>& ta
 
 /// Run, parameters, corrections.
 void draw_left_panel(Workbench& bench, Panels& panels, const Area& area);
-/// Look, certificate, input.
-void draw_right_panel(Workbench& bench, const Area& area);
+/// Look, certificate, rig, input.
+void draw_right_panel(Workbench& bench, Panels& panels, const Area& area);
 
 }  // namespace curveskel::viewer

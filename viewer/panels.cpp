@@ -18,6 +18,13 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
                                           ImGuiWindowFlags_NoSavedSettings |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+void glance_at(const Workbench& bench, Panels& panels) {
+  constexpr std::chrono::milliseconds often(250);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - panels.glance.since < often) return;
+  panels.glance = {panels.times.last(), panels.times.percentile(0.99), bench.news().fraction, now};
+}
+
 /// As many of the facts as fit, the first ones first.
 void status_bar(const Workbench& bench, const Panels& panels, const Area& area) {
   if (!begin_panel("status", area)) return;
@@ -32,9 +39,10 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
     facts.push_back(
         fmt::format("{} nodes, {} edges", skeleton->nodes.rows(), skeleton->edges.rows()));
   }
+  if (panels.coarse) facts.emplace_back("drawing coarsely while it moves");
   facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
-  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.times.last(),
-                              panels.times.percentile(0.99)));
+  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.glance.last_milliseconds,
+                              panels.glance.slow_milliseconds));
   facts.push_back(panels.gl);
   facts.push_back(panels.transfer);
   std::string line;
@@ -146,6 +154,12 @@ std::string description_of_joint(int joint, const Rig& rig) {
 
 }  // namespace
 
+Area whole_pixels(const Area& area) {
+  const float x = std::floor(area.x);
+  const float y = std::floor(area.y);
+  return {x, y, std::ceil(area.x + area.width) - x, std::ceil(area.y + area.height) - y};
+}
+
 bool begin_panel(const char* name, const Area& area) {
   if (area.width <= 0 || area.height <= 0) return false;
   ImGui::SetNextWindowPos({area.x, area.y});
@@ -165,13 +179,14 @@ void tip(const char* text) {
 }
 
 Layout lay_out(float width, float height, float scale, bool panels) {
+  // Of whole pixels, so that there is nothing between the parts.
   Layout layout;
-  const float line = 26 * scale;
+  const float line = std::floor(26 * scale);
   layout.status = {0, height - line, width, line};
   layout.picture = {0, 0, width, height - line};
   if (!panels) return layout;
-  const float side = std::min(290 * scale, width * 0.30F);
-  const float timeline = std::min(130 * scale, height * 0.2F);
+  const float side = std::floor(std::min(290 * scale, width * 0.30F));
+  const float timeline = std::floor(std::min(130 * scale, height * 0.2F));
   layout.left = {0, 0, side, height - line};
   layout.right = {width - side, 0, side, height - line};
   layout.timeline = {side, height - line - timeline, width - 2 * side, timeline};
@@ -215,8 +230,9 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
 }
 
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
+  glance_at(bench, panels);
   draw_left_panel(bench, panels, layout.left);
-  draw_right_panel(bench, layout.right);
+  draw_right_panel(bench, panels, layout.right);
   draw_timeline(bench, layout.timeline);
   status_bar(bench, panels, layout.status);
   messages(bench, layout.picture);

@@ -1,10 +1,12 @@
 // What stands round the picture: run and parameters, look, certificate, timeline, status.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "viewer/file_browser.hpp"
 #include "viewer/frame_times.hpp"
+#include "viewer/hierarchy.hpp"
 #include "viewer/pick.hpp"
 #include "viewer/workbench.hpp"
 
@@ -18,6 +20,9 @@ struct Area {
   float height = 0;
 };
 
+/// The smallest of whole pixels that holds it.
+[[nodiscard]] Area whole_pixels(const Area& area);
+
 /// Where things are. What is too small to be shown has no width.
 struct Layout {
   Area picture;
@@ -27,12 +32,24 @@ struct Layout {
   Area status;
 };
 
+/// What changes all the time, as it is shown: a few times a second, so that it can be read.
+struct Glance {
+  double last_milliseconds = 0;
+  double slow_milliseconds = 0;  ///< 99 of 100 pictures take less
+  double fraction = 0;           ///< of the stage
+  std::chrono::steady_clock::time_point since;
+};
+
 /// What the panels keep from one frame to the next.
 struct Panels {
   bool shown = true;
   bool help = false;
+  bool may_be_coarse = true;  ///< while things move, where the machine is slow
+  bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
+  Outline outline;  ///< of the rig
   FrameTimes times;
+  Glance glance;
   Pick hovered;
   std::string gl;        ///< what draws
   std::string transfer;  ///< how positions come to be drawn

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <utility>
+
+#include "viewer/simpler_surface.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -11,15 +14,27 @@ std::size_t bytes_of(const Moment& moment) {
   if (!moment.surface) return 0;
   const ShownSurface& surface = *moment.surface;
   return surface.positions.size() * (sizeof(glm::vec3) + sizeof(std::uint32_t)) +
-         surface.triangles.size() * sizeof(glm::uvec3);
+         (surface.triangles.size() + surface.fewer.size()) * sizeof(glm::uvec3);
 }
 
 void append(ShownSurface& whole, const ShownSurface& part) {
   const auto first = static_cast<unsigned>(whole.positions.size());
   whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
   whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
-  std::transform(part.triangles.begin(), part.triangles.end(), std::back_inserter(whole.triangles),
-                 [&](const glm::uvec3& triangle) { return triangle + first; });
+  const auto add = [first](std::vector<glm::uvec3>& to, const std::vector<glm::uvec3>& from) {
+    std::transform(from.begin(), from.end(), std::back_inserter(to),
+                   [&](const glm::uvec3& triangle) { return triangle + first; });
+  };
+  add(whole.triangles, part.triangles);
+  add(whole.fewer, part.fewer.empty() ? part.triangles : part.fewer);
+}
+
+/// A simpler form that is not simpler is none.
+ShownSurface put_together(const std::map<int, const ShownSurface*>& parts) {
+  ShownSurface whole;
+  for (const auto& [component, surface] : parts) append(whole, *surface);
+  if (whole.fewer.size() == whole.triangles.size()) whole.fewer.clear();
+  return whole;
 }
 
 /// The pipeline's own.
@@ -54,14 +69,12 @@ void Recording::cut_from(std::string_view stage) {
 }
 
 ShownSurface Recording::surface_at(std::size_t index) const {
-  ShownSurface whole;
-  if (index >= moments_.size() || moments_[index].stage == "skeleton") return whole;
+  if (index >= moments_.size() || moments_[index].stage == "skeleton") return {};
   std::map<int, const ShownSurface*> latest;
   for (std::size_t i = 0; i <= index; ++i) {
     if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();
   }
-  for (const auto& [component, surface] : latest) append(whole, *surface);
-  return whole;
+  return put_together(latest);
 }
 
 ShownSurface Recording::faired_at(std::size_t index) const {
@@ -73,9 +86,7 @@ ShownSurface Recording::faired_at(std::size_t index) const {
       faired[moment.component] = moment.surface.get();
     }
   }
-  ShownSurface whole;
-  for (const auto& [component, surface] : faired) append(whole, *surface);
-  return whole;
+  return put_together(faired);
 }
 
 std::shared_ptr<const ShownSurface> Recording::newest_surface(std::size_t index) const {
@@ -92,7 +103,8 @@ std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) c
   return nullptr;
 }
 
-Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds) {
+Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+                 const ShownSurface* before) {
   Moment moment;
   moment.stage = frame.stage;
   moment.component = frame.component;
@@ -101,7 +113,14 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   moment.volume_ratio = frame.volume_ratio;
   moment.residual = frame.residual;
   moment.seconds = seconds;
-  moment.surface = std::make_shared<const ShownSurface>(shown_surface(frame.surface, origin));
+  ShownSurface shown = shown_surface(frame.surface, origin);
+  constexpr std::size_t simple = 3000;  // vertices
+  if (before != nullptr && before->triangles == shown.triangles) {
+    shown.fewer = before->fewer;
+  } else if (shown.positions.size() > 2 * simple) {
+    shown.fewer = fewer_triangles(shown, simple);
+  }
+  moment.surface = std::make_shared<const ShownSurface>(std::move(shown));
   return moment;
 }
 

@@ -55,9 +55,10 @@ class Recording {
   std::size_t bytes_ = 0;
 };
 
-/// A moment from what a stage shows.
-[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin,
-                               double seconds);
+/// A moment from what a stage shows. `before` is null or an earlier moment's surface, whose simpler
+/// form it takes over where the triangles are the same.
+[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+                               const ShownSurface* before = nullptr);
 /// The component's curve beside those of `before`, the last surgery's moment or null.
 [[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,
                                double seconds);

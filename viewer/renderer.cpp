@@ -43,7 +43,16 @@ struct Renderer::Seen {
   Palette palette;
   glm::mat4 view;
   glm::mat4 projection;
+  Part part;
 
+  /// The target holds the part only.
+  void bind(const GlTarget& target) const {
+    target.bind();
+    glViewport(-part.x, -part.y, frame.width, frame.height);
+  }
+  [[nodiscard]] GlTarget::Form form(int samples) const {
+    return {part.width, part.height, samples, GL_RGBA8, true};
+  }
   void set(const GlProgram& program) const {
     program.use();
     program.set("view", view);
@@ -53,13 +62,14 @@ struct Renderer::Seen {
 };
 
 Renderer::Renderer()
-    : surface_("surface", surface_vertex_source, lit_fragment(surface_fragment_source)),
-      thickness_program_("thickness", surface_vertex_source, thickness_fragment_source),
+    : surface_("surface", surface_vertex_source, with_light(surface_fragment_source)),
+      coarse_("coarse", with_light(coarse_vertex_source), coarse_fragment_source),
+      thickness_program_("thickness", place_vertex_source, thickness_fragment_source),
       background_("background", screen_vertex_source, background_fragment_source),
       body_("body", screen_vertex_source, body_fragment_source),
       skin_program_("skin", screen_vertex_source, skin_fragment_source),
-      wire_("wire", surface_vertex_source, wire_fragment_source),
-      tube_("tube", tube_vertex_source, lit_fragment(tube_fragment_source)),
+      wire_("wire", place_vertex_source, wire_fragment_source),
+      tube_("tube", tube_vertex_source, with_light(tube_fragment_source)),
       screen_(make_array()) {
   for (Mesh& one : meshes_) one.array = make_array();
   const UnitShape tube = unit_tube();
@@ -112,6 +122,10 @@ void Renderer::set_surface(Layer layer, const ShownSurface& surface,
   glBindVertexArray(target.array.get());
   fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, corners);
   target.corners = static_cast<GLsizei>(corners.size() / sizeof(std::uint32_t));
+  target.fewer_corners = static_cast<GLsizei>(3 * surface.fewer.size());
+  if (!surface.fewer.empty()) {
+    fill(target.fewer, GL_ELEMENT_ARRAY_BUFFER, std::span(surface.fewer));
+  }
   glBindVertexArray(0);
   move_surface(layer, surface);
   set_colours(layer, surface.colours);
@@ -130,6 +144,7 @@ void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
 
 void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
   Mesh& target = mesh(layer);
+  if (colours.empty() && !target.coloured) return;
   ++target.version;
   target.coloured = !colours.empty();
   glBindVertexArray(target.array.get());
@@ -160,17 +175,24 @@ void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm:
   program.set("categories", static_cast<int>(by == ColourBy::component || by == ColourBy::node ||
                                              by == ColourBy::branch));
   if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
-  glDrawElements(GL_TRIANGLES, shown.corners, GL_UNSIGNED_INT, nullptr);
+  const bool few = seen.frame.fineness.lit_at_vertices() && shown.fewer_corners > 0;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, few ? shown.fewer.get() : shown.triangles.get());
+  glDrawElements(GL_TRIANGLES, few ? shown.fewer_corners : shown.corners, GL_UNSIGNED_INT, nullptr);
+}
+
+const GlProgram& Renderer::program_for(const Seen& seen) const {
+  return seen.frame.fineness.lit_at_vertices() ? coarse_ : surface_;
 }
 
 void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_POLYGON_OFFSET_FILL);  // lets the edges lie on the faces
   glPolygonOffset(1, 1);
-  surface_.use();
-  surface_.set("skin", 0);
-  surface_.set("inner", seen.palette.inside);
-  draw_mesh(surface_, shown, plain, seen);
+  const GlProgram& program = program_for(seen);
+  program.use();
+  program.set("skin", 0);
+  program.set("inner", seen.palette.inside);
+  draw_mesh(program, shown, plain, seen);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -230,54 +252,59 @@ void Renderer::draw_screen(const GlProgram& program) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The level wanted, or the whole where it has not been set.
+/// The level wanted, or the next finer one that has been set.
 const Renderer::Mesh& Renderer::given_at(int level) const {
-  const Mesh& wanted = meshes_[static_cast<std::size_t>(level)];
-  return wanted.corners > 0 ? wanted : meshes_[0];
+  auto found = static_cast<std::size_t>(level);
+  while (found > 0 && meshes_[found].corners == 0) --found;
+  return meshes_[found];
 }
 
 unsigned Renderer::given_version() const {
-  return meshes_[0].version + meshes_[1].version + meshes_[2].version;
+  unsigned version = 0;
+  for (std::size_t level = 0; level < Pace::levels; ++level) version += meshes_[level].version;
+  return version;
+}
+
+int Renderer::samples_of(const Frame& frame) const {
+  return std::clamp(frame.fineness.samples, 1, std::max(most_samples_, 1));
 }
 
 /// Whether the last glass was the same, or finer.
-bool Renderer::has_glass(const GlassKey& wanted, const Frame& frame) const {
+bool Renderer::has_glass(const GlassKey& wanted) const {
   return glass_.view == wanted.view && glass_.projection == wanted.projection &&
          glass_.opacity == wanted.opacity && glass_.theme == wanted.theme &&
          glass_.version == wanted.version && glass_.fineness.level <= wanted.fineness.level &&
-         glass_.fineness.samples >= wanted.fineness.samples && skin_.form().width == frame.width &&
-         skin_.form().height == frame.height;
+         glass_.fineness.samples >= wanted.fineness.samples && glass_.part == wanted.part;
 }
 
 /// The skin (its nearest layer, lit) and the thickness of the body, each in a target of its own;
 /// neither depends on the order of the triangles.
 bool Renderer::draw_glass(const Seen& seen) {
   const Mesh& given = given_at(seen.frame.fineness.level);
-  const GlassKey key{seen.view,       seen.projection,     seen.look.opacity,
-                     seen.look.theme, seen.frame.fineness, given_version()};
-  if (has_glass(key, seen.frame)) return false;  // only what is in it has changed
+  const GlassKey key{seen.view,           seen.projection, seen.look.opacity, seen.look.theme,
+                     seen.frame.fineness, seen.part,       given_version()};
+  if (has_glass(key)) return false;  // only what is in it has changed
   glass_ = key;
-  const GlTarget::Form pixels{seen.frame.width, seen.frame.height, 1, GL_RGBA8, true};
-  GlTarget::Form samples = pixels;
-  samples.samples = std::clamp(seen.frame.fineness.samples, 1, std::max(most_samples_, 1));
-  skin_.shape(pixels);
-  skin_samples_.shape(samples);
-  skin_samples_.bind();
+  skin_.shape(seen.form(1));
+  const int samples = samples_of(seen.frame);
+  if (samples > 1) skin_samples_.shape(seen.form(samples));
+  seen.bind(samples > 1 ? skin_samples_ : skin_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  surface_.use();
-  surface_.set("skin", 1);
-  surface_.set("strength", 2 * seen.look.opacity);
-  surface_.set("inner", seen.palette.inside);
-  draw_mesh(surface_, given, seen.palette.surface, seen);
-  skin_samples_.resolve_into(skin_, true);
+  const GlProgram& program = program_for(seen);
+  program.use();
+  program.set("skin", 1);
+  program.set("strength", 2 * seen.look.opacity);
+  program.set("inner", seen.palette.inside);
+  draw_mesh(program, given, seen.palette.surface, seen);
+  if (samples > 1) skin_samples_.resolve_into(skin_, true);
 
-  GlTarget::Form sums = pixels;
+  GlTarget::Form sums = seen.form(1);
   sums.colour = GL_R32F;
   sums.depth = false;
   thickness_.shape(sums);
-  thickness_.bind();
+  seen.bind(thickness_);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
@@ -289,16 +316,20 @@ bool Renderer::draw_glass(const Seen& seen) {
 
 bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
   const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
-  const Seen seen{camera,        look,
-                  frame,         palette_of(look.theme),
-                  camera.view(), camera.projection(aspect, frame.bounds)};
-  const int samples = std::clamp(frame.fineness.samples, 1, std::max(most_samples_, 1));
-  scene_.shape({frame.width, frame.height, samples, GL_RGBA8, true});
-  picture_.shape({frame.width, frame.height, 1, GL_RGBA8, true});
+  const Seen seen{camera,
+                  look,
+                  frame,
+                  palette_of(look.theme),
+                  camera.view(),
+                  camera.projection(aspect, frame.bounds),
+                  frame.part.value_or(Part{0, 0, frame.width, frame.height})};
+  const int samples = samples_of(frame);
+  if (samples > 1) scene_.shape(seen.form(samples));
+  picture_.shape(seen.form(1));
   const bool glass = look.surface == SurfaceStyle::transparent && mesh(Layer::given).corners > 0;
   const bool all_anew = !glass || draw_glass(seen);
 
-  scene_.bind();
+  seen.bind(samples > 1 ? scene_ : picture_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
@@ -351,7 +382,7 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
   }
-  scene_.resolve_into(picture_, false);
+  if (samples > 1) scene_.resolve_into(picture_, false);
   glBindVertexArray(0);
   return all_anew;
 }
@@ -364,11 +395,6 @@ PixelRows Renderer::read() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, rows.width, rows.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.bytes.data());
   return rows;
-}
-
-std::string gl_name() {
-  const auto* const name = glGetString(GL_RENDERER);
-  return name == nullptr ? "?" : reinterpret_cast<const char*>(name);
 }
 
 }  // namespace curveskel::viewer

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@
 namespace curveskel::viewer {
 
 /// The surface given and its simpler forms, and what it has become on the way to the skeleton.
-enum class Layer { given, simpler, simplest, contracted };
+enum class Layer { given, simpler, simpler_still, simplest, contracted };
 
 /// Premultiplied RGBA rows from the bottom, as OpenGL reads them.
 struct PixelRows {
@@ -42,11 +43,20 @@ class Renderer {
   void set_colours(Layer layer, const std::vector<Rgba>& colours);
   void set_skeleton(const ShownSkeleton& skeleton);
 
+  /// A rectangle of pixels, from the lower left corner.
+  struct Part {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool operator==(const Part&) const = default;
+  };
   struct Frame {
-    int width = 0;      ///< pixels
-    int height = 0;     ///< pixels
-    Fineness fineness;  ///< no more samples than the driver has
-    Bounds bounds;      ///< of all that is shown
+    int width = 0;                  ///< pixels
+    int height = 0;                 ///< pixels
+    Fineness fineness;              ///< no more samples than the driver has
+    Bounds bounds;                  ///< of all that is shown
+    std::optional<Part> part = {};  ///< all that is drawn of it, where it is not the whole
   };
   /// The picture is then in `picture()`. O(faces + pixels). False if the given surface was taken
   /// from the last picture, as neither it nor the camera has changed.
@@ -61,7 +71,9 @@ class Renderer {
     GlBuffer normals;
     GlBuffer colours;
     GlBuffer triangles;
+    GlBuffer fewer;  // triangles of a simpler form
     GLsizei corners = 0;
+    GLsizei fewer_corners = 0;
     bool coloured = false;
     unsigned version = 0;  // counts changes
   };
@@ -72,6 +84,7 @@ class Renderer {
     float opacity = -1;
     Theme theme = Theme::light;
     Fineness fineness;
+    Part part;
     unsigned version = 0;
   };
   struct Instances {
@@ -89,10 +102,12 @@ class Renderer {
   void set_surface(Layer layer, const ShownSurface& surface, std::span<const std::byte> corners);
   [[nodiscard]] const Mesh& given_at(int level) const;
   [[nodiscard]] unsigned given_version() const;
-  [[nodiscard]] bool has_glass(const GlassKey& wanted, const Frame& frame) const;
+  [[nodiscard]] int samples_of(const Frame& frame) const;
+  [[nodiscard]] bool has_glass(const GlassKey& wanted) const;
   [[nodiscard]] Mesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
   void draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
                  const Seen& seen) const;
+  [[nodiscard]] const GlProgram& program_for(const Seen& seen) const;
   void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
   void draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const;
   void draw_skeleton(const Seen& seen) const;
@@ -101,13 +116,14 @@ class Renderer {
   void draw_screen(const GlProgram& program) const;
 
   GlProgram surface_;
+  GlProgram coarse_;
   GlProgram thickness_program_;
   GlProgram background_;
   GlProgram body_;
   GlProgram skin_program_;
   GlProgram wire_;
   GlProgram tube_;
-  std::array<Mesh, 4> meshes_;
+  std::array<Mesh, Pace::levels + 1> meshes_;
   Instances edges_;
   Instances nodes_;
   GlArray screen_;
@@ -119,8 +135,5 @@ class Renderer {
   GlassKey glass_;
   int most_samples_ = 1;
 };
-
-/// What the driver calls itself.
-[[nodiscard]] std::string gl_name();
 
 }  // namespace curveskel::viewer

@@ -160,54 +160,60 @@ void colour_bar(const Workbench& bench) {
   ImGui::TextUnformatted(high.c_str());
 }
 
-/// The children of joint -1 are the roots.
-std::size_t slot_of(int joint) { return joint < 0 ? 0 : static_cast<std::size_t>(joint) + 1; }
-
-/// The joints below this one (-1: the roots), each line to be clicked.
-void joints_below(Workbench& bench, const Rig& rig, const std::vector<std::vector<int>>& children,
-                  int parent) {
-  for (const int joint : children[slot_of(parent)]) {
-    const bool leaf = children[slot_of(joint)].empty();
-    const ImGuiTreeNodeFlags flags =
-        ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen |
-        ImGuiTreeNodeFlags_SpanAvailWidth | (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
-        (joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
-    const std::string& name = rig.names[static_cast<std::size_t>(joint)];
-    ImGui::PushID(joint);
-    const bool open = ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
-    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
-      bench.select_joint(joint == bench.selected_joint() ? -1 : joint);
-    }
-    if (open) {
-      joints_below(bench, rig, children, joint);
-      ImGui::TreePop();
-    }
-    ImGui::PopID();
+/// True when its arrow was clicked.
+bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, bool open) {
+  const auto joint = static_cast<std::size_t>(line.joint);
+  const bool leaf = line.below == 0;
+  const ImGuiTreeNodeFlags flags =
+      ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+      ImGuiTreeNodeFlags_SpanAvailWidth | (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
+      (line.joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
+  ImGui::PushID(line.joint);
+  ImGui::SetNextItemOpen(open);
+  const std::string& name = rig.names[joint];
+  ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
+  ImGui::PopID();
+  if (ImGui::IsItemToggledOpen()) return true;
+  if (ImGui::IsItemClicked()) {
+    bench.select_joint(line.joint == bench.selected_joint() ? -1 : line.joint);
   }
+  return false;
 }
 
-void hierarchy(Workbench& bench, const Rig& rig) {
-  std::vector<std::vector<int>> children(rig.names.size() + 1);
-  for (int joint = 0; joint < rig.parents.size(); ++joint) {
-    children[slot_of(rig.parents[joint])].push_back(joint);
+/// Only the lines within the panel are laid out.
+void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
+  const float step = ImGui::GetFontSize() * 0.5F;
+  // Deeper ones stand below each other, so that their names are still seen.
+  const float most = ImGui::GetContentRegionAvail().x * 0.5F;
+  int folded = -1;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(outline.seen().size()));
+  while (clipper.Step()) {
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+      const HierarchyLine& line = outline.seen()[static_cast<std::size_t>(row)];
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                           std::min(step * static_cast<float>(line.depth), most));
+      if (joint_line(bench, rig, line, !outline.folded(line.joint))) folded = line.joint;
+    }
   }
-  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, ImGui::GetFontSize() * 0.5F);
-  joints_below(bench, rig, children, -1);
-  ImGui::PopStyleVar();
+  if (folded >= 0) outline.fold(folded);
 }
 
 }  // namespace
 
-void draw_right_panel(Workbench& bench, const Area& area) {
+void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("look", area)) return;
   if (ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
     look_controls(bench.scene->look, bench.scene->camera);
+    ImGui::Checkbox("coarser while it moves", &panels.may_be_coarse);
+    tip("only where this machine cannot draw sixty whole pictures a second");
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
   const auto rig = bench.scene->document.rig;
+  panels.outline.show(rig);
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
-    hierarchy(bench, *rig);
+    hierarchy(bench, panels.outline, *rig);
   }
   const bool defective = bench.defects() != nullptr && !bench.defects()->none();
   if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {

@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "viewer/priority.hpp"
+
 namespace curveskel::viewer {
 namespace {
 
@@ -109,6 +111,7 @@ void Run::extract_all(const Monitor& monitor) {
 
 /// Every exception ends here; what went wrong is news.
 void Run::work(const std::stop_token& stop) {
+  if (options_.gives_way) give_way();
   Monitor monitor;
   monitor.stop = stop;
   monitor.progress = [this](std::string_view stage, double fraction) {
@@ -116,7 +119,11 @@ void Run::work(const std::stop_token& stop) {
     news_.stage = stage;
     news_.fraction = fraction;
   };
-  monitor.frame = [&](const Frame& frame) { show(moment_of(frame, origin_, seconds()), stop); };
+  monitor.frame = [&](const Frame& frame) {
+    Moment moment = moment_of(frame, origin_, seconds(), shown_.get());
+    shown_ = moment.surface;
+    show(std::move(moment), stop);
+  };
   monitor.curve = [&](const CurveFrame& curve) {
     Moment moment = moment_of(curve, operated_.get(), seconds());
     operated_ = moment.skeleton;

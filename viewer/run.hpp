@@ -23,6 +23,7 @@ namespace curveskel::viewer {
 struct RunOptions {
   RepairOptions repair;
   ExtractOptions extract;
+  bool gives_way = false;  ///< to the threads that draw
 };
 
 /// What the runs over one file share, so that a later one with other options starts at the first
@@ -84,6 +85,7 @@ class Run {
   const Eigen::RowVector3d origin_;
   const std::shared_ptr<RunMemory> memory_;
   std::shared_ptr<const CurveSkeleton> operated_;  // of the pipeline's thread alone
+  std::shared_ptr<const ShownSurface> shown_;      // of that, too
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 
   std::mutex mutex_;

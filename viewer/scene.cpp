@@ -8,11 +8,18 @@
 namespace curveskel::viewer {
 namespace {
 
-/// The corners of the cube about a ball.
-void add_box(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
-  for (const float x : {-radius, radius}) {
-    for (const float y : {-radius, radius}) {
-      for (const float z : {-radius, radius}) points.push_back(middle + glm::vec3(x, y, z));
+constexpr std::array simpler_layers{Layer::simpler, Layer::simpler_still, Layer::simplest};
+
+/// As wide as the ball from wherever it is seen, but for 6 in 100.
+void add_ball(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
+  constexpr float wider = 1.06F;  // than the ball, for what is between the points
+  for (const float x : {-1.0F, 0.0F, 1.0F}) {
+    for (const float y : {-1.0F, 0.0F, 1.0F}) {
+      for (const float z : {-1.0F, 0.0F, 1.0F}) {
+        const glm::vec3 way(x, y, z);
+        if (way == glm::vec3(0)) continue;
+        points.push_back(middle + glm::normalize(way) * (wider * radius));
+      }
     }
   }
 }
@@ -31,22 +38,29 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
       points.push_back(shown_point(joint, document.origin));
     }
   }
-  if (points.empty() && document.skeleton) {
-    const CurveSkeleton& skeleton = *document.skeleton;
-    for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
-      const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
-      const float radius = skeleton.radii.size() > 0 ? static_cast<float>(skeleton.radii[node]) : 0;
-      add_box(points, at, radius);
+  if (!document.skeleton) return points;
+  const CurveSkeleton& skeleton = *document.skeleton;
+  // Beside a surface, to which balls belong, only the curve itself may lie anywhere.
+  const bool has_balls = points.empty() && skeleton.radii.size() > 0;
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
+    if (has_balls) {
+      add_ball(points, at, static_cast<float>(skeleton.radii[node]));
+    } else {
+      points.push_back(at);
     }
   }
   return points;
 }
 
 glm::mat3 first_axes(const Document& document) {
-  if (document.surface.triangles.rows() == 0) return glm::mat3(1);
+  const bool has_triangles = document.surface.triangles.rows() > 0;
+  if (!has_triangles && !document.skeleton) return glm::mat3(1);
   constexpr int wide = 1600;
   constexpr int high = 1000;
-  const Eigen::Matrix3f axes = best_views(document.surface, wide, high)[0].axes.cast<float>();
+  const auto views = has_triangles ? best_views(document.surface, wide, high)
+                                   : best_views(*document.skeleton, wide, high);
+  const Eigen::Matrix3f axes = views[0].axes.cast<float>();
   glm::mat3 rows(1);
   for (int row = 0; row < 3; ++row) rows[row] = {axes(row, 0), axes(row, 1), axes(row, 2)};
   return rows;
@@ -63,7 +77,7 @@ Scene::Scene(Document opened)
       best_axes_(first_axes(document)) {
   if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
   look_from(camera, Side::best, best_axes_);
-  constexpr std::array<std::size_t, 2> vertices{50000, 8000};
+  constexpr std::array<std::size_t, Pace::levels - 1> vertices{50000, 12000, 3000};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     // Not worth it for what is nearly as simple.
     if (given_.positions.size() < 2 * vertices[i]) continue;
@@ -74,9 +88,12 @@ Scene::Scene(Document opened)
 
 Pace::Sizes Scene::sizes() const {
   const auto whole = static_cast<std::size_t>(document.surface.triangles.rows());
-  const auto or_else = [](std::size_t size, std::size_t other) { return size > 0 ? size : other; };
-  return {whole, or_else(simpler_[0].surface.triangles.size(), whole),
-          or_else(simpler_[1].surface.triangles.size(), whole)};
+  Pace::Sizes sizes{whole};
+  for (std::size_t i = 0; i < simpler_.size(); ++i) {
+    const std::size_t size = simpler_[i].surface.triangles.size();
+    sizes[i + 1] = size > 0 ? size : sizes[i];
+  }
+  return sizes;
 }
 
 std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
@@ -95,23 +112,21 @@ Look Scene::look_now() const {
 
 /// The surface that stands for the given one now, and its simpler forms.
 void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
-  constexpr std::array layers{Layer::simpler, Layer::simplest};
   if (now.faired) {
     renderer.set_surface(Layer::given, recording.faired_at(moment));
   } else {
     renderer.set_surface(Layer::given, given_, document.surface.triangles);
   }
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    renderer.set_surface(layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
+  for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
+    renderer.set_surface(simpler_layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
   }
 }
 
 void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
-  constexpr std::array layers{Layer::simpler, Layer::simplest};
   const std::vector<Rgba> colours =
       surface_colours(document.surface, {now.skeleton.get(), document.rig.get()}, look, highlights);
   renderer.set_colours(Layer::given, colours);
-  for (std::size_t i = 0; i < layers.size(); ++i) {
+  for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
     std::vector<Rgba> fewer;
     if (!colours.empty()) {
       fewer.reserve(simpler_[i].vertex_of_given.size());
@@ -119,11 +134,11 @@ void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
         fewer.push_back(colours[vertex]);
       }
     }
-    renderer.set_colours(layers[i], fewer);
+    renderer.set_colours(simpler_layers[i], fewer);
   }
 }
 
-void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
+bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const Moment& shown = recording.moments()[moment];
   const bool faired = shown.stage == "fair" && shown.surface;
   now.faired = faired ? shown.surface : nullptr;
@@ -131,27 +146,30 @@ void Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
                    : shown.stage == "surgery" ? recording.newest_surface(moment)
                                               : shown.surface;
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
-  if (all || now.faired != uploaded_->faired) upload_given(renderer, now);
+  const bool anew = all || now.faired != uploaded_->faired;
+  if (anew) upload_given(renderer, now);
   const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
                           now.highlights != uploaded_->highlights ||
                           look.surface_colour != uploaded_->look.surface_colour ||
                           look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
                           had_faired != faired;
   if (recoloured && !faired) colour_given(renderer, now);
-  if (all || now.contracted != uploaded_->contracted) {
+  const bool moved = all || now.contracted != uploaded_->contracted;
+  if (moved) {
     renderer.set_surface(Layer::contracted,
                          now.contracted ? recording.surface_at(moment) : ShownSurface{});
   }
+  return anew || recoloured || moved;
 }
 
-void Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
+bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
   const bool same_look =
       !all && look.skeleton == uploaded_->look.skeleton &&
       look.skeleton_colour == uploaded_->look.skeleton_colour && look.map == uploaded_->look.map &&
       look.theme == uploaded_->look.theme && look.joints == uploaded_->look.joints &&
       look.bones == uploaded_->look.bones && look.thickness == uploaded_->look.thickness;
   if (same_look && now.skeleton == uploaded_->skeleton && now.highlights == uploaded_->highlights) {
-    return;
+    return false;
   }
   ShownSkeleton shown;
   if (now.skeleton && look.skeleton != SkeletonStyle::hidden) {
@@ -164,17 +182,19 @@ void Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
     shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
   }
   renderer.set_skeleton(shown);
+  return true;
 }
 
-void Scene::upload(Renderer& renderer) {
+bool Scene::upload(Renderer& renderer) {
   const bool all = !uploaded_;
   Uploaded now;
   now.skeleton = skeleton();
   now.look = look;
   now.highlights = highlights;
-  upload_surfaces(renderer, now, all);
-  upload_skeleton(renderer, now, all);
+  const bool surfaces = upload_surfaces(renderer, now, all);
+  const bool skeletons = upload_skeleton(renderer, now, all);
   uploaded_ = std::move(now);
+  return surfaces || skeletons;
 }
 
 void look_at_rig(Scene& scene, const std::string& joint) {
@@ -188,9 +208,13 @@ void look_at_rig(Scene& scene, const std::string& joint) {
     scene.highlights.joint = static_cast<int>(found - names.begin());
     return;
   }
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw Error(Fault::input, "no joint is called " + joint + "; there are " + all);
+  constexpr std::size_t most = 100;
+  std::string some;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    some += (some.empty() ? "" : ", ") + names[i];
+  }
+  if (names.size() > most) some += " and " + std::to_string(names.size() - most) + " more";
+  throw Error(Fault::input, "no joint is called " + joint + "; there are " + some);
 }
 
 }  // namespace curveskel::viewer

@@ -45,8 +45,9 @@ class Scene {
   /// Triangles of the given surface at each level of fineness.
   [[nodiscard]] Pace::Sizes sizes() const;
 
-  /// Brings the renderer up to date; only what has changed since the last call is uploaded.
-  void upload(Renderer& renderer);
+  /// Brings the renderer up to date; only what has changed since the last call is uploaded. False
+  /// if nothing had.
+  bool upload(Renderer& renderer);
   /// Forgets what was uploaded: the renderer is a new one.
   void forget_uploads() { uploaded_.reset(); }
   /// The look as it is drawn at this moment: a contracted surface shows through the given one.
@@ -62,12 +63,12 @@ class Scene {
   };
   void upload_given(Renderer& renderer, const Uploaded& now) const;
   void colour_given(Renderer& renderer, const Uploaded& now) const;
-  void upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
-  void upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
+  bool upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
+  bool upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
 
   ShownSurface given_;  // without triangles: those are the document's
   FaceBlocks face_blocks_;
-  std::array<SimplerSurface, 2> simpler_;  // empty where the surface is small
+  std::array<SimplerSurface, Pace::levels - 1> simpler_;  // empty where the surface is small
   std::vector<glm::vec3> points_;
   Bounds bounds_;
   glm::mat3 best_axes_{1};

@@ -21,6 +21,7 @@ namespace curveskel::viewer {
 namespace {
 
 namespace fs = std::filesystem;
+using Part = Renderer::Part;
 
 /// Beyond this the driver's largest picture may be passed.
 constexpr int largest_side = 16384;
@@ -92,11 +93,16 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
   }
 }
 
-PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height) {
+PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height, const Part& part) {
   const int factor = 2 * std::max(width, height) <= largest_side ? 2 : 1;
   scene.upload(renderer);
-  renderer.draw(scene.camera, scene.look_now(),
-                {width * factor, height * factor, {}, scene.bounds()});
+  renderer.draw(
+      scene.camera, scene.look_now(),
+      {width * factor,
+       height * factor,
+       {},
+       scene.bounds(),
+       Part{part.x * factor, part.y * factor, part.width * factor, part.height * factor}});
   return shrunk(renderer.read(), factor);
 }
 
@@ -149,31 +155,49 @@ Parting parting_of(const std::array<View, 2>& views, const Positions& points) {
   return best;
 }
 
+/// What each view has of the picture.
+std::array<Part, 2> parts_of(const Parting& parting, int width, int height) {
+  Part lower{0, 0, width, height};
+  Part upper = lower;
+  const int size = parting.axis == 0 ? width : height;
+  const int split = std::clamp(static_cast<int>(std::ceil(parting.at - 0.5)), 0, size);
+  if (parting.axis == 0) {
+    lower.width = upper.x = split;
+    upper.width = width - split;
+  } else {  // parts count from below, views from above
+    lower.y = upper.height = height - split;
+    lower.height = split;
+  }
+  if (parting.first_is_lower) return {lower, upper};
+  return {upper, lower};
+}
+
+void put(const PixelRows& rows, const Part& part, PixelRows& whole) {
+  const auto row = [](const PixelRows& of, int x, int y) {
+    return (static_cast<std::ptrdiff_t>(y) * of.width + x) * 4;
+  };
+  for (int y = 0; y < rows.height; ++y) {
+    std::copy_n(rows.bytes.begin() + row(rows, 0, y), 4 * rows.width,
+                whole.bytes.begin() + row(whole, part.x, part.y + y));
+  }
+}
+
 }  // namespace
 
 std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) {
-  return png_of(drawn(scene, renderer, width, height));
+  return png_of(drawn(scene, renderer, width, height, {0, 0, width, height}));
 }
 
 std::string screenshot_of_two_sides(Scene& scene, Renderer& renderer, int width, int height) {
   const Surface& surface = scene.document.surface;
   const std::array<View, 2> views = best_views(surface, width, height);
-  const Parting parting = parting_of(views, surface.positions);
-  look_through(scene, views[0], width, height);
-  PixelRows both = drawn(scene, renderer, width, height);
-  look_through(scene, views[1], width, height);
-  const PixelRows second = drawn(scene, renderer, width, height);
-  const auto pixel = [&](int x, int y) {
-    return (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
-            static_cast<std::size_t>(x)) *
-           4;
-  };
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const bool lower = (parting.axis == 0 ? x : y) + 0.5 < parting.at;
-      if (lower == parting.first_is_lower) continue;
-      std::copy_n(second.bytes.data() + pixel(x, y), 4, both.bytes.data() + pixel(x, y));
-    }
+  const std::array<Part, 2> parts = parts_of(parting_of(views, surface.positions), width, height);
+  PixelRows both{width, height, {}};
+  both.bytes.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (parts[i].width == 0 || parts[i].height == 0) continue;
+    look_through(scene, views[i], width, height);
+    put(drawn(scene, renderer, width, height, parts[i]), parts[i], both);
   }
   return png_of(both);
 }

@@ -18,6 +18,8 @@ struct ShownSurface {
   std::vector<std::uint32_t> normals;  ///< packed as GL_INT_2_10_10_10_REV
   std::vector<glm::uvec3> triangles;
   std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
+  /// Of a simpler form with some of the vertices, for slow machines; empty where it is simple.
+  std::vector<glm::uvec3> fewer;
 };
 
 /// With normals, without colours. O(#V + #F).

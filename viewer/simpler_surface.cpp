@@ -71,4 +71,15 @@ SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices) 
   return simpler;
 }
 
+std::vector<glm::uvec3> fewer_triangles(const ShownSurface& given, std::size_t vertices) {
+  const SimplerSurface simpler = simpler_surface(given, vertices);
+  const auto& corner = simpler.vertex_of_given;
+  std::vector<glm::uvec3> triangles;
+  triangles.reserve(simpler.surface.triangles.size());
+  for (const glm::uvec3& triangle : simpler.surface.triangles) {
+    triangles.emplace_back(corner[triangle.x], corner[triangle.y], corner[triangle.z]);
+  }
+  return triangles;
+}
+
 }  // namespace curveskel::viewer

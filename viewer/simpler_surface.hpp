@@ -18,4 +18,9 @@ struct SimplerSurface {
 /// left. Made to be looked at only: the topology may change. O(#V log #V + #F).
 [[nodiscard]] SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices);
 
+/// The triangles of such a form with corners that are vertices of the given surface, so that it
+/// moves as that does.
+[[nodiscard]] std::vector<glm::uvec3> fewer_triangles(const ShownSurface& given,
+                                                      std::size_t vertices);
+
 }  // namespace curveskel::viewer

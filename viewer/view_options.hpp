@@ -29,7 +29,8 @@ struct ViewOptions {
   bool perspective = true;
   StageWish stage;
   bool stage_given = false;
-  bool run = true;  ///< a surface without a skeleton is worked on at once
+  bool may_be_coarse = true;  ///< the window's picture, while things move
+  bool run = true;            ///< a surface without a skeleton is worked on at once
   double time_limit_seconds = 0;
   std::string joint;        ///< of a rig: its name; empty = none
   std::string frame_times;  ///< CSV of the window's frame times, written at the end; empty = none

@@ -133,6 +133,9 @@ Verb add_view(CLI::App& program) {
       "--orthographic", [options] { options->perspective = false; }, "no perspective");
   parser->add_flag_callback(
       "--no-run", [options] { options->run = false; }, "do not extract the skeleton at once");
+  parser->add_flag_callback(
+      "--never-coarse", [options] { options->may_be_coarse = false; },
+      "draw all of the surface while it moves, too, however long that takes");
   add_look(*parser, options->look);
   parser->add_option("--joint", options->joint, "of a rig: the one whose weights are shown")
       ->type_name("NAME");

@@ -12,6 +12,7 @@
 #include "surface/measures.hpp"
 #include "surface/topology.hpp"
 #include "surface/write_file.hpp"
+#include "viewer/priority.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -116,7 +117,8 @@ void Workbench::open(const std::vector<fs::path>& files) {
 bool Workbench::take_opened() {
   if (!is_ready(opening_)) return false;
   Opened opened = opening_.get();
-  read_times_ = opened.times;
+  // Where another file could not be opened, those that are open have not changed.
+  if (opened.scene || reloading_) read_times_ = opened.times;
   if (!opened.scene) {
     reloading_ = false;
     say(opened.error, true);
@@ -205,6 +207,7 @@ void Workbench::inspect() {
   std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
   if (scene->document.surface.triangles.rows() == 0) return;
   inspecting_ = std::async(std::launch::async, [held = scene] {
+    give_way();
     auto found = std::make_shared<const Defects>(defects_of(held->document.surface));
     give_back_memory();
     return found;
@@ -232,6 +235,7 @@ void Workbench::judge() {
   judging_ = std::async(std::launch::async, [skeleton, repaired, ground = ground_, held = scene,
                                              options = pipeline.extract.certificate,
                                              repair_options = pipeline.repair]() mutable {
+    give_way();
     Judgement found;
     found.skeleton = skeleton;
     try {

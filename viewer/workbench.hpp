@@ -56,8 +56,8 @@ class Workbench {
   Workbench(const Workbench&) = delete;
   Workbench& operator=(const Workbench&) = delete;
 
-  /// Takes in what other threads have finished; true if something that is seen has changed. Never
-  /// waits.
+  /// Takes in what other threads have finished; true if something that is seen has changed, apart
+  /// from how far a stage has come. Never waits.
   bool update();
   /// Whether another thread is at work, so that `update` should be called soon again.
   [[nodiscard]] bool busy() const;

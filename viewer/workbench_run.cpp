@@ -27,6 +27,7 @@ void Workbench::start(bool paused) {
     return;
   }
   RunOptions options = pipeline;
+  options.gives_way = true;
   options.extract.fairing = options.extract.fair.iterations > 0;
   // One core stays for the picture; the result is the same.
   if (options.extract.threads == 0) {
@@ -118,8 +119,8 @@ void Workbench::take_result(RunResult result) {
 bool Workbench::take_news() {
   if (!run_) return false;
   Run::News news = run_->take();
-  const bool changed = !news.moments.empty() || news.state != news_.state ||
-                       news.stage != news_.stage || news.fraction != news_.fraction;
+  const bool changed =
+      !news.moments.empty() || news.state != news_.state || news.stage != news_.stage;
   take_moments(std::move(news.moments));
   news.moments.clear();
   const bool done = is_done(news.state);

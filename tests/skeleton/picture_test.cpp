@@ -143,6 +143,44 @@ TEST(Views, LookAlongTheLeastExtent) {
   }
 }
 
+TEST(Views, OfASkeletonLookAlongItsLeastExtent) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 1, 0.5).normalized();
+  for (const double angle : {0.0, 0.6, 2.0}) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    CurveSkeleton cross;
+    cross.nodes.resize(5, 3);
+    cross.nodes << 0, 0, 0, 3, 0, 0.1, 0, 1.2, 0, -3, 0, 0.1, 0, -1, 0;
+    cross.nodes *= turn.transpose();
+    cross.edges.resize(4, 2);
+    cross.edges << 0, 1, 0, 2, 0, 3, 0, 4;
+    const auto views = best_views(cross, width, height);
+    EXPECT_NEAR(std::abs(views[0].axes.row(2).dot(turn.col(2))), 1, 1e-3) << angle;
+    EXPECT_GT(views[0].axes.determinant(), 0.99);
+    for (const View& view : views) {
+      for (const auto& node : cross.nodes.rowwise()) {
+        const Eigen::Vector3d pixel = view.project(node);
+        EXPECT_TRUE(pixel.x() > 0 && pixel.x() < width && pixel.y() > 0 && pixel.y() < height);
+      }
+    }
+  }
+}
+
+TEST(Views, OfALineAndOfAPointAreRotations) {
+  for (const double length : {0.0, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      CurveSkeleton line;
+      line.nodes.setConstant(2, 3, 1);
+      line.nodes(1, axis) += length;
+      line.edges.resize(1, 2);
+      line.edges << 0, 1;
+      for (const View& view : best_views(line, width, height)) {
+        EXPECT_TRUE((view.axes * view.axes.transpose()).isIdentity(1e-12));
+        EXPECT_NEAR(view.axes.determinant(), 1, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(Views, KeepUpWhatStandsOnFeet) {
   // A table: a broad board on four legs, its height between its other extents.
   for (const int up : {1, 2}) {

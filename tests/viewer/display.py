@@ -175,6 +175,12 @@ class Window:
     def key(self, *names):
         self.display.xdotool("key", "--delay", 5, *names)
 
+    def key_at_once(self, *names, text, then):
+        """Keys, a text and keys, several in the time of a frame."""
+        delay = 2  # milliseconds; GLFW drops a key that goes down twice in one
+        self.display.xdotool("key", "--delay", delay, *names, "type", "--delay", delay, "--args", 1,
+                             text, "key", "--delay", delay, *then)
+
     def type_into_dialogue(self, key, text):
         """Opens the dialogue with this key, and answers."""
         before = self.rest(self.whole)

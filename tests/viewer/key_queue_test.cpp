@@ -16,6 +16,7 @@ KeyEvent key(int which, bool down) {
   event.key = which;
   event.down = down;
   event.modifier = which <= ctrl;
+  event.ends = which == keys - 1;
   return event;
 }
 
@@ -50,6 +51,13 @@ TEST(KeyQueue, ShortcutKeepsItsModifier) {
 
 TEST(KeyQueue, DifferentKeysShareAFrame) {
   EXPECT_EQ(frames_of({key(2, true), typed('a'), key(3, true), typed('b')}).size(), 1U);
+}
+
+TEST(KeyQueue, WhatFollowsTheEndOfADialogueIsNotForTheDialogue) {
+  const KeyEvent enter = key(keys - 1, true);
+  const auto frames = frames_of({typed('a'), enter, typed('b'), key(4, true)});
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0], (std::vector<KeyEvent>{typed('a'), enter}));
 }
 
 TEST(KeyQueue, NothingIsLostOrOutOfOrder) {

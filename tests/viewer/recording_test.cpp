@@ -232,5 +232,32 @@ TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
   }
 }
 
+TEST(MomentOf, ALargeSurfaceHasASimplerFormThatMovesWithIt) {
+  Surface surface = shapes::torus(3, 1, 60).surface;
+  const Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  const Moment first = moment_of({"contract", 0, 0, 1, 1, 0, surface}, origin, 0);
+  const auto& fewer = first.surface->fewer;
+  ASSERT_FALSE(fewer.empty());
+  EXPECT_LT(fewer.size(), first.surface->triangles.size() / 2);
+  for (const glm::uvec3& triangle : fewer) {
+    for (int corner = 0; corner < 3; ++corner) {
+      EXPECT_LT(triangle[corner], first.surface->positions.size());
+    }
+  }
+  surface.positions *= 0.1;  // where it would be clustered otherwise
+  surface.positions.col(0) *= 0.01;
+  const Moment next =
+      moment_of({"contract", 0, 1, 1, 1, 0, surface}, origin, 0, first.surface.get());
+  EXPECT_EQ(next.surface->fewer, fewer);
+  const Surface small = shapes::torus(3, 1, 10).surface;
+  const Moment other = moment_of({"contract", 1, 0, 1, 1, 0, small}, origin, 0, next.surface.get());
+  EXPECT_TRUE(other.surface->fewer.empty());
+  Recording recording;
+  recording.add(first);
+  EXPECT_EQ(recording.surface_at(1).fewer, fewer);
+  recording.add(other);
+  EXPECT_EQ(recording.surface_at(2).fewer.size(), fewer.size() + other.surface->triangles.size());
+}
+
 }  // namespace
 }  // namespace curveskel::viewer::recording_laws

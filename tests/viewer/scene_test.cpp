@@ -347,6 +347,90 @@ TEST(Scene, FitsWhatItHas) {
   }
 }
 
+TEST(Scene, HasRoomForASkeletonBesideItsSurface) {
+  for (const Extracted& one : family()) {
+    CurveSkeleton skeleton = one.skeleton;
+    skeleton.nodes.rowwise() += Eigen::RowVector3d(40, 0, 0);
+    const Scene scene(document_of(one.surface, &skeleton));
+    for (const auto& node : skeleton.nodes.rowwise()) {
+      const glm::vec3 at = shown_point(node, scene.document.origin);
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(scene.bounds().low, at)));
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(at, scene.bounds().high)));
+    }
+  }
+}
+
+TEST(Scene, PartsOfAPictureAreThoseOfTheWhole) {
+  const HeadlessContext context;
+  constexpr int width = 160;
+  constexpr int height = 120;
+  for (const SurfaceStyle style : {SurfaceStyle::transparent, SurfaceStyle::opaque}) {
+    Scene scene(document_of(family()[2].surface, &family()[2].skeleton));
+    fit(scene.camera, scene.points(), float(width) / height);
+    scene.look.surface = style;
+    Renderer renderer;
+    scene.upload(renderer);
+    Renderer::Frame frame{width, height, {}, scene.bounds(), {}};
+    renderer.draw(scene.camera, scene.look, frame);
+    const PixelRows whole = renderer.read();
+    for (const Renderer::Part& part :
+         {Renderer::Part{0, 0, 64, height}, Renderer::Part{64, 0, 96, height},
+          Renderer::Part{30, 50, 60, 40}}) {
+      frame.part = part;
+      renderer.draw(scene.camera, scene.look, frame);
+      const PixelRows rows = renderer.read();
+      ASSERT_EQ(rows.width, part.width);
+      ASSERT_EQ(rows.height, part.height);
+      const auto byte = [](const PixelRows& of, int x, int y, int channel) {
+        const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width);
+        return of
+            .bytes[4 * (row + static_cast<std::size_t>(x)) + static_cast<std::size_t>(channel)];
+      };
+      int different = 0;
+      for (int y = 0; y < part.height; ++y) {
+        for (int x = 0; x < part.width; ++x) {
+          for (int channel = 0; channel < 4; ++channel) {
+            different +=
+                byte(rows, x, y, channel) == byte(whole, part.x + x, part.y + y, channel) ? 0 : 1;
+          }
+        }
+      }
+      // Rounding may put an edge on the other side of a sample.
+      EXPECT_LT(different, 4 * part.width * part.height / 500);
+    }
+  }
+}
+
+TEST(Scene, DrawnCoarselyLooksMuchTheSame) {
+  const HeadlessContext context;
+  constexpr int width = 200;
+  constexpr int height = 150;
+  Scene scene(document_of(shapes::torus(3, 1, 100).surface));
+  ASSERT_LT(scene.sizes()[3], scene.sizes()[0] / 2);
+  fit(scene.camera, scene.points(), float(width) / height);
+  scene.look.transparent_background = true;
+  Renderer renderer;
+  scene.upload(renderer);
+  for (const SurfaceStyle style : {SurfaceStyle::transparent, SurfaceStyle::opaque}) {
+    scene.look.surface = style;
+    const auto drawn = [&](const Fineness& fineness) {
+      renderer.draw(scene.camera, scene.look, {width, height, fineness, scene.bounds()});
+      return renderer.read().bytes;
+    };
+    const auto coarse = drawn({3, 1, 1});  // first: a finer picture would be kept
+    const auto whole = drawn({0, 1, 1});
+    EXPECT_NE(whole, coarse);
+    double sum = 0;
+    int uncovered = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      sum += std::abs(static_cast<int>(whole[i]) - static_cast<int>(coarse[i]));
+      if (i % 4 == 3) uncovered += (whole[i] > 0) == (coarse[i] > 0) ? 0 : 1;
+    }
+    EXPECT_LT(sum / static_cast<double>(whole.size()), 4) << "of 255";
+    EXPECT_LT(uncovered, width * height / 100);
+  }
+}
+
 TEST(Scene, ContractedShowsThroughAnOpaqueSurface) {
   Scene scene(document_of(family()[0].surface));
   scene.look.surface = SurfaceStyle::opaque;

@@ -16,6 +16,7 @@ sys.path.insert(0, str(SOURCE / "tests" / "cli"))
 from program import TORUS, Y, CommandLineTest, run, write_torus  # noqa: E402
 from display import (Display, Window, ask_to_close, different, is_there,  # noqa: E402
                      until)
+from drop import drop  # noqa: E402
 
 DONE, DEVICE, INTERRUPTED = 0, 4, 130
 CROSS = "v 0 0 0\nv 3 0 0\nv 0 1.2 0\nv -3 0 0\nv 0 -1 0\nl 1 2\nl 1 3\nl 1 4\nl 1 5\n"
@@ -138,6 +139,19 @@ class Looking(WindowTest):
         self.assertLess(different(with_them[left], before[left]), 0.01)
         self.leave(window)
 
+    def test_parts_drawn_anew_fit_those_that_are_not(self):
+        window = self.opened()
+        window.away()
+        for key in ("h", "Home", "h", "l", "ctrl+o", "Escape", "End", "s"):
+            window.key(key)
+            window.rest(window.above_status)
+        before = window.rest(window.above_status)
+        for width in (window.width + 8, window.width):  # draws all anew
+            display.xdotool("windowsize", "--sync", window.id, width, window.height)
+            window.rest(window.above_status)
+        self.assertEqual(different(window.rest(window.above_status), before), 0)
+        self.leave(window)
+
     def test_pictures_of_windows_of_all_sizes(self):
         window = self.opened()
         sizes = []
@@ -159,9 +173,6 @@ class Looking(WindowTest):
             self.assertAlmostEqual(sizes[-1][0], size[0] - 2 * window.side(), delta=2)
         self.assertEqual(len(set(sizes)), len(sizes))
         self.leave(window)
-
-    def test_dropped_files(self):
-        self.skipTest("xdotool speaks no XDND; dropping ends in Workbench::open, as opening does")
 
 
 class Timeline(WindowTest):
@@ -332,6 +343,44 @@ class Files(WindowTest):
         window = self.open()
         window.type_into_dialogue("ctrl+o", str(TORUS))
         window.wait_for_title(r"torus\.off .*\(skeleton\)$")
+        self.leave(window)
+
+    def test_dropped_on_the_window_are_opened(self):
+        window = self.open()
+        for name in ("dropped.off", "a name, 100 % größer.off"):
+            file = self.folder / name
+            shutil.copy(Y, file)
+            self.assertTrue(drop(display.name, int(window.id), [file]))
+            window.wait_for_title(rf"{name} .*\(skeleton\)$")
+        skeleton = self.folder / "cross.obj"
+        skeleton.write_text(CROSS)
+        self.assertTrue(drop(display.name, int(window.id), [TORUS, skeleton]))
+        window.wait_for_title(r"torus\.off - cross\.obj")
+        self.leave(window)
+
+    def test_dropped_that_cannot_be_read_are_a_message(self):
+        broken = self.folder / "broken.off"
+        broken.write_bytes(bytes(range(256)))
+        for bad in ([broken], [self.folder], [self.folder / "missing.off"], [Y, TORUS]):
+            with self.subTest(bad):
+                window = self.opened()
+                drop(display.name, int(window.id), bad)
+                until(lambda: is_red(window), "a message of what is wrong")
+                self.assertRegex(window.title(), r"y\.off \(skeleton\)$")
+                self.leave(window)
+
+    def test_keys_that_follow_a_dialogue_at_once_are_for_the_picture(self):
+        window = self.opened()
+        for number in range(3):
+            file = self.folder / f"saved-{number}.json"
+            window.key_at_once("ctrl+s", "ctrl+a", text=file, then=["Return", "Home"])
+            window.wait_for_title(r"\(input\)")
+            until(file.exists, f"{file}")
+            window.key("End")
+            window.wait_for_skeleton()
+        for key, title in (("Home", "input"), ("End", "skeleton")):
+            window.key_at_once("ctrl+o", text="any", then=["Escape", key])
+            window.wait_for_title(rf"\({title}\)")
         self.leave(window)
 
     def test_are_read_again_when_they_change(self):

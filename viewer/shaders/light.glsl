@@ -9,3 +9,11 @@ vec3 lit(vec3 albedo, vec3 normal, vec3 to_viewer) {
   float gloss = pow(max(0.0, dot(normal, normalize(key + to_viewer))), 42.0);
   return colour + vec3(0.10 * gloss);
 }
+// Glass, the more opaque the more it turns away; `facing` is the cosine to the viewer. It is not
+// black where it turns away.
+vec4 glass(vec3 colour, vec3 own, float facing, float strength) {
+  float away = 1.0 - abs(facing);
+  colour = mix(colour, own * 0.82, 0.75 * away * away);
+  float alpha = clamp(strength * (0.30 + 0.95 * away * away), 0.0, 1.0);
+  return vec4(colour * alpha, alpha);
+}

@@ -1,5 +1,5 @@
 uniform bool orthographic;
-uniform bool skin;       // half transparent: the more, the more the surface faces the viewer
+uniform bool skin;       // half transparent
 uniform float strength;  // of the skin
 uniform vec3 inner;      // tint of what is seen from inside
 in vec3 seen;
@@ -18,12 +18,5 @@ void main() {
   vec3 own = categories ? tint_of_face.rgb : tint.rgb;
   if (!gl_FrontFacing) own *= inner;
   vec3 colour = lit(own, normal, to_viewer);
-  if (!skin) {
-    result = vec4(colour, 1.0);
-    return;
-  }
-  float away = 1.0 - abs(dot(normal, to_viewer));
-  colour = mix(colour, own * 0.82, 0.75 * away * away);  // glass is not black where it turns away
-  float alpha = clamp(strength * (0.30 + 0.95 * away * away), 0.0, 1.0);
-  result = vec4(colour * alpha, alpha);
+  result = skin ? glass(colour, own, dot(normal, to_viewer), strength) : vec4(colour, 1.0);
 }
