@@ -132,6 +132,19 @@ void keep_simple(Network& network) {
   }
 }
 
+/// How far apart the points of a strand may lie: D / 60, or more where the surface itself is so
+/// coarse that the curve would be sampled more finely than what it runs through.
+double most_spacing(const Surface& surface) {
+  constexpr double of_edge = 0.4;
+  double sum = 0;
+  for (const auto& t : surface.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      sum += (surface.positions.row(t(k)) - surface.positions.row(t((k + 1) % 3))).norm();
+    }
+  }
+  return std::max(1.0 / 60, of_edge * sum / static_cast<double>(surface.triangles.size()));
+}
+
 /// Within the coarsened surface, whose tree is quick to ask: all that takes many rays.
 Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
                 const VertexGraph& graph, const EmbedOptions& options, int threads,
@@ -149,7 +162,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
   centring.rounds = options.first_rounds;
   do {
     straighten_at_junctions(network, tree, options.straight, false);
-    resample(network, tree);
+    resample(network, tree, most_spacing(surface));
     relax(network, tree, centring, threads);
     straighten_at_junctions(network, tree, options.straight, false);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
@@ -174,7 +187,7 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
   do {
     keep_simple(network);
     keep_inside(network, surface, balls, graph, tree);
-    thin_out(network, tree);
+    thin_out(network, tree, most_spacing(surface));
     cut_detours(network, tree);
     relax(network, tree, smoothing, threads);
     straighten_at_junctions(network, tree, options.straight_at_last, true);
