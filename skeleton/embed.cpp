@@ -135,7 +135,7 @@ void keep_simple(Network& network) {
 /// How far apart the points of a strand may lie: D / 60, or more where the surface itself is so
 /// coarse that the curve would be sampled more finely than what it runs through.
 double most_spacing(const Surface& surface) {
-  constexpr double of_edge = 0.4;
+  constexpr double of_edge = 0.3;
   double sum = 0;
   for (const auto& t : surface.triangles.rowwise()) {
     for (int k = 0; k < 3; ++k) {
