@@ -51,6 +51,7 @@ Json to_json(const Repairs& r) {
           {"vertices_copied", r.vertices_copied},
           {"holes_closed", r.holes_closed},
           {"longest_hole", r.longest_hole},
+          {"holes_narrowed", r.holes_narrowed},
           {"faces_added", r.faces_added},
           {"vertices_added", r.vertices_added},
           {"copies_dropped", r.copies_dropped},

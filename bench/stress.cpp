@@ -1,6 +1,6 @@
 // How long the largest surfaces take and how much memory: one body of millions of faces, one of
-// many handles, and one surface of very many small components.
-// usage: stress [--faces N] [--handles N] [--components N]
+// many handles, and surfaces of very many small components.
+// usage: stress [--faces N] [--handles N] [--components N] [--equal N]
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
 #include "skeleton/extract.hpp"
+#include "surface/repair.hpp"
 
 namespace {
 
@@ -47,19 +48,60 @@ Shape crowd(int components) {
   return shapes::together("crowd", parts);
 }
 
+/// Balls and boxes of one size, 42 to 98 vertices each, on a jittered grid.
+Shape equals(int components) {
+  shapes::Random random(1);
+  const int side = static_cast<int>(std::ceil(std::cbrt(components)));
+  const std::vector<Shape> kinds{shapes::ellipsoid({1, 1, 1}, 1), shapes::box({1.5, 1.5, 1.5}, 4)};
+  std::vector<Shape> parts;
+  for (int c = 0; c < components; ++c) {
+    const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
+    const Eigen::Vector3d cell(c % side, c / side % side, c / side / side);
+    const Eigen::Vector3d jitter(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    parts.push_back(shapes::translated(
+        shapes::rotated(kinds[random.index(2)], axis, random.uniform(0, 3)), 4 * cell + jitter));
+  }
+  return shapes::together("balls and boxes of one size", parts);
+}
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+PolygonSoup soup_of(const Surface& surface) {
+  PolygonSoup soup;
+  soup.positions = surface.positions;
+  soup.corners.assign(surface.triangles.data(),
+                      surface.triangles.data() + surface.triangles.size());
+  for (Eigen::Index f = 0; f <= surface.triangles.rows(); ++f) soup.offsets.push_back(3 * f);
+  return soup;
+}
+
 void measure(const Shape& shape) {
+  const PolygonSoup soup = soup_of(shape.surface);
   const auto start = std::chrono::steady_clock::now();
-  const Extraction found = extract(shape.surface, {}, {});
+  const double processor_before = processor_seconds();
+  const RepairedSurface repaired = repair(soup, {}, {});
+  const double repair_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Extraction found = extract(repaired.surface, {}, {});
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double processor = processor_seconds() - processor_before;
   double working = 0;
   for (const ComponentRecord& component : found.components) working += component.working_vertices;
-  std::printf("| %s | %td | %d | %d | %.0f | %.1f | %.0f | %s |\n", shape.name.c_str(),
+  std::printf("| %s | %td | %d | %d | %.0f | %.1f (%.1f) | %.0f | %s |\n", shape.name.c_str(),
               shape.surface.triangles.rows(), shape.components, shape.genus, working, seconds,
-              peak_megabytes(),
+              processor, peak_megabytes(),
               found.certificate.topology_correct() && found.certificate.genus == shape.genus
                   ? "right"
                   : "WRONG");
+  std::printf("  repair %.1f", repair_seconds);
   for (const StageTime& time : found.times) {
     std::printf("  %s %.1f", time.stage.c_str(), time.seconds);
   }
@@ -73,13 +115,16 @@ int main(int count, char** values) {
   int faces = 2000000;
   int handles = 1024;
   int components = 20000;
+  int equal = 20000;
   CLI::App program("Seconds and memory of large surfaces; 0 leaves one out");
   program.add_option("--faces", faces, "of one body: a network of tubes");
   program.add_option("--handles", handles, "of one body: a plate with so many holes, about");
-  program.add_option("--components", components, "of one surface");
+  program.add_option("--components", components, "of one surface, of all sizes");
+  program.add_option("--equal", equal, "components of one surface, all of one size");
   CLI11_PARSE(program, count, values);
   std::printf(
-      "| surface | faces | components | genus | working vertices | s | MB at most so far | "
+      "| surface | faces | components | genus | working vertices | s (processor) | MB at most so "
+      "far | "
       "topology |\n|---|---|---|---|---|---|---|---|\n");
   if (faces > 0) {
     Shape network = shapes::tube_union("network", shapes::random_graph(7, 40, 12, 1), {0.25, 1.7});
@@ -93,4 +138,5 @@ int main(int count, char** values) {
     measure(plate);
   }
   if (components > 0) measure(crowd(components));
+  if (equal > 0) measure(equals(equal));
 }

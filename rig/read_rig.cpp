@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rig/rig_formats.hpp"
 #include "surface/formats.hpp"
 #include "surface/gltf_scene.hpp"
 
@@ -183,7 +184,10 @@ class WeightReader {
 }  // namespace
 
 std::optional<Rig> read_rig(const std::filesystem::path& path, const Monitor& monitor) {
-  const FileBytes file = read_file(path, monitor);
+  return read_gltf_rig(read_file(path, monitor), monitor);
+}
+
+std::optional<Rig> read_gltf_rig(const FileBytes& file, const Monitor& monitor) {
   if (!looks_like_glb(file) && !looks_like_gltf(file)) return std::nullopt;
   const tinygltf::Model model = parse_gltf(file, monitor);
   const GltfScene scene = read_gltf_scene(file, model, monitor);

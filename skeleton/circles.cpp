@@ -8,31 +8,43 @@
 namespace curveskel {
 
 EdgeIndex index_edges(const Triangles& triangles) {
-  struct HalfEdge {
-    std::array<int, 2> ends;
-    int triangle, corner;
+  struct Side {
+    int high;
+    int slot;  // 3 * triangle + corner
   };
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * static_cast<std::size_t>(triangles.rows()));
-  for (int t = 0; t < triangles.rows(); ++t) {
+  const auto ends_of = [&](Eigen::Index t, int k) {
+    return std::minmax(triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3));
+  };
+  // In the order of their smaller ends; what is left to sort is short.
+  const int vertices = triangles.rows() > 0 ? triangles.maxCoeff() + 1 : 0;
+  std::vector<std::size_t> begin(static_cast<std::size_t>(vertices) + 2, 0);  // one ahead at first
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(ends_of(t, k).first) + 2];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Side> sides(begin.back());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3));
-      half_edges.push_back({{low, high}, t, k});
+      const auto [low, high] = ends_of(t, k);
+      sides[begin[static_cast<std::size_t>(low) + 1]++] = {high, static_cast<int>(3 * t) + k};
     }
   }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.ends, a.triangle, a.corner) < std::tie(b.ends, b.triangle, b.corner);
-  });
 
   EdgeIndex index;
   index.edge_of_corner.resize(triangles.rows(), 3);
-  index.edges.reserve(half_edges.size() / 2);
-  for (const HalfEdge& half_edge : half_edges) {
-    if (index.edges.empty() || index.edges.back() != half_edge.ends) {
-      index.edges.push_back(half_edge.ends);
+  index.edges.reserve(sides.size() / 2);
+  for (int low = 0; low < vertices; ++low) {
+    const auto from = static_cast<std::ptrdiff_t>(begin[static_cast<std::size_t>(low)]);
+    const auto to = static_cast<std::ptrdiff_t>(begin[static_cast<std::size_t>(low) + 1]);
+    std::sort(sides.begin() + from, sides.begin() + to, [](const Side& a, const Side& b) {
+      return std::tie(a.high, a.slot) < std::tie(b.high, b.slot);
+    });
+    for (auto side = sides.begin() + from; side != sides.begin() + to; ++side) {
+      const std::array<int, 2> ends{low, side->high};
+      if (index.edges.empty() || index.edges.back() != ends) index.edges.push_back(ends);
+      index.edge_of_corner(side->slot / 3, side->slot % 3) =
+          static_cast<int>(index.edges.size()) - 1;
     }
-    index.edge_of_corner(half_edge.triangle, half_edge.corner) =
-        static_cast<int>(index.edges.size()) - 1;
   }
   return index;
 }

@@ -9,21 +9,25 @@ namespace curveskel {
 namespace {
 
 /// A component's share of the working vertices. So that no number of components makes the work grow
-/// faster than the surface, what each is sure of falls where there are many of them.
+/// faster than the surface, what each is sure of falls where there are many of them; less far where
+/// its own vertices have a shape to tell than where they would be made by refining.
 /// What it may have grows with its handles: with fewer each, surgery finds no way to cut them.
 WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
                          const Topology& whole) {
   constexpr int sure_in_all = 200000;
-  constexpr int fewest = 200;  // few enough for any number, enough for the simplest of shapes
+  constexpr int fewest_made = 100;  // few enough for any number, enough for the simplest of shapes
+  constexpr int fewest_left = 200;
   constexpr int per_handle = 32;
   WorkingSize size;
   size.least =
-      std::min(options.least_resolution, std::max(fewest, sure_in_all / whole.components()));
+      std::min(options.least_resolution, std::max(fewest_made, sure_in_all / whole.components()));
   size.most = std::max(size.least, vertices);
   if (options.resolution <= 0) return size;
   const auto all = static_cast<double>(whole.component_of_vertex.size());
   const double share = double(options.resolution) * double(vertices) / all;
-  size.most = std::max({size.least, static_cast<int>(std::lround(share)), per_handle * genus});
+  const int sure_to_stay = std::min(options.least_resolution, fewest_left);
+  size.most = std::max(
+      {size.least, sure_to_stay, static_cast<int>(std::lround(share)), per_handle * genus});
   return size;
 }
 

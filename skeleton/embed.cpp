@@ -133,6 +133,19 @@ void keep_simple(Network& network) {
   }
 }
 
+/// How far apart the points of a strand may lie: D / 60, or more where the surface itself is so
+/// coarse that the curve would be sampled more finely than what it runs through.
+double most_spacing(const Surface& surface) {
+  constexpr double of_edge = 0.3;
+  double sum = 0;
+  for (const auto& t : surface.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      sum += (surface.positions.row(t(k)) - surface.positions.row(t((k + 1) % 3))).norm();
+    }
+  }
+  return std::max(1.0 / 60, of_edge * sum / static_cast<double>(surface.triangles.size()));
+}
+
 /// What the surgery has left out or left short.
 void grow_and_centre(Network& network, const Surface& surface, const InscribedBalls& balls,
                      const VertexGraph& graph, const SurfaceTree& tree, const EmbedOptions& options,
@@ -145,7 +158,7 @@ void grow_and_centre(Network& network, const Surface& surface, const InscribedBa
   centring.rounds = options.first_rounds;
   keep_inside(network, surface, balls, graph, tree);
   straighten_at_junctions(network, tree, options.straight, false);
-  resample(network, tree);
+  resample(network, tree, most_spacing(surface));
   relax(network, tree, centring, threads);
   prune_spurs(network, tree, 1);
 }
@@ -167,7 +180,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
   centring.rounds = options.first_rounds;
   do {
     straighten_at_junctions(network, tree, options.straight, false);
-    resample(network, tree);
+    resample(network, tree, most_spacing(surface));
     relax(network, tree, centring, threads);
     straighten_at_junctions(network, tree, options.straight, false);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
@@ -193,7 +206,7 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
   do {
     keep_simple(network);
     keep_inside(network, surface, balls, graph, tree);
-    thin_out(network, tree);
+    thin_out(network, tree, most_spacing(surface));
     cut_detours(network, tree);
     relax(network, tree, smoothing, threads);
     straighten_at_junctions(network, tree, options.straight_at_last, true);

@@ -21,7 +21,8 @@ struct ExtractOptions {
   /// Working vertices for the whole surface, but 32 for each handle of a component; 0 = all.
   int resolution = 8000;
   /// Working vertices for each component; fewer are refined. Of more than 133 components each is
-  /// sure of fewer, 200,000 over their number, but never of fewer than 200.
+  /// sure of fewer, 200,000 over their number, but none is coarsened to fewer than 200 or left at
+  /// fewer than 100.
   int least_resolution = 1500;
   int threads = 0;       ///< 0 = one per core; the result does not depend on it
   bool fairing = false;  ///< clean the input by `fair` first

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -205,14 +206,14 @@ class Keeper {
  public:
   Keeper(Network& network, const Surface& surface, const InscribedBalls& balls,
          const VertexGraph& graph, const SurfaceTree& tree)
-      : network_(network), graph_(graph), tree_(tree), chains_(surface, balls, graph) {}
+      : network_(network), surface_(surface), balls_(balls), graph_(graph), tree_(tree) {}
 
   int run() {
     for (Hub& hub : network_.hubs) {
       if (!hub.alive) continue;
       hub.position = pulled_inside(tree_, hub.position);
       if (tree_.inscribed_radius(hub.position) < least_radius) {
-        hub.position = chains_.nearest_centre(hub.position, groups_of(hub.nodes));
+        hub.position = chains().nearest_centre(hub.position, groups_of(hub.nodes));
       }
     }
     for (Strand& strand : network_.strands) {
@@ -254,7 +255,7 @@ class Keeper {
       const auto& more = network_.hubs[at(hub)].nodes;
       nodes.insert(nodes.end(), more.begin(), more.end());
     }
-    auto chain = chains_.chain(p, q, groups_of(nodes));
+    auto chain = chains().chain(p, q, groups_of(nodes));
     if (chain.empty()) {
       ++uncovered_;
       return {};
@@ -275,10 +276,18 @@ class Keeper {
     return points;
   }
 
+  /// Rarely needed, and as much work as all the rest.
+  BallChains& chains() {
+    if (!chains_) chains_.emplace(surface_, balls_, graph_);
+    return *chains_;
+  }
+
   Network& network_;
+  const Surface& surface_;
+  const InscribedBalls& balls_;
   const VertexGraph& graph_;
   const SurfaceTree& tree_;
-  BallChains chains_;
+  std::optional<BallChains> chains_;
   int uncovered_ = 0;
 };
 

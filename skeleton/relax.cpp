@@ -13,7 +13,6 @@ namespace curveskel {
 namespace {
 
 constexpr double least_spacing = 1.0 / 400;
-constexpr double most_spacing = 1.0 / 60;
 
 /// The polyline's points at equal steps of arc length, ends left out.
 std::vector<Point> evenly(const std::vector<Point>& line, int inner) {
@@ -51,16 +50,21 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
   const Point u = n.unitOrthogonal();
   const Point w = n.cross(u);
   const double limit = 3 * shortest;
-  Point sum = Point::Zero();
+  std::vector<Point> directions;
   for (int k = 0; k < rays; ++k) {
     const double angle = 2 * std::numbers::pi * k / rays;
-    const Point ray = std::cos(angle) * u + std::sin(angle) * w;
-    sum += std::min(limit, tree.ray(point, ray, limit).distance) * ray;
+    directions.push_back(std::cos(angle) * u + std::sin(angle) * w);
+  }
+  std::vector<double> distances(directions.size());
+  tree.rays_in_plane(point, n, directions, limit, distances);
+  Point sum = Point::Zero();
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    sum += std::min(limit, distances[k]) * directions[k];
   }
   return point + 2 * sum / rays;
 }
 
-void resample(Network& network, const SurfaceTree& tree) {
+void resample(Network& network, const SurfaceTree& tree, double most_spacing) {
   for (Strand& strand : network.strands) {
     if (!strand.alive) continue;
     const auto line = network.polyline(strand);
@@ -250,7 +254,7 @@ void centre_junctions(Network& network, const SurfaceTree& tree) {
   }
 }
 
-void thin_out(Network& network, const SurfaceTree& tree) {
+void thin_out(Network& network, const SurfaceTree& tree, double most_spacing) {
   for (Strand& strand : network.strands) {
     if (!strand.alive) continue;
     const auto line = network.polyline(strand);

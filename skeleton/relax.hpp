@@ -18,9 +18,9 @@ namespace curveskel {
 [[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
                                          const Point& direction, int rays, double radius);
 
-/// Places the inner points of each strand evenly, about half an inscribed radius apart.
-/// Lengths relative to D = 1.
-void resample(Network& network, const SurfaceTree& tree);
+/// Places the inner points of each strand evenly, about half an inscribed radius apart, but at most
+/// `most_spacing`. Lengths relative to D = 1.
+void resample(Network& network, const SurfaceTree& tree, double most_spacing);
 
 struct RelaxOptions {
   int rounds = 4;
@@ -39,9 +39,9 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
 /// one radius at most.
 void centre_junctions(Network& network, const SurfaceTree& tree);
 
-/// Drops inner points that crowd (nearer than half an inscribed radius) where the balls of their
-/// neighbours overlap without them.
-void thin_out(Network& network, const SurfaceTree& tree);
+/// Drops inner points that crowd (nearer than half an inscribed radius and than `most_spacing`)
+/// where the balls of their neighbours overlap without them.
+void thin_out(Network& network, const SurfaceTree& tree, double most_spacing);
 
 /// Takes the chord wherever the strand goes a detour within its own ball: between two points that
 /// lie in each other's balls it need not be longer than 1.4 chords. The chord lies in a ball, so

@@ -7,7 +7,10 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "surface/element_index.hpp"
@@ -74,18 +77,85 @@ void fan(HalfEdgeMesh& mesh, const std::vector<MeshHalfEdge>& border) {
   for (const MeshHalfEdge h : border) mesh.add_face(mesh.source(h), mesh.target(h), middle);
 }
 
-void fill(ClosingMesh& closing, MeshHalfEdge at_hole) {
-  HalfEdgeMesh& mesh = closing.mesh;
+std::vector<MeshHalfEdge> border_of(const HalfEdgeMesh& mesh, MeshHalfEdge at_hole) {
   std::vector<MeshHalfEdge> border;
   for (const MeshHalfEdge h : CGAL::halfedges_around_face(at_hole, mesh)) border.push_back(h);
-  constexpr std::size_t most_by_cubic_algorithm = 500;
+  return border;
+}
+
+/// Adds a ring of triangles with half as many edges within the hole, as wide as the edges of a
+/// round hole of that size are long, and returns a half-edge of the hole that is left. Teeth of the
+/// border are half smoothed away.
+MeshHalfEdge add_ring(HalfEdgeMesh& mesh, MeshHalfEdge at_hole) {
+  const std::vector<MeshHalfEdge> border = border_of(mesh, at_hole);
+  const std::size_t corners = border.size();
+  const std::size_t ring_size = corners / 2;
+  std::vector<MeshVertex> outer;
+  ClosingKernel::Vector_3 sum(0, 0, 0);
+  for (const MeshHalfEdge h : border) {
+    outer.push_back(mesh.source(h));
+    sum = sum + (mesh.point(outer.back()) - CGAL::ORIGIN);
+  }
+  const ClosingKernel::Point_3 middle = CGAL::ORIGIN + sum / static_cast<double>(corners);
+  double radius = 0;
+  for (const MeshVertex v : outer) {
+    radius += std::sqrt(CGAL::squared_distance(mesh.point(v), middle)) / double(corners);
+  }
+  const double width = 2 * std::numbers::pi * radius / double(corners);
+  std::vector<MeshVertex> ring;
+  for (std::size_t j = 0; j < ring_size; ++j) {
+    const auto& here = mesh.point(outer[2 * j]);
+    const auto& before = mesh.point(outer[(2 * j + corners - 1) % corners]);
+    const auto& after = mesh.point(outer[2 * j + 1]);
+    const auto smooth = CGAL::midpoint(here, CGAL::midpoint(before, after));
+    const auto inward = middle - smooth;
+    const double distance = std::sqrt(inward.squared_length());
+    ring.push_back(
+        mesh.add_vertex(distance > 0 ? smooth + inward * std::min(0.5, width / distance) : smooth));
+  }
+  for (std::size_t j = 0; j < ring_size; ++j) {
+    const MeshVertex next = ring[(j + 1) % ring_size];
+    const std::size_t end = j + 1 < ring_size ? 2 * j + 2 : corners;
+    mesh.add_face(outer[2 * j], outer[2 * j + 1], ring[j]);
+    mesh.add_face(outer[2 * j + 1], next, ring[j]);
+    for (std::size_t i = 2 * j + 1; i < end; ++i) {
+      mesh.add_face(outer[i], outer[(i + 1) % corners], next);
+    }
+    at_hole = mesh.halfedge(ring[j], next);
+  }
+  return at_hole;
+}
+
+/// Ends the search for a triangulation when the user wants it.
+class StopAtSteps : public pmp::Hole_filling::Default_visitor {
+ public:
+  explicit StopAtSteps(const std::stop_token& token) : stop_(&token) {}
+  void quadratic_step() const { look(); }
+  void cubic_step() const { look(); }
+
+ private:
+  void look() const {
+    if (stop_->stop_requested()) throw Cancelled();
+  }
+  const std::stop_token* stop_;
+};
+
+/// Returns whether rings came first.
+bool fill(ClosingMesh& closing, MeshHalfEdge at_hole, const Monitor& monitor) {
+  HalfEdgeMesh& mesh = closing.mesh;
+  std::vector<MeshHalfEdge> border = border_of(mesh, at_hole);
+  const bool narrowed = border.size() > at(most_edges_without_rings);
+  while (border.size() > at(most_edges_without_rings)) {
+    at_hole = add_ring(mesh, at_hole);
+    border = border_of(mesh, at_hole);
+  }
   std::vector<MeshFace> faces;
   std::vector<MeshVertex> vertices;
   pmp::triangulate_and_refine_hole(
       mesh, at_hole, std::back_inserter(faces), std::back_inserter(vertices),
-      CGAL::parameters::use_delaunay_triangulation(true).do_not_use_cubic_algorithm(
-          border.size() > most_by_cubic_algorithm));
+      CGAL::parameters::use_delaunay_triangulation(true).visitor(StopAtSteps(monitor.stop)));
   if (faces.empty()) fan(mesh, border);
+  return narrowed;
 }
 
 std::vector<MeshHalfEdge> border_cycles(const HalfEdgeMesh& mesh) {
@@ -135,7 +205,7 @@ ClosedParts close_surface(const Surface& given, const Monitor& monitor) {
     for (const MeshHalfEdge h : CGAL::halfedges_around_face(cycles[c], closing.mesh)) {
       hole.push_back(static_cast<std::int32_t>(closing.mesh.target(h)));
     }
-    fill(closing, cycles[c]);
+    parts.holes_narrowed += fill(closing, cycles[c], monitor) ? 1 : 0;
   }
   to_arrays(closing, parts);
   monitor.report("repair", 0.9);

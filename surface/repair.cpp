@@ -261,6 +261,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   if (joined.surface.triangles.rows() == 0) throw refusal;
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
+  result.repairs.holes_narrowed = closed.holes_narrowed;
   JudgedParts judged = judge(closed, joined, options, threads);
   if (is_one_sided(joined, closed.vertices_copied)) {
     for (Part& part : judged.parts) part.is_body = false;
@@ -342,6 +343,9 @@ void describe(Repairs& repairs, const Monitor& monitor) {
        "closed with " + std::to_string(repairs.faces_added) + " faces and " +
            std::to_string(repairs.vertices_added) + " vertices (the longest has " +
            std::to_string(repairs.longest_hole) + " edges)");
+  line(repairs.holes_narrowed, "hole", "holes",
+       "of more than " + std::to_string(most_edges_without_rings) +
+           " edges narrowed by rings of triangles, each of half as many, before it was closed");
   line(repairs.faces_wrapped, "face", "faces",
        "wrapped, as no closing of the holes gives them an inside; the wrap spans gaps up to " +
            share_words(repairs.wrap_opening) + " D and lies " +

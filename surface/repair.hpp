@@ -33,7 +33,8 @@ struct Repairs {
   std::int64_t vertices_joined = 0;  ///< with another that lay within the join distance
   std::int64_t vertices_copied = 0;  ///< where faces met in no orientable 2-manifold
   std::int64_t holes_closed = 0;
-  std::int64_t longest_hole = 0;  ///< edges round the longest of them
+  std::int64_t longest_hole = 0;    ///< edges round the longest of them
+  std::int64_t holes_narrowed = 0;  ///< by rings before they were closed, see `ClosedParts`
   std::int64_t faces_added = 0;
   std::int64_t vertices_added = 0;
   std::int64_t copies_dropped = 0;  ///< components that coincide with an earlier one

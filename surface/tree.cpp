@@ -1,5 +1,8 @@
 #include "surface/tree.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "surface/tree_queries.hpp"
 #include "surface/wide_tree.hpp"
 
@@ -61,6 +64,18 @@ SurfaceTree::Hit SurfaceTree::ray(const Eigen::Vector3d& origin, const Eigen::Ve
                                 here.direction_to_local(direction), limit * here.scale);
   if (hit.triangle < 0) return {};
   return {hit.distance / here.scale, hit.triangle};
+}
+
+void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
+                                std::span<const Eigen::Vector3d> directions, double limit,
+                                std::span<double> distances) const {
+  const Implementation& here = *implementation_;
+  std::vector<Eigen::Vector3d> local(directions.size());
+  std::transform(directions.begin(), directions.end(), local.begin(),
+                 [&](const Eigen::Vector3d& d) { return here.direction_to_local(d); });
+  find_distances_in_plane(*here.tree, here.to_local(origin), here.direction_to_local(normal), local,
+                          limit * here.scale, distances);
+  for (double& distance : distances) distance /= here.scale;
 }
 
 bool SurfaceTree::inside(const Eigen::Vector3d& point) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <span>
 
 #include "surface/wide_tree.hpp"
 
@@ -24,6 +25,12 @@ struct LocalHit {
 };
 [[nodiscard]] LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
                                 const Eigen::Vector3d& direction, double limit);
+
+/// find_hit's distances for directions normal to `normal`.
+void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin,
+                             const Eigen::Vector3d& normal,
+                             std::span<const Eigen::Vector3d> directions, double limit,
+                             std::span<double> distances);
 
 /// Whether the surface winds around p a non-zero number of times.
 [[nodiscard]] bool winds_around(const WideTree& tree, const Eigen::Vector3d& p);

@@ -132,6 +132,113 @@ Winding winding_along(const WideTree& tree, const Eigen::Vector3d& origin,
   return winding;
 }
 
+bool outside_box(const WideTree& tree, const Eigen::Vector3d& p) {
+  return (p.array() < tree.lower.array()).any() || (p.array() > tree.upper.array()).any();
+}
+
+// Takes the leaf's first triangle on the ray if it is nearer than the hit so far.
+void meet(const WideTree& tree, const TriangleLeaf& leaf, const ShearedRay& sheared,
+          LocalHit& hit) {
+  for (std::size_t pair = 0; pair < 2; ++pair) {
+    const Crossings crossing = crossings(tree, leaf, pair, sheared);
+    for (int lane = 0; lane < 2; ++lane) {
+      const double u = crossing.u[lane];
+      const double v = crossing.v[lane];
+      const double w = crossing.w[lane];
+      if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) continue;
+      const double determinant = crossing.determinant[lane];
+      if (determinant == 0) continue;
+      const double depth = crossing.scaled_depth[lane] / determinant;
+      if (depth > 0 && depth <= hit.distance && (hit.triangle < 0 || depth < hit.distance)) {
+        hit.distance = depth;
+        hit.triangle = leaf.triangle(pair * 2 + static_cast<std::size_t>(lane));
+      }
+    }
+  }
+}
+
+// The leaves that a plane meets within some distance of a point, nearest first: one traversal for
+// any number of rays.
+class LeavesInPlane {
+ public:
+  // False if there are too many.
+  bool gather(const WideTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
+              double limit) {
+    const std::array<Float4, 3> p = four(origin);
+    const std::array<Float4, 3> n = four(normal);
+    const std::array<Float4, 3> size = four(Eigen::Vector3d(normal.cwiseAbs()));
+    const float open = static_cast<float>(limit * limit) * slack;
+    Stack stack;
+    stack.push({0, 0});
+    while (!stack.empty()) {
+      const WideNode& node = tree.nodes[static_cast<std::size_t>(stack.pop().child)];
+      Float4 height{0, 0, 0, 0};  // of the boxes' middles above the plane, doubled
+      Float4 reach = four(4 * static_cast<double>(box_margin));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        height += n[axis] * ((node.lo[axis] - p[axis]) + (node.hi[axis] - p[axis]));
+        reach += size[axis] * (node.hi[axis] - node.lo[axis]);
+      }
+      const auto meets = (height <= reach) & (-height <= reach);
+      Float4 bounds = meets ? squared_distances(node, p) : four(infinity);
+      for (int i = 0; i < 4; ++i) {
+        if (!(bounds[i] < open) || node.child[static_cast<std::size_t>(i)] >= 0) continue;
+        if (!add(node, i)) return false;
+        bounds[i] = std::numeric_limits<float>::infinity();
+      }
+      stack.push_sorted(node, bounds, open);
+    }
+    close();
+    return true;
+  }
+
+  [[nodiscard]] LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction, double limit) const {
+    const ShearedRay sheared(origin, direction);
+    const BoxRay ray(origin, direction);
+    const auto bound = [](double depth) {
+      return static_cast<float>(depth) * slack + 2 * box_margin;
+    };
+    LocalHit hit{limit, -1};
+    for (std::size_t g = 0; g < groups_; ++g) {
+      const Float4 entries = ray.entries(group_[g]);
+      for (int i = 0; i < 4; ++i) {
+        if (!(entries[i] < bound(hit.distance))) continue;
+        meet(tree, tree.leaf(group_[g].child[static_cast<std::size_t>(i)]), sheared, hit);
+      }
+    }
+    return hit;
+  }
+
+ private:
+  bool add(const WideNode& from, int i) {
+    if (used_ == 0 && groups_ == group_.size()) return false;
+    if (used_ == 0) ++groups_;
+    WideNode& group = group_[groups_ - 1];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      group.lo[axis][used_] = from.lo[axis][i];
+      group.hi[axis][used_] = from.hi[axis][i];
+    }
+    group.child[static_cast<std::size_t>(used_)] = from.child[static_cast<std::size_t>(i)];
+    used_ = (used_ + 1) % 4;
+    return true;
+  }
+
+  // No ray enters what is left of the last group.
+  void close() {
+    for (; used_ != 0; used_ = (used_ + 1) % 4) {
+      WideNode& group = group_[groups_ - 1];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        group.lo[axis][used_] = 1e30F;
+        group.hi[axis][used_] = -1e30F;
+      }
+    }
+  }
+
+  std::array<WideNode, 64> group_;  // boxes and leaves alone
+  std::size_t groups_ = 0;
+  int used_ = 0;  // places of the last group, 0 = all
+};
+
 }  // namespace
 
 LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
@@ -139,31 +246,27 @@ LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
   const ShearedRay sheared(origin, direction);
   LocalHit hit{limit, -1};
   along_ray(tree, origin, direction, hit.distance, [&](const TriangleLeaf& leaf) {
-    for (std::size_t pair = 0; pair < 2; ++pair) {
-      const Crossings crossing = crossings(tree, leaf, pair, sheared);
-      for (int lane = 0; lane < 2; ++lane) {
-        const double u = crossing.u[lane];
-        const double v = crossing.v[lane];
-        const double w = crossing.w[lane];
-        if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) continue;
-        const double determinant = crossing.determinant[lane];
-        if (determinant == 0) continue;
-        const double depth = crossing.scaled_depth[lane] / determinant;
-        if (depth > 0 && depth <= hit.distance && (hit.triangle < 0 || depth < hit.distance)) {
-          hit.distance = depth;
-          hit.triangle = leaf.triangle(pair * 2 + static_cast<std::size_t>(lane));
-        }
-      }
-    }
+    meet(tree, leaf, sheared, hit);
     return hit.distance;
   });
   return hit;
 }
 
-bool winds_around(const WideTree& tree, const Eigen::Vector3d& p) {
-  if ((p.array() < tree.lower.array()).any() || (p.array() > tree.upper.array()).any()) {
-    return false;
+void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin,
+                             const Eigen::Vector3d& normal,
+                             std::span<const Eigen::Vector3d> directions, double limit,
+                             std::span<double> distances) {
+  LeavesInPlane leaves;
+  const bool gathered = !outside_box(tree, origin) && leaves.gather(tree, origin, normal, limit);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const LocalHit hit = gathered ? leaves.find_hit(tree, origin, directions[i], limit)
+                                  : find_hit(tree, origin, directions[i], limit);
+    distances[i] = hit.triangle < 0 ? infinity : hit.distance;
   }
+}
+
+bool winds_around(const WideTree& tree, const Eigen::Vector3d& p) {
+  if (outside_box(tree, p)) return false;
   Winding winding;
   for (int attempt = 0; attempt < 24; ++attempt) {
     winding = winding_along(tree, p, scattered_direction(attempt));

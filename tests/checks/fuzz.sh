@@ -15,7 +15,7 @@ if ! clang++-14 -fsanitize=fuzzer,address "$work/empty.cpp" -o "$work/empty" 2>"
   exit 77
 fi
 
-fuzzers=(obj off ply stl gltf gz
+fuzzers=(obj off ply stl gltf gz rig
   skeleton_obj skeleton_ply skeleton_cgal skeleton_swc skeleton_vtp skeleton_graphml skeleton_json)
 cmake --preset fuzz >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 ninja -C build/fuzz -j "$(packages/jobs)" "${fuzzers[@]/%/_fuzzer}"
@@ -25,7 +25,7 @@ feed() {
   local format=${1#skeleton_} found=$work/$1 seeds=$work/$1-seeds
   mkdir -p "$found" "$seeds"
   cp fuzz/corpus/"$1"/* "$seeds"
-  [ "$format" != "$1" ] || find ../shared/meshes/defects -name "*.$format" -size -64k \
+  [ "$format" != "$1" ] || find ../shared/meshes/defects -name "*.${format/gltf/gl[tb]*}" -size -64k \
     -exec cp -t "$seeds" {} + 2>/dev/null || true
   if ! build/fuzz/bin/"$1"_fuzzer -seed=1 -runs="$inputs" -max_len=4096 -timeout=20 \
     -rss_limit_mb=1500 -artifact_prefix="build/fuzz/$1-" -verbosity=0 "$found" "$seeds" \

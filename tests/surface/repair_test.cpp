@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "surface/close_surface.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::repair_laws {
@@ -177,6 +179,58 @@ TEST(Repairing, ATubeOpenAtBothEnds) {
     for (const std::int32_t v : opening) {
       EXPECT_NEAR(std::abs(result.surface.positions(v, 0)), 2.5, 0.15);
     }
+  }
+}
+
+/// The lower half of a ball, its rim with so many teeth of random height.
+PolygonSoup jagged_bowl(int teeth, double height) {
+  constexpr int rows = 4;
+  shapes::Random random(1);
+  PolygonSoup soup;
+  soup.positions.resize(Eigen::Index{rows} * teeth + 1, 3);
+  soup.positions.row(0) << 0, 0, -1;
+  soup.offsets = {0};
+  const auto vertex = [teeth](int row, int i) { return 1 + (row - 1) * teeth + i % teeth; };
+  for (int row = 1; row <= rows; ++row) {
+    for (int i = 0; i < teeth; ++i) {
+      const double turn = 2 * 3.14159265358979 * i / teeth;
+      const double rise = row == rows ? random.uniform(-height, height) : 0;
+      const double angle = 3.14159265358979 / 2 * (row / double(rows) + rise);
+      soup.positions.row(vertex(row, i)) << std::sin(angle) * std::cos(turn),
+          std::sin(angle) * std::sin(turn), -std::cos(angle);
+      if (row == 1) {
+        append(soup, {0, vertex(1, i + 1), vertex(1, i)});
+      } else {
+        append(soup, {vertex(row - 1, i), vertex(row - 1, i + 1), vertex(row, i + 1)});
+        append(soup, {vertex(row - 1, i), vertex(row, i + 1), vertex(row, i)});
+      }
+    }
+  }
+  return soup;
+}
+
+TEST(Repairing, AHoleOfAnyLengthTakesFacesInProportion) {
+  constexpr double half_ball = 2 * 3.14159265358979 / 3;
+  struct Rim {
+    int edges;
+    double height;  // of its teeth
+  };
+  // Of a ragged rim that is not narrowed, CGAL's triangles cut off a tenth of the volume.
+  for (const Rim& rim : {Rim{500, 0}, Rim{501, 0}, Rim{501, 0.03}, Rim{20000, 0.03}}) {
+    SCOPED_TRACE(rim.edges);
+    const RepairedSurface result = repair(jagged_bowl(rim.edges, rim.height), {}, {});
+    expect_closed_outward_manifold(result.surface);
+    EXPECT_EQ(genus_of(result.surface), 0);
+    EXPECT_NEAR(volume(result.surface), half_ball, 0.06 * half_ball);
+    EXPECT_EQ(result.repairs.holes_closed, 1);
+    EXPECT_EQ(result.repairs.longest_hole, rim.edges);
+    EXPECT_LT(result.repairs.faces_added, 3 * rim.edges + 100000);
+    ASSERT_EQ(result.openings.size(), 1U);
+    EXPECT_EQ(result.openings[0].size(), static_cast<std::size_t>(rim.edges));
+    const bool narrowed = rim.edges > most_edges_without_rings;
+    EXPECT_EQ(result.repairs.holes_narrowed, narrowed ? 1 : 0);
+    ASSERT_EQ(result.repairs.lines.size(), narrowed ? 2U : 1U);
+    if (narrowed) expect_said(result.repairs.lines[1], {"narrowed by rings"});
   }
 }
 

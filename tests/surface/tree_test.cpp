@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <string>
@@ -18,6 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Shape {
   std::string name;
@@ -285,6 +287,31 @@ TEST(SurfaceTree, NoRaySlipsThroughSharedEdgesAndVertices) {
             const Vector3d outside = centre + 5 * (target - centre);
             ASSERT_GE(tree.ray(outside, (centre - outside).normalized()).triangle, 0);
           }
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfaceTree, RaysInAPlaneAreRays) {
+  for (const auto& [name, surface] : shapes()) {
+    SCOPED_TRACE(name);
+    const SurfaceTree tree(surface);
+    const double diagonal = bounding_box_diagonal(surface.positions);
+    Points points(surface);
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d p = points.next();
+      const Vector3d n = (points.next() - p).normalized();
+      const Vector3d u = n.unitOrthogonal();
+      std::vector<Vector3d> directions;
+      for (int k = 0; k < 12; ++k) {
+        directions.push_back(std::cos(pi * k / 6) * u + std::sin(pi * k / 6) * n.cross(u));
+      }
+      std::vector<double> distances(directions.size());
+      for (const double limit : {0.1 * diagonal, infinity}) {
+        tree.rays_in_plane(p, n, directions, limit, distances);
+        for (std::size_t k = 0; k < directions.size(); ++k) {
+          ASSERT_EQ(distances[k], tree.ray(p, directions[k], limit).distance);
         }
       }
     }
