@@ -15,10 +15,12 @@ constexpr std::size_t least_vertices = 8;
 // In inscribed radii where the branch begins.
 constexpr double least_branch = 1.5;
 constexpr double least_extension = 2;
-constexpr double least_ball = 0.1;  // at the tip of a branch: a crease is no limb
-constexpr double most_ball = 1.2;   // a wider one is where the strand comes from
+// At the summit: a crease is no limb, nor is the corner of a blunt end.
+constexpr double least_branch_ball = 0.12;
+constexpr double least_extension_ball = 0.25;
+constexpr double most_ball = 1.2;  // a wider one is where the strand comes from
 constexpr double least_extension_slenderness = 1.5;
-/// What lies this much nearer to the sphere's centre than the vertex does is within the sphere.
+/// The network does not enter a part while its vertices' places are this much nearer to the centre.
 constexpr double within = 0.6;
 
 /// The place of the network that a vertex belongs to.
@@ -164,7 +166,7 @@ class Growth {
     const Point& base = network_.hubs[at(tip)].position;
     const double radius = tree_.inscribed_radius(base);
     if ((place(v) - base).norm() < least_extension * radius) return {};
-    return made(v, tip, standout(base, v), 0, radius);
+    return made(v, tip, standout(base, v), least_extension_ball, radius);
   }
 
   [[nodiscard]] Summit branch(int v, int hub, double radius) {
@@ -180,7 +182,7 @@ class Growth {
       best = here;
       hub = end;
     }
-    return made(v, hub, best, least_ball, radius);
+    return made(v, hub, best, least_branch_ball, radius);
   }
 
   /// Those that deserve a branch, most slender first.
