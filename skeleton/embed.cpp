@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contraction/laplacian.hpp"
 #include "skeleton/grow.hpp"
@@ -152,11 +153,14 @@ void grow_and_centre(Network& network, const Surface& surface, const InscribedBa
                      int threads) {
   constexpr double least_slenderness = 1;  // that of a half-ball
   const double limit = std::max(least_slenderness, slenderness_limit(options.detail));
-  if (grow_branches(network, surface, tree, balls, graph, limit) == 0) return;
+  Network grown = network;
+  if (grow_branches(grown, surface, tree, balls, graph, limit) == 0) return;
+  // Where the parts that stick out are so thin that no way leads into them, all stays as it is.
+  if (keep_inside(grown, surface, balls, graph, tree) > 0) return;
+  network = std::move(grown);
   RelaxOptions centring;
   centring.keep = options.keep_radius;
   centring.rounds = options.first_rounds;
-  keep_inside(network, surface, balls, graph, tree);
   straighten_at_junctions(network, tree, options.straight, false);
   resample(network, tree, most_spacing(surface));
   relax(network, tree, centring, threads);
