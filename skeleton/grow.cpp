@@ -11,7 +11,7 @@ namespace curveskel {
 namespace {
 
 constexpr int most_passes = 8;
-constexpr std::size_t least_vertices = 8;
+constexpr std::size_t fewest_vertices = 8;
 // In inscribed radii where the branch begins.
 constexpr double least_branch = 1.5;
 constexpr double least_extension = 2;
@@ -131,7 +131,7 @@ class Growth {
     const auto is_own = [&](int v) {
       return (hosts_[at(v)].place - base).norm() < within * (place(v) - base).norm();
     };
-    return sweep_(base, summit, is_own, std::numeric_limits<double>::infinity(), least_vertices);
+    return sweep_(base, summit, is_own, std::numeric_limits<double>::infinity(), fewest_vertices);
   }
 
   /// Vertices from which no edge leads farther away from the network.
