@@ -25,7 +25,8 @@ Shape crowd(int components) {
   std::vector<Shape> parts;
   for (int c = 0; c < components; ++c) {
     const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
-    const Eigen::Vector3d cell(c % side, c / side % side, c / (side * side));
+    const int layer = c / (side * side);
+    const Eigen::Vector3d cell(c % side, c / side % side, layer);
     const Eigen::Vector3d jitter(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
     parts.push_back(
         shapes::translated(shapes::rotated(box, axis, random.uniform(0, 3)), 5 * cell + jitter));

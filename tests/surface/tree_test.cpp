@@ -303,9 +303,9 @@ TEST(SurfaceTree, RaysInAPlaneAreRays) {
       const Vector3d p = points.next();
       const Vector3d n = (points.next() - p).normalized();
       const Vector3d u = n.unitOrthogonal();
-      std::vector<Vector3d> directions;
+      std::vector<Vector3d> directions(12);
       for (int k = 0; k < 12; ++k) {
-        directions.push_back(std::cos(pi * k / 6) * u + std::sin(pi * k / 6) * n.cross(u));
+        directions[k] = std::cos(pi * k / 6) * u + std::sin(pi * k / 6) * n.cross(u);
       }
       std::vector<double> distances(directions.size());
       for (const double limit : {0.1 * diagonal, infinity}) {
