@@ -73,15 +73,6 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-PolygonSoup soup_of(const Surface& surface) {
-  PolygonSoup soup;
-  soup.positions = surface.positions;
-  soup.corners.assign(surface.triangles.data(),
-                      surface.triangles.data() + surface.triangles.size());
-  for (Eigen::Index f = 0; f <= surface.triangles.rows(); ++f) soup.offsets.push_back(3 * f);
-  return soup;
-}
-
 void measure(const Shape& shape) {
   const PolygonSoup soup = soup_of(shape.surface);
   const auto start = std::chrono::steady_clock::now();

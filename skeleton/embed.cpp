@@ -149,8 +149,8 @@ double most_spacing(const Surface& surface) {
 
 /// What the surgery has left out or left short.
 void grow_and_centre(Network& network, const Surface& surface, const InscribedBalls& balls,
-                     const VertexGraph& graph, const SurfaceTree& tree, const EmbedOptions& options,
-                     int threads) {
+                     const VertexGraph& graph, const SurfaceTree& tree, double spacing,
+                     const EmbedOptions& options, int threads) {
   constexpr double least_slenderness = 1;  // that of a half-ball
   const double limit = std::max(least_slenderness, slenderness_limit(options.detail));
   Network grown = network;
@@ -162,7 +162,7 @@ void grow_and_centre(Network& network, const Surface& surface, const InscribedBa
   centring.keep = options.keep_radius;
   centring.rounds = options.first_rounds;
   straighten_at_junctions(network, tree, options.straight, false);
-  resample(network, tree, most_spacing(surface));
+  resample(network, tree, spacing);
   relax(network, tree, centring, threads);
   prune_spurs(network, tree, 1);
 }
@@ -179,19 +179,20 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
   merge_junctions(network, tree, options.merge);
   monitor.report("embed", 0.2);
 
+  const double spacing = most_spacing(surface);
   RelaxOptions centring;
   centring.keep = options.keep_radius;
   centring.rounds = options.first_rounds;
   do {
     straighten_at_junctions(network, tree, options.straight, false);
-    resample(network, tree, most_spacing(surface));
+    resample(network, tree, spacing);
     relax(network, tree, centring, threads);
     straighten_at_junctions(network, tree, options.straight, false);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
-  grow_and_centre(network, surface, balls, graph, tree, options, threads);
+  grow_and_centre(network, surface, balls, graph, tree, spacing, options, threads);
   merge_junctions(network, tree, options.merge);  // centred, they may have come together
   centring.rounds = options.relax_rounds;
   relax(network, tree, centring, threads);
@@ -203,6 +204,7 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
 CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
                      const InscribedBalls& balls, const VertexGraph& graph,
                      const EmbedOptions& options, int threads, const Monitor& monitor) {
+  const double spacing = most_spacing(surface);
   RelaxOptions smoothing;
   smoothing.keep = options.keep_radius;
   smoothing.covered = true;
@@ -210,7 +212,7 @@ CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree&
   do {
     keep_simple(network);
     keep_inside(network, surface, balls, graph, tree);
-    thin_out(network, tree, most_spacing(surface));
+    thin_out(network, tree, spacing);
     cut_detours(network, tree);
     relax(network, tree, smoothing, threads);
     straighten_at_junctions(network, tree, options.straight_at_last, true);

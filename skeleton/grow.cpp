@@ -153,23 +153,27 @@ class Growth {
     return vertices;
   }
 
-  /// The branch from a hub, or from the vertex's host where there is none; no slenderness if there
-  /// can be none.
-  [[nodiscard]] Summit made(int v, int hub, const Standout& found, double least, double radius) {
+  /// The branch from a hub, or from the vertex's host where there is none; no vertex if there can
+  /// be none.
+  [[nodiscard]] Summit made(int v, int hub, const Standout& found, double least_slenderness,
+                            double least_ball, double radius) {
+    if (found.slenderness < least_slenderness) return {};
     const Point inwards = found.rim_centre - place(v);
     const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
-    const bool fits = ball.radius > least * radius && ball.radius < most_ball * radius;
-    return {v, hub, fits ? found.slenderness : 0, ball.centre};
+    const bool fits = ball.radius > least_ball * radius && ball.radius < most_ball * radius;
+    if (!fits) return {};
+    return {v, hub, found.slenderness, ball.centre};
   }
 
   [[nodiscard]] Summit extension(int v, int tip) {
     const Point& base = network_.hubs[at(tip)].position;
     const double radius = tree_.inscribed_radius(base);
     if ((place(v) - base).norm() < least_extension * radius) return {};
-    return made(v, tip, standout(base, v), least_extension_ball, radius);
+    return made(v, tip, standout(base, v), least_extension_slenderness, least_extension_ball,
+                radius);
   }
 
-  [[nodiscard]] Summit branch(int v, int hub, double radius) {
+  [[nodiscard]] Summit branch(int v, int hub, double radius, double limit) {
     const Host& host = hosts_[at(v)];
     Standout best = standout(host.place, v);
     const Strand& strand = network_.strands[at(host.strand)];
@@ -182,7 +186,7 @@ class Growth {
       best = here;
       hub = end;
     }
-    return made(v, hub, best, least_branch_ball, radius);
+    return made(v, hub, best, limit, least_branch_ball, radius);
   }
 
   /// Those that deserve a branch, most slender first.
@@ -193,10 +197,8 @@ class Growth {
       if (height(v) < least_branch * radius) continue;
       const int hub = hub_at(hosts_[at(v)], radius);
       const bool extends = hub >= 0 && network_.degree(hub) == 1;
-      const Summit summit = extends ? extension(v, hub) : branch(v, hub, radius);
-      if (summit.slenderness >= (extends ? least_extension_slenderness : limit)) {
-        found.push_back(summit);
-      }
+      const Summit summit = extends ? extension(v, hub) : branch(v, hub, radius, limit);
+      if (summit.vertex >= 0) found.push_back(summit);
     }
     std::stable_sort(found.begin(), found.end(), [](const Summit& a, const Summit& b) {
       return a.slenderness > b.slenderness;

@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "surface/element_index.hpp"
 #include "surface/parallel.hpp"
 
 namespace curveskel {
@@ -42,7 +44,7 @@ std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& 
 }
 
 Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
-                           int rays, double radius) {
+                           double radius) {
   const double shortest = radius;
   const double length = direction.norm();
   if (!(shortest > 0) || !(length > 0)) return point;
@@ -50,15 +52,16 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
   const Point u = n.unitOrthogonal();
   const Point w = n.cross(u);
   const double limit = 3 * shortest;
-  std::vector<Point> directions;
+  constexpr int rays = 12;
+  std::array<Point, rays> directions;
   for (int k = 0; k < rays; ++k) {
     const double angle = 2 * std::numbers::pi * k / rays;
-    directions.push_back(std::cos(angle) * u + std::sin(angle) * w);
+    directions[at(k)] = std::cos(angle) * u + std::sin(angle) * w;
   }
-  std::vector<double> distances(directions.size());
+  std::array<double, rays> distances{};
   tree.rays_in_plane(point, n, directions, limit, distances);
   Point sum = Point::Zero();
-  for (std::size_t k = 0; k < directions.size(); ++k) {
+  for (std::size_t k = 0; k < rays; ++k) {
     sum += std::min(limit, distances[k]) * directions[k];
   }
   return point + 2 * sum / rays;
@@ -161,8 +164,7 @@ void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tre
     last_move[i] = 0;
     const Point& before = i > 0 ? points[i - 1] : line.front();
     const Point& after = i + 1 < points.size() ? points[i + 1] : line.back();
-    const Point centre =
-        cross_section_centre(tree, points[i], after - before, options.rays, radius[i + 1]);
+    const Point centre = cross_section_centre(tree, points[i], after - before, radius[i + 1]);
     const Point target = 0.5 * (points[i] + centre);
     // Along a cubic through two points either way, which does not cut corners (bilaplacian).
     Point middle = 0.5 * (before + after);

@@ -13,10 +13,10 @@ namespace curveskel {
                                            const std::vector<Point>& points);
 
 /// The centre of the cross-section through `point` normal to `direction`: twice the mean of the
-/// vectors along rays to the surface, which is exact to first order for a circle. `rays` rays, each
-/// cut at three times the point's inscribed `radius`. The point itself if that is not positive.
+/// vectors along rays to the surface, which is exact to first order for a circle. 12 rays, each cut
+/// at three times the point's inscribed `radius`. The point itself if that is not positive.
 [[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
-                                         const Point& direction, int rays, double radius);
+                                         const Point& direction, double radius);
 
 /// Places the inner points of each strand evenly, about half an inscribed radius apart, but at most
 /// `most_spacing`. Lengths relative to D = 1.
@@ -24,7 +24,6 @@ void resample(Network& network, const SurfaceTree& tree, double most_spacing);
 
 struct RelaxOptions {
   int rounds = 4;
-  int rays = 12;                ///< in the plane normal to the strand
   double keep = 0.8;            ///< share of its inscribed radius that a moved point must keep
   double keep_junction = 0.95;  ///< the same for junctions, which belong in the thickest place
   double smoothing = 0.5;       ///< share of the neighbours' middle in a point's new place

@@ -49,10 +49,13 @@ void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap)
     const double left = tree.ray(tip, direction).distance;
     if (left <= gap * radius || !std::isfinite(left)) break;
     const Point guess = tip + std::min(0.5 * radius, left - radius) * direction;
-    Point next = 0.5 * (guess + cross_section_centre(tree, guess, direction, 12,
-                                                     tree.inscribed_radius(guess)));
-    if (tree.inscribed_radius(next) < tree.inscribed_radius(guess)) next = guess;
+    const double guess_radius = tree.inscribed_radius(guess);
+    Point next = 0.5 * (guess + cross_section_centre(tree, guess, direction, guess_radius));
     radius = tree.inscribed_radius(next);
+    if (radius < guess_radius) {
+      next = guess;
+      radius = guess_radius;
+    }
     if (radius < least_tip_radius || radius > widest) break;
     if ((next - tip).normalized().dot(first_heading) < 0.7) break;
     line.push_back(next);

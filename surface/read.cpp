@@ -53,6 +53,18 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
 
 }  // namespace
 
+PolygonSoup soup_of(const Surface& surface) {
+  PolygonSoup soup;
+  soup.positions = surface.positions;
+  soup.corners.assign(surface.triangles.data(),
+                      surface.triangles.data() + surface.triangles.size());
+  soup.offsets.resize(static_cast<std::size_t>(surface.triangles.rows()) + 1);
+  for (std::size_t f = 0; f < soup.offsets.size(); ++f) {
+    soup.offsets[f] = static_cast<std::int64_t>(3 * f);
+  }
+  return soup;
+}
+
 PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
   std::optional<SurfaceFormat> format = format_by_content(file);
   if (!format) format = format_by_extension(file.path);

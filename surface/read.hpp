@@ -31,6 +31,9 @@ struct PolygonSoup {
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
 };
 
+/// The triangles as polygons, of no file.
+[[nodiscard]] PolygonSoup soup_of(const Surface& surface);
+
 /// Reads any supported file, gzipped or not (".ply.gz"); the format follows from the content where
 /// that is unambiguous and from the extension otherwise.
 /// Throws Error(Fault::input) naming the file and, for text, the line. Time and memory linear in

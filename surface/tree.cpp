@@ -1,6 +1,5 @@
 #include "surface/tree.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "surface/tree_queries.hpp"
@@ -70,11 +69,8 @@ void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vect
                                 std::span<const Eigen::Vector3d> directions, double limit,
                                 std::span<double> distances) const {
   const Implementation& here = *implementation_;
-  std::vector<Eigen::Vector3d> local(directions.size());
-  std::transform(directions.begin(), directions.end(), local.begin(),
-                 [&](const Eigen::Vector3d& d) { return here.direction_to_local(d); });
-  find_distances_in_plane(*here.tree, here.to_local(origin), here.direction_to_local(normal), local,
-                          limit * here.scale, distances);
+  find_distances_in_plane(*here.tree, here.to_local(origin), here.direction_to_local(normal),
+                          directions, here.rotation, limit * here.scale, distances);
   for (double& distance : distances) distance /= here.scale;
 }
 

@@ -26,10 +26,12 @@ struct LocalHit {
 [[nodiscard]] LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
                                 const Eigen::Vector3d& direction, double limit);
 
-/// find_hit's distances for directions normal to `normal`.
+/// find_hit's distances for directions normal to `normal`, each turned by the inverse of `rotation`
+/// first.
 void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin,
                              const Eigen::Vector3d& normal,
-                             std::span<const Eigen::Vector3d> directions, double limit,
+                             std::span<const Eigen::Vector3d> directions,
+                             const Eigen::Matrix3d& rotation, double limit,
                              std::span<double> distances);
 
 /// Whether the surface winds around p a non-zero number of times.

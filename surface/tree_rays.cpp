@@ -254,13 +254,15 @@ LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
 
 void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin,
                              const Eigen::Vector3d& normal,
-                             std::span<const Eigen::Vector3d> directions, double limit,
+                             std::span<const Eigen::Vector3d> directions,
+                             const Eigen::Matrix3d& rotation, double limit,
                              std::span<double> distances) {
   LeavesInPlane leaves;
   const bool gathered = !outside_box(tree, origin) && leaves.gather(tree, origin, normal, limit);
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const LocalHit hit = gathered ? leaves.find_hit(tree, origin, directions[i], limit)
-                                  : find_hit(tree, origin, directions[i], limit);
+    const Eigen::Vector3d direction = rotation.transpose() * directions[i];
+    const LocalHit hit = gathered ? leaves.find_hit(tree, origin, direction, limit)
+                                  : find_hit(tree, origin, direction, limit);
     distances[i] = hit.triangle < 0 ? infinity : hit.distance;
   }
 }

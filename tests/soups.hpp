@@ -16,15 +16,6 @@
 
 namespace curveskel {
 
-inline PolygonSoup soup_of(const Surface& surface) {
-  PolygonSoup soup;
-  soup.positions = surface.positions;
-  soup.corners.assign(surface.triangles.data(),
-                      surface.triangles.data() + surface.triangles.size());
-  for (Eigen::Index f = 0; f <= surface.triangles.rows(); ++f) soup.offsets.push_back(3 * f);
-  return soup;
-}
-
 inline PolygonSoup soup_of(const Positions& positions,
                            std::initializer_list<std::vector<std::int32_t>> polygons) {
   PolygonSoup soup;

@@ -101,14 +101,7 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
 
 std::shared_ptr<const PolygonSoup> Document::polygons() const {
   if (soup) return soup;
-  auto made = std::make_shared<PolygonSoup>();
-  made->positions = surface.positions;
-  made->corners.assign(surface.triangles.data(),
-                       surface.triangles.data() + surface.triangles.size());
-  made->offsets.reserve(static_cast<std::size_t>(surface.triangles.rows()) + 1);
-  for (std::int64_t polygon = 0; polygon <= surface.triangles.rows(); ++polygon) {
-    made->offsets.push_back(3 * polygon);
-  }
+  auto made = std::make_shared<PolygonSoup>(soup_of(surface));
   made->format = format;
   made->file = mesh_file;
   return made;

@@ -2,12 +2,12 @@
 #include "viewer/hierarchy.hpp"
 
 #include <gtest/gtest.h>
-#include <imgui.h>
 
 #include <numeric>
 #include <random>
 #include <set>
 
+#include "tests/viewer/imgui_context.hpp"
 #include "viewer/panels.hpp"
 
 namespace curveskel::viewer::hierarchy_laws {
@@ -95,14 +95,7 @@ TEST(Hierarchy, OfAnAbsurdlyLongChainIsDrawn) {
   const auto lines = hierarchy_of(*rig);
   EXPECT_EQ(lines.front().below, static_cast<std::size_t>(absurd - 1));
   EXPECT_EQ(lines.back().depth, absurd - 1);
-  ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;
-  io.DisplaySize = {1000, 700};
-  unsigned char* pixels = nullptr;
-  int width = 0;
-  int height = 0;
-  io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+  const ImGuiContextWithoutWindow context(1000, 700);
   Document document;
   document.rig = rig;
   Workbench bench({});
@@ -110,13 +103,12 @@ TEST(Hierarchy, OfAnAbsurdlyLongChainIsDrawn) {
   Panels panels;
   for (int frame = 0; frame < 3; ++frame) {
     ImGui::NewFrame();
-    draw_panels(bench, panels, lay_out(io.DisplaySize.x, io.DisplaySize.y, 1, true));
+    draw_panels(bench, panels, lay_out(1000, 700, 1, true));
     ImGui::Render();
   }
   EXPECT_EQ(panels.outline.seen().size(), static_cast<std::size_t>(absurd));
   // Only what is seen of it is laid out.
   EXPECT_LT(ImGui::GetDrawData()->TotalVtxCount, 50000);
-  ImGui::DestroyContext();
 }
 
 }  // namespace

@@ -6,26 +6,17 @@
 #include <cmath>
 #include <string>
 
+#include "tests/viewer/imgui_context.hpp"
+
 namespace curveskel::viewer::panel_changes_laws {
 namespace {
 
 class PanelChange : public testing::Test {
  protected:
   PanelChange() {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = {800, 600};
-    unsigned char* pixels = nullptr;
-    int width = 0;
-    int height = 0;
-    io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
     frame("a", "b", 0.5F);
     frame("a", "b", 0.5F);  // ImGui sizes things in the first
   }
-  ~PanelChange() override { ImGui::DestroyContext(); }
-  PanelChange(const PanelChange&) = delete;
-  PanelChange& operator=(const PanelChange&) = delete;
 
   /// Two windows side by side, a text in each; a bar in the second.
   std::vector<Area> frame(const std::string& first, const std::string& second, float share,
@@ -53,6 +44,7 @@ class PanelChange : public testing::Test {
     fill();
     ImGui::End();
   }
+  ImGuiContextWithoutWindow context_{800, 600};
   PanelChanges changes_;
 };
 

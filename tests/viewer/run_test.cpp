@@ -19,17 +19,6 @@ using State = Run::State;
 
 constexpr auto patience = 60s;
 
-std::shared_ptr<const PolygonSoup> soup_of(const Surface& surface) {
-  PolygonSoup soup;
-  soup.positions = surface.positions;
-  soup.offsets.push_back(0);
-  for (const auto& triangle : surface.triangles.rowwise()) {
-    soup.corners.insert(soup.corners.end(), triangle.begin(), triangle.end());
-    soup.offsets.push_back(static_cast<std::int64_t>(soup.corners.size()));
-  }
-  return std::make_shared<const PolygonSoup>(std::move(soup));
-}
-
 Surface small_surface() { return shapes::torus(3, 1, 10).surface; }
 
 /// A run and all of its news so far.
@@ -37,7 +26,8 @@ class Watched {
  public:
   explicit Watched(const Surface& surface, bool paused = false, RunOptions options = {},
                    std::shared_ptr<RunMemory> memory = std::make_shared<RunMemory>())
-      : run_(std::make_unique<Run>(soup_of(surface), std::move(options), Eigen::RowVector3d::Zero(),
+      : run_(std::make_unique<Run>(std::make_shared<const PolygonSoup>(soup_of(surface)),
+                                   std::move(options), Eigen::RowVector3d::Zero(),
                                    std::move(memory), paused)) {}
 
   Run& run() { return *run_; }
@@ -109,7 +99,7 @@ TEST(Run, EndsWithWhatExtractGives) {
     ASSERT_TRUE(watched.wait([&] { return watched.ended(); }));
     ASSERT_EQ(watched.state, State::finished) << watched.error;
     ASSERT_TRUE(watched.result);
-    const RepairedSurface repaired = repair(*soup_of(shape.surface), {}, {});
+    const RepairedSurface repaired = repair(soup_of(shape.surface), {}, {});
     ExtractOptions options;
     options.openings = repaired.openings;
     expect_same_skeleton(watched.result->extraction->skeleton,
