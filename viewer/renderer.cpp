@@ -2,38 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "viewer/shaders.hpp"
 #include "viewer/unit_shapes.hpp"
 
 namespace curveskel::viewer {
-namespace {
-
-enum Attribute : GLuint {
-  position,
-  normal,
-  colour,
-  from,
-  to,
-  from_colour,
-  to_colour,
-  from_mitre,
-  to_mitre
-};
-
-/// Colours of what is not coloured are the attribute's constant value.
-void bind_attribute(GLuint attribute, const GlBuffer& buffer, GLint parts, GLenum type,
-                    bool normalised, GLsizei stride, std::size_t offset) {
-  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
-  glEnableVertexAttribArray(attribute);
-  glVertexAttribPointer(
-      attribute, parts, type, normalised ? GL_TRUE : GL_FALSE, stride,
-      // OpenGL's way to say an offset.
-      reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
-}
-
-}  // namespace
 
 /// What all passes of one picture share.
 struct Renderer::Seen {
@@ -70,41 +43,10 @@ Renderer::Renderer()
       skin_program_("skin", screen_vertex_source, skin_fragment_source),
       wire_("wire", place_vertex_source, wire_fragment_source),
       tube_("tube", tube_vertex_source, with_light(tube_fragment_source)),
+      edges_(unit_tube()),
+      nodes_(unit_ball()),
       screen_(make_array()) {
-  for (Mesh& one : meshes_) one.array = make_array();
-  const UnitShape tube = unit_tube();
-  make_shape(edges_, tube.points, tube.corners);
-  const UnitShape ball = unit_ball();
-  make_shape(nodes_, ball.points, ball.corners);
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples_);
-}
-
-void Renderer::make_shape(Instances& instances, const std::vector<glm::vec4>& points,
-                          const std::vector<std::uint32_t>& corners) {
-  instances.array = make_array();
-  glBindVertexArray(instances.array.get());
-  fill(instances.shape, GL_ARRAY_BUFFER, std::span(points));
-  bind_attribute(position, instances.shape, 4, GL_FLOAT, false, 0, 0);
-  fill(instances.corners, GL_ELEMENT_ARRAY_BUFFER, std::span(corners));
-  instances.corner_count = static_cast<GLsizei>(corners.size());
-  const TubeInstance none{};
-  fill(instances.instances, GL_ARRAY_BUFFER, std::span(&none, 1));
-  constexpr GLsizei stride = sizeof(TubeInstance);
-  bind_attribute(from, instances.instances, 4, GL_FLOAT, false, stride,
-                 offsetof(TubeInstance, from));
-  bind_attribute(to, instances.instances, 4, GL_FLOAT, false, stride, offsetof(TubeInstance, to));
-  bind_attribute(from_colour, instances.instances, 4, GL_UNSIGNED_BYTE, true, stride,
-                 offsetof(TubeInstance, from_colour));
-  bind_attribute(to_colour, instances.instances, 4, GL_UNSIGNED_BYTE, true, stride,
-                 offsetof(TubeInstance, to_colour));
-  bind_attribute(from_mitre, instances.instances, 3, GL_FLOAT, false, stride,
-                 offsetof(TubeInstance, from_mitre));
-  bind_attribute(to_mitre, instances.instances, 3, GL_FLOAT, false, stride,
-                 offsetof(TubeInstance, to_mitre));
-  for (const GLuint attribute : {from, to, from_colour, to_colour, from_mitre, to_mitre}) {
-    glVertexAttribDivisor(attribute, 1);
-  }
-  glBindVertexArray(0);
 }
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface) {
@@ -118,73 +60,39 @@ void Renderer::set_surface(Layer layer, const ShownSurface& surface, const Trian
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface,
                            std::span<const std::byte> corners) {
-  Mesh& target = mesh(layer);
-  glBindVertexArray(target.array.get());
-  fill(target.triangles, GL_ELEMENT_ARRAY_BUFFER, corners);
-  target.corners = static_cast<GLsizei>(corners.size() / sizeof(std::uint32_t));
-  target.fewer_corners = static_cast<GLsizei>(3 * surface.fewer.size());
-  if (!surface.fewer.empty()) {
-    fill(target.fewer, GL_ELEMENT_ARRAY_BUFFER, std::span(surface.fewer));
-  }
-  glBindVertexArray(0);
+  mesh(layer).set_triangles(corners, surface.fewer);
   move_surface(layer, surface);
   set_colours(layer, surface.colours);
 }
 
 void Renderer::move_surface(Layer layer, const ShownSurface& surface) {
-  Mesh& target = mesh(layer);
-  ++target.version;
-  glBindVertexArray(target.array.get());
-  fill(target.positions, GL_ARRAY_BUFFER, std::span(surface.positions));
-  bind_attribute(position, target.positions, 3, GL_FLOAT, false, 0, 0);
-  fill(target.normals, GL_ARRAY_BUFFER, std::span(surface.normals));
-  bind_attribute(normal, target.normals, 4, GL_INT_2_10_10_10_REV, true, 0, 0);
-  glBindVertexArray(0);
+  mesh(layer).set_places(surface);
 }
 
 void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
-  Mesh& target = mesh(layer);
-  if (colours.empty() && !target.coloured) return;
-  ++target.version;
-  target.coloured = !colours.empty();
-  glBindVertexArray(target.array.get());
-  if (target.coloured) {
-    fill(target.colours, GL_ARRAY_BUFFER, std::span(colours));
-    bind_attribute(colour, target.colours, 4, GL_UNSIGNED_BYTE, true, 0, 0);
-  } else {
-    glDisableVertexAttribArray(colour);
-  }
-  glBindVertexArray(0);
+  mesh(layer).set_colours(colours);
 }
 
 void Renderer::set_skeleton(const ShownSkeleton& skeleton) {
-  const auto set = [](Instances& instances, const std::vector<TubeInstance>& shown) {
-    instances.count = static_cast<GLsizei>(shown.size());
-    if (!shown.empty()) fill(instances.instances, GL_ARRAY_BUFFER, std::span(shown));
-  };
-  set(edges_, skeleton.edges);
-  set(nodes_, skeleton.nodes);
+  edges_.set(skeleton.edges);
+  nodes_.set(skeleton.nodes);
 }
 
-void Renderer::draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
+void Renderer::draw_mesh(const GlProgram& program, const GlMesh& shown, const glm::vec3& plain,
                          const Seen& seen) const {
-  if (shown.corners == 0) return;
+  if (shown.empty()) return;
   seen.set(program);
-  glBindVertexArray(shown.array.get());
   const ColourBy by = seen.look.surface_colour;
   program.set("categories", static_cast<int>(by == ColourBy::component || by == ColourBy::node ||
                                              by == ColourBy::branch));
-  if (!shown.coloured) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
-  const bool few = seen.frame.fineness.lit_at_vertices() && shown.fewer_corners > 0;
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, few ? shown.fewer.get() : shown.triangles.get());
-  glDrawElements(GL_TRIANGLES, few ? shown.fewer_corners : shown.corners, GL_UNSIGNED_INT, nullptr);
+  shown.draw(plain, seen.frame.fineness.lit_at_vertices());
 }
 
 const GlProgram& Renderer::program_for(const Seen& seen) const {
   return seen.frame.fineness.lit_at_vertices() ? coarse_ : surface_;
 }
 
-void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const {
+void Renderer::draw_opaque(const GlMesh& shown, const glm::vec3& plain, const Seen& seen) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_POLYGON_OFFSET_FILL);  // lets the edges lie on the faces
   glPolygonOffset(1, 1);
@@ -196,7 +104,7 @@ void Renderer::draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Renderer::draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const {
+void Renderer::draw_wires(const GlMesh& shown, const glm::vec4& line, const Seen& seen) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -208,14 +116,6 @@ void Renderer::draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& 
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-}
-
-void Renderer::draw_instances(const Instances& instances, bool ball) const {
-  if (instances.count == 0) return;
-  tube_.set("ball", static_cast<int>(ball));
-  glBindVertexArray(instances.array.get());
-  glDrawElementsInstanced(GL_TRIANGLES, instances.corner_count, GL_UNSIGNED_INT, nullptr,
-                          instances.count);
 }
 
 void Renderer::draw_skeleton(const Seen& seen) const {
@@ -234,8 +134,10 @@ void Renderer::draw_skeleton(const Seen& seen) const {
   tube_.set("flat_colour", 1);
   glCullFace(GL_FRONT);
   const auto both = [&] {
-    draw_instances(edges_, false);
-    draw_instances(nodes_, true);
+    tube_.set("ball", 0);
+    edges_.draw();
+    tube_.set("ball", 1);
+    nodes_.draw();
   };
   tube_.set("casing", glm::vec4(seen.palette.casing, 1));
   both();
@@ -253,15 +155,15 @@ void Renderer::draw_screen(const GlProgram& program) const {
 }
 
 /// The level wanted, or the next finer one that has been set.
-const Renderer::Mesh& Renderer::given_at(int level) const {
+const GlMesh& Renderer::given_at(int level) const {
   auto found = static_cast<std::size_t>(level);
-  while (found > 0 && meshes_[found].corners == 0) --found;
+  while (found > 0 && meshes_[found].empty()) --found;
   return meshes_[found];
 }
 
 unsigned Renderer::given_version() const {
   unsigned version = 0;
-  for (std::size_t level = 0; level < Pace::levels; ++level) version += meshes_[level].version;
+  for (std::size_t level = 0; level < Pace::levels; ++level) version += meshes_[level].version();
   return version;
 }
 
@@ -280,7 +182,7 @@ bool Renderer::has_glass(const GlassKey& wanted) const {
 /// The skin (its nearest layer, lit) and the thickness of the body, each in a target of its own;
 /// neither depends on the order of the triangles.
 bool Renderer::draw_glass(const Seen& seen) {
-  const Mesh& given = given_at(seen.frame.fineness.level);
+  const GlMesh& given = given_at(seen.frame.fineness.level);
   const GlassKey key{seen.view,           seen.projection, seen.look.opacity, seen.look.theme,
                      seen.frame.fineness, seen.part,       given_version()};
   if (has_glass(key)) return false;  // only what is in it has changed
@@ -314,6 +216,65 @@ bool Renderer::draw_glass(const Seen& seen) {
   return true;
 }
 
+void Renderer::draw_background(const Seen& seen) const {
+  glDisable(GL_DEPTH_TEST);
+  background_.use();
+  background_.set("upper", glm::vec4(seen.palette.upper, 1));
+  background_.set("lower", glm::vec4(seen.palette.lower, 1));
+  draw_screen(background_);
+}
+
+/// The glass's body, behind all that is in it.
+void Renderer::draw_body(const Seen& seen) const {
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  bind_texture(0, thickness_.colour());
+  body_.use();
+  body_.set("thickness", 0);
+  body_.set("tint", seen.palette.body);
+  body_.set("half_length", 0.12F * seen.frame.bounds.diagonal());
+  body_.set("most", 0.9F * seen.look.opacity);
+  draw_screen(body_);
+  glDisable(GL_BLEND);
+}
+
+/// All but the glass.
+void Renderer::draw_surfaces(const Seen& seen) {
+  const Look& look = seen.look;
+  const GlMesh& given = given_at(seen.frame.fineness.level);
+  const GlMesh& contracted = mesh(Layer::contracted);
+  if (look.surface == SurfaceStyle::opaque) draw_opaque(given, seen.palette.surface, seen);
+  draw_opaque(contracted, seen.palette.contracted, seen);
+  // Without its edges, what has contracted to a line would be gone where it is thinner than a
+  // pixel. They take as long as all the rest, so they are left out where time is short.
+  if (seen.frame.fineness.shrink == 1) {
+    draw_wires(contracted, glm::vec4(seen.palette.contracted * 0.75F, 0.45F), seen);
+  }
+  if (look.surface == SurfaceStyle::wireframe) {
+    draw_wires(given, glm::vec4(seen.palette.wire, 0.3F), seen);
+  } else if (look.edges && look.surface == SurfaceStyle::opaque) {
+    draw_wires(given, glm::vec4(seen.palette.wire, 0.28F), seen);
+  }
+}
+
+/// The glass's skin, over what is in it.
+void Renderer::draw_skin() const {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glEnable(GL_DEPTH_TEST);
+  // At a silhouette the one depth that is kept may be the background's.
+  glDepthFunc(GL_LEQUAL);
+  bind_texture(0, skin_.colour());
+  bind_texture(1, skin_.depth());
+  skin_program_.use();
+  skin_program_.set("skin", 0);
+  skin_program_.set("skin_depth", 1);
+  draw_screen(skin_program_);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_BLEND);
+}
+
 bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) {
   const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
   const Seen seen{camera,
@@ -326,61 +287,21 @@ bool Renderer::draw(const Camera& camera, const Look& look, const Frame& frame) 
   const int samples = samples_of(frame);
   if (samples > 1) scene_.shape(seen.form(samples));
   picture_.shape(seen.form(1));
-  const bool glass = look.surface == SurfaceStyle::transparent && mesh(Layer::given).corners > 0;
+  const bool glass = look.surface == SurfaceStyle::transparent && !mesh(Layer::given).empty();
   const bool all_anew = !glass || draw_glass(seen);
 
   seen.bind(samples > 1 ? scene_ : picture_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  if (!look.transparent_background) {
-    background_.use();
-    background_.set("upper", glm::vec4(seen.palette.upper, 1));
-    background_.set("lower", glm::vec4(seen.palette.lower, 1));
-    draw_screen(background_);
-  }
-  if (glass) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    bind_texture(0, thickness_.colour());
-    body_.use();
-    body_.set("thickness", 0);
-    body_.set("tint", seen.palette.body);
-    body_.set("half_length", 0.12F * frame.bounds.diagonal());
-    body_.set("most", 0.9F * look.opacity);
-    draw_screen(body_);
-    glDisable(GL_BLEND);
-  }
-  const Mesh& given = given_at(frame.fineness.level);
-  if (look.surface == SurfaceStyle::opaque) draw_opaque(given, seen.palette.surface, seen);
-  draw_opaque(mesh(Layer::contracted), seen.palette.contracted, seen);
-  // Without its edges, what has contracted to a line would be gone where it is thinner than a
-  // pixel. They take as long as all the rest, so they are left out where time is short.
-  if (frame.fineness.shrink == 1) {
-    draw_wires(mesh(Layer::contracted), glm::vec4(seen.palette.contracted * 0.75F, 0.45F), seen);
-  }
-  if (look.surface == SurfaceStyle::wireframe) {
-    draw_wires(given, glm::vec4(seen.palette.wire, 0.3F), seen);
-  } else if (look.edges && look.surface == SurfaceStyle::opaque) {
-    draw_wires(given, glm::vec4(seen.palette.wire, 0.28F), seen);
-  }
+  if (!look.transparent_background) draw_background(seen);
+  if (glass) draw_body(seen);
+  draw_surfaces(seen);
   if (look.surface == SurfaceStyle::opaque && look.through) glClear(GL_DEPTH_BUFFER_BIT);
   draw_skeleton(seen);
   if (glass) {
+    const GlMesh& given = given_at(frame.fineness.level);
     if (look.edges) draw_wires(given, glm::vec4(seen.palette.wire, 0.2F), seen);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glEnable(GL_DEPTH_TEST);
-    // At a silhouette the one depth that is kept may be the background's.
-    glDepthFunc(GL_LEQUAL);
-    bind_texture(0, skin_.colour());
-    bind_texture(1, skin_.depth());
-    skin_program_.use();
-    skin_program_.set("skin", 0);
-    skin_program_.set("skin_depth", 1);
-    draw_screen(skin_program_);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_BLEND);
+    draw_skin();
   }
   if (samples > 1) scene_.resolve_into(picture_, false);
   glBindVertexArray(0);

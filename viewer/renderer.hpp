@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viewer/camera.hpp"
+#include "viewer/gl_meshes.hpp"
 #include "viewer/gl_objects.hpp"
 #include "viewer/look.hpp"
 #include "viewer/pace.hpp"
@@ -65,18 +66,6 @@ class Renderer {
   [[nodiscard]] PixelRows read() const;
 
  private:
-  struct Mesh {
-    GlArray array;
-    GlBuffer positions;
-    GlBuffer normals;
-    GlBuffer colours;
-    GlBuffer triangles;
-    GlBuffer fewer;  // triangles of a simpler form
-    GLsizei corners = 0;
-    GLsizei fewer_corners = 0;
-    bool coloured = false;
-    unsigned version = 0;  // counts changes
-  };
   /// What the glass was drawn from; equal = it need not be drawn again.
   struct GlassKey {
     glm::mat4 view{0};
@@ -87,31 +76,24 @@ class Renderer {
     Part part;
     unsigned version = 0;
   };
-  struct Instances {
-    GlArray array;
-    GlBuffer shape;
-    GlBuffer corners;
-    GlBuffer instances;
-    GLsizei corner_count = 0;
-    GLsizei count = 0;
-  };
   struct Seen;
 
-  static void make_shape(Instances& instances, const std::vector<glm::vec4>& points,
-                         const std::vector<std::uint32_t>& corners);
   void set_surface(Layer layer, const ShownSurface& surface, std::span<const std::byte> corners);
-  [[nodiscard]] const Mesh& given_at(int level) const;
+  [[nodiscard]] const GlMesh& given_at(int level) const;
   [[nodiscard]] unsigned given_version() const;
   [[nodiscard]] int samples_of(const Frame& frame) const;
   [[nodiscard]] bool has_glass(const GlassKey& wanted) const;
-  [[nodiscard]] Mesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
-  void draw_mesh(const GlProgram& program, const Mesh& shown, const glm::vec3& plain,
+  [[nodiscard]] GlMesh& mesh(Layer layer) { return meshes_[static_cast<std::size_t>(layer)]; }
+  void draw_mesh(const GlProgram& program, const GlMesh& shown, const glm::vec3& plain,
                  const Seen& seen) const;
   [[nodiscard]] const GlProgram& program_for(const Seen& seen) const;
-  void draw_opaque(const Mesh& shown, const glm::vec3& plain, const Seen& seen) const;
-  void draw_wires(const Mesh& shown, const glm::vec4& line, const Seen& seen) const;
+  void draw_opaque(const GlMesh& shown, const glm::vec3& plain, const Seen& seen) const;
+  void draw_wires(const GlMesh& shown, const glm::vec4& line, const Seen& seen) const;
+  void draw_background(const Seen& seen) const;
+  void draw_body(const Seen& seen) const;
+  void draw_surfaces(const Seen& seen);
   void draw_skeleton(const Seen& seen) const;
-  void draw_instances(const Instances& instances, bool ball) const;
+  void draw_skin() const;
   bool draw_glass(const Seen& seen);
   void draw_screen(const GlProgram& program) const;
 
@@ -123,9 +105,9 @@ class Renderer {
   GlProgram skin_program_;
   GlProgram wire_;
   GlProgram tube_;
-  std::array<Mesh, Pace::levels + 1> meshes_;
-  Instances edges_;
-  Instances nodes_;
+  std::array<GlMesh, Pace::levels + 1> meshes_;
+  GlInstances edges_;
+  GlInstances nodes_;
   GlArray screen_;
   GlTarget scene_;
   GlTarget picture_;
