@@ -230,8 +230,10 @@ Verb add_extract(CLI::App& program) {
       ->default_str(std::to_string(options.resolution));
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
              "0..1: how small a branch may be and stay");
-  add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
-             "iterations of fairing before the contraction, for noisy surfaces");
+  add_number(
+      *parser, "--fair", arguments->fair_iterations, 0, 1000000,
+      "iterations of fairing before the contraction, for noisy surfaces: about ten times the "
+      "noise in % of the diagonal");
   add_number(*parser, "--threads", options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   add_repair(*parser, arguments->repair);

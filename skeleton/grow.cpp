@@ -1,6 +1,7 @@
 #include "skeleton/grow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -155,27 +156,46 @@ class Growth {
 
   /// The branch from a hub, or from the vertex's host where there is none; no vertex if there can
   /// be none.
-  [[nodiscard]] Summit made(int v, int hub, const Standout& found, double least_slenderness,
-                            double least_ball, double radius) {
+  [[nodiscard]] Summit made(int v, int hub, const SurfaceTree::Ball& root, const Standout& found,
+                            double least_slenderness, double least_ball) {
     if (found.slenderness < least_slenderness) return {};
     const Point inwards = found.rim_centre - place(v);
     const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
-    const bool fits = ball.radius > least_ball * radius && ball.radius < most_ball * radius;
-    if (!fits) return {};
-    return {v, hub, found.slenderness, ball.centre};
+    const double share = ball.radius / root.radius;
+    if (!(share > least_ball && share < most_ball)) return {};
+    return {v, hub, found.slenderness, tip(found, root, ball.centre)};
+  }
+
+  /// In the middle of a blunt end, rather than in the corner where the summit is.
+  [[nodiscard]] Point tip(const Standout& part, const SurfaceTree::Ball& root,
+                          const Point& at_summit) const {
+    constexpr double beyond = 1.1;  // of the radius where it begins: nearer by it would be a spur
+    constexpr double least = 0.2;
+    const Point outwards = part.crown_centre - part.rim_centre;
+    if (!(outwards.norm() > 0) || !tree_.inside(part.rim_centre)) return at_summit;
+    const Point direction = outwards.normalized();
+    const double reach = tree_.ray(part.rim_centre, direction).distance;
+    if (!std::isfinite(reach)) return at_summit;
+    const Point end = part.rim_centre + reach * direction;
+    const auto ball = tree_.inscribed_ball(end, -direction);
+    const double off = beyond * root.radius;
+    if (ball.radius < reach && (ball.centre - root.centre).norm() > off) return ball.centre;
+    const Point nearer_the_end = root.centre + off * (end - root.centre).normalized();
+    const bool fits = tree_.inscribed_radius(nearer_the_end) > least * root.radius;
+    return fits ? nearer_the_end : at_summit;
   }
 
   [[nodiscard]] Summit extension(int v, int tip) {
     const Point& base = network_.hubs[at(tip)].position;
-    const double radius = tree_.inscribed_radius(base);
-    if ((place(v) - base).norm() < least_extension * radius) return {};
-    return made(v, tip, standout(base, v), least_extension_slenderness, least_extension_ball,
-                radius);
+    const SurfaceTree::Ball root{base, tree_.inscribed_radius(base)};
+    if ((place(v) - base).norm() < least_extension * root.radius) return {};
+    return made(v, tip, root, standout(base, v), least_extension_slenderness, least_extension_ball);
   }
 
   [[nodiscard]] Summit branch(int v, int hub, double radius, double limit) {
     const Host& host = hosts_[at(v)];
     Standout best = standout(host.place, v);
+    Point base = host.place;
     const Strand& strand = network_.strands[at(host.strand)];
     for (const int end : {strand.from, strand.to}) {
       const Point& junction = network_.hubs[at(end)].position;
@@ -184,9 +204,10 @@ class Growth {
       const Standout here = standout(junction, v);
       if (here.slenderness <= best.slenderness) continue;
       best = here;
+      base = junction;
       hub = end;
     }
-    return made(v, hub, best, limit, least_branch_ball, radius);
+    return made(v, hub, {base, radius}, best, limit, least_branch_ball);
   }
 
   /// Those that deserve a branch, most slender first.

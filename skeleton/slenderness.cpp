@@ -68,7 +68,10 @@ Standout SlendernessSweep::operator()(const Vector3d& base, int summit,
     }
     if (own && sphere >= first_sphere && part_.size() >= least_vertices) {
       const Standout here = standout_at(depth);
-      if (here.slenderness > best.slenderness) best = here;
+      if (here.slenderness > best.slenderness) {
+        best = here;
+        best.crown_centre = crown_centre(here);
+      }
     }
   }
   forget();
@@ -124,6 +127,34 @@ Standout SlendernessSweep::standout_at(double depth) const {
     height = std::max(height, (place(surface_, v) - rim.centre).norm());
   }
   return {height / rim.radius, rim.centre};
+}
+
+Vector3d SlendernessSweep::crown_centre(const Standout& part) const {
+  constexpr double crown = 0.8;  // of the height
+  const auto from_rim = [&](int t) -> Vector3d {
+    return (place(surface_, surface_.triangles(t, 0)) + place(surface_, surface_.triangles(t, 1)) +
+            place(surface_, surface_.triangles(t, 2))) /
+               3 -
+           part.rim_centre;
+  };
+  double height = 0;
+  for (const int t : touched_) {
+    if (taken_corners_[at(t)] == 3) height = std::max(height, from_rim(t).norm());
+  }
+  Vector3d sum = Vector3d::Zero();
+  double area = 0;
+  for (const int t : touched_) {
+    if (taken_corners_[at(t)] != 3) continue;
+    const Vector3d middle = from_rim(t);
+    if (middle.norm() < crown * height) continue;
+    const Vector3d a = place(surface_, surface_.triangles(t, 0));
+    const Vector3d b = place(surface_, surface_.triangles(t, 1));
+    const Vector3d c = place(surface_, surface_.triangles(t, 2));
+    const double weight = (b - a).cross(c - a).norm();
+    sum += weight * middle;
+    area += weight;
+  }
+  return area > 0 ? Vector3d(part.rim_centre + sum / area) : part.rim_centre;
 }
 
 void SlendernessSweep::forget() {

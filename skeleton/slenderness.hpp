@@ -9,10 +9,12 @@
 
 namespace curveskel {
 
-/// How far a part sticks out, and where its rim has its middle.
+/// How far a part sticks out, where its rim has its middle, and its crown: all of its triangles that
+/// are farther from there than four fifths of the height.
 struct Standout {
   double slenderness = 0;
   Eigen::Vector3d rim_centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d crown_centre = Eigen::Vector3d::Zero();  ///< by area
 };
 
 /// Sweeps the surface from a summit towards a base. Keeps its memory from sweep to sweep.
@@ -38,6 +40,7 @@ class SlendernessSweep {
   void take(int vertex);
   [[nodiscard]] Rim rim_at(double depth) const;
   [[nodiscard]] Standout standout_at(double depth) const;
+  [[nodiscard]] Eigen::Vector3d crown_centre(const Standout& part) const;
   void forget();
 
   const Surface& surface_;

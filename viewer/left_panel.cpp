@@ -65,8 +65,10 @@ void parameters(Workbench& bench) {
   ExtractOptions& options = bench.pipeline.extract;
   bool changed = false;
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
-  changed |= slide("fairing", options.fair.iterations, 0, 0, 50,
-                   "Iterations of smoothing before anything else. For noisy scans; 0 = none.");
+  changed |=
+      slide("fairing", options.fair.iterations, 0, 0, 50,
+            "Iterations of smoothing before anything else. For noisy scans: about ten times the "
+            "noise in % of the diagonal; 0 = none.");
   changed |= slide("vertices", options.resolution, standard.resolution, 500, 60000,
                    "How many vertices the surface is coarsened to before it is contracted. More = "
                    "finer and slower.",

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "meshes/shapes.hpp"
@@ -79,6 +80,26 @@ TEST(Growth, GoesOnWhereAStrandEndsEarly) {
   EXPECT_EQ(grown(network, star.surface), 1);
   EXPECT_EQ(hubs_of_degree(network, 1), 3);
   EXPECT_EQ(hubs_of_degree(network, 3), 1);
+}
+
+/// A bar along z, its ends square with rounded corners, which lie farther out than their middles.
+Surface blunt_bar() {
+  constexpr double round = 0.53;
+  Surface bar = shapes::box({2, 2, 6}, 60).surface;
+  const Eigen::RowVector3d core(1 - round, 1 - round, 3 - round);
+  for (auto p : bar.positions.rowwise()) {
+    const Eigen::RowVector3d inner = p.cwiseMax(-core).cwiseMin(core);
+    p = inner + round * (p - inner).normalized();
+  }
+  return bar;
+}
+
+TEST(Growth, EndsInTheMiddleOfABluntEnd) {
+  Network network = one_strand({{0, 0, -2.2}, {0, 0, 0}, {0, 0, 0.7}});
+  ASSERT_EQ(grown(network, blunt_bar()), 1);
+  const Point& tip = network.hubs.back().position;
+  EXPECT_LT(std::hypot(tip.x(), tip.y()), 0.1);
+  EXPECT_GT(tip.z(), 1.5);
 }
 
 TEST(Growth, LeavesOutWhatTheLimitSaysIsBlunt) {
