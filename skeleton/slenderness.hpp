@@ -9,8 +9,8 @@
 
 namespace curveskel {
 
-/// How far a part sticks out, where its rim has its middle, and its crown: all of its triangles that
-/// are farther from there than four fifths of the height.
+/// How far a part sticks out, where its rim has its middle, and its crown: all of its triangles
+/// that are farther from there than four fifths of the height.
 struct Standout {
   double slenderness = 0;
   Eigen::Vector3d rim_centre = Eigen::Vector3d::Zero();
