@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface/clean.hpp"
+#include "surface/error.hpp"
 #include "surface/measures.hpp"
 #include "surface/read.hpp"
 #include "surface/topology.hpp"
@@ -77,6 +79,18 @@ inline void expect_said(const std::string& message, std::initializer_list<std::s
   for (const auto& part : parts) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
   }
+}
+
+/// The message of the Error(Fault::input) that cleaning throws; fails the test if there is none.
+inline std::string refusal(const PolygonSoup& soup) {
+  try {
+    (void)clean(soup, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    return error.what();
+  }
+  return "";
 }
 
 /// What every cleaned surface promises.

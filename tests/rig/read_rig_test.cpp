@@ -14,6 +14,7 @@
 #include "surface/error.hpp"
 #include "surface/measures.hpp"
 #include "surface/read.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/rig/rigged_bar.hpp"
 
 namespace curveskel::read_rig_laws {
@@ -23,14 +24,6 @@ namespace fs = std::filesystem;
 
 class ReadRig : public testing::Test {
  protected:
-  ReadRig() {
-    std::string name = (fs::temp_directory_path() / "curveskel-rig-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~ReadRig() override { fs::remove_all(folder_); }
-  ReadRig(const ReadRig&) = delete;
-  ReadRig& operator=(const ReadRig&) = delete;
-
   [[nodiscard]] std::optional<Rig> read(const RiggedBar& bar) const {
     write_rigged_bar(file(), bar);
     return read_rig(file(), {});
@@ -44,10 +37,10 @@ class ReadRig : public testing::Test {
     }
     return "";
   }
-  [[nodiscard]] fs::path file() const { return folder_ / "bar.gltf"; }
+  [[nodiscard]] fs::path file() const { return folder_.path() / "bar.gltf"; }
 
  private:
-  fs::path folder_;
+  OwnFolder folder_;
 };
 
 void expect_sums_of_one(const SkinWeights& weights) {

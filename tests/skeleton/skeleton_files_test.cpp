@@ -16,6 +16,7 @@
 
 #include "surface/error.hpp"
 #include "surface/write_file.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/skeleton/skeleton_samples.hpp"
 
 namespace curveskel::skeleton_files_laws {
@@ -23,26 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "curveskel-files-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
-fs::path put(const Folder& folder, const std::string& name, std::string_view bytes) {
-  std::ofstream(folder.path / name, std::ios::binary) << bytes;
-  return folder.path / name;
-}
-
 CurveSkeleton read_text(const std::string& name, std::string_view bytes) {
-  const Folder folder;
-  return read_skeleton(put(folder, name, bytes));
+  const OwnFolder folder;
+  return read_skeleton(folder.write(name, bytes));
 }
 
 std::string failure_of(const std::string& name, std::string_view bytes) {
@@ -115,10 +99,10 @@ TEST_P(NumberedFormat, KeepsTheNumbering) {
 }
 
 TEST_P(EveryFormat, ReadsWhatIsGzippedToo) {
-  const Folder folder;
+  const OwnFolder folder;
   const CurveSkeleton skeleton = skeleton_samples()[4].skeleton;
   const std::string bytes = format_skeleton(skeleton, *choice_of(skeleton_formats, GetParam()), {});
-  const fs::path file = folder.path / ("s." + GetParam() + ".gz");
+  const fs::path file = folder.path() / ("s." + GetParam() + ".gz");
   const gzFile zipped = gzopen(file.c_str(), "wb");
   ASSERT_EQ(gzwrite(zipped, bytes.data(), static_cast<unsigned>(bytes.size())),
             static_cast<int>(bytes.size()));

@@ -8,7 +8,6 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,6 +16,7 @@
 #include "surface/error.hpp"
 #include "surface/read.hpp"
 #include "surface/write_surface.hpp"
+#include "tests/own_folder.hpp"
 
 namespace curveskel::write_file_laws {
 namespace {
@@ -25,14 +25,6 @@ namespace fs = std::filesystem;
 
 class WriteFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "curveskel-write-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  void TearDown() override {
-    fs::permissions(folder, fs::perms::owner_all);
-    fs::remove_all(folder);
-  }
   static std::string content(const fs::path& file) {
     std::string bytes(fs::file_size(file), '\0');
     std::ifstream(file, std::ios::binary).read(bytes.data(), std::ssize(bytes));
@@ -50,7 +42,12 @@ class WriteFile : public testing::Test {
     }
     return "written";
   }
-  fs::path folder;
+
+ private:
+  OwnFolder own_;
+
+ protected:
+  fs::path folder = own_.path();
 };
 
 TEST_F(WriteFile, PutsExactlyTheseBytesThere) {

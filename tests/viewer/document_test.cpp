@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "surface/write_file.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 
 namespace curveskel::viewer::document_laws {
@@ -14,24 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DocumentOf : public testing::Test {
- protected:
-  DocumentOf() {
-    std::string name = (fs::temp_directory_path() / "curveskel-document-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~DocumentOf() override { fs::remove_all(folder_); }
-  DocumentOf(const DocumentOf&) = delete;
-  DocumentOf& operator=(const DocumentOf&) = delete;
-  fs::path folder_;
-};
-
-TEST_F(DocumentOf, EveryEncodingHasThePolygonsThatWereRead) {
+TEST(DocumentOf, EveryEncodingHasThePolygonsThatWereRead) {
+  const OwnFolder folder;
   bool triangles = false;
   bool polygons = false;
   for (const encodings::Encoding& encoding : encodings::all()) {
     SCOPED_TRACE(encoding.name);
-    const fs::path file = folder_ / (encoding.name + encoding.extension);
+    const fs::path file = folder.path() / (encoding.name + encoding.extension);
     write_file(file, encoding.bytes);
     const PolygonSoup read = read_polygons(file, {});
     const Document document = open_document({file}, {});

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "surface/error.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/rig/rigged_bar.hpp"
 #include "viewer/pick.hpp"
 #include "viewer/scene.hpp"
@@ -19,22 +20,15 @@ namespace fs = std::filesystem;
 
 class RigView : public testing::Test {
  protected:
-  RigView() {
-    std::string name = (fs::temp_directory_path() / "curveskel-rig-view-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    write_rigged_bar(file(), {.joints = joints, .first_weight = 0});
-  }
-  ~RigView() override { fs::remove_all(folder_); }
-  RigView(const RigView&) = delete;
-  RigView& operator=(const RigView&) = delete;
+  RigView() { write_rigged_bar(file(), {.joints = joints, .first_weight = 0}); }
 
-  [[nodiscard]] fs::path file() const { return folder_ / "bar.gltf"; }
+  [[nodiscard]] fs::path file() const { return folder_.path() / "bar.gltf"; }
   [[nodiscard]] Document document() const { return open_document({file()}, {}); }
 
   static constexpr int joints = 5;
 
  private:
-  fs::path folder_;
+  OwnFolder folder_;
 };
 
 Look look_by_weight() {
