@@ -14,6 +14,8 @@ function(curveskel_compile_settings target)
   # Same bytes on every machine of the same kind: no contraction of a*b+c into one rounding.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(CURVESKEL_SANITIZE)
+    # With AddressSanitizer GCC believes that what the standard library allocates may be null.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)
     target_compile_options(${target} PUBLIC -fsanitize=${CURVESKEL_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${CURVESKEL_SANITIZE})
   endif()
