@@ -13,6 +13,7 @@
 #include "skeleton/prune.hpp"
 #include "skeleton/relax.hpp"
 #include "skeleton/tips.hpp"
+#include "skeleton/wider_ways.hpp"
 #include "surface/element_index.hpp"
 
 namespace curveskel {
@@ -147,31 +148,57 @@ double most_spacing(const Surface& surface) {
   return std::max(1.0 / 60, of_edge * sum / static_cast<double>(surface.triangles.size()));
 }
 
-/// What the surgery has left out or left short.
-void grow_and_centre(Network& network, const Surface& surface, const InscribedBalls& balls,
-                     const VertexGraph& graph, const SurfaceTree& tree, double spacing,
-                     const EmbedOptions& options, int threads) {
-  constexpr double least_slenderness = 1;  // that of a half-ball
-  const double limit = std::max(least_slenderness, slenderness_limit(options.detail));
-  Network grown = network;
-  if (grow_branches(grown, surface, tree, balls, graph, limit) == 0) return;
-  // Where the parts that stick out are so thin that no way leads into them, all stays as it is.
-  if (keep_inside(grown, surface, balls, graph, tree) > 0) return;
-  network = std::move(grown);
+/// What a network is held against.
+struct Setting {
+  const Surface& surface;
+  const SurfaceTree& tree;
+  const InscribedBalls& balls;
+  const VertexGraph& graph;
+  const EmbedOptions& options;
+  int threads;
+  double spacing;  // of the points of a strand, at most
+};
+
+void centre(Network& network, const Setting& setting, int rounds) {
   RelaxOptions centring;
-  centring.keep = options.keep_radius;
-  centring.rounds = options.first_rounds;
-  straighten_at_junctions(network, tree, options.straight, false);
-  resample(network, tree, spacing);
-  relax(network, tree, centring, threads);
+  centring.keep = setting.options.keep_radius;
+  centring.rounds = rounds;
+  relax(network, setting.tree, centring, setting.threads);
+}
+
+void space_and_centre(Network& network, const Setting& setting) {
+  straighten_at_junctions(network, setting.tree, setting.options.straight, false);
+  resample(network, setting.tree, setting.spacing);
+  centre(network, setting, setting.options.first_rounds);
+}
+
+/// All stays as it is where the change makes nothing, or something to which no way inside is found.
+template <typename Change>
+void change_and_centre(Network& network, const Setting& setting, const Change& change) {
+  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
+  Network changed = network;
+  if (change(changed) == 0 || keep_inside(changed, surface, balls, graph, tree) > 0) return;
+  network = std::move(changed);
+  space_and_centre(network, setting);
   prune_spurs(network, tree, 1);
 }
 
+/// What the surgery has led astray, left out or left short.
+void correct(Network& network, const Setting& in) {
+  constexpr double least_slenderness = 1;  // that of a half-ball
+  const double limit = std::max(least_slenderness, slenderness_limit(in.options.detail));
+  change_and_centre(network, in, [&in](Network& changed) {
+    return take_wider_ways(changed, in.surface, in.balls, in.graph, in.tree);
+  });
+  change_and_centre(network, in, [&in, limit](Network& changed) {
+    return grow_branches(changed, in.surface, in.tree, in.balls, in.graph, limit);
+  });
+}
+
 /// Within the coarsened surface, whose tree is quick to ask: all that takes many rays.
-Network lay_out(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
-                const VertexGraph& graph, const EmbedOptions& options, int threads,
-                const Monitor& monitor) {
+Network lay_out(const Setting& setting, const Monitor& monitor) {
   monitor.report("embed", 0);
+  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
   Network network = network_of_graph(graph, positions_from_balls(surface, balls, graph));
   prune_blunt(network, surface, graph, slenderness_limit(options.detail));
   keep_inside(network, surface, balls, graph, tree);
@@ -179,32 +206,23 @@ Network lay_out(const Surface& surface, const SurfaceTree& tree, const Inscribed
   merge_junctions(network, tree, options.merge);
   monitor.report("embed", 0.2);
 
-  const double spacing = most_spacing(surface);
-  RelaxOptions centring;
-  centring.keep = options.keep_radius;
-  centring.rounds = options.first_rounds;
   do {
-    straighten_at_junctions(network, tree, options.straight, false);
-    resample(network, tree, spacing);
-    relax(network, tree, centring, threads);
+    space_and_centre(network, setting);
     straighten_at_junctions(network, tree, options.straight, false);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
-  grow_and_centre(network, surface, balls, graph, tree, spacing, options, threads);
+  correct(network, setting);
   merge_junctions(network, tree, options.merge);  // centred, they may have come together
-  centring.rounds = options.relax_rounds;
-  relax(network, tree, centring, threads);
+  centre(network, setting, options.relax_rounds);
   monitor.report("embed", 0.6);
   return network;
 }
 
 /// Within the surface that counts: what must hold there, and the last smoothing.
-CurveSkeleton settle(Network network, const Surface& surface, const SurfaceTree& tree,
-                     const InscribedBalls& balls, const VertexGraph& graph,
-                     const EmbedOptions& options, int threads, const Monitor& monitor) {
-  const double spacing = most_spacing(surface);
+CurveSkeleton settle(Network network, const Setting& setting, const Monitor& monitor) {
+  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
   RelaxOptions smoothing;
   smoothing.keep = options.keep_radius;
   smoothing.covered = true;
@@ -244,8 +262,10 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
                     const std::function<const SurfaceTree&()>& finer, const InscribedBalls& balls,
                     const VertexGraph& graph, const EmbedOptions& options, int threads,
                     const Monitor& monitor) {
-  Network network = lay_out(surface, tree, balls, graph, options, threads, monitor);
-  return settle(std::move(network), surface, finer(), balls, graph, options, threads, monitor);
+  const double spacing = most_spacing(surface);
+  Network network = lay_out({surface, tree, balls, graph, options, threads, spacing}, monitor);
+  return settle(std::move(network), {surface, finer(), balls, graph, options, threads, spacing},
+                monitor);
 }
 
 }  // namespace curveskel

@@ -1,0 +1,153 @@
+#include "skeleton/ball_chains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "surface/element_index.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double no_way = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+std::vector<int> groups_among(std::vector<int> nodes, const VertexGraph& graph) {
+  std::erase_if(nodes, [&](int node) { return node >= graph.groups; });
+  return nodes;
+}
+
+std::vector<int> groups_along(const Network& network, const Strand& strand,
+                              const VertexGraph& graph) {
+  std::vector<int> nodes = strand.nodes;
+  for (const int hub : {strand.from, strand.to}) {
+    const auto& more = network.hubs[at(hub)].nodes;
+    nodes.insert(nodes.end(), more.begin(), more.end());
+  }
+  return groups_among(std::move(nodes), graph);
+}
+
+BallChains::BallChains(const Surface& surface, const InscribedBalls& balls,
+                       const VertexGraph& graph)
+    : balls_(balls),
+      graph_(graph),
+      neighbours_(at(surface.positions.rows())),
+      vertices_(at(graph.groups)),
+      allowed_(at(graph.groups), 0),
+      cost_(neighbours_.size(), no_way),
+      previous_(neighbours_.size(), -1) {
+  for (const auto& [a, b] : index_edges(surface.triangles).edges) {
+    neighbours_[at(a)].push_back(b);
+    neighbours_[at(b)].push_back(a);
+  }
+  for (int v = 0; v < static_cast<int>(neighbours_.size()); ++v) {
+    if (balls.radii[v] > least_radius) vertices_[at(graph.group_of_vertex[v])].push_back(v);
+  }
+}
+
+std::vector<Point> BallChains::chain(const Point& p, const Point& q,
+                                     const std::vector<int>& groups) {
+  const int source = holder_of(p, groups);
+  const int target = holder_of(q, groups);
+  if (source < 0 || target < 0) return {};
+  search(source, target, groups);
+  std::vector<Point> points;
+  for (int v = std::isfinite(cost_[at(target)]) ? target : -1; v >= 0; v = previous_[at(v)]) {
+    points.push_back(balls_.centres.row(v));
+  }
+  std::reverse(points.begin(), points.end());
+  forget();
+  return points;
+}
+
+std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& places,
+                                      const std::vector<int>& groups) {
+  std::vector<double> costs(places.size(), no_way);
+  const int source = holder_of(p, groups);
+  if (source < 0) return costs;
+  search(source, -1, groups);
+  const auto from_ball = [&](const Point& place, int v) {
+    return distance(place, v) / balls_.radii[v];
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int target = holder_of(places[i], groups);
+    costs[i] = from_ball(p, source) + cost_[at(target)] + from_ball(places[i], target);
+  }
+  forget();
+  return costs;
+}
+
+Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups) const {
+  const int best = least_of(groups, [&](int v) { return distance(p, v); });
+  return best < 0 ? p : Point(balls_.centres.row(best));
+}
+
+/// Dijkstra's from one vertex through the groups until the other is reached, or all are.
+void BallChains::search(int source, int target, const std::vector<int>& groups) {
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const int group : groups) allowed_[at(group)] = 1;
+  cost_[at(source)] = 0;
+  reached_.push_back(source);
+  queue.emplace(0, source);
+  while (!queue.empty()) {
+    const auto [so_far, v] = queue.top();
+    queue.pop();
+    if (v == target) break;
+    if (so_far > cost_[at(v)]) continue;
+    for (const int next : neighbours_[at(v)]) {
+      if (!may_pass(next)) continue;
+      const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
+      const double narrow = std::min(balls_.radii[v], balls_.radii[next]);
+      const double total = so_far + step / narrow;
+      if (total >= cost_[at(next)]) continue;
+      if (previous_[at(next)] < 0) reached_.push_back(next);
+      cost_[at(next)] = total;
+      previous_[at(next)] = v;
+      queue.emplace(total, next);
+    }
+  }
+  for (const int group : groups) allowed_[at(group)] = 0;
+}
+
+void BallChains::forget() {
+  for (const int v : std::exchange(reached_, {})) {
+    cost_[at(v)] = no_way;
+    previous_[at(v)] = -1;
+  }
+}
+
+bool BallChains::may_pass(int v) const {
+  return allowed_[at(graph_.group_of_vertex[v])] != 0 && balls_.radii[v] > least_radius;
+}
+
+double BallChains::distance(const Point& p, int v) const {
+  return (balls_.centres.row(v).transpose() - p).norm();
+}
+
+/// The vertex of these groups with the least value, the first of them if several; -1 if none.
+template <typename Value>
+int BallChains::least_of(const std::vector<int>& groups, const Value& value) const {
+  int best = -1;
+  double least = no_way;
+  for (const int group : groups) {
+    for (const int v : vertices_[at(group)]) {
+      const double here = value(v);
+      if (here > least || (here == least && best < v)) continue;
+      least = here;
+      best = v;
+    }
+  }
+  return best;
+}
+
+/// The vertex whose ball holds the point best.
+int BallChains::holder_of(const Point& p, const std::vector<int>& groups) const {
+  return least_of(groups, [&](int v) { return distance(p, v) - balls_.radii[v]; });
+}
+
+}  // namespace curveskel

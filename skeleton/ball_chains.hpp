@@ -1,0 +1,63 @@
+// Ways through a surface from inscribed ball to inscribed ball.
+#pragma once
+
+#include <vector>
+
+#include "skeleton/circles.hpp"
+#include "skeleton/network.hpp"
+#include "surface/inscribed_balls.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+/// Smaller balls are as good as outside. D = 1.
+inline constexpr double least_radius = 1e-5;
+
+/// The groups among nodes of the graph, whose others are circles.
+[[nodiscard]] std::vector<int> groups_among(std::vector<int> nodes, const VertexGraph& graph);
+/// Those of a strand and of its hubs.
+[[nodiscard]] std::vector<int> groups_along(const Network& network, const Strand& strand,
+                                            const VertexGraph& graph);
+
+/// Cheapest chains of the vertices' inscribed balls from neighbour to neighbour: each step costs
+/// its length over the smaller radius. A question takes as long as the groups asked about have
+/// vertices, however many others there are.
+class BallChains {
+ public:
+  /// Kept by reference, but for the surface.
+  BallChains(const Surface& surface, const InscribedBalls& balls, const VertexGraph& graph);
+
+  /// Ball centres from about p to about q through vertices of the given groups; empty if there is
+  /// no way.
+  [[nodiscard]] std::vector<Point> chain(const Point& p, const Point& q,
+                                         const std::vector<int>& groups);
+
+  /// The cost of the cheapest chain from p to each of the places, infinity if there is no way. Its
+  /// first and last steps, from a place to the ball that holds it best, count with that ball.
+  [[nodiscard]] std::vector<double> costs(const Point& p, const std::vector<Point>& places,
+                                          const std::vector<int>& groups);
+
+  /// The ball centre nearest to p of the vertices of the given groups; p if they have none.
+  [[nodiscard]] Point nearest_centre(const Point& p, const std::vector<int>& groups) const;
+
+ private:
+  void search(int source, int target, const std::vector<int>& groups);
+  void forget();
+  [[nodiscard]] bool may_pass(int v) const;
+  [[nodiscard]] double distance(const Point& p, int v) const;
+  [[nodiscard]] int holder_of(const Point& p, const std::vector<int>& groups) const;
+  template <typename Value>
+  [[nodiscard]] int least_of(const std::vector<int>& groups, const Value& value) const;
+
+  const InscribedBalls& balls_;
+  const VertexGraph& graph_;
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
+  // What one search leaves for the next to clear.
+  std::vector<char> allowed_;  // per group
+  std::vector<double> cost_;
+  std::vector<int> previous_;
+  std::vector<int> reached_;
+};
+
+}  // namespace curveskel
