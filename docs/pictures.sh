@@ -16,6 +16,13 @@ for stage in input contraction:3 surgery skeleton; do
 done
 convert "$work"/{input,contraction:3,surgery,skeleton}.png +append docs/pictures/viewer-stages.png
 
+# README's, where the collection of meshes is.
+armadillo=../shared/meshes/armadillo-43k.ply
+if [ -e "$armadillo" ]; then
+  "$program" view "$armadillo" --screenshot docs/pictures/armadillo.png --size 1300x760 \
+    --two-sides 2>/dev/null
+fi
+
 # A rig, where the collection of meshes is: the weights of all joints, and those of one.
 rig=../shared/meshes/rigs/quaternius-horse-1k.glb
 if [ -e "$rig" ]; then
