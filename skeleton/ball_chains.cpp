@@ -33,24 +33,27 @@ std::vector<int> groups_along(const Network& network, const Strand& strand,
 
 BallChains::BallChains(const Surface& surface, const InscribedBalls& balls,
                        const VertexGraph& graph)
-    : balls_(balls),
-      graph_(graph),
-      neighbours_(at(surface.positions.rows())),
-      vertices_(at(graph.groups)),
-      allowed_(at(graph.groups), 0),
-      cost_(neighbours_.size(), no_way),
-      previous_(neighbours_.size(), -1) {
-  for (const auto& [a, b] : index_edges(surface.triangles).edges) {
+    : surface_(surface), balls_(balls), graph_(graph) {}
+
+void BallChains::prepare() {
+  if (!neighbours_.empty()) return;
+  neighbours_.resize(at(surface_.positions.rows()));
+  vertices_.resize(at(graph_.groups));
+  allowed_.assign(vertices_.size(), 0);
+  cost_.assign(neighbours_.size(), no_way);
+  previous_.assign(neighbours_.size(), -1);
+  for (const auto& [a, b] : index_edges(surface_.triangles).edges) {
     neighbours_[at(a)].push_back(b);
     neighbours_[at(b)].push_back(a);
   }
   for (int v = 0; v < static_cast<int>(neighbours_.size()); ++v) {
-    if (balls.radii[v] > least_radius) vertices_[at(graph.group_of_vertex[v])].push_back(v);
+    if (balls_.radii[v] > least_radius) vertices_[at(graph_.group_of_vertex[v])].push_back(v);
   }
 }
 
 std::vector<Point> BallChains::chain(const Point& p, const Point& q,
                                      const std::vector<int>& groups) {
+  prepare();
   const int source = holder_of(p, groups);
   const int target = holder_of(q, groups);
   if (source < 0 || target < 0) return {};
@@ -66,6 +69,7 @@ std::vector<Point> BallChains::chain(const Point& p, const Point& q,
 
 std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& places,
                                       const std::vector<int>& groups) {
+  prepare();
   std::vector<double> costs(places.size(), no_way);
   const int source = holder_of(p, groups);
   if (source < 0) return costs;
@@ -81,7 +85,8 @@ std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& 
   return costs;
 }
 
-Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups) const {
+Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups) {
+  prepare();
   const int best = least_of(groups, [&](int v) { return distance(p, v); });
   return best < 0 ? p : Point(balls_.centres.row(best));
 }

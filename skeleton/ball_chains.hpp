@@ -21,10 +21,11 @@ inline constexpr double least_radius = 1e-5;
 
 /// Cheapest chains of the vertices' inscribed balls from neighbour to neighbour: each step costs
 /// its length over the smaller radius. A question takes as long as the groups asked about have
-/// vertices, however many others there are.
+/// vertices, however many others there are; only the first one prepares all, as there are often
+/// none.
 class BallChains {
  public:
-  /// Kept by reference, but for the surface.
+  /// Kept by reference.
   BallChains(const Surface& surface, const InscribedBalls& balls, const VertexGraph& graph);
 
   /// Ball centres from about p to about q through vertices of the given groups; empty if there is
@@ -38,9 +39,10 @@ class BallChains {
                                           const std::vector<int>& groups);
 
   /// The ball centre nearest to p of the vertices of the given groups; p if they have none.
-  [[nodiscard]] Point nearest_centre(const Point& p, const std::vector<int>& groups) const;
+  [[nodiscard]] Point nearest_centre(const Point& p, const std::vector<int>& groups);
 
  private:
+  void prepare();
   void search(int source, int target, const std::vector<int>& groups);
   void forget();
   [[nodiscard]] bool may_pass(int v) const;
@@ -49,6 +51,7 @@ class BallChains {
   template <typename Value>
   [[nodiscard]] int least_of(const std::vector<int>& groups, const Value& value) const;
 
+  const Surface& surface_;
   const InscribedBalls& balls_;
   const VertexGraph& graph_;
   std::vector<std::vector<int>> neighbours_;

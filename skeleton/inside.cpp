@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -85,14 +84,14 @@ class Keeper {
  public:
   Keeper(Network& network, const Surface& surface, const InscribedBalls& balls,
          const VertexGraph& graph, const SurfaceTree& tree)
-      : network_(network), surface_(surface), balls_(balls), graph_(graph), tree_(tree) {}
+      : network_(network), graph_(graph), tree_(tree), chains_(surface, balls, graph) {}
 
   int run() {
     for (Hub& hub : network_.hubs) {
       if (!hub.alive) continue;
       hub.position = pulled_inside(tree_, hub.position);
       if (tree_.inscribed_radius(hub.position) < least_radius) {
-        hub.position = chains().nearest_centre(hub.position, groups_among(hub.nodes, graph_));
+        hub.position = chains_.nearest_centre(hub.position, groups_among(hub.nodes, graph_));
       }
     }
     for (Strand& strand : network_.strands) {
@@ -124,7 +123,7 @@ class Keeper {
   }
 
   std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
-    auto chain = chains().chain(p, q, groups_along(network_, strand, graph_));
+    auto chain = chains_.chain(p, q, groups_along(network_, strand, graph_));
     if (chain.empty()) {
       ++uncovered_;
       return {};
@@ -145,18 +144,10 @@ class Keeper {
     return points;
   }
 
-  /// Rarely needed, and as much work as all the rest.
-  BallChains& chains() {
-    if (!chains_) chains_.emplace(surface_, balls_, graph_);
-    return *chains_;
-  }
-
   Network& network_;
-  const Surface& surface_;
-  const InscribedBalls& balls_;
   const VertexGraph& graph_;
   const SurfaceTree& tree_;
-  std::optional<BallChains> chains_;
+  BallChains chains_;
   int uncovered_ = 0;
 };
 

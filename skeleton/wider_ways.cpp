@@ -99,7 +99,7 @@ class WiderWays {
  public:
   WiderWays(Network& network, const Surface& surface, const InscribedBalls& balls,
             const VertexGraph& graph, const SurfaceTree& tree)
-      : network_(network), surface_(surface), balls_(balls), graph_(graph), tree_(tree) {}
+      : network_(network), graph_(graph), tree_(tree), chains_(surface, balls, graph) {}
 
   int run() {
     int count = 0;
@@ -122,7 +122,7 @@ class WiderWays {
     if (gain.ratio < cheaper) return false;
     const auto [first, last] = gain.ends;
     std::vector<Point> points(course.points.begin(), course.points.begin() + offset(first) + 1);
-    const auto between = chains().chain(course.points[first], course.points[last], groups);
+    const auto between = chains_.chain(course.points[first], course.points[last], groups);
     points.insert(points.end(), between.begin(), between.end());
     points.insert(points.end(), course.points.begin() + offset(last), course.points.end());
     const Course found(std::move(points), tree_);
@@ -138,7 +138,7 @@ class WiderWays {
     double ratio = 0;
     for (const bool first : {false, true, false}) {
       const std::size_t fixed = first ? ends.last : ends.first;
-      const auto costs = chains().costs(course.points[fixed], course.points, groups);
+      const auto costs = chains_.costs(course.points[fixed], course.points, groups);
       double most = 0;
       const std::size_t begin = first ? 0 : ends.first + 1;
       const std::size_t end = first ? ends.last : course.points.size();
@@ -154,18 +154,10 @@ class WiderWays {
     return {ends, ratio};
   }
 
-  /// As much work as all the rest.
-  BallChains& chains() {
-    if (!chains_) chains_.emplace(surface_, balls_, graph_);
-    return *chains_;
-  }
-
   Network& network_;
-  const Surface& surface_;
-  const InscribedBalls& balls_;
   const VertexGraph& graph_;
   const SurfaceTree& tree_;
-  std::optional<BallChains> chains_;
+  BallChains chains_;
 };
 
 }  // namespace
