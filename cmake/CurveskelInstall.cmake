@@ -32,8 +32,12 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/skeleton_files.hpp
   skeleton/surgery.hpp
   skeleton/view.hpp
+  rig/joints.hpp
+  rig/make_rig.hpp
   rig/read_rig.hpp
   rig/rig.hpp
+  rig/rig_files.hpp
+  rig/skin_weights.hpp
 )
 target_sources(curveskel PUBLIC FILE_SET HEADERS
   BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${CURVESKEL_PUBLIC_HEADERS})

@@ -1,0 +1,154 @@
+// curveskel rig: a surface file in, the same surface with joints and skin weights out.
+#include <fmt/core.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/arguments.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#include "rig/make_rig.hpp"
+#include "rig/rig_files.hpp"
+#include "skeleton/extract.hpp"
+#include "skeleton/skeleton_files.hpp"
+#include "surface/read.hpp"
+#include "surface/repair.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RigArguments {
+  fs::path mesh;
+  std::vector<std::string> outputs;
+  std::string skeleton;  ///< empty = extract it
+  bool quiet = false;
+  double time_limit_seconds = 0;
+  int fair_iterations = 0;
+  int threads = 0;
+  RepairOptions repair;
+  ExtractOptions extract;
+  RigOptions rig;
+};
+
+/// node_of_vertex from vertices of the file to those of the repaired surface; -1 where none is
+/// known.
+CurveSkeleton on_repaired(CurveSkeleton skeleton, const RepairedSurface& repaired,
+                          const RigArguments& arguments) {
+  const Eigen::VectorXi of_file = skeleton.node_of_vertex;
+  if (of_file.size() == 0) return skeleton;
+  if (of_file.size() != repaired.vertex_of_input.size()) {
+    throw Error(Fault::input,
+                fmt::format("{}: a node for each of {} vertices, needed one for each of the {} of "
+                            "{}; extract it again",
+                            arguments.skeleton, of_file.size(), repaired.vertex_of_input.size(),
+                            arguments.mesh.string()));
+  }
+  skeleton.node_of_vertex.setConstant(repaired.surface.positions.rows(), -1);
+  for (Eigen::Index v = 0; v < of_file.size(); ++v) {
+    const int vertex = repaired.vertex_of_input[v];
+    if (vertex >= 0) skeleton.node_of_vertex[vertex] = of_file[v];
+  }
+  return skeleton;
+}
+
+CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface& repaired,
+                           const Monitor& monitor) {
+  if (!arguments.skeleton.empty()) {
+    return on_repaired(read_skeleton(arguments.skeleton), repaired, arguments);
+  }
+  ExtractOptions options = arguments.extract;
+  options.openings = repaired.openings;
+  options.threads = options.fair.threads = options.certificate.threads = arguments.threads;
+  options.fairing = arguments.fair_iterations > 0;
+  options.fair.iterations = arguments.fair_iterations;
+  return extract(repaired.surface, options, monitor).skeleton;
+}
+
+int run_rig(RigArguments arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  std::vector<RigFormat> formats;
+  for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
+  check_outputs(arguments.outputs, arguments.mesh);
+  session.interruption.limit(arguments.time_limit_seconds);
+  arguments.rig.skin.threads = arguments.threads;
+
+  const auto begin = std::chrono::steady_clock::now();
+  const Monitor monitor = session.monitor();
+  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor);
+  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
+                               repaired.surface, repaired.vertex_of_input, soup.positions);
+  std::vector<OutputFile> files;
+  const Surface given{soup.positions, triangulate(soup)};
+  const std::string stem = arguments.mesh.stem().string();
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
+    files.push_back(
+        {arguments.outputs[i], format_rig(given, rig, formats[i], stem, program_and_version())});
+  }
+  write_outputs(files, session);
+  if (arguments.quiet) return ExitCode::done;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  std::string text =
+      fmt::format("{}: {} vertices\nrig: {} joints, root {}\n", arguments.mesh.filename().string(),
+                  soup.positions.rows(), rig.joints.rows(), rig.names.front());
+  for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
+  session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_rig(CLI::App& program) {
+  const auto arguments = std::make_shared<RigArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "rig", "Give a surface joints and skin weights, as glTF that Blender opens");
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->outputs,
+                   "rig file, its format by the extension; may be given several times")
+      ->required()
+      ->type_name("OUT.glb")
+      ->allow_extra_args(false);
+  parser
+      ->add_option("--skeleton", arguments->skeleton,
+                   "rig this one (of extract or view, corrected by hand, or of another program) "
+                   "instead of extracting one")
+      ->type_name("FILE");
+  JointOptions& joints = arguments->rig.joints;
+  add_number(*parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
+             "node of the skeleton, counted from 0, that all hangs from; -1 = chosen");
+  add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
+             "of straight limbs, in their radius: smaller gives more joints");
+  add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
+             "how gently the skin goes over from one joint to the next, in radii");
+  add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay");
+  add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
+             "iterations of fairing before the contraction, for noisy surfaces");
+  arguments->extract.contraction.program_cache = kernel_cache();
+  arguments->extract.fair.program_cache = kernel_cache();
+  add_number(*parser, "--threads", arguments->threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Formats", rig_formats));
+  return {parser, [arguments](Session& session) { return run_rig(*arguments, session); }};
+}
+
+}  // namespace curveskel

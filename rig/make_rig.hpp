@@ -1,0 +1,33 @@
+// From a surface and its curve skeleton to a rig: joints, what hangs from what, skin weights.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "rig/joints.hpp"
+#include "rig/rig.hpp"
+#include "rig/skin_weights.hpp"
+#include "skeleton/curve_skeleton.hpp"
+#include "surface/monitor.hpp"
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+struct RigOptions {
+  JointOptions joints;
+  SkinOptions skin;
+};
+
+/// `place_joints`, then `skin_weights`. A vertex that has no node (or none has) goes to the one
+/// whose ball is nearest.
+/// Precondition: a clean surface; node_of_vertex by its vertices, if there is one.
+/// Throws Error(Fault::input) as `place_joints`, Cancelled on a stop.
+[[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
+                           const RigOptions& options, const Monitor& monitor);
+
+/// The rig of the surface as a rig of what it was repaired from: `vertex_of_input` and `given` are
+/// as in RepairedSurface and PolygonSoup. Vertices that the repair left out (buttons, eyes, specks)
+/// move with the vertex of the surface that is nearest to them.
+[[nodiscard]] Rig rig_of_given(const Rig& rig, const Surface& surface,
+                               const Eigen::VectorXi& vertex_of_input, const Positions& given);
+
+}  // namespace curveskel

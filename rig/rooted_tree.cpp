@@ -1,0 +1,191 @@
+#include "rig/rooted_tree.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "surface/element_index.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+class Rooting {
+ public:
+  explicit Rooting(const CurveSkeleton& skeleton)
+      : skeleton_(skeleton), neighbours_(at(skeleton.nodes.rows())), mass_(neighbours_.size()) {
+    for (const auto& edge : skeleton.edges.rowwise()) {
+      neighbours_[at(edge[0])].push_back(edge[1]);
+      neighbours_[at(edge[1])].push_back(edge[0]);
+      const double half = 0.5 * length(edge[0], edge[1]);
+      mass_[at(edge[0])] += half * radius(edge[0]);
+      mass_[at(edge[1])] += half * radius(edge[1]);
+    }
+    tree_.parent.assign(neighbours_.size(), -1);
+    tree_.children.resize(neighbours_.size());
+    distance_.assign(neighbours_.size(), nowhere);
+  }
+
+  RootedTree grow(int wanted) {
+    std::vector<std::pair<double, std::vector<int>>> components = find_components();
+    for (const auto& [weight, nodes] : components) {
+      const bool has_wanted = std::find(nodes.begin(), nodes.end(), wanted) != nodes.end();
+      const int root = has_wanted ? wanted : root_of(nodes);
+      tree_.roots.push_back(root);
+      walk(root, cut_at(nodes, root));
+      for (const int node : nodes) {
+        if (tree_.parent[at(node)] >= 0) tree_.children[at(tree_.parent[at(node)])].push_back(node);
+      }
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  [[nodiscard]] double length(int a, int b) const {
+    return (skeleton_.nodes.row(a) - skeleton_.nodes.row(b)).norm();
+  }
+  [[nodiscard]] double radius(int node) const {
+    return skeleton_.radii.size() > 0 ? skeleton_.radii[node] : 1;
+  }
+  [[nodiscard]] std::size_t degree(int node) const { return neighbours_[at(node)].size(); }
+
+  /// The heaviest first; nodes ascending.
+  std::vector<std::pair<double, std::vector<int>>> find_components() const {
+    std::vector<std::pair<double, std::vector<int>>> components;
+    std::vector<bool> seen(neighbours_.size());
+    for (std::size_t first = 0; first < seen.size(); ++first) {
+      if (seen[first]) continue;
+      seen[first] = true;
+      std::vector<int> nodes{static_cast<int>(first)};
+      double weight = 0;
+      for (std::size_t next = 0; next < nodes.size(); ++next) {
+        weight += mass_[at(nodes[next])];
+        for (const int other : neighbours_[at(nodes[next])]) {
+          if (!seen[at(other)]) nodes.push_back(other);
+          seen[at(other)] = true;
+        }
+      }
+      std::sort(nodes.begin(), nodes.end());
+      components.emplace_back(weight, std::move(nodes));
+    }
+    std::stable_sort(components.begin(), components.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return components;
+  }
+
+  [[nodiscard]] int root_of(const std::vector<int>& nodes) {
+    std::vector<int> junctions;
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(junctions),
+                 [this](int node) { return degree(node) >= 3; });
+    if (junctions.empty()) return end_of(nodes);
+    keep_central(junctions, nodes);
+    int best = junctions.front();
+    double least = nowhere;
+    for (const int junction : junctions) {
+      walk(junction, {-1, -1});
+      double sum = 0;
+      for (const int node : nodes) sum += mass_[at(node)] * distance_[at(node)];
+      if (sum < least) {
+        least = sum;
+        best = junction;
+      }
+    }
+    return best;
+  }
+
+  /// Of very many junctions only those nearest to the centre of mass are tried.
+  void keep_central(std::vector<int>& junctions, const std::vector<int>& nodes) const {
+    constexpr std::size_t most = 64;
+    if (junctions.size() <= most) return;
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    double all = 0;
+    for (const int node : nodes) {
+      centre += mass_[at(node)] * skeleton_.nodes.row(node);
+      all += mass_[at(node)];
+    }
+    if (all > 0) centre /= all;
+    const auto nearer = [&](int a, int b) {
+      return (skeleton_.nodes.row(a) - centre).squaredNorm() <
+             (skeleton_.nodes.row(b) - centre).squaredNorm();
+    };
+    std::stable_sort(junctions.begin(), junctions.end(), nearer);
+    junctions.resize(most);
+  }
+
+  /// Of a chain the end with the larger ball, of a ring its thickest node.
+  [[nodiscard]] int end_of(const std::vector<int>& nodes) const {
+    const bool is_ring =
+        std::all_of(nodes.begin(), nodes.end(), [this](int node) { return degree(node) == 2; });
+    int best = -1;
+    for (const int node : nodes) {
+      const bool may_be = is_ring || degree(node) <= 1;
+      if (may_be && (best < 0 || radius(node) > radius(best))) best = node;
+    }
+    return best;
+  }
+
+  /// A ring is cut beside its root, so that it is one chain.
+  [[nodiscard]] std::pair<int, int> cut_at(const std::vector<int>& nodes, int root) const {
+    const bool is_ring =
+        std::all_of(nodes.begin(), nodes.end(), [this](int node) { return degree(node) == 2; });
+    if (!is_ring) return {-1, -1};
+    return {root, neighbours_[at(root)].back()};
+  }
+
+  /// Dijkstra (1959), without the edge `cut`; parents and distances of the root's component.
+  void walk(int root, std::pair<int, int> cut) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    forget(root);
+    distance_[at(root)] = 0;
+    open.emplace(0, root);
+    while (!open.empty()) {
+      const double way = open.top().first;
+      const int node = open.top().second;
+      open.pop();
+      if (way > distance_[at(node)]) continue;
+      for (const int other : neighbours_[at(node)]) {
+        const bool is_cut = (node == cut.first && other == cut.second) ||
+                            (node == cut.second && other == cut.first);
+        const double longer = way + length(node, other);
+        if (is_cut || !(longer < distance_[at(other)])) continue;
+        distance_[at(other)] = longer;
+        tree_.parent[at(other)] = node;
+        open.emplace(longer, other);
+      }
+    }
+  }
+
+  void forget(int root) {
+    std::vector<int> nodes{root};
+    distance_[at(root)] = -1;
+    for (std::size_t next = 0; next < nodes.size(); ++next) {
+      for (const int other : neighbours_[at(nodes[next])]) {
+        if (distance_[at(other)] < 0) continue;
+        distance_[at(other)] = -1;
+        nodes.push_back(other);
+      }
+    }
+    for (const int node : nodes) {
+      distance_[at(node)] = nowhere;
+      tree_.parent[at(node)] = -1;
+    }
+  }
+
+  const CurveSkeleton& skeleton_;
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<double> mass_;      // by node: length times radius of what is nearest to it
+  std::vector<double> distance_;  // by node, from the root of the last walk
+  RootedTree tree_;
+};
+
+}  // namespace
+
+RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted) {
+  return Rooting(skeleton).grow(wanted);
+}
+
+}  // namespace curveskel

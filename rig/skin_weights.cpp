@@ -1,0 +1,221 @@
+#include "rig/skin_weights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "contraction/cholesky_factor.hpp"
+#include "contraction/laplacian.hpp"
+#include "surface/element_index.hpp"
+#include "surface/measures.hpp"
+#include "surface/parallel.hpp"
+#include "surface/topology.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::size_t room = 8;  // joints a vertex
+
+/// The joints with the largest shares in a vertex, largest first; of equal ones the first added.
+class TopShares {
+ public:
+  void add(int joint, double weight, std::size_t most) {
+    std::size_t place = count_;
+    while (place > 0 && weights_[place - 1] < weight) --place;
+    if (place >= most) return;
+    count_ = std::min(count_ + 1, most);
+    for (std::size_t k = count_ - 1; k > place; --k) {
+      joints_[k] = joints_[k - 1];
+      weights_[k] = weights_[k - 1];
+    }
+    joints_[place] = joint;
+    weights_[place] = weight;
+  }
+
+  /// As a row of sum 1, joints ascending.
+  [[nodiscard]] std::vector<std::pair<int, double>> row() const {
+    double sum = 0;
+    std::vector<std::pair<int, double>> result;
+    for (std::size_t k = 0; k < count_; ++k) {
+      result.emplace_back(joints_[k], weights_[k]);
+      sum += weights_[k];
+    }
+    for (auto& [joint, weight] : result) weight /= sum;
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+ private:
+  std::array<int, room> joints_{};
+  std::array<double, room> weights_{};
+  std::size_t count_ = 0;
+};
+
+/// Where heat comes from, and how fast.
+struct HeatSources {
+  Eigen::VectorXi joint;     ///< by vertex
+  Eigen::VectorXd strength;  ///< by vertex: area / (softness d)^2
+  std::vector<int> joints;   ///< that occur, ascending
+};
+
+/// Solves for one component.
+class SkinHeat {
+ public:
+  SkinHeat(const Component& part, const Eigen::VectorXi& joint_of_vertex,
+           const Eigen::VectorXd& distance, const SkinOptions& options)
+      : part_(part), options_(options) {
+    const Eigen::Index count = part.surface.positions.rows();
+    sources_.joint.resize(count);
+    sources_.strength = vertex_areas(part.surface);
+    for (Eigen::Index v = 0; v < count; ++v) {
+      const int whole = part.vertex_in_whole[at(v)];
+      sources_.joint[v] = joint_of_vertex[whole];
+      const double way = options.softness * distance[whole];
+      sources_.strength[v] /= way * way;
+    }
+    sources_.joints.assign(sources_.joint.begin(), sources_.joint.end());
+    std::sort(sources_.joints.begin(), sources_.joints.end());
+    sources_.joints.erase(std::unique(sources_.joints.begin(), sources_.joints.end()),
+                          sources_.joints.end());
+  }
+
+  /// report(share done) is called from this thread.
+  template <typename Report>
+  void solve(std::vector<TopShares>& shares, int threads, const Report& report) {
+    const std::vector<int>& joints = sources_.joints;
+    if (joints.size() == 1) {
+      for (const int vertex : part_.vertex_in_whole) {
+        shares[at(vertex)].add(joints.front(), 1, 1);
+      }
+      return;
+    }
+    SparseMatrix heat = -intrinsic_delaunay_laplacian(part_.surface);
+    heat.diagonal() += sources_.strength;
+    factor_.factorize(heat);
+    const std::size_t workers = std::min(thread_count(threads), most_workers);
+    while (workspaces_.size() < workers) {
+      workspaces_.push_back(std::make_unique<CholeskyFactor::Workspace>());
+    }
+    for (std::size_t first = 0; first < joints.size(); first += workers * block) {
+      report(static_cast<double>(first) / static_cast<double>(joints.size()));
+      solve_blocks(first, workers, threads, shares);
+    }
+  }
+
+ private:
+  static constexpr std::size_t block = 8;  // right-hand sides that CHOLMOD takes at once
+  static constexpr std::size_t most_workers = 8;
+  using Result = Eigen::Map<const Eigen::MatrixXd>;
+
+  void solve_blocks(std::size_t first, std::size_t workers, int threads,
+                    std::vector<TopShares>& shares) {
+    const std::vector<int>& joints = sources_.joints;
+    const std::size_t blocks = std::min(workers, (joints.size() - first + block - 1) / block);
+    std::vector<const double*> results(blocks);
+    parallel_for(blocks, 1, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t from = first + k * block;
+        const std::size_t to = std::min(from + block, joints.size());
+        results[k] = factor_.solve(right_hand_sides(from, to), *workspaces_[k]).data();
+      }
+    });
+    const auto count = part_.vertex_in_whole.size();
+    parallel_for(count, 4096, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        TopShares& top = shares[at(part_.vertex_in_whole[v])];
+        for (std::size_t k = first; k < std::min(first + blocks * block, joints.size()); ++k) {
+          const double weight = results[(k - first) / block][(k - first) % block * count + v];
+          if (weight > options_.least_weight) top.add(joints[k], weight, at(options_.most_joints));
+        }
+      }
+    });
+  }
+
+  [[nodiscard]] Eigen::MatrixXd right_hand_sides(std::size_t from, std::size_t to) const {
+    Eigen::MatrixXd right =
+        Eigen::MatrixXd::Zero(sources_.joint.size(), static_cast<Eigen::Index>(to - from));
+    for (Eigen::Index v = 0; v < sources_.joint.size(); ++v) {
+      const auto place =
+          std::lower_bound(sources_.joints.begin(), sources_.joints.end(), sources_.joint[v]) -
+          sources_.joints.begin();
+      if (at(place) >= from && at(place) < to) {
+        right(v, place - static_cast<Eigen::Index>(from)) = sources_.strength[v];
+      }
+    }
+    return right;
+  }
+
+  const Component& part_;
+  const SkinOptions& options_;
+  HeatSources sources_;
+  CholeskyFactor factor_;
+  std::vector<std::unique_ptr<CholeskyFactor::Workspace>> workspaces_;
+};
+
+SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints) {
+  SkinWeights weights(static_cast<Eigen::Index>(shares.size()), joints);
+  weights.reserve(Eigen::VectorXi::Constant(weights.rows(), 4));
+  for (std::size_t v = 0; v < shares.size(); ++v) {
+    for (const auto& [joint, weight] : shares[v].row()) {
+      weights.insert(static_cast<Eigen::Index>(v), joint) = static_cast<float>(weight);
+    }
+  }
+  weights.makeCompressed();
+  return weights;
+}
+
+}  // namespace
+
+SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
+                         const Eigen::VectorXi& joint_of_node, int joints,
+                         const SkinOptions& options, const Monitor& monitor) {
+  const Eigen::Index count = surface.positions.rows();
+  const double least_distance = 1e-3 * bounding_box_diagonal(surface.positions);
+  Eigen::VectorXi joint_of_vertex(count);
+  Eigen::VectorXd distance(count);
+  for (Eigen::Index v = 0; v < count; ++v) {
+    const int node = skeleton.node_of_vertex[v];
+    joint_of_vertex[v] = joint_of_node[node];
+    distance[v] =
+        std::max((surface.positions.row(v) - skeleton.nodes.row(node)).norm(), least_distance);
+  }
+  const std::vector<Component> parts = split_components(surface, topology(surface));
+  std::vector<TopShares> shares(at(count));
+  // Large components use all cores one after the other, small ones a core each.
+  constexpr std::size_t large = 10000;
+  std::vector<const Component*> small_ones;
+  std::size_t done = 0;
+  const auto share_of = [&](std::size_t vertices) {
+    return static_cast<double>(vertices) / static_cast<double>(count);
+  };
+  for (const Component& part : parts) {
+    const std::size_t size = part.vertex_in_whole.size();
+    if (size < large) {
+      small_ones.push_back(&part);
+      continue;
+    }
+    SkinHeat(part, joint_of_vertex, distance, options)
+        .solve(shares, options.threads, [&](double fraction) {
+          monitor.report("weights", share_of(done) + fraction * share_of(size));
+        });
+    done += size;
+  }
+  constexpr std::size_t at_once = 64;
+  for (std::size_t first = 0; first < small_ones.size(); first += at_once) {
+    monitor.report("weights", share_of(done));
+    const std::size_t batch = std::min(at_once, small_ones.size() - first);
+    parallel_for(batch, 1, options.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = first + begin; k < first + end; ++k) {
+        SkinHeat(*small_ones[k], joint_of_vertex, distance, options).solve(shares, 1, [](double) {
+        });
+      }
+    });
+    for (std::size_t k = first; k < first + batch; ++k)
+      done += small_ones[k]->vertex_in_whole.size();
+  }
+  return matrix_of(shares, joints);
+}
+
+}  // namespace curveskel
