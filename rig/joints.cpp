@@ -167,6 +167,24 @@ class JointPlacer {
     return too_short ? 0 : first;
   }
 
+  /// Where the limb enters a ball at its tip that is much larger than what leads there, as a head
+  /// is than its neck; else the last sample.
+  [[nodiscard]] std::size_t ending(const Limb& limb, std::size_t first) const {
+    constexpr double much_larger = 1.5;
+    const std::size_t last = limb.samples.size() - 1;
+    const int lower = limb.nodes.back();
+    if (!tree_.children[at(lower)].empty()) return last;
+    std::size_t entry = last;
+    while (entry > first && (limb.samples[entry].point - point(lower)).norm() < radii_[lower]) {
+      --entry;
+    }
+    double thinnest = radii_[lower];
+    for (std::size_t k = first; k <= entry; ++k) {
+      thinnest = std::min(thinnest, limb.samples[k].radius);
+    }
+    return entry > first && radii_[lower] > much_larger * thinnest ? entry : last;
+  }
+
   /// What one bone from sample i to sample j costs.
   [[nodiscard]] double cost(const Limb& limb, std::size_t i, std::size_t j) const {
     const Eigen::Vector3d from = limb.samples[i].point;
@@ -183,10 +201,11 @@ class JointPlacer {
     return 1 + length * length + deviation / (options_.bend * options_.bend);
   }
 
-  /// Samples where joints are, from `first` to the last one.
-  [[nodiscard]] std::vector<std::size_t> best_joints(const Limb& limb, std::size_t first) const {
+  /// Samples where joints are, from `first` to `last`.
+  [[nodiscard]] std::vector<std::size_t> best_joints(const Limb& limb, std::size_t first,
+                                                     std::size_t last) const {
     const double longest = 3 * options_.bone_length;  // longer ones never pay
-    const std::size_t count = limb.samples.size();
+    const std::size_t count = last + 1;
     std::vector<double> sum(count, std::numeric_limits<double>::infinity());
     std::vector<std::size_t> before(count, first);
     sum[first] = 0;
@@ -200,7 +219,7 @@ class JointPlacer {
         }
       }
     }
-    std::vector<std::size_t> places{count - 1};
+    std::vector<std::size_t> places{last};
     while (places.back() > first) places.push_back(before[places.back()]);
     std::reverse(places.begin(), places.end());
     return places;
@@ -212,7 +231,9 @@ class JointPlacer {
     const int upper = joints_.joint_of_node[limb.nodes.front()];
     const int lower = limb.nodes.back();
     const std::size_t first = beginning(limb);
-    std::vector<std::size_t> places = best_joints(limb, first);
+    const std::size_t last = ending(limb, first);
+    std::vector<std::size_t> places = best_joints(limb, first, last);
+    if (last + 1 < limb.samples.size()) places.push_back(limb.samples.size() - 1);
     if (first == 0) places.erase(places.begin());  // the upper joint is there
     int joint = upper;
     std::size_t node = 1;
