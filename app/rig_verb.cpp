@@ -39,31 +39,11 @@ struct RigArguments {
   RigOptions rig;
 };
 
-/// node_of_vertex from vertices of the file to those of the repaired surface; -1 where none is
-/// known.
-CurveSkeleton on_repaired(CurveSkeleton skeleton, const RepairedSurface& repaired,
-                          const RigArguments& arguments) {
-  const Eigen::VectorXi of_file = skeleton.node_of_vertex;
-  if (of_file.size() == 0) return skeleton;
-  if (of_file.size() != repaired.vertex_of_input.size()) {
-    throw Error(Fault::input,
-                fmt::format("{}: a node for each of {} vertices, needed one for each of the {} of "
-                            "{}; extract it again",
-                            arguments.skeleton, of_file.size(), repaired.vertex_of_input.size(),
-                            arguments.mesh.string()));
-  }
-  skeleton.node_of_vertex.setConstant(repaired.surface.positions.rows(), -1);
-  for (Eigen::Index v = 0; v < of_file.size(); ++v) {
-    const int vertex = repaired.vertex_of_input[v];
-    if (vertex >= 0) skeleton.node_of_vertex[vertex] = of_file[v];
-  }
-  return skeleton;
-}
-
 CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface& repaired,
                            const Monitor& monitor) {
   if (!arguments.skeleton.empty()) {
-    return on_repaired(read_skeleton(arguments.skeleton), repaired, arguments);
+    return skeleton_of_repaired(read_skeleton(arguments.skeleton), repaired.vertex_of_input,
+                                repaired.surface.positions.rows());
   }
   ExtractOptions options = arguments.extract;
   options.openings = repaired.openings;

@@ -2,9 +2,11 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "surface/error.hpp"
 #include "surface/parallel.hpp"
 #include "surface/tree.hpp"
 
@@ -72,6 +74,23 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOpt
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
   return rig;
+}
+
+CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton, const Eigen::VectorXi& vertex_of_input,
+                                   Eigen::Index vertices) {
+  const Eigen::VectorXi given = skeleton.node_of_vertex;
+  if (given.size() == 0) return skeleton;
+  if (given.size() != vertex_of_input.size()) {
+    throw Error(Fault::input, "the skeleton has a node for each of " +
+                                  std::to_string(given.size()) + " vertices, needed one for each " +
+                                  "of the surface's " + std::to_string(vertex_of_input.size()) +
+                                  "; extract it from this surface");
+  }
+  skeleton.node_of_vertex.setConstant(vertices, -1);
+  for (Eigen::Index v = 0; v < given.size(); ++v) {
+    if (vertex_of_input[v] >= 0) skeleton.node_of_vertex[vertex_of_input[v]] = given[v];
+  }
+  return skeleton;
 }
 
 Rig rig_of_given(const Rig& rig, const Surface& surface, const Eigen::VectorXi& vertex_of_input,

@@ -24,6 +24,14 @@ struct RigOptions {
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options, const Monitor& monitor);
 
+/// The skeleton with node_of_vertex, if it has one, by the vertices of the surface that was
+/// repaired instead of those given; -1 for vertices that only the repair made. `vertex_of_input` is
+/// as in RepairedSurface, `vertices` those of the surface.
+/// Throws Error(Fault::input) where node_of_vertex is of another number of vertices.
+[[nodiscard]] CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton,
+                                                 const Eigen::VectorXi& vertex_of_input,
+                                                 Eigen::Index vertices);
+
 /// The rig of the surface as a rig of what it was repaired from: `vertex_of_input` and `given` are
 /// as in RepairedSurface and PolygonSoup. Vertices that the repair left out (buttons, eyes, specks)
 /// move with the vertex of the surface that is nearest to them.

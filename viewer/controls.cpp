@@ -225,6 +225,7 @@ void Controls::edit_keys(Workbench& bench) const {
   if (pressed(GLFW_KEY_J)) bench.join();
   if (pressed(GLFW_KEY_N)) bench.split();
   if (pressed(GLFW_KEY_T)) bench.set_root();
+  if (pressed(GLFW_KEY_G)) bench.rig();
 }
 
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {

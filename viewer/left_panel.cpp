@@ -58,6 +58,11 @@ void run_buttons(Workbench& bench) {
   if (ImGui::Button("Cancel")) bench.cancel();
   ImGui::EndDisabled();
   tip("stop the run, keep what was recorded (Esc)");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(bench.running() || bench.history().empty());
+  if (ImGui::Button("Rig")) bench.rig();
+  ImGui::EndDisabled();
+  tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
 }
 
 void parameters(Workbench& bench) {
@@ -94,6 +99,17 @@ void parameters(Workbench& bench) {
                      "Within so many inscribed radii of a junction, branches run straight.");
     ImGui::TreePop();
   }
+  const RigOptions usual_rig;
+  RigOptions& rig = bench.pipeline.rig;
+  bool rig_changed = false;
+  if (ImGui::TreeNode("Of the rig")) {
+    rig_changed |= slide("bone length", rig.joints.bone_length, usual_rig.joints.bone_length, 1, 30,
+                         "Of straight limbs, in their radius. Small = many joints.");
+    rig_changed |= slide("softness", rig.skin.softness, usual_rig.skin.softness, 0.2, 5,
+                         "How gently the skin goes over from one joint to the next.");
+    ImGui::TreePop();
+  }
+  if (rig_changed && bench.has_rig()) bench.rig();
   ImGui::PopItemWidth();
   if (ImGui::Button("Defaults")) {
     const auto cache = options.contraction.program_cache;

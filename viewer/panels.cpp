@@ -84,7 +84,7 @@ void help(Panels& panels) {
                                      ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Help", &panels.help, flags)) {
-    constexpr std::array<std::array<const char*, 2>, 17> lines{{
+    constexpr std::array<std::array<const char*, 2>, 18> lines{{
         {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
         {"double click, F", "fly to what is under the pointer; fit everything"},
         {"1 3 7, with Ctrl 9", "front, right, top, and from the other side"},
@@ -95,6 +95,7 @@ void help(Panels& panels) {
         {"Ctrl + drag", "move a node"},
         {"Delete, Backspace", "prune the branch, remove the node"},
         {"M  C  J  N  T", "merge, cut, join, put a node on an edge, set the root"},
+        {"G", "joints and skin weights for the skeleton as it is"},
         {"Ctrl-Z, Ctrl-Y", "take back, do again"},
         {"Space, Left, Right", "run or pause, one moment back or on"},
         {"Home, End", "the input, the newest"},
@@ -201,7 +202,7 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
     case Pick::Kind::nothing:
       break;
     case Pick::Kind::joint: {
-      const auto& rig = bench.scene->document.rig;
+      const auto rig = bench.scene->rig();
       if (!rig || picked.index >= rig->joints.rows()) break;
       return description_of_joint(picked.index, *rig);
     }

@@ -108,15 +108,16 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
   const auto skeleton = scene.skeleton();
   const bool covered = scene.look.surface == SurfaceStyle::opaque && !scene.look.through;
   const Projection projection(scene.camera, scene.bounds(), width, height);
-  if (scene.document.rig && scene.look.bones && !covered) {
-    const Positions& joints = scene.document.rig->joints;
+  const auto rig = scene.rig();
+  if (rig && scene.look.bones && !covered) {
+    const Positions& joints = rig->joints;
     Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint);
     if (found.kind == Pick::Kind::joint) {
       found.place = shown_point(joints.row(found.index), scene.document.origin);
       return found;
     }
   }
-  if (skeleton && !covered && scene.look.skeleton != SkeletonStyle::hidden) {
+  if (skeleton && !covered && scene.shows_curve()) {
     const std::vector<glm::vec3> pixels = pixels_of(projection, skeleton->nodes, scene);
     const auto shown = [&](Eigen::Index node) {
       return shown_point(skeleton->nodes.row(node), scene.document.origin);

@@ -42,7 +42,8 @@ int order_of(std::string_view stage) {
   if (stage == "input") return 0;
   if (stage == "fair") return 1;
   if (stage == "contract") return 2;
-  return stage == "surgery" ? 3 : 4;
+  if (stage == "surgery") return 3;
+  return stage == "skeleton" ? 4 : 5;
 }
 
 }  // namespace
@@ -53,7 +54,9 @@ std::string title_of(const Moment& moment) {
   return name + " " + std::to_string(moment.iteration);
 }
 
-Recording::Recording() { moments_.push_back({.stage = "input", .surface = {}, .skeleton = {}}); }
+Recording::Recording() {
+  moments_.push_back({.stage = "input", .surface = {}, .skeleton = {}, .rig = {}});
+}
 
 void Recording::add(Moment moment) {
   bytes_ += bytes_of(moment);
@@ -69,7 +72,7 @@ void Recording::cut_from(std::string_view stage) {
 }
 
 ShownSurface Recording::surface_at(std::size_t index) const {
-  if (index >= moments_.size() || moments_[index].stage == "skeleton") return {};
+  if (index >= moments_.size() || order_of(moments_[index].stage) > order_of("surgery")) return {};
   std::map<int, const ShownSurface*> latest;
   for (std::size_t i = 0; i <= index; ++i) {
     if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rig/rig.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "surface/monitor.hpp"
 #include "viewer/shapes_shown.hpp"
@@ -14,15 +15,16 @@ namespace curveskel::viewer {
 
 /// One entry of the timeline.
 struct Moment {
-  std::string stage;  ///< "input", "fair", "contract", "surgery", "skeleton"
+  std::string stage;  ///< "input", "fair", "contract", "surgery", "skeleton", "rig"
   int component = 0;
   int iteration = 0;
-  double area_ratio = 1;                          ///< of the component's area when the stage began
-  double volume_ratio = 1;                        ///< the same of its volume
-  double residual = 0;                            ///< of the solve; 0 where nothing was solved
-  double seconds = 0;                             ///< since the run began
-  std::shared_ptr<const ShownSurface> surface;    ///< the component then; null for input, skeleton
+  double area_ratio = 1;                        ///< of the component's area when the stage began
+  double volume_ratio = 1;                      ///< the same of its volume
+  double residual = 0;                          ///< of the solve; 0 where nothing was solved
+  double seconds = 0;                           ///< since the run began
+  std::shared_ptr<const ShownSurface> surface;  ///< the component then; null where all is as given
   std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
+  std::shared_ptr<const Rig> rig;                 ///< by the file's vertices; null but for "rig"
 };
 
 /// "contraction 3", "input": what a person calls it.

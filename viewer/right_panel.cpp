@@ -122,7 +122,7 @@ void input_defects(Workbench& bench) {
 /// What the colour bar spells out, and its name; nothing where colours are no numbers.
 std::optional<std::pair<ColourScale, const char*>> scale_shown(const Workbench& bench) {
   const Look& look = bench.scene->look;
-  if (look.surface_colour == ColourBy::weight && bench.selected_joint() >= 0) {
+  if (bench.scene->look_now().surface_colour == ColourBy::weight && bench.selected_joint() >= 0) {
     return std::pair{ColourScale{0, 1}, "weight"};
   }
   const bool by_radius =
@@ -210,7 +210,7 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
-  const auto rig = bench.scene->document.rig;
+  const auto rig = bench.scene->rig();
   panels.outline.show(rig);
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
     hierarchy(bench, panels.outline, *rig);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "rig/make_rig.hpp"
 #include "skeleton/extract.hpp"
 #include "skeleton/extraction_cache.hpp"
 #include "surface/error.hpp"
@@ -23,6 +24,7 @@ namespace curveskel::viewer {
 struct RunOptions {
   RepairOptions repair;
   ExtractOptions extract;
+  RigOptions rig;
   bool gives_way = false;  ///< to the threads that draw
 };
 

@@ -100,13 +100,23 @@ std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
   return own_skeleton ? own_skeleton : recording.skeleton_at(moment);
 }
 
+std::shared_ptr<const Rig> Scene::rig() const {
+  const auto& made = recording.moments()[moment].rig;
+  return made ? made : document.rig;
+}
+
+bool Scene::shows_curve() const {
+  return look.skeleton != SkeletonStyle::hidden && !recording.moments()[moment].rig;
+}
+
 Look Scene::look_now() const {
   Look now = look;
   const Moment& shown = recording.moments()[moment];
-  const bool within = shown.stage == "contract" || shown.stage == "surgery";
+  const bool within = shown.stage == "contract" || shown.stage == "surgery" || shown.rig;
   if (within && now.surface == SurfaceStyle::opaque) {
     now.surface = SurfaceStyle::transparent;
   }
+  if (shown.rig && now.surface_colour == ColourBy::plain) now.surface_colour = ColourBy::weight;
   return now;
 }
 
@@ -124,7 +134,7 @@ void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
 
 void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
   const std::vector<Rgba> colours =
-      surface_colours(document.surface, {now.skeleton.get(), document.rig.get()}, look, highlights);
+      surface_colours(document.surface, {now.skeleton.get(), now.rig.get()}, now.look, highlights);
   renderer.set_colours(Layer::given, colours);
   for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
     std::vector<Rgba> fewer;
@@ -149,8 +159,8 @@ bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const bool anew = all || now.faired != uploaded_->faired;
   if (anew) upload_given(renderer, now);
   const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
-                          now.highlights != uploaded_->highlights ||
-                          look.surface_colour != uploaded_->look.surface_colour ||
+                          now.rig != uploaded_->rig || now.highlights != uploaded_->highlights ||
+                          now.look.surface_colour != uploaded_->look.surface_colour ||
                           look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
                           had_faired != faired;
   if (recoloured && !faired) colour_given(renderer, now);
@@ -164,20 +174,21 @@ bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
 
 bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
   const bool same_look =
-      !all && look.skeleton == uploaded_->look.skeleton &&
+      !all && now.curve == uploaded_->curve && look.skeleton == uploaded_->look.skeleton &&
       look.skeleton_colour == uploaded_->look.skeleton_colour && look.map == uploaded_->look.map &&
       look.theme == uploaded_->look.theme && look.joints == uploaded_->look.joints &&
       look.bones == uploaded_->look.bones && look.thickness == uploaded_->look.thickness;
-  if (same_look && now.skeleton == uploaded_->skeleton && now.highlights == uploaded_->highlights) {
+  if (same_look && now.skeleton == uploaded_->skeleton && now.rig == uploaded_->rig &&
+      now.highlights == uploaded_->highlights) {
     return false;
   }
   ShownSkeleton shown;
-  if (now.skeleton && look.skeleton != SkeletonStyle::hidden) {
+  if (now.skeleton && now.curve) {
     shown = shown_skeleton(*now.skeleton, document.origin, bounds_.diagonal(), look, highlights);
   }
-  if (document.rig && look.bones) {
+  if (now.rig && look.bones) {
     const ShownSkeleton rig =
-        shown_rig(*document.rig, document.origin, bounds_.diagonal(), look, highlights);
+        shown_rig(*now.rig, document.origin, bounds_.diagonal(), look, highlights);
     shown.edges.insert(shown.edges.end(), rig.edges.begin(), rig.edges.end());
     shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
   }
@@ -189,7 +200,9 @@ bool Scene::upload(Renderer& renderer) {
   const bool all = !uploaded_;
   Uploaded now;
   now.skeleton = skeleton();
-  now.look = look;
+  now.rig = rig();
+  now.curve = shows_curve();
+  now.look = look_now();
   now.highlights = highlights;
   const bool surfaces = upload_surfaces(renderer, now, all);
   const bool skeletons = upload_skeleton(renderer, now, all);
@@ -198,11 +211,12 @@ bool Scene::upload(Renderer& renderer) {
 }
 
 void look_at_rig(Scene& scene, const std::string& joint) {
-  if (!scene.document.rig || !scene.look.bones) return;
+  const auto rig = scene.rig();
+  if (!rig || !scene.look.bones) return;
   if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
   scene.highlights.joint = -1;
   if (joint.empty()) return;
-  const std::vector<std::string>& names = scene.document.rig->names;
+  const std::vector<std::string>& names = rig->names;
   const auto found = std::find(names.begin(), names.end(), joint);
   if (found != names.end()) {
     scene.highlights.joint = static_cast<int>(found - names.begin());

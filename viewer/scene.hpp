@@ -34,6 +34,10 @@ class Scene {
 
   /// The skeleton that is shown now, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton() const;
+  /// The rig that is shown now: the one of this moment, else the file's; or null.
+  [[nodiscard]] std::shared_ptr<const Rig> rig() const;
+  /// Whether the curve is seen now; bones stand for it where it was made a rig of.
+  [[nodiscard]] bool shows_curve() const;
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
   [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
   /// Rows right, up, to the viewer of the first view.
@@ -50,7 +54,8 @@ class Scene {
   bool upload(Renderer& renderer);
   /// Forgets what was uploaded: the renderer is a new one.
   void forget_uploads() { uploaded_.reset(); }
-  /// The look as it is drawn at this moment: a contracted surface shows through the given one.
+  /// The look as it is drawn at this moment: a contracted surface shows through the given one, a
+  /// rig through the surface that it moves, which has its weights' colours if no others are chosen.
   [[nodiscard]] Look look_now() const;
 
  private:
@@ -58,6 +63,8 @@ class Scene {
     std::shared_ptr<const ShownSurface> faired;      // kept, so that no other can have its address
     std::shared_ptr<const ShownSurface> contracted;  // the latest of the components shown
     std::shared_ptr<const CurveSkeleton> skeleton;
+    std::shared_ptr<const Rig> rig;
+    bool curve = false;  // shown
     Look look;
     Highlights highlights;
   };
@@ -75,7 +82,7 @@ class Scene {
   std::optional<Uploaded> uploaded_;
 };
 
-/// Shows what the joints of the document's rig move, in place of the one colour: the joint of this
+/// Shows what the joints of the rig move, in place of the one colour: the joint of this
 /// name, or all for "". Nothing where there is no rig, or its bones are not shown.
 /// Throws Error(Fault::input) where no joint has the name; all of them are shown then.
 void look_at_rig(Scene& scene, const std::string& joint);

@@ -16,6 +16,7 @@
 #include "surface/write_file.hpp"
 #include "viewer/headless.hpp"
 #include "viewer/png.hpp"
+#include "viewer/rigging.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -26,7 +27,13 @@ using Part = Renderer::Part;
 /// Beyond this the driver's largest picture may be passed.
 constexpr int largest_side = 16384;
 
-/// Waits for the run; the scene's recording has all of it then.
+void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
+             const ViewOptions& options, const Monitor& monitor) {
+  scene.recording.add(
+      moment_of(rig_of(scene.document, repaired, skeleton, options.pipeline.rig, monitor)));
+}
+
+/// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
 void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
   Run run(scene.document.polygons(), options.pipeline, scene.document.origin,
           std::make_shared<RunMemory>(), false);
@@ -34,7 +41,11 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
     Run::News news = run.take();
     for (Moment& moment : news.moments) scene.recording.add(std::move(moment));
     if (news.state == Run::State::failed) throw Error(news.fault, news.error);
-    if (news.state == Run::State::finished) return;
+    if (news.state == Run::State::finished) {
+      if (options.stage.stage != "rig") return;
+      add_rig(scene, *news.result->repaired, *news.result->skeleton, options, monitor);
+      return;
+    }
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -56,7 +67,7 @@ void go_to(Scene& scene, const StageWish& wish) {
   if (last < 0) {
     throw Error(Fault::input, "the stage " + name_of(wish) +
                                   " never came; a run over a surface has input, contraction:K, "
-                                  "skeleton, and fairing:K with --fair N");
+                                  "skeleton, rig, and fairing:K with --fair N");
   }
   if (wish.iteration > last) {
     throw Error(Fault::input, name_of(wish) + " took " + std::to_string(last) +
@@ -215,15 +226,22 @@ void place_camera(Scene& scene, const ViewOptions& options) {
 void write_pictures(const ViewOptions& options, const Monitor& monitor) {
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
-  look_at_rig(scene, options.joint);
+  if (options.stage.stage != "rig") look_at_rig(scene, options.joint);
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
     if (scene.document.has_surface()) scene.own_skeleton = nullptr;
+  } else if (options.stage.stage == "rig" && scene.own_skeleton && scene.document.has_surface()) {
+    const RepairedSurface repaired =
+        repair(*scene.document.polygons(), options.pipeline.repair, monitor);
+    add_rig(scene, repaired, *scene.own_skeleton, options, monitor);
+    go_to(scene, options.stage);
+    look_at_rig(scene, options.joint);
   } else if (scene.document.has_surface() && wants_run &&
              (!scene.own_skeleton || options.stage_given)) {
     scene.own_skeleton = nullptr;
     finish_run(scene, options, monitor);
     go_to(scene, options.stage);
+    look_at_rig(scene, options.joint);
   } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {
     go_to(scene, options.stage);  // says that it never came
   }

@@ -22,6 +22,7 @@ ImU32 colour_of(const std::string& stage) {
   if (stage == "fair") return IM_COL32(80, 150, 220, 90);
   if (stage == "contract") return IM_COL32(60, 170, 140, 90);
   if (stage == "surgery") return IM_COL32(220, 170, 50, 100);
+  if (stage == "rig") return IM_COL32(120, 100, 210, 110);
   return IM_COL32(220, 90, 60, 110);
 }
 

@@ -11,7 +11,7 @@
 
 namespace curveskel::viewer {
 
-/// A moment by its name: "input", "fairing:2", "contraction:3", "skeleton" (the default).
+/// A moment by its name: "input", "fairing:2", "contraction:3", "skeleton" (the default), "rig".
 struct StageWish {
   std::string stage = "skeleton";  ///< as in Moment
   int iteration = -1;              ///< -1 = the last one

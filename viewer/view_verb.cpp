@@ -50,12 +50,13 @@ std::string set_stage(ViewOptions& options, const std::string& text) {
   StageWish wish;
   wish.stage = name == "fairing" ? "fair" : name == "contraction" ? "contract" : name;
   const bool counted = name == "fairing" || name == "contraction";
-  const bool known = counted || name == "input" || name == "surgery" || name == "skeleton";
+  const bool known =
+      counted || name == "input" || name == "surgery" || name == "skeleton" || name == "rig";
   const bool read = colon == std::string::npos ||
                     (counted && CLI::detail::lexical_cast(text.substr(colon + 1), wish.iteration) &&
                      wish.iteration >= 0);
   if (!known || !read) {
-    return "needs input, fairing[:K], contraction[:K], surgery or skeleton, not " + text;
+    return "needs input, fairing[:K], contraction[:K], surgery, skeleton or rig, not " + text;
   }
   options.stage = wish;
   options.stage_given = true;
@@ -128,7 +129,8 @@ Verb add_view(CLI::App& program) {
   add_text(*parser, *options, "--camera", "VIEW",
            names_in(sides) + ", or AZIMUTH,ELEVATION[,ZOOM] in degrees from best", set_camera);
   add_text(*parser, *options, "--stage", "STAGE",
-           "the moment to show: input, fairing[:K], contraction[:K], surgery, skeleton", set_stage);
+           "the moment to show: input, fairing[:K], contraction[:K], surgery, skeleton, rig",
+           set_stage);
   parser->add_flag_callback(
       "--orthographic", [options] { options->perspective = false; }, "no perspective");
   parser->add_flag_callback(

@@ -67,6 +67,7 @@ Workbench::~Workbench() {
   // All at once, and then wait for each.
   if (run_) run_->cancel();
   for (const auto& run : retired_) run->cancel();
+  rigging_stop_.request_stop();
 }
 
 void Workbench::say(std::string text, bool bad) {
@@ -77,7 +78,7 @@ void Workbench::say(std::string text, bool bad) {
 
 bool Workbench::busy() const {
   return opening_.valid() || run_ != nullptr || !retired_.empty() || inspecting_.valid() ||
-         judging_.valid();
+         judging_.valid() || rigging_.valid();
 }
 
 bool Workbench::update() {
@@ -85,6 +86,7 @@ bool Workbench::update() {
   changed = take_news() || changed;
   changed = take_defects() || changed;
   changed = take_judgement() || changed;
+  changed = take_rig() || changed;
   std::erase_if(retired_, [](const std::unique_ptr<Run>& run) {
     return run->take().state != Run::State::running;
   });
@@ -125,6 +127,8 @@ bool Workbench::take_opened() {
     return true;
   }
   retire_run();
+  rigging_stop_.request_stop();
+  save_rig_to_.clear();
   opened.scene->look = scene->look;
   const bool same_place = reloading_;
   if (same_place) opened.scene->camera = scene->camera;
@@ -177,13 +181,20 @@ void Workbench::save(const fs::path& file) {
     say("there is no skeleton to save yet", true);
     return;
   }
-  const auto format = choice_of(skeleton_formats, extension_of(file));
-  if (!format) {
-    say(file.filename().string() + ": the extension is none of " + names_in(skeleton_formats),
+  const std::string extension = extension_of(file);
+  const auto format = choice_of(skeleton_formats, extension);
+  const auto rig_format = choice_of(rig_formats, extension);
+  if (!format && !rig_format) {
+    say(file.filename().string() + ": the extension is none of " + names_in(skeleton_formats) +
+            "; for a rig, " + names_in(rig_formats),
         true);
     return;
   }
   try {
+    if (rig_format) {
+      save_rig(file, *rig_format);
+      return;
+    }
     SkeletonContext context;
     context.root = root();
     context.provenance = program_and_version() + ", " + names_of(files_) +

@@ -9,9 +9,11 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "rig/rig_files.hpp"
 #include "skeleton/edit.hpp"
 #include "skeleton/findings.hpp"
 #include "surface/tree.hpp"
@@ -67,7 +69,8 @@ class Workbench {
   void reload();
   /// Reloads if the files on the disk are newer than what was read.
   void watch_files();
-  /// The skeleton, as it is now, in the format of the extension; also a picture.
+  /// The skeleton, as it is now, in the format of the extension; also a picture, or its rig, which
+  /// is made first if need be.
   void save(const std::filesystem::path& file);
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
@@ -97,6 +100,11 @@ class Workbench {
   void show_spurs();
   /// Colours faces of the given surface red and flies to the first.
   void show_faces(const std::vector<int>& faces);
+
+  /// Makes joints and skin weights of the skeleton as it is, beside what goes on; they become the
+  /// last moment of the timeline, until the skeleton changes.
+  void rig();
+  [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
   // Corrections of the skeleton.
   void prune();
@@ -140,6 +148,9 @@ class Workbench {
   bool take_news();
   bool take_defects();
   bool take_judgement();
+  bool take_rig();
+  void drop_rig();
+  void save_rig(const std::filesystem::path& file, RigFormat format);
   void take_moments(std::vector<Moment> moments);
   void take_result(RunResult result);
   void inspect();
@@ -171,9 +182,19 @@ class Workbench {
   std::shared_ptr<const Ground> ground_;
   std::optional<Judgement> judgement_;
   std::future<Judgement> judging_;
+  struct Rigged {
+    std::shared_ptr<Scene> scene;
+    std::shared_ptr<const Rig> rig;  // null where it was stopped
+    std::string error;
+  };
+  std::stop_source rigging_stop_;
+  std::future<Rigged> rigging_;
+  bool rig_again_ = false;             // once that one has stopped
+  std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
   int selected_joint_ = -1;
+  std::shared_ptr<const Rig> shown_rig_;  // whose joint that is
   std::vector<int> failed_edges_;
   std::vector<int> failed_faces_;
   Path measured_;

@@ -30,21 +30,27 @@ std::vector<int> edges_along(const CurveSkeleton& skeleton, const std::vector<in
 }  // namespace
 
 void Workbench::begin_history(std::shared_ptr<const CurveSkeleton> skeleton) {
+  drop_rig();
   scene->own_skeleton.reset();
   history_.begin({std::move(skeleton), -1});
   clear_selection();
   show_state();
 }
 
-/// Shows the state of the history at the end of the timeline, and what was recorded before it.
+/// Shows the state of the history at the end of the timeline, the rig included, and what was
+/// recorded before it.
 void Workbench::show_state() {
-  const bool at_end = scene->moment + 1 == scene->recording.moments().size();
+  const std::size_t end = scene->recording.moments().size() - (has_rig() ? 2 : 1);
+  const bool at_end = scene->moment >= end;
   const auto before = scene->skeleton();
+  const auto rig = scene->rig();
   scene->own_skeleton = at_end && !history_.empty() && !run_ ? history_.now().skeleton : nullptr;
   if (scene->skeleton() != before) {
     clear_selection();
     failed_edges_.clear();
   }
+  if (rig != shown_rig_) selected_joint_ = -1;
+  shown_rig_ = rig;
   set_highlights();
   judge();
 }
@@ -176,6 +182,7 @@ void Workbench::edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& c
     next.skeleton = std::make_shared<const CurveSkeleton>(change(*next.skeleton));
     if (next.skeleton->nodes.rows() < nodes) next.root = -1;  // nodes have moved up
     history_.add(std::move(next));
+    drop_rig();
     scene->moment = scene->recording.moments().size() - 1;
     show_state();
     say(what);
@@ -264,6 +271,7 @@ void Workbench::set_root() {
   Edited next = history_.now();
   next.root = selected_nodes_[0];
   history_.add(std::move(next));
+  drop_rig();
   say("the root is node " + std::to_string(history_.now().root));
 }
 
@@ -273,6 +281,7 @@ void Workbench::undo() {
     return;
   }
   history_.undo();
+  drop_rig();
   show_state();
 }
 
@@ -282,6 +291,7 @@ void Workbench::redo() {
     return;
   }
   history_.redo();
+  drop_rig();
   show_state();
 }
 

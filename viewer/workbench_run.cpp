@@ -75,6 +75,8 @@ void Workbench::step() {
   } else if (!result_) {
     start(true);
     if (run_) run_->step();
+  } else if (!has_rig()) {
+    rig();
   }
 }
 
