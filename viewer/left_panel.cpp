@@ -58,11 +58,6 @@ void run_buttons(Workbench& bench) {
   if (ImGui::Button("Cancel")) bench.cancel();
   ImGui::EndDisabled();
   tip("stop the run, keep what was recorded (Esc)");
-  ImGui::SameLine();
-  ImGui::BeginDisabled(bench.running() || bench.history().empty());
-  if (ImGui::Button("Rig")) bench.rig();
-  ImGui::EndDisabled();
-  tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
 }
 
 void parameters(Workbench& bench) {
@@ -99,17 +94,6 @@ void parameters(Workbench& bench) {
                      "Within so many inscribed radii of a junction, branches run straight.");
     ImGui::TreePop();
   }
-  const RigOptions usual_rig;
-  RigOptions& rig = bench.pipeline.rig;
-  bool rig_changed = false;
-  if (ImGui::TreeNode("Of the rig")) {
-    rig_changed |= slide("bone length", rig.joints.bone_length, usual_rig.joints.bone_length, 1, 30,
-                         "Of straight limbs, in their radius. Small = many joints.");
-    rig_changed |= slide("softness", rig.skin.softness, usual_rig.skin.softness, 0.2, 5,
-                         "How gently the skin goes over from one joint to the next.");
-    ImGui::TreePop();
-  }
-  if (rig_changed && bench.has_rig()) bench.rig();
   ImGui::PopItemWidth();
   if (ImGui::Button("Defaults")) {
     const auto cache = options.contraction.program_cache;
@@ -120,6 +104,22 @@ void parameters(Workbench& bench) {
   }
   tip("all parameters as they are without choosing any");
   if (changed && bench.scene->document.has_surface()) bench.start(false);
+}
+
+void rig(Workbench& bench) {
+  const RigOptions usual;
+  RigOptions& options = bench.pipeline.rig;
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
+  bool changed = slide("bone length", options.joints.bone_length, usual.joints.bone_length, 1, 30,
+                       "Of straight limbs, in their radius. Small = many joints.");
+  changed |= slide("softness", options.skin.softness, usual.skin.softness, 0.2, 5,
+                   "How gently the skin goes over from one joint to the next.");
+  ImGui::PopItemWidth();
+  ImGui::BeginDisabled(bench.running() || bench.history().empty());
+  if (ImGui::Button("Make rig")) bench.rig();
+  ImGui::EndDisabled();
+  tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
+  if (changed && bench.has_rig()) bench.rig();
 }
 
 void corrections(Workbench& bench) {
@@ -179,6 +179,7 @@ void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   }
   if (ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) parameters(bench);
   if (ImGui::CollapsingHeader("Corrections", ImGuiTreeNodeFlags_DefaultOpen)) corrections(bench);
+  if (ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) rig(bench);
   if (!bench.measured().nodes.empty()) {
     ImGui::Text("path: %.6g units, %d edges", bench.measured().length,
                 static_cast<int>(bench.measured().nodes.size()) - 1);

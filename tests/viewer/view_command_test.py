@@ -119,7 +119,7 @@ class Screenshot(ViewTest):
 
 class Stages(ViewTest):
     def test_differ(self):
-        stages = ("input", "contraction:1", "contraction:3", "contraction", "skeleton")
+        stages = ("input", "contraction:1", "contraction:3", "contraction", "skeleton", "rig")
         found = [self.picture(LINKED_RINGS, "--stage", stage) for stage in stages]
         for i, one in enumerate(found):
             for other in found[:i]:
@@ -131,6 +131,13 @@ class Stages(ViewTest):
     def test_input_is_what_no_run_shows(self):
         numpy.testing.assert_array_equal(self.picture(Y, "--stage", "input"),
                                          self.picture(Y, "--no-run"))
+
+    def test_rig_of_a_given_skeleton_is_that_of_the_extracted_one(self):
+        extracted = self.folder / "y.json"
+        self.run_ok("extract", Y, "-o", extracted)
+        rig = self.picture(Y, "--stage", "rig")
+        numpy.testing.assert_array_equal(self.picture(Y, extracted, "--stage", "rig"), rig)
+        self.assert_differ(self.picture(Y, "--stage", "rig", "--joint", "limb1_1"), rig)
 
     def test_that_never_come_are_refused(self):
         skeleton = self.skeleton()

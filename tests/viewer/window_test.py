@@ -255,6 +255,15 @@ class Correcting(WindowTest):
         self.assertLess(pruned[1], edges)
         self.leave(window)
 
+    def test_rig_comes_by_a_key_and_is_saved(self):
+        window = self.opened()
+        window.key("g")
+        window.wait_for_title(r"\(rig\)")
+        self.assertEqual(self.save(window, "y.glb")[:4], b"glTF")
+        window.key("Left")
+        window.wait_for_title(r"\(skeleton\)")
+        self.leave(window)
+
     def cross(self):
         file = self.folder / "cross.obj"
         file.write_text(CROSS)

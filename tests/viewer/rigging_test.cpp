@@ -1,0 +1,173 @@
+// Laws of the rig at the end of the timeline. Waits are bounded by a minute, which only a hang
+// takes.
+#include "viewer/rigging.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "rig/read_rig.hpp"
+#include "surface/read.hpp"
+#include "tests/own_folder.hpp"
+#include "viewer/workbench.hpp"
+
+namespace curveskel::viewer::rigging_laws {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::filesystem::path mesh(const char* name) {
+  return std::filesystem::path(CURVESKEL_SOURCE_DIR) / "meshes" / name;
+}
+
+class Rigging : public testing::Test {
+ protected:
+  void open_y() {
+    bench.open({mesh("y.off")});
+    ASSERT_TRUE(wait([&] { return bench.result() != nullptr && !bench.busy(); }));
+  }
+  template <typename Condition>
+  bool wait(const Condition& wanted) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    for (bench.update(); !wanted(); bench.update()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(1ms);
+    }
+    return true;
+  }
+  void make_rig() {
+    bench.rig();
+    ASSERT_TRUE(wait([&] { return bench.has_rig(); }));
+  }
+  [[nodiscard]] const std::string& stage() const {
+    return bench.scene->recording.moments()[bench.scene->moment].stage;
+  }
+  [[nodiscard]] std::string last_said() const { return bench.messages().back().text; }
+
+  Workbench bench{ViewOptions{}};
+  OwnFolder folder;
+};
+
+TEST_F(Rigging, IsOneMomentMoreAfterTheSkeleton) {
+  open_y();
+  EXPECT_EQ(stage(), "skeleton");
+  EXPECT_EQ(bench.scene->rig(), nullptr);
+  const std::size_t moments = bench.scene->recording.moments().size();
+  bench.step();
+  ASSERT_TRUE(wait([&] { return bench.has_rig(); }));
+  EXPECT_EQ(bench.scene->recording.moments().size(), moments + 1);
+  EXPECT_EQ(stage(), "rig");
+  const auto rig = bench.scene->rig();
+  ASSERT_NE(rig, nullptr);
+  EXPECT_GT(rig->joints.rows(), 4);
+  EXPECT_EQ(rig->weights.rows(), bench.scene->document.surface.positions.rows());
+  EXPECT_FALSE(bench.scene->shows_curve());
+  EXPECT_EQ(bench.scene->look_now().surface_colour, ColourBy::weight);
+  bench.go_to(moments - 1);
+  EXPECT_EQ(bench.scene->rig(), nullptr);
+  EXPECT_TRUE(bench.scene->shows_curve());
+  EXPECT_EQ(bench.scene->look_now().surface_colour, ColourBy::plain);
+  bench.step();
+  EXPECT_EQ(stage(), "rig") << "it is there already";
+  EXPECT_FALSE(bench.busy());
+}
+
+TEST_F(Rigging, GoesWithTheSkeletonItWasMadeOf) {
+  open_y();
+  make_rig();
+  const auto of_all = bench.scene->rig();
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  bench.select(edge, false);
+  bench.prune();
+  EXPECT_FALSE(bench.has_rig());
+  EXPECT_EQ(stage(), "skeleton");
+  make_rig();
+  EXPECT_LT(bench.scene->rig()->joints.rows(), of_all->joints.rows());
+  bench.undo();
+  EXPECT_FALSE(bench.has_rig());
+  make_rig();
+  EXPECT_EQ(bench.scene->rig()->joints, of_all->joints);
+  bench.start(false);
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_FALSE(bench.has_rig()) << "the skeleton is a new one";
+}
+
+TEST_F(Rigging, HangsFromTheRootThatWasSet) {
+  open_y();
+  Pick node;
+  node.kind = Pick::Kind::node;
+  node.index = static_cast<int>(bench.scene->skeleton()->nodes.rows()) - 1;
+  bench.select(node, false);
+  bench.set_root();
+  const Eigen::RowVector3d place = bench.scene->skeleton()->nodes.row(node.index);
+  make_rig();
+  EXPECT_EQ(bench.scene->rig()->parents[0], -1);
+  EXPECT_EQ(bench.scene->rig()->joints.row(0), place);
+}
+
+TEST_F(Rigging, FollowsItsParametersEvenWhileItIsMade) {
+  open_y();
+  bench.pipeline.rig.joints.bone_length = 100;
+  make_rig();
+  const auto few = bench.scene->rig()->joints.rows();
+  bench.pipeline.rig.joints.bone_length = 50;
+  bench.rig();
+  bench.pipeline.rig.joints.bone_length = 1;
+  bench.rig();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_GT(bench.scene->rig()->joints.rows(), 2 * few);
+}
+
+TEST_F(Rigging, IsSavedAndMadeFirstIfNeedBe) {
+  open_y();
+  for (const char* name : {"first.glb", "second.GLTF"}) {
+    const auto file = folder.path() / name;
+    bench.save(file);
+    ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+    ASSERT_TRUE(std::filesystem::exists(file)) << last_said();
+    const auto read = read_rig(file, {});
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->joints.rows(), bench.scene->rig()->joints.rows());
+    EXPECT_EQ(read_polygons(file, {}).positions.rows(),
+              bench.scene->document.surface.positions.rows());
+  }
+  bench.save(folder.path() / "wrong.fbx");
+  EXPECT_NE(last_said().find("for a rig, glb, gltf"), std::string::npos) << last_said();
+}
+
+TEST_F(Rigging, NeedsASkeletonAndSaysSo) {
+  bench.rig();
+  EXPECT_TRUE(bench.messages().back().bad);
+  EXPECT_NE(last_said().find("needs a surface and its skeleton"), std::string::npos);
+  bench.save(folder.path() / "nothing.glb");
+  EXPECT_TRUE(bench.messages().back().bad);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "nothing.glb"));
+  EXPECT_FALSE(bench.busy());
+}
+
+TEST_F(Rigging, OfAnotherDocumentIsNotShown) {
+  open_y();
+  bench.rig();
+  const Scene* const before = bench.scene.get();
+  bench.open({mesh("torus.off")});
+  ASSERT_TRUE(wait([&] { return bench.scene.get() != before; }));
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_FALSE(bench.has_rig());
+}
+
+TEST_F(Rigging, ChosenJointIsOfTheRigThatIsShown) {
+  open_y();
+  make_rig();
+  bench.select_joint(2);
+  EXPECT_EQ(bench.scene->highlights.joint, 2);
+  bench.go_to(0);
+  EXPECT_EQ(bench.selected_joint(), -1);
+}
+
+}  // namespace
+}  // namespace curveskel::viewer::rigging_laws
