@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rig/rooted_tree.hpp"
+#include "rig/sides.hpp"
 #include "surface/element_index.hpp"
 #include "surface/error.hpp"
 #include "surface/measures.hpp"
@@ -275,7 +276,9 @@ Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) 
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }
-  return JointPlacer(skeleton, options).place();
+  Joints joints = JointPlacer(skeleton, options).place();
+  name_sides(joints);
+  return joints;
 }
 
 }  // namespace curveskel
