@@ -130,10 +130,13 @@ class JointPlacer {
     return skeleton_.nodes.row(node).transpose();
   }
 
+  /// Where joints may be: no nearer to each other than that pays, however dense the nodes are.
   void sample(Limb& limb, double length) const {
     constexpr double step_radii = 0.25;
     constexpr double most_samples = 400;
     limb.samples.push_back({point(limb.nodes[0]), radii_[limb.nodes[0]], 0, 0});
+    double way = 0;
+    double since = 0;  // the last sample
     for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
       const Eigen::Vector3d from = point(limb.nodes[k - 1]);
       const Eigen::Vector3d step = point(limb.nodes[k]) - from;
@@ -145,7 +148,11 @@ class JointPlacer {
       for (int piece = 1; piece <= pieces; ++piece) {
         const double share = static_cast<double>(piece) / pieces;
         const double radius = from_radius + share * (to_radius - from_radius);
-        const double way = limb.samples.back().way + step.norm() / pieces / radius;
+        way += step.norm() / pieces / radius;
+        since += step.norm() / pieces;
+        const bool is_last = piece == pieces && k + 1 == limb.nodes.size();
+        if (since < 0.5 * finest && !is_last) continue;
+        since = 0;
         limb.samples.push_back({from + share * step, radius, way, piece == pieces ? k : k - 1});
       }
     }
