@@ -34,7 +34,7 @@ struct Joints {
 /// programming), the sum over bones of 1 + (length / (bone_length r))^2 + (deviation / (bend r))^2,
 /// lengths measured in the radius r where they are, deviation the largest distance of the curve
 /// from the bone. Smaller components hang from the nearest joint of those before them, components
-/// in the order of length times radius, so that there is one root.
+/// in the order of length times radius, that of a wanted root first, so that there is one root.
 /// Throws Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred
 /// times as much where there are many junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options);

@@ -1,6 +1,7 @@
 #include "rig/rooted_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <queue>
@@ -31,9 +32,13 @@ class Rooting {
 
   RootedTree grow(int wanted) {
     std::vector<std::pair<double, std::vector<int>>> components = find_components();
-    for (const auto& [weight, nodes] : components) {
-      const bool has_wanted = std::find(nodes.begin(), nodes.end(), wanted) != nodes.end();
-      const int root = has_wanted ? wanted : root_of(nodes);
+    const auto has_wanted = [wanted](const auto& component) {
+      return std::binary_search(component.second.begin(), component.second.end(), wanted);
+    };
+    std::stable_partition(components.begin(), components.end(), has_wanted);
+    for (const auto& component : components) {
+      const std::vector<int>& nodes = component.second;
+      const int root = has_wanted(component) ? wanted : root_of(nodes);
       tree_.roots.push_back(root);
       walk(root, cut_at(nodes, root));
       for (const int node : nodes) {
@@ -52,7 +57,8 @@ class Rooting {
   }
   [[nodiscard]] std::size_t degree(int node) const { return neighbours_[at(node)].size(); }
 
-  /// The heaviest first; nodes ascending.
+  /// The heaviest first, of those as heavy (but for rounding) the one with the first node; nodes
+  /// ascending.
   std::vector<std::pair<double, std::vector<int>>> find_components() const {
     std::vector<std::pair<double, std::vector<int>>> components;
     std::vector<bool> seen(neighbours_.size());
@@ -70,6 +76,13 @@ class Rooting {
       }
       std::sort(nodes.begin(), nodes.end());
       components.emplace_back(weight, std::move(nodes));
+    }
+    double heaviest = 0;
+    for (const auto& component : components) heaviest = std::max(heaviest, component.first);
+    if (heaviest > 0) {
+      for (auto& component : components) {
+        component.first = std::round(1e6 * component.first / heaviest);
+      }
     }
     std::stable_sort(components.begin(), components.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -10,7 +10,7 @@ namespace curveskel {
 struct RootedTree {
   std::vector<int> parent;                 ///< by node; -1 = a root
   std::vector<std::vector<int>> children;  ///< by node, ascending
-  std::vector<int> roots;                  ///< one for each component, the heaviest component first
+  std::vector<int> roots;  ///< one for each component: that of `wanted`, then the heaviest
 };
 
 /// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. How roots are

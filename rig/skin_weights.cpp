@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "contraction/cholesky_factor.hpp"
@@ -34,11 +36,14 @@ class TopShares {
     weights_[place] = weight;
   }
 
-  /// As a row of sum 1, joints ascending.
-  [[nodiscard]] std::vector<std::pair<int, double>> row() const {
+  /// As a row of sum 1, joints ascending, without those whose share in it is less than `least`; at
+  /// least the largest stays, as it has an eighth or more.
+  [[nodiscard]] std::vector<std::pair<int, double>> row(double least) const {
+    const double all = std::accumulate(weights_.begin(),
+                                       weights_.begin() + static_cast<std::ptrdiff_t>(count_), 0.0);
     double sum = 0;
     std::vector<std::pair<int, double>> result;
-    for (std::size_t k = 0; k < count_; ++k) {
+    for (std::size_t k = 0; k < count_ && weights_[k] >= least * all; ++k) {
       result.emplace_back(joints_[k], weights_[k]);
       sum += weights_[k];
     }
@@ -107,6 +112,7 @@ class SkinHeat {
  private:
   static constexpr std::size_t block = 8;  // right-hand sides that CHOLMOD takes at once
   static constexpr std::size_t most_workers = 8;
+  static constexpr double negligible = 1e-9;
   using Result = Eigen::Map<const Eigen::MatrixXd>;
 
   void solve_blocks(std::size_t first, std::size_t workers, int threads,
@@ -127,7 +133,7 @@ class SkinHeat {
         TopShares& top = shares[at(part_.vertex_in_whole[v])];
         for (std::size_t k = first; k < std::min(first + blocks * block, joints.size()); ++k) {
           const double weight = results[(k - first) / block][(k - first) % block * count + v];
-          if (weight > options_.least_weight) top.add(joints[k], weight, at(options_.most_joints));
+          if (weight > negligible) top.add(joints[k], weight, at(options_.most_joints));
         }
       }
     });
@@ -154,11 +160,11 @@ class SkinHeat {
   std::vector<std::unique_ptr<CholeskyFactor::Workspace>> workspaces_;
 };
 
-SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints) {
+SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints, double least) {
   SkinWeights weights(static_cast<Eigen::Index>(shares.size()), joints);
   weights.reserve(Eigen::VectorXi::Constant(weights.rows(), 4));
   for (std::size_t v = 0; v < shares.size(); ++v) {
-    for (const auto& [joint, weight] : shares[v].row()) {
+    for (const auto& [joint, weight] : shares[v].row(least)) {
       weights.insert(static_cast<Eigen::Index>(v), joint) = static_cast<float>(weight);
     }
   }
@@ -215,7 +221,7 @@ SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
     for (std::size_t k = first; k < first + batch; ++k)
       done += small_ones[k]->vertex_in_whole.size();
   }
-  return matrix_of(shares, joints);
+  return matrix_of(shares, joints, options.least_weight);
 }
 
 }  // namespace curveskel

@@ -15,7 +15,7 @@ struct SkinOptions {
   /// skin to the curve; > 0.
   double softness = 1;
   int most_joints = 4;         ///< that move one vertex; 1..8
-  double least_weight = 0.01;  ///< smaller ones are left out; 0..0.1
+  double least_weight = 0.01;  ///< smaller shares in a vertex are left out; 0..0.1
   int threads = 0;             ///< 0 = one per core; the result does not depend on it
 };
 

@@ -41,6 +41,18 @@ std::string base64_of(const std::string& bytes) {
   return text;
 }
 
+/// Names of files need not be UTF-8, but JSON is.
+std::string text_of(const Json& file, int indent) {
+  return file.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+void require_single_precision(const Positions& positions) {
+  if (positions.cast<float>().allFinite()) return;
+  throw Error(Fault::output,
+              "a coordinate beyond single precision, which is all that glTF has; scale the "
+              "surface down");
+}
+
 /// A glTF file that grows accessor by accessor.
 class GltfWriter {
  public:
@@ -73,13 +85,13 @@ class GltfWriter {
   [[nodiscard]] std::string text() {
     file["buffers"] = {{{"byteLength", buffer_.size()},
                         {"uri", "data:application/octet-stream;base64," + base64_of(buffer_)}}};
-    return file.dump(1) + "\n";
+    return text_of(file, 1) + "\n";
   }
 
   /// Section 4.4: header, JSON, numbers; each chunk padded to four bytes.
   [[nodiscard]] std::string binary() {
     file["buffers"] = {{{"byteLength", buffer_.size()}}};
-    std::string json = file.dump();
+    std::string json = text_of(file, -1);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     constexpr std::uint32_t magic = 0x46546C67;
     constexpr std::uint32_t json_chunk = 0x4E4F534A;
@@ -117,11 +129,6 @@ int add_positions(GltfWriter& writer, const Positions& positions) {
   // The bounds must be those of the numbers in the file.
   const Eigen::RowVector3f least = positions.cast<float>().colwise().minCoeff();
   const Eigen::RowVector3f most = positions.cast<float>().colwise().maxCoeff();
-  if (!least.allFinite() || !most.allFinite()) {
-    throw Error(Fault::output,
-                "a coordinate beyond single precision, which is all that glTF has; scale the "
-                "surface down");
-  }
   writer.file["accessors"].back()["min"] = {least[0], least[1], least[2]};
   writer.file["accessors"].back()["max"] = {most[0], most[1], most[2]};
   return accessor;
@@ -223,6 +230,8 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                    std::to_string(most_joints) +
                                    "; choose fewer components or longer bones");
   }
+  require_single_precision(surface.positions);
+  require_single_precision(rig.joints);
   GltfWriter writer;
   writer.file["asset"] = {{"version", "2.0"}, {"generator", provenance}};
   writer.file["scene"] = 0;
