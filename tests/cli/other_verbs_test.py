@@ -1,4 +1,4 @@
-"""curveskel contract, fair, evaluate and devices."""
+"""curveskel contract, fair, evaluate, rig and devices."""
 
 import json
 import os
@@ -184,6 +184,118 @@ class Evaluate(CommandLineTest):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
         result = self.run_ok("evaluate", Y, "y.obj", "--json", "-", cwd=self.folder)
         self.assertTrue(json.loads(result.out)["certificate"]["topology_correct"])
+
+
+class Rig(CommandLineTest):
+    def rig(self, output, *arguments, mesh=Y):
+        result = self.run_ok("rig", mesh, "-o", output, *arguments, cwd=self.folder)
+        return (self.folder / output).read_bytes(), result
+
+    def glb(self, data):
+        """The JSON of a GLB, whose header must be right."""
+        self.assertEqual(data[:4], b"glTF")
+        version, length, size = struct.unpack_from("<3I", data, 4)
+        self.assertEqual((version, length), (2, len(data)))
+        return json.loads(data[20:20 + size])
+
+    def vertices(self, scene):
+        primitive = scene["meshes"][0]["primitives"][0]
+        return scene["accessors"][primitive["attributes"]["POSITION"]]["count"]
+
+    def test_writes_both_formats_and_says_how_many_joints(self):
+        result = self.run_ok("rig", Y, "-o", "y.glb", "-o", "y.gltf", cwd=self.folder)
+        self.assertEqual(self.files(), ["y.glb", "y.gltf"])
+        binary = self.glb((self.folder / "y.glb").read_bytes())
+        text = json.loads((self.folder / "y.gltf").read_text())
+        given = int(Y.read_text().split("\n", 2)[1].split()[0])
+        for scene in (binary, text):
+            joints = scene["skins"][0]["joints"]
+            self.assertIn(f"rig: {len(joints)} joints, root root", result.out.decode())
+            names = [scene["nodes"][joint]["name"] for joint in joints]
+            self.assertEqual(len([name for name in names if name.endswith("_end")]), 3)
+            self.assertEqual(self.vertices(scene), given)
+        self.assertIn("wrote y.glb\nwrote y.gltf\n", result.out.decode())
+
+    def test_the_same_bytes_each_time_and_on_any_number_of_threads(self):
+        for mesh in (Y, LINKED_RINGS):
+            data = self.rig("x.glb", mesh=mesh)[0]
+            for arguments in ((), ("--threads", "1"), ("--threads", "3")):
+                self.assertEqual(self.rig("x.glb", *arguments, mesh=mesh)[0], data)
+
+    def test_of_the_skeleton_that_extract_gives_is_the_same(self):
+        for mesh in (Y, TORUS, LINKED_RINGS):
+            self.run_ok("extract", mesh, "-o", "x.json", cwd=self.folder)
+            self.assertEqual(self.rig("given.glb", "--skeleton", "x.json", mesh=mesh)[0],
+                             self.rig("given.glb", mesh=mesh)[0])
+
+    def test_of_a_skeleton_without_vertices_has_the_same_joints(self):
+        self.run_ok("extract", Y, "-o", "x.swc", "-o", "x.json", cwd=self.folder)
+        counts = [len(self.glb(self.rig("x.glb", "--skeleton", name)[0])["skins"][0]["joints"])
+                  for name in ("x.swc", "x.json")]
+        self.assertEqual(counts[0], counts[1])
+
+    def test_of_another_surface_s_skeleton_is_refused(self):
+        self.run_ok("extract", TORUS, "-o", "x.json", cwd=self.folder)
+        self.refused(3, "rig", Y, "-o", "y.glb", "--skeleton", "x.json",
+                     says=["x.json", "a node for each of", "extract it again"], cwd=self.folder)
+
+    def test_options_change_the_joints_and_the_weights(self):
+        data = self.rig("x.glb")[0]
+        few = self.glb(data)["skins"][0]["joints"]
+        many = self.glb(self.rig("x.glb", "--bone-length", "1.5")[0])["skins"][0]["joints"]
+        self.assertGreater(len(many), 1.5 * len(few))
+        softer = self.rig("x.glb", "--softness", "3")[0]
+        self.assertEqual(len(softer), len(data))
+        self.assertNotEqual(softer, data)
+        self.assertEqual(self.glb(softer)["nodes"], self.glb(data)["nodes"])
+
+    def test_a_wanted_root_is_the_root_of_all(self):
+        self.run_ok("extract", LINKED_RINGS, "-o", "x.json", cwd=self.folder)
+        nodes = json.loads((self.folder / "x.json").read_text())["nodes"]
+        for root in (0, len(nodes) - 1):
+            scene = self.glb(self.rig("x.glb", "--root", str(root), mesh=LINKED_RINGS)[0])
+            self.assertEqual(len(scene["nodes"][0]["children"]), 1)
+            joint = scene["nodes"][scene["nodes"][0]["children"][0]]
+            self.assertEqual(joint["name"], "root")
+            for found, wanted in zip(joint["translation"], nodes[root]):
+                self.assertAlmostEqual(found, wanted, places=9)
+
+    def test_a_root_that_is_no_node_is_named(self):
+        self.refused(3, "rig", Y, "-o", "y.glb", "--root", "999999",
+                     says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
+
+    def test_another_extension_is_a_usage_error_that_lists_the_formats(self):
+        for name in ("y.fbx", "y.obj", "y"):
+            self.refused(2, "rig", Y, "-o", name, says=["glb", "gltf"], cwd=self.folder)
+        self.refused(2, "rig", Y, says=["--output"], cwd=self.folder)
+        self.refused(2, "rig", Y, "-o", "y.glb", "--softness", "0", says=["--softness"],
+                     cwd=self.folder)
+
+    def test_what_is_no_surface_is_refused(self):
+        self.refused(3, "rig", "nowhere.off", "-o", "x.glb", says=["nowhere.off"],
+                     cwd=self.folder)
+        (self.folder / "cloud.off").write_text("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+        self.refused(3, "rig", "cloud.off", "-o", "x.glb", says=["cloud.off"], cwd=self.folder)
+        self.refused(3, "rig", Y, "-o", "x.glb", "--skeleton", "nowhere.json",
+                     says=["nowhere.json"], cwd=self.folder)
+
+    def test_quiet_prints_nothing(self):
+        result = self.rig("y.glb", "-q")[1]
+        self.assertEqual((result.out, result.err), (b"", ""))
+
+    def test_names_of_files_need_not_be_utf8(self):
+        mesh = os.fsdecode(b"caf\xe9.off")
+        (self.folder / mesh).write_bytes(Y.read_bytes())
+        scene = self.glb(self.rig("x.glb", "-q", mesh=mesh)[0])
+        self.assertEqual(scene["meshes"][0]["name"],
+                         "caf\N{REPLACEMENT CHARACTER}")
+
+    def test_a_rig_is_a_surface_that_can_be_rigged(self):
+        self.rig("y.glb")
+        first = self.glb((self.folder / "y.glb").read_bytes())
+        second = self.glb(self.rig("again.glb", mesh="y.glb")[0])
+        self.assertEqual(self.vertices(second), self.vertices(first))
+        self.assertEqual(len(second["skins"][0]["joints"]), len(first["skins"][0]["joints"]))
 
 
 class Devices(CommandLineTest):

@@ -1,0 +1,169 @@
+// Laws of rigs where the skeleton or the surface says less than all: vertices without a node, and
+// vertices of the file that the repair left out.
+#include "rig/make_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "surface/element_index.hpp"
+#include "surface/error.hpp"
+#include "surface/measures.hpp"
+#include "tests/rig/rig_subjects.hpp"
+
+namespace curveskel::make_rig_laws {
+namespace {
+
+/// A tube bent into an S and its axis, with the node of each vertex.
+RigSubject mapped_s() {
+  shapes::Shape shape = shapes::tube("", shapes::s_curve(16, 6), shapes::constant(1), 16);
+  CurveSkeleton axis = shape.axis;
+  axis.node_of_vertex.resize(shape.surface.positions.rows());
+  for (Eigen::Index vertex = 0; vertex < axis.node_of_vertex.size(); ++vertex) {
+    Eigen::Index node = -1;
+    (axis.nodes.rowwise() - shape.surface.positions.row(vertex))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&node);
+    axis.node_of_vertex[vertex] = static_cast<int>(node);
+  }
+  return {"s", std::move(shape.surface), std::move(axis)};
+}
+
+/// Row `row` of a and row `other` of b are the same numbers.
+bool same_row(const SkinWeights& a, Eigen::Index row, const SkinWeights& b, Eigen::Index other) {
+  return (a.row(row) - b.row(other)).norm() == 0;
+}
+
+TEST(MakeRig, TakesTheNearestBallWhereAVertexHasNoNode) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  CurveSkeleton without = s.skeleton;
+  without.node_of_vertex.resize(0);
+  EXPECT_EQ(largest_difference(make_rig(s.surface, without, {}, {}).weights, rig.weights), 0);
+  CurveSkeleton partly = s.skeleton;
+  for (Eigen::Index vertex = 0; vertex < partly.node_of_vertex.size(); vertex += 3) {
+    partly.node_of_vertex[vertex] = -1;
+  }
+  EXPECT_EQ(largest_difference(make_rig(s.surface, partly, {}, {}).weights, rig.weights), 0);
+  // and not where it has one
+  CurveSkeleton wrong = s.skeleton;
+  wrong.node_of_vertex.setZero();
+  EXPECT_GT(largest_difference(make_rig(s.surface, wrong, {}, {}).weights, rig.weights), 0.5F);
+}
+
+/// The thick bar's surface is nearer to the thin bar's curve than to its own.
+TEST(MakeRig, MeasuresFromTheBallNotFromItsCentre) {
+  const auto bar = [](double radius) {
+    return shapes::tube("", shapes::straight(12), shapes::constant(radius), 20);
+  };
+  const shapes::Shape thick = bar(3);
+  const shapes::Shape thin = shapes::translated(bar(0.2), {0, 3.5, 0});
+  const Surface surface = shapes::together("", {thick, thin}).surface;
+  CurveSkeleton curve = thick.axis;
+  const auto first = static_cast<int>(curve.nodes.rows());
+  curve.nodes.resize(first + thin.axis.nodes.rows(), 3);
+  curve.nodes << thick.axis.nodes, thin.axis.nodes;
+  curve.radii.resize(curve.nodes.rows());
+  curve.radii << thick.axis.radii, thin.axis.radii;
+  curve.edges.resize(thick.axis.edges.rows() + thin.axis.edges.rows(), 2);
+  curve.edges << thick.axis.edges, thin.axis.edges.array() + first;
+  const Rig rig = make_rig(surface, curve, {}, {});
+  const Eigen::Index vertices = thick.surface.positions.rows();
+  for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      EXPECT_LT(rig.joints(it.col(), 1), 1) << vertex;
+    }
+  }
+}
+
+TEST(MakeRig, WorksForCurvesWithoutRadii) {
+  RigSubject s = mapped_s();
+  s.skeleton.radii.resize(0);
+  s.skeleton.node_of_vertex.resize(0);
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  EXPECT_TRUE(rig.joints.allFinite());
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    EXPECT_NEAR(rig.weights.row(vertex).sum(), 1, 1e-6) << vertex;
+  }
+}
+
+TEST(MakeRig, RefusesASkeletonWithoutNodes) {
+  try {
+    (void)make_rig(mapped_s().surface, {}, {}, {});
+    FAIL() << "made of nothing";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+  }
+}
+
+TEST(MakeRig, StopsWhenAskedTo) {
+  const RigSubject s = mapped_s();
+  std::stop_source source;
+  source.request_stop();
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  EXPECT_THROW((void)make_rig(s.surface, s.skeleton, {}, monitor), Cancelled);
+}
+
+/// The file has each vertex twice, in another order, and a button before each hundredth.
+TEST(RigOfGiven, MovesEachVertexAsTheOneItBecame) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  const Positions normals = vertex_normals(s.surface);
+  const double size = bounding_box_diagonal(s.surface.positions);
+  std::vector<int> became;
+  std::vector<int> moves_as;
+  std::vector<Eigen::RowVector3d> points;
+  const auto count = static_cast<int>(s.surface.positions.rows());
+  for (int k = 0; k < 2 * count; ++k) {
+    const int vertex = (7919 * k + 3) % count;
+    const Eigen::RowVector3d place = s.surface.positions.row(vertex);
+    if (k % 100 == 0) {
+      became.push_back(-1);
+      moves_as.push_back(vertex);
+      points.emplace_back(place + (k % 200 == 0 ? 1e-3 : -1e-3) * size * normals.row(vertex));
+    }
+    became.push_back(vertex);
+    moves_as.push_back(vertex);
+    points.push_back(place);
+  }
+  Positions given(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    given.row(static_cast<Eigen::Index>(k)) = points[k];
+  const Rig found = rig_of_given(
+      rig, s.surface,
+      Eigen::Map<const Eigen::VectorXi>(became.data(), static_cast<Eigen::Index>(became.size())),
+      given);
+  EXPECT_EQ(found.joints, rig.joints);
+  EXPECT_EQ(found.parents, rig.parents);
+  EXPECT_EQ(found.names, rig.names);
+  ASSERT_EQ(found.weights.rows(), given.rows());
+  ASSERT_EQ(found.weights.cols(), rig.weights.cols());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    EXPECT_TRUE(same_row(found.weights, static_cast<Eigen::Index>(k), rig.weights, moves_as[k]))
+        << k;
+  }
+}
+
+TEST(RigOfGiven, MovesWhatIsFarAwayToo) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  const Eigen::Index last = s.skeleton.nodes.rows() - 1;
+  const Eigen::RowVector3d first_tip = s.skeleton.nodes.row(0);
+  const Eigen::RowVector3d last_tip = s.skeleton.nodes.row(last);
+  Positions given(2, 3);
+  given << 20 * first_tip, 20 * last_tip;
+  const Rig found = rig_of_given(rig, s.surface, Eigen::Vector2i(-1, -1), given);
+  for (const Eigen::Index vertex : {0, 1}) {
+    for (SkinWeights::InnerIterator it(found.weights, vertex); it; ++it) {
+      const double to_first = (rig.joints.row(it.col()) - first_tip).norm();
+      const double to_last = (rig.joints.row(it.col()) - last_tip).norm();
+      EXPECT_EQ(to_first < to_last, vertex == 0);
+    }
+    EXPECT_NEAR(found.weights.row(vertex).sum(), 1, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::make_rig_laws

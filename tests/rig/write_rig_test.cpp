@@ -1,0 +1,122 @@
+// Laws of writing rigs: what is written reads back the same, what cannot be is refused.
+#include "rig/rig_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "rig/read_rig.hpp"
+#include "surface/clean.hpp"
+#include "surface/element_index.hpp"
+#include "surface/error.hpp"
+#include "surface/read.hpp"
+#include "tests/own_folder.hpp"
+#include "tests/rig/random_rigs.hpp"
+
+namespace curveskel::write_rig_laws {
+namespace {
+
+class WriteRig : public testing::TestWithParam<RigFormat> {
+ protected:
+  [[nodiscard]] std::string format(const Surface& surface, const Rig& rig) const {
+    return format_rig(surface, rig, GetParam(), "a torus", "a test");
+  }
+  [[nodiscard]] std::filesystem::path write(const Surface& surface, const Rig& rig) const {
+    const bool is_binary = GetParam() == RigFormat::glb;
+    return folder_.write(is_binary ? "rig.glb" : "rig.gltf", format(surface, rig));
+  }
+  [[nodiscard]] std::string refusal(const Surface& surface, const Rig& rig) const {
+    try {
+      (void)format(surface, rig);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::output);
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  OwnFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, WriteRig, testing::Values(RigFormat::glb, RigFormat::gltf),
+                         [](const auto& one) {
+                           return one.param == RigFormat::glb ? "glb" : "gltf";
+                         });
+
+/// Joints may come back in another order: each by its name.
+void expect_same_rig(const Rig& found, const Rig& rig) {
+  ASSERT_EQ(found.joints.rows(), rig.joints.rows());
+  ASSERT_EQ(found.weights.rows(), rig.weights.rows());
+  std::map<std::string, int> joint_of_name;
+  for (int joint = 0; joint < found.joints.rows(); ++joint) {
+    joint_of_name[found.names[at(joint)]] = joint;
+  }
+  Eigen::MatrixXf reordered(rig.weights.rows(), rig.weights.cols());
+  const Eigen::MatrixXf dense = found.weights;
+  for (int joint = 0; joint < rig.joints.rows(); ++joint) {
+    ASSERT_TRUE(joint_of_name.contains(rig.names[at(joint)])) << rig.names[at(joint)];
+    const int other = joint_of_name[rig.names[at(joint)]];
+    EXPECT_EQ(found.joints.row(other).cast<float>(), rig.joints.row(joint).cast<float>());
+    const int parent = rig.parents[joint];
+    const int above = found.parents[other];
+    EXPECT_EQ(above < 0 ? "" : found.names[at(above)], parent < 0 ? "" : rig.names[at(parent)]);
+    reordered.col(joint) = dense.col(other);
+  }
+  EXPECT_LT((reordered - Eigen::MatrixXf(rig.weights)).cwiseAbs().maxCoeff(), 1e-6F);
+}
+
+TEST_P(WriteRig, ReadsBackTheSame) {
+  const Surface surface = torus_surface();
+  for (const WrittenCase& one : written_cases()) {
+    SCOPED_TRACE(one.joints);
+    const Rig rig = random_rig(surface.positions.rows(), one.joints, one.name);
+    const std::filesystem::path file = write(surface, rig);
+    const PolygonSoup soup = read_polygons(file, {});
+    EXPECT_EQ(soup.positions, surface.positions.cast<float>().cast<double>());
+    EXPECT_EQ(triangulate(soup), surface.triangles);
+    const std::optional<Rig> found = read_rig(file, {});
+    ASSERT_TRUE(found);
+    expect_same_rig(*found, rig);
+  }
+}
+
+TEST_P(WriteRig, GivesTheSameBytesEachTime) {
+  const Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 20, "joint ");
+  EXPECT_EQ(format(surface, rig), format(surface, rig));
+}
+
+TEST_P(WriteRig, RefusesWhatIsBeyondSinglePrecision) {
+  const Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 3, "joint ");
+  EXPECT_EQ(refusal(surface, rig), "");
+  for (const double far : {1e39, -1e39}) {
+    Surface huge = surface;
+    huge.positions(7, 1) = far;
+    EXPECT_NE(refusal(huge, rig).find("single precision"), std::string::npos);
+    Rig reaching = rig;
+    reaching.joints(2, 0) = far;
+    EXPECT_NE(refusal(surface, reaching).find("single precision"), std::string::npos);
+  }
+}
+
+TEST_P(WriteRig, RefusesMoreJointsThanSixteenBitsCount) {
+  const Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 65537, "joint ");
+  EXPECT_NE(refusal(surface, rig).find("65537 joints, needed at most 65536"), std::string::npos);
+}
+
+/// File names are bytes; glTF is UTF-8.
+TEST_P(WriteRig, TakesNamesThatAreNoUtf8) {
+  const Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 3, "joint ");
+  const std::string text = format_rig(surface, rig, GetParam(), "caf\xe9", "from caf\xe9.obj");
+  EXPECT_NE(text.find("caf\xef\xbf\xbd"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace curveskel::write_rig_laws
