@@ -94,7 +94,11 @@ TEST(JointPlaces, AreAtCorners) {
           const Eigen::RowVector3d beyond(std::cos(turn), 0, std::sin(turn));
           const CurveSkeleton chain = chain_through(
               {{0, 0, 0}, corner, corner + second * radius * beyond}, radius, 0.3 * radius);
-          EXPECT_LT(nearest_joint(place_joints(chain, {}), corner), 0.5 * radius);
+          for (const double bone_length : {6.0, 50.0}) {
+            const Joints joints = place_joints(chain, {.bone_length = bone_length});
+            EXPECT_LT(nearest_joint(joints, corner), 0.5 * radius) << bone_length;
+          }
+          EXPECT_EQ(place_joints(chain, {.bone_length = 50, .bend = 50}).parents.size(), 2);
         }
       }
     }
