@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rig/rooted_tree.hpp"
-#include "rig/sides.hpp"
 #include "surface/element_index.hpp"
 #include "surface/error.hpp"
 #include "surface/measures.hpp"
@@ -283,9 +282,7 @@ Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) 
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }
-  Joints joints = JointPlacer(skeleton, options).place();
-  name_sides(joints);
-  return joints;
+  return JointPlacer(skeleton, options).place();
 }
 
 }  // namespace curveskel

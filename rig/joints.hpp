@@ -25,8 +25,7 @@ struct Joints {
 };
 
 /// Joints at the junctions, where a limb leaves the inscribed ball of its junction, along limbs,
-/// and at tips (these, named ".._end", move nothing: they say how long the last bone is). Names
-/// tell left from right where there is such, see `name_sides`.
+/// and at tips (these, named ".._end", move nothing: they say how long the last bone is).
 ///
 /// The root is the junction with the least sum of ways to the whole curve, each piece weighted by
 /// length times radius; without junctions the end with the larger ball. A cycle is cut where the

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "rig/sides.hpp"
 #include "surface/error.hpp"
 #include "surface/parallel.hpp"
 #include "surface/tree.hpp"
@@ -73,6 +74,7 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOpt
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
+  name_sides(rig);
   return rig;
 }
 

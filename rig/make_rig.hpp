@@ -17,10 +17,10 @@ struct RigOptions {
   SkinOptions skin;
 };
 
-/// `place_joints`, then `skin_weights`. A vertex that has no node (or none has) goes to the one
-/// whose ball is nearest.
-/// Precondition: a clean surface; node_of_vertex by its vertices, if there is one.
-/// Throws Error(Fault::input) as `place_joints`, Cancelled on a stop.
+/// `place_joints`, `skin_weights`, then `name_sides` (rig/sides.hpp). A vertex that has no node (or
+/// none has) goes to the one whose ball is nearest. Precondition: a clean surface; node_of_vertex
+/// by its vertices, if there is one. Throws Error(Fault::input) as `place_joints`, Cancelled on a
+/// stop.
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options, const Monitor& monitor);
 

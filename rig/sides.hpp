@@ -1,7 +1,7 @@
 // Left and right, where a rig has them.
 #pragma once
 
-#include "rig/joints.hpp"
+#include "rig/rig.hpp"
 
 namespace curveskel {
 
@@ -11,8 +11,8 @@ namespace curveskel {
 /// (z ahead in glTF, -y ahead in Blender) has its left hand there. Of planes normal to y and z,
 /// too,
 /// ".L" is where the coordinate is larger. The plane with the most pairs is taken; of equals x, y,
-/// z. Pairs are within 2 % of the joints' diagonal, and hang from a pair or from one joint.
-/// Names stay unique. O(j^2); nothing is done for more than 4,000 joints.
-void name_sides(Joints& joints);
+/// z. Pairs are within 3 % of the joints' diagonal, and hang from a pair or from one joint.
+/// Unique names stay so. O(j^2); nothing is done for more than 4,000 joints.
+void name_sides(Rig& rig);
 
 }  // namespace curveskel

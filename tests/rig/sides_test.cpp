@@ -1,0 +1,126 @@
+// Left and right: names of joints that are each other's mirror images.
+#include "rig/sides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "meshes/random.hpp"
+
+namespace curveskel::sides_laws {
+namespace {
+
+/// A trunk of five joints in the plane, with `limbs` of four joints on each side of it; what is
+/// left of it has lower numbers if `left_first`.
+Rig two_sided(int axis, int limbs, bool left_first, double skew = 0) {
+  std::vector<Eigen::RowVector3d> places;
+  Rig rig;
+  std::vector<int> parents;
+  const auto add = [&](const Eigen::RowVector3d& place, int parent) {
+    places.push_back(place);
+    parents.push_back(parent);
+    rig.names.push_back("joint" + std::to_string(places.size()));
+    return static_cast<int>(places.size()) - 1;
+  };
+  const Eigen::RowVector3d up = Eigen::RowVector3d::Unit((axis + 1) % 3);
+  const Eigen::RowVector3d aside = Eigen::RowVector3d::Unit(axis);
+  int trunk = add(7 * aside, -1);
+  for (int k = 1; k < 5; ++k) trunk = add(7 * aside + k * up, trunk);
+  for (int limb = 0; limb < limbs; ++limb) {
+    for (const int side : {left_first ? 1 : -1, left_first ? -1 : 1}) {
+      int joint = limb % 5;
+      for (int k = 1; k <= 4; ++k) {
+        const Eigen::RowVector3d root =
+            7 * aside + (limb % 5 + 0.3 * (limb / 5) + skew * side) * up;
+        joint = add(root + 0.8 * side * k * aside + 0.1 * k * k * up, joint);
+      }
+    }
+  }
+  rig.joints.resize(static_cast<Eigen::Index>(places.size()), 3);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    rig.joints.row(static_cast<Eigen::Index>(k)) = places[k];
+  }
+  rig.parents = Eigen::Map<Eigen::VectorXi>(parents.data(), rig.joints.rows());
+  return rig;
+}
+
+std::string base_of(const std::string& name) { return name.substr(0, name.size() - 2); }
+
+TEST(Sides, ArePairsOnEitherSideOfThePlane) {
+  for (const int axis : {0, 1, 2}) {
+    for (const bool left_first : {true, false}) {
+      for (const int limbs : {1, 2, 7}) {
+        SCOPED_TRACE(axis + 10 * limbs);
+        Rig rig = two_sided(axis, limbs, left_first);
+        name_sides(rig);
+        std::set<std::string> left;
+        std::set<std::string> right;
+        for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+          const double aside = rig.joints(static_cast<Eigen::Index>(joint), axis) - 7;
+          const std::string& name = rig.names[joint];
+          if (joint < 5) {
+            EXPECT_EQ(name, "joint" + std::to_string(joint + 1)) << "in the plane";
+          } else if (aside > 0) {
+            EXPECT_TRUE(name.ends_with(".L")) << name;
+            left.insert(base_of(name));
+          } else {
+            EXPECT_TRUE(name.ends_with(".R")) << name;
+            right.insert(base_of(name));
+          }
+        }
+        EXPECT_EQ(left, right);
+        EXPECT_EQ(left.size(), static_cast<std::size_t>(4 * limbs));
+      }
+    }
+  }
+}
+
+TEST(Sides, OfAPairHangFromAPairOrFromOneJoint) {
+  Rig rig = two_sided(0, 6, true);
+  name_sides(rig);
+  const auto number_of = [&](const std::string& name) {
+    return static_cast<int>(std::find(rig.names.begin(), rig.names.end(), name) -
+                            rig.names.begin());
+  };
+  int pairs = 0;
+  for (int joint = 0; joint < rig.joints.rows(); ++joint) {
+    const std::string& name = rig.names[static_cast<std::size_t>(joint)];
+    if (!name.ends_with(".L")) continue;
+    ++pairs;
+    const int other = number_of(base_of(name) + ".R");
+    ASSERT_LT(other, rig.joints.rows());
+    const std::string& above = rig.names[static_cast<std::size_t>(rig.parents[joint])];
+    const std::string& above_other = rig.names[static_cast<std::size_t>(rig.parents[other])];
+    EXPECT_TRUE(above == above_other || base_of(above) == base_of(above_other));
+  }
+  EXPECT_EQ(pairs, 24);
+}
+
+TEST(Sides, AreNotWhereThereIsNoMirrorImage) {
+  Rig skewed = two_sided(0, 5, true, 0.6);
+  const std::vector<std::string> names = skewed.names;
+  name_sides(skewed);
+  EXPECT_EQ(skewed.names, names);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    shapes::Random random(seed);
+    Rig rig = two_sided(0, 5, true);
+    for (double& coordinate : rig.joints.reshaped()) coordinate = random.uniform(0, 10);
+    name_sides(rig);
+    EXPECT_EQ(rig.names, names) << "seed " << seed;
+  }
+}
+
+TEST(Sides, OfOneJointAreNone) {
+  Rig rig = two_sided(0, 0, true);
+  rig.joints.conservativeResize(1, 3);
+  rig.parents.conservativeResize(1);
+  rig.names.resize(1);
+  name_sides(rig);
+  EXPECT_EQ(rig.names.front(), "joint1");
+}
+
+}  // namespace
+}  // namespace curveskel::sides_laws
