@@ -10,17 +10,21 @@ model=meshes/real/camel.off
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Four moments side by side.
-for stage in input contraction:3 surgery skeleton; do
-  "$program" view "$model" --screenshot "$work/$stage.png" --size 400x360 --stage "$stage" 2>/dev/null
+# Five moments side by side.
+for stage in input contraction:3 surgery skeleton rig; do
+  "$program" view "$model" --screenshot "$work/$stage.png" --size 340x306 --stage "$stage" 2>/dev/null
 done
-convert "$work"/{input,contraction:3,surgery,skeleton}.png +append docs/pictures/viewer-stages.png
+convert "$work"/{input,contraction:3,surgery,skeleton,rig}.png +append docs/pictures/viewer-stages.png
 
 # README's, where the collection of meshes is.
 armadillo=../shared/meshes/armadillo-43k.ply
 if [ -e "$armadillo" ]; then
   "$program" view "$armadillo" --screenshot docs/pictures/armadillo.png --size 1300x760 \
     --two-sides 2>/dev/null
+  "$program" view "$armadillo" --screenshot "$work/all.png" --size 640x560 --stage rig 2>/dev/null
+  "$program" view ../shared/meshes/rigs/makehuman-body-13k-quads.obj --screenshot "$work/other.png" \
+    --size 640x560 --stage rig 2>/dev/null
+  convert "$work"/{all,other}.png +append docs/pictures/rig.png
 fi
 
 # A rig, where the collection of meshes is: the weights of all joints, and those of one.
