@@ -70,11 +70,12 @@ int run_rig(RigArguments arguments, Session& session) {
                                repaired.surface, repaired.vertex_of_input, soup.positions);
   std::vector<OutputFile> files;
   const Surface given{soup.positions, triangulate(soup)};
-  const std::string stem = arguments.mesh.stem().string();
+  fs::path name = arguments.mesh.stem();
+  if (arguments.mesh.extension() == ".gz") name = name.stem();
   for (std::size_t i = 0; i < formats.size(); ++i) {
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    files.push_back(
-        {arguments.outputs[i], format_rig(given, rig, formats[i], stem, program_and_version())});
+    files.push_back({arguments.outputs[i],
+                     format_rig(given, rig, formats[i], name.string(), program_and_version())});
   }
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;

@@ -1,5 +1,5 @@
-// Small closed surfaces, spoiled as the bytes say, through clean and extract: either an error that
-// says why, or a skeleton of the right topology.
+// Small closed surfaces, spoiled as the bytes say, through clean, extract and make_rig: either an
+// error that says why, or a skeleton of the right topology and a rig that moves every vertex.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "rig/make_rig.hpp"
 #include "skeleton/extract.hpp"
 #include "surface/clean.hpp"
 
@@ -167,17 +168,35 @@ void check(const Surface& surface, const Extraction& found) {
   require(((skeleton.nodes.rowwise() - high).array() <= slack).all());
 }
 
+void check(const Surface& surface, const Rig& rig) {
+  require(rig.joints.allFinite());
+  require((rig.parents.array() < 0).count() == 1);
+  require(rig.weights.rows() == surface.positions.rows());
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    float sum = 0;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      require(it.value() > 0);
+      sum += it.value();
+    }
+    require(std::abs(sum - 1) < 1e-5F);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ExtractOptions options;
   options.threads = 1;
-  options.resolution = 300;
-  options.least_resolution = 150;
+  options.resolution = 200;
+  options.least_resolution = 100;
   options.certificate.threads = 1;
   try {
     const CleanSurface cleaned = clean(spoiled({data, size}), {}, 1);
-    check(cleaned.surface, extract(cleaned.surface, options, {}));
+    const Extraction found = extract(cleaned.surface, options, {});
+    check(cleaned.surface, found);
+    RigOptions rig;
+    rig.skin.threads = 1;
+    check(cleaned.surface, make_rig(cleaned.surface, found.skeleton, rig, {}));
   } catch (const Error&) {
     return 0;  // says why
   }

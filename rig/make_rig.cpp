@@ -1,5 +1,6 @@
 #include "rig/make_rig.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -30,19 +31,25 @@ int node_of_nearest_ball(const CurveSkeleton& skeleton, const Eigen::RowVector3d
 }
 
 /// The skeleton with a node for every vertex.
-CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton, int threads) {
+CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton, int threads,
+                           const Monitor& monitor) {
   CurveSkeleton mapped = skeleton;
   if (mapped.node_of_vertex.size() == 0) {
     mapped.node_of_vertex.setConstant(surface.positions.rows(), -1);
   }
-  parallel_for(static_cast<std::size_t>(mapped.node_of_vertex.size()), 1024, threads,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k) {
-                   const auto v = static_cast<Eigen::Index>(k);
-                   int& node = mapped.node_of_vertex[v];
-                   if (node < 0) node = node_of_nearest_ball(skeleton, surface.positions.row(v));
-                 }
-               });
+  constexpr std::size_t block = 16384;
+  const auto count = static_cast<std::size_t>(mapped.node_of_vertex.size());
+  for (std::size_t first = 0; first < count; first += block) {
+    monitor.report("joints", static_cast<double>(first) / static_cast<double>(count));
+    parallel_for(std::min(block, count - first), 512, threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t k = first + begin; k < first + end; ++k) {
+                     const auto v = static_cast<Eigen::Index>(k);
+                     int& node = mapped.node_of_vertex[v];
+                     if (node < 0) node = node_of_nearest_ball(skeleton, surface.positions.row(v));
+                   }
+                 });
+  }
   return mapped;
 }
 
@@ -69,8 +76,9 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOpt
   Joints joints = place_joints(skeleton, options.joints);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
-  rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.skin.threads),
-                             joints.joint_of_node, count, options.skin, monitor);
+  rig.weights =
+      skin_weights(surface, fully_mapped(surface, skeleton, options.skin.threads, monitor),
+                   joints.joint_of_node, count, options.skin, monitor);
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);

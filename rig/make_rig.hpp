@@ -34,7 +34,7 @@ struct RigOptions {
 
 /// The rig of the surface as a rig of what it was repaired from: `vertex_of_input` and `given` are
 /// as in RepairedSurface and PolygonSoup. Vertices that the repair left out (buttons, eyes, specks)
-/// move with the vertex of the surface that is nearest to them.
+/// move with the nearest corner of the triangle that is nearest to them.
 [[nodiscard]] Rig rig_of_given(const Rig& rig, const Surface& surface,
                                const Eigen::VectorXi& vertex_of_input, const Positions& given);
 

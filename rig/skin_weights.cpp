@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,26 @@ class TopShares {
   std::size_t count_ = 0;
 };
 
+/// What vertices of the whole surface begin with.
+struct SkinBeginning {
+  Eigen::VectorXi joint;     ///< that moves the vertex' node
+  Eigen::VectorXd distance;  ///< to that node, in model units; > 0
+};
+
+SkinBeginning beginning_of(const Surface& surface, const CurveSkeleton& skeleton,
+                           const Eigen::VectorXi& joint_of_node) {
+  const Eigen::Index count = surface.positions.rows();
+  const double least_distance = 1e-3 * bounding_box_diagonal(surface.positions);
+  SkinBeginning beginning{Eigen::VectorXi(count), Eigen::VectorXd(count)};
+  for (Eigen::Index v = 0; v < count; ++v) {
+    const int node = skeleton.node_of_vertex[v];
+    beginning.joint[v] = joint_of_node[node];
+    beginning.distance[v] =
+        std::max((surface.positions.row(v) - skeleton.nodes.row(node)).norm(), least_distance);
+  }
+  return beginning;
+}
+
 /// Where heat comes from, and how fast.
 struct HeatSources {
   Eigen::VectorXi joint;     ///< by vertex
@@ -67,16 +88,15 @@ struct HeatSources {
 /// Solves for one component.
 class SkinHeat {
  public:
-  SkinHeat(const Component& part, const Eigen::VectorXi& joint_of_vertex,
-           const Eigen::VectorXd& distance, const SkinOptions& options)
+  SkinHeat(const Component& part, const SkinBeginning& beginning, const SkinOptions& options)
       : part_(part), options_(options) {
     const Eigen::Index count = part.surface.positions.rows();
     sources_.joint.resize(count);
     sources_.strength = vertex_areas(part.surface);
     for (Eigen::Index v = 0; v < count; ++v) {
       const int whole = part.vertex_in_whole[at(v)];
-      sources_.joint[v] = joint_of_vertex[whole];
-      const double way = options.softness * distance[whole];
+      sources_.joint[v] = beginning.joint[whole];
+      const double way = options.softness * beginning.distance[whole];
       sources_.strength[v] /= way * way;
     }
     sources_.joints.assign(sources_.joint.begin(), sources_.joint.end());
@@ -109,10 +129,9 @@ class SkinHeat {
   }
 
  private:
-  static constexpr std::size_t block = 8;  // right-hand sides that CHOLMOD takes at once
+  static constexpr std::size_t block = 4;  // right-hand sides that CHOLMOD takes at once
   static constexpr std::size_t most_workers = 8;
   static constexpr double negligible = 1e-9;
-  using Result = Eigen::Map<const Eigen::MatrixXd>;
 
   void solve_blocks(std::size_t first, std::size_t workers, int threads,
                     std::vector<TopShares>& shares) {
@@ -159,6 +178,63 @@ class SkinHeat {
   std::vector<std::unique_ptr<CholeskyFactor::Workspace>> workspaces_;
 };
 
+/// All components, with the progress of all.
+class SkinRun {
+ public:
+  SkinRun(Eigen::Index vertices, const SkinBeginning& beginning, const SkinOptions& options,
+          const Monitor& monitor)
+      : beginning_(beginning), options_(options), monitor_(monitor), shares_(at(vertices)) {}
+
+  /// Large ones use all cores one after the other, small ones a core each.
+  const std::vector<TopShares>& solve(const std::vector<Component>& parts) {
+    constexpr std::size_t large = 10000;  // vertices
+    std::vector<const Component*> small_ones;
+    for (const Component& part : parts) {
+      if (part.vertex_in_whole.size() < large) {
+        small_ones.push_back(&part);
+      } else {
+        solve_large(part);
+      }
+    }
+    constexpr std::size_t at_once = 64;
+    for (std::size_t first = 0; first < small_ones.size(); first += at_once) {
+      solve_small(
+          std::span(small_ones).subspan(first, std::min(at_once, small_ones.size() - first)));
+    }
+    return shares_;
+  }
+
+ private:
+  void solve_large(const Component& part) {
+    const std::size_t size = part.vertex_in_whole.size();
+    SkinHeat(part, beginning_, options_).solve(shares_, options_.threads, [&](double fraction) {
+      report(fraction * static_cast<double>(size));
+    });
+    done_ += size;
+  }
+
+  void solve_small(std::span<const Component* const> parts) {
+    report(0);
+    parallel_for(parts.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
+      for (const Component* part : parts.subspan(begin, end - begin)) {
+        SkinHeat(*part, beginning_, options_).solve(shares_, 1, [](double /*fraction*/) {});
+      }
+    });
+    for (const Component* part : parts) done_ += part->vertex_in_whole.size();
+  }
+
+  void report(double more) const {
+    monitor_.report("weights",
+                    (static_cast<double>(done_) + more) / static_cast<double>(shares_.size()));
+  }
+
+  const SkinBeginning& beginning_;
+  const SkinOptions& options_;
+  const Monitor& monitor_;
+  std::vector<TopShares> shares_;
+  std::size_t done_ = 0;  // vertices
+};
+
 SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints, double least) {
   SkinWeights weights(static_cast<Eigen::Index>(shares.size()), joints);
   weights.reserve(Eigen::VectorXi::Constant(weights.rows(), 4));
@@ -176,51 +252,10 @@ SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints, double l
 SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
                          const Eigen::VectorXi& joint_of_node, int joints,
                          const SkinOptions& options, const Monitor& monitor) {
-  const Eigen::Index count = surface.positions.rows();
-  const double least_distance = 1e-3 * bounding_box_diagonal(surface.positions);
-  Eigen::VectorXi joint_of_vertex(count);
-  Eigen::VectorXd distance(count);
-  for (Eigen::Index v = 0; v < count; ++v) {
-    const int node = skeleton.node_of_vertex[v];
-    joint_of_vertex[v] = joint_of_node[node];
-    distance[v] =
-        std::max((surface.positions.row(v) - skeleton.nodes.row(node)).norm(), least_distance);
-  }
+  const SkinBeginning beginning = beginning_of(surface, skeleton, joint_of_node);
   const std::vector<Component> parts = split_components(surface, topology(surface));
-  std::vector<TopShares> shares(at(count));
-  // Large components use all cores one after the other, small ones a core each.
-  constexpr std::size_t large = 10000;
-  std::vector<const Component*> small_ones;
-  std::size_t done = 0;
-  const auto share_of = [&](std::size_t vertices) {
-    return static_cast<double>(vertices) / static_cast<double>(count);
-  };
-  for (const Component& part : parts) {
-    const std::size_t size = part.vertex_in_whole.size();
-    if (size < large) {
-      small_ones.push_back(&part);
-      continue;
-    }
-    SkinHeat(part, joint_of_vertex, distance, options)
-        .solve(shares, options.threads, [&](double fraction) {
-          monitor.report("weights", share_of(done) + fraction * share_of(size));
-        });
-    done += size;
-  }
-  constexpr std::size_t at_once = 64;
-  for (std::size_t first = 0; first < small_ones.size(); first += at_once) {
-    monitor.report("weights", share_of(done));
-    const std::size_t batch = std::min(at_once, small_ones.size() - first);
-    parallel_for(batch, 1, options.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = first + begin; k < first + end; ++k) {
-        SkinHeat(*small_ones[k], joint_of_vertex, distance, options).solve(shares, 1, [](double) {
-        });
-      }
-    });
-    for (std::size_t k = first; k < first + batch; ++k)
-      done += small_ones[k]->vertex_in_whole.size();
-  }
-  return matrix_of(shares, joints, options.least_weight);
+  SkinRun run(surface.positions.rows(), beginning, options, monitor);
+  return matrix_of(run.solve(parts), joints, options.least_weight);
 }
 
 }  // namespace curveskel
