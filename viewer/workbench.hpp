@@ -144,6 +144,11 @@ class Workbench {
     std::vector<std::filesystem::file_time_type> times;
     std::string error;
   };
+  struct Rigged {
+    std::shared_ptr<Scene> scene;
+    std::shared_ptr<const Rig> rig;  // null where it was stopped
+    std::string error;
+  };
   bool take_opened();
   bool take_news();
   bool take_defects();
@@ -174,6 +179,7 @@ class Workbench {
   Run::News news_;
   bool first_moment_ = true;
   bool follow_ = true;
+  bool rig_again_ = false;  // once the one that is made has stopped
   std::optional<RunResult> result_;
   History history_;
   std::vector<std::future<void>> background_;  // so that nobody has to wait for them
@@ -182,14 +188,8 @@ class Workbench {
   std::shared_ptr<const Ground> ground_;
   std::optional<Judgement> judgement_;
   std::future<Judgement> judging_;
-  struct Rigged {
-    std::shared_ptr<Scene> scene;
-    std::shared_ptr<const Rig> rig;  // null where it was stopped
-    std::string error;
-  };
   std::stop_source rigging_stop_;
   std::future<Rigged> rigging_;
-  bool rig_again_ = false;             // once that one has stopped
   std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
