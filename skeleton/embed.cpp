@@ -159,17 +159,27 @@ struct Setting {
   double spacing;  // of the points of a strand, at most
 };
 
-void centre(Network& network, const Setting& setting, int rounds) {
+void centre(Network& network, const Setting& setting) {
   RelaxOptions centring;
   centring.keep = setting.options.keep_radius;
-  centring.rounds = rounds;
+  centring.rounds = setting.options.first_rounds;
+  relax(network, setting.tree, centring, setting.threads);
+}
+
+/// Once it is settled which strands there are: where junctions lie decides what is a spur.
+void centre_at_last(Network& network, const Setting& setting) {
+  RelaxOptions centring;
+  centring.keep = setting.options.keep_radius;
+  centring.rounds = setting.options.relax_rounds;
+  centring.meet = true;
+  centring.keep_junction = 1;
   relax(network, setting.tree, centring, setting.threads);
 }
 
 void space_and_centre(Network& network, const Setting& setting) {
   straighten_at_junctions(network, setting.tree, setting.options.straight, false);
   resample(network, setting.tree, setting.spacing);
-  centre(network, setting, setting.options.first_rounds);
+  centre(network, setting);
 }
 
 /// All stays as it is where the change makes nothing, or something to which no way inside is found.
@@ -215,7 +225,7 @@ Network lay_out(const Setting& setting, const Monitor& monitor) {
   } while (prune_spurs(network, tree, 1));
   correct(network, setting);
   merge_junctions(network, tree, options.merge);  // centred, they may have come together
-  centre(network, setting, options.relax_rounds);
+  centre_at_last(network, setting);
   monitor.report("embed", 0.6);
   return network;
 }

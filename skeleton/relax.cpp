@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "skeleton/axes.hpp"
 #include "surface/element_index.hpp"
 #include "surface/parallel.hpp"
 
@@ -106,16 +107,22 @@ Point straight_through(const Network& network, int hub, const SurfaceTree& tree)
   return sum / weight;
 }
 
-/// Junctions move to where their strands meet with the least turn, as long as they stay central.
+/// Junctions move to where their strands, or the axes of these, meet with the least turn, as long
+/// as they stay central.
 void relax_hubs(Network& network, const SurfaceTree& tree, const std::vector<double>& first_radius,
-                double keep) {
+                const RelaxOptions& options) {
   for (int h = 0; h < static_cast<int>(network.hubs.size()); ++h) {
     Hub& hub = network.hubs[static_cast<std::size_t>(h)];
     if (!hub.alive || network.degree(h) < 3) continue;
-    const Point candidate = 0.5 * (hub.position + straight_through(network, h, tree));
-    if (tree.inscribed_radius(candidate) >= keep * first_radius[static_cast<std::size_t>(h)]) {
-      hub.position = candidate;
-    }
+    const SurfaceTree::Ball here{hub.position, tree.inscribed_radius(hub.position)};
+    const Point goal = options.meet ? meeting_of_axes(network, h, here.radius)
+                                    : straight_through(network, h, tree);
+    const Point candidate = 0.5 * (hub.position + goal);
+    const SurfaceTree::Ball there{candidate, tree.inscribed_radius(candidate)};
+    const double least = options.keep_junction * first_radius[static_cast<std::size_t>(h)];
+    if (there.radius < least) continue;
+    if (options.meet && makes_spur(network, h, here, there)) continue;
+    hub.position = candidate;
   }
 }
 
@@ -233,7 +240,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
         relax_strand(network, network.strands[s], tree, options, rest[s]);
       }
     });
-    if (!options.covered) relax_hubs(network, tree, hub_radius, options.keep_junction);
+    if (!options.covered) relax_hubs(network, tree, hub_radius, options);
   }
 }
 

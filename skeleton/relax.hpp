@@ -26,6 +26,7 @@ struct RelaxOptions {
   int rounds = 4;
   double keep = 0.8;            ///< share of its inscribed radius that a moved point must keep
   double keep_junction = 0.95;  ///< the same for junctions, which belong in the thickest place
+  bool meet = false;            ///< junctions go to where the axes of their strands meet
   double smoothing = 0.5;       ///< share of the neighbours' middle in a point's new place
   bool covered = false;         ///< keep the balls of neighbouring points overlapping; hubs stay
 };
