@@ -43,7 +43,8 @@ class Blender(CommandLineTest):
         found = self.folder / "found.json"
         # Blender takes the first python3 in the path for its own.
         environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
-        subprocess.run([shutil.which("blender"), "--background", "--python-exit-code", "1", "--python", script,
+        subprocess.run([shutil.which("blender"), "--background", "--python-exit-code", "1",
+                        "--python", script,
                         "--", self.folder / name, found],
                        check=True, capture_output=True, stdin=subprocess.DEVNULL,
                        env=environment)
