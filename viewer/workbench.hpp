@@ -145,7 +145,7 @@ class Workbench {
     std::string error;
   };
   struct Rigged {
-    std::shared_ptr<Scene> scene;
+    Edited of;
     std::shared_ptr<const Rig> rig;  // null where it was stopped
     std::string error;
   };

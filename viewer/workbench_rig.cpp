@@ -30,20 +30,20 @@ void Workbench::rig() {
   options.joints.root = history_.now().root;
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
-  rigging_ = std::async(std::launch::async, [skeleton = history_.now().skeleton, held = scene,
-                                             options, repaired, repair_options = pipeline.repair,
+  rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
+                                             repair_options = pipeline.repair,
                                              stop = rigging_stop_.get_token()]() mutable {
     give_way();
     Monitor monitor;
     monitor.stop = stop;
     Rigged made;
-    made.scene = held;
+    made.of = of;
     try {
       if (!repaired) {
         repaired = std::make_shared<const RepairedSurface>(
             repair(*held->document.polygons(), repair_options, monitor));
       }
-      made.rig = rig_of(held->document, *repaired, *skeleton, options, monitor);
+      made.rig = rig_of(held->document, *repaired, *of.skeleton, options, monitor);
     } catch (const Cancelled&) {
     } catch (const std::exception& error) {
       made.error = error.what();
@@ -57,15 +57,19 @@ bool Workbench::take_rig() {
       rigging_.valid() && rigging_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!ready) return false;
   const Rigged made = rigging_.get();
-  if (std::exchange(rig_again_, false)) {
+  const bool stale = run_ || history_.empty() || made.of.skeleton != history_.now().skeleton ||
+                     made.of.root != history_.now().root;
+  const bool again = std::exchange(rig_again_, false) || (stale && !save_rig_to_.empty());
+  if (again) {
     rig();
     return true;
   }
+  if (stale) return true;
   if (!made.error.empty()) {
     save_rig_to_.clear();
     say(made.error, true);
   }
-  if (!made.rig || made.scene != scene) return true;
+  if (!made.rig) return true;
   drop_rig();
   scene->recording.add(moment_of(made.rig));
   go_to(scene->recording.moments().size() - 1);

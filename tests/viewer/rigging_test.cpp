@@ -140,6 +140,31 @@ TEST_F(Rigging, IsSavedAndMadeFirstIfNeedBe) {
   EXPECT_NE(last_said().find("for a rig, glb, gltf"), std::string::npos) << last_said();
 }
 
+TEST_F(Rigging, OfASkeletonThatHasChangedMeanwhileIsNotShown) {
+  open_y();
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  for (const bool finished : {false, true}) {
+    bench.rig();
+    if (finished) std::this_thread::sleep_for(2s);  // nobody has taken it yet
+    bench.select(edge, false);
+    bench.split();
+    ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+    EXPECT_FALSE(bench.has_rig());
+    EXPECT_EQ(stage(), "skeleton");
+  }
+  const auto file = folder.path() / "changed.glb";
+  bench.save(file);
+  bench.select(edge, false);
+  bench.prune();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  ASSERT_TRUE(bench.has_rig());
+  const auto saved = read_rig(file, {});
+  ASSERT_TRUE(saved) << "what was to be saved is the skeleton as it is";
+  EXPECT_EQ(saved->joints.rows(), bench.scene->rig()->joints.rows());
+}
+
 TEST_F(Rigging, NeedsASkeletonAndSaysSo) {
   bench.rig();
   EXPECT_TRUE(bench.messages().back().bad);
