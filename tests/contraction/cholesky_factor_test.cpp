@@ -92,9 +92,9 @@ TEST(CholeskyFactor, GivesEachOfTwoThreadsTheSameBytes) {
   factor.factorize(h);
   const Eigen::MatrixXd r = random_columns(h.rows(), 8, 7);
   const auto solve_often = [&] {
-    std::vector<Eigen::MatrixXd> found;
+    std::vector<Eigen::MatrixXd> found(20);
     CholeskyFactor::Workspace workspace;
-    for (int k = 0; k < 20; ++k) found.emplace_back(factor.solve(r, workspace));
+    for (Eigen::MatrixXd& x : found) x = factor.solve(r, workspace);
     return found;
   };
   std::future<std::vector<Eigen::MatrixXd>> beside = std::async(std::launch::async, solve_often);
