@@ -32,9 +32,9 @@ Rig two_sided(int axis, int limbs, bool left_first, double skew = 0) {
   for (int limb = 0; limb < limbs; ++limb) {
     for (const int side : {left_first ? 1 : -1, left_first ? -1 : 1}) {
       int joint = limb % 5;
+      const double height = joint + 0.3 * static_cast<double>(limb >= 5) + skew * side;
       for (int k = 1; k <= 4; ++k) {
-        const Eigen::RowVector3d root =
-            7 * aside + (limb % 5 + 0.3 * (limb / 5) + skew * side) * up;
+        const Eigen::RowVector3d root = 7 * aside + height * up;
         joint = add(root + 0.8 * side * k * aside + 0.1 * k * k * up, joint);
       }
     }
