@@ -1,6 +1,7 @@
 // curveskel rig: a surface file in, the same surface with joints and skin weights out.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
@@ -39,10 +41,30 @@ struct RigArguments {
   RigOptions rig;
 };
 
+/// A skeleton of this surface is not mostly elsewhere.
+void require_nodes_nearby(const CurveSkeleton& skeleton, const Surface& surface,
+                          const RigArguments& arguments) {
+  const Eigen::RowVector3d low = surface.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = surface.positions.colwise().maxCoeff();
+  Eigen::Index within = 0;
+  for (const auto& node : skeleton.nodes.rowwise()) {
+    within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
+  }
+  if (2 * within >= skeleton.nodes.rows()) return;
+  throw Error(Fault::input,
+              fmt::format("{}: {} of {} nodes lie within the box of {}; needed is a skeleton of "
+                          "this surface, in its coordinates",
+                          arguments.skeleton, within, skeleton.nodes.rows(),
+                          arguments.mesh.filename().string()));
+}
+
+/// Read or extracted; what its certificate lacks is said.
 CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface& repaired,
-                           const Monitor& monitor) {
+                           const Monitor& monitor, Session& session) {
   if (!arguments.skeleton.empty()) {
-    return skeleton_of_repaired(read_skeleton(arguments.skeleton), repaired.vertex_of_input,
+    const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
+    require_nodes_nearby(skeleton, repaired.surface, arguments);
+    return skeleton_of_repaired(skeleton, repaired.vertex_of_input,
                                 repaired.surface.positions.rows());
   }
   ExtractOptions options = arguments.extract;
@@ -50,7 +72,16 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface&
   options.threads = options.fair.threads = options.certificate.threads = arguments.threads;
   options.fairing = arguments.fair_iterations > 0;
   options.fair.iterations = arguments.fair_iterations;
-  return extract(repaired.surface, options, monitor).skeleton;
+  const Extraction extraction = extract(repaired.surface, options, monitor);
+  const std::string failed = failures(extraction.certificate, options.certificate);
+  if (!failed.empty()) session.terminal.warn(failed);
+  return extraction.skeleton;
+}
+
+std::ptrdiff_t count_tips(const Rig& rig) {
+  return std::count_if(rig.names.begin(), rig.names.end(), [](const std::string& name) {
+    return name.find("_end") != std::string::npos;
+  });
 }
 
 int run_rig(RigArguments arguments, Session& session) {
@@ -65,7 +96,7 @@ int run_rig(RigArguments arguments, Session& session) {
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
   const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
-  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor);
+  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
                                repaired.surface, repaired.vertex_of_input, soup.positions);
   std::vector<OutputFile> files;
@@ -81,8 +112,9 @@ int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   std::string text =
-      fmt::format("{}: {} vertices\nrig: {} joints, root {}\n", arguments.mesh.filename().string(),
-                  soup.positions.rows(), rig.joints.rows(), rig.names.front());
+      fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
+                  arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
+                  count_tips(rig));
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;
@@ -105,22 +137,27 @@ Verb add_rig(CLI::App& program) {
       ->required()
       ->type_name("OUT.glb")
       ->allow_extra_args(false);
-  parser
-      ->add_option("--skeleton", arguments->skeleton,
-                   "rig this one (of extract or view, corrected by hand, or of another program) "
-                   "instead of extracting one")
-      ->type_name("FILE");
+  CLI::Option* skeleton =
+      parser
+          ->add_option(
+              "--skeleton", arguments->skeleton,
+              "rig this one (of extract or view, corrected by hand, or of another program) "
+              "instead of extracting one")
+          ->type_name("FILE");
   JointOptions& joints = arguments->rig.joints;
-  add_number(*parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
-             "node of the skeleton, counted from 0, that all hangs from; -1 = chosen");
+  add_number(
+      *parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
+      "node of the skeleton, counted from 0 as in its JSON file, that all hangs from; -1 = chosen");
   add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
              "of straight limbs, in their radius: smaller gives more joints");
   add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
              "how gently the skin goes over from one joint to the next, in radii");
   add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be and stay");
+             "0..1: how small a branch may be and stay")
+      ->excludes(skeleton);
   add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
-             "iterations of fairing before the contraction, for noisy surfaces");
+             "iterations of fairing before the contraction, for noisy surfaces")
+      ->excludes(skeleton);
   arguments->extract.contraction.program_cache = kernel_cache();
   arguments->extract.fair.program_cache = kernel_cache();
   add_number(*parser, "--threads", arguments->threads, 0, 4096,

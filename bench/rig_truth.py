@@ -20,18 +20,20 @@ NEAR = 0.03
 
 
 def joints_of(glb):
-    """Where the joints of a rig are that are not turned."""
+    """Where the joints of a rig are: what its inverse bind matrices, which turn and shift, take to
+    the origin."""
     data = glb.read_bytes()
     (length,) = struct.unpack_from("<I", data, 12)
     file = json.loads(data[20:20 + length])
-    nodes = file["nodes"]
-    parent = {child: i for i, node in enumerate(nodes) for child in node.get("children", [])}
-
-    def place(node):
-        own = nodes[node].get("translation", [0, 0, 0])
-        above = place(parent[node]) if node in parent else [0, 0, 0]
-        return [a + b for a, b in zip(own, above)]
-    return [place(node) for node in file["skins"][0]["joints"]]
+    binds = file["accessors"][file["skins"][0]["inverseBindMatrices"]]
+    start = 28 + length + file["bufferViews"][binds["bufferView"]]["byteOffset"]
+    places = []
+    for joint in range(binds["count"]):
+        matrix = struct.unpack_from("<16f", data, start + 64 * joint)  # by columns
+        shift = matrix[12:15]
+        places.append([-sum(matrix[4 * axis + k] * shift[k] for k in range(3))
+                       for axis in range(3)])
+    return places
 
 
 def people_joints(file):

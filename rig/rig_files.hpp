@@ -19,12 +19,12 @@ inline constexpr NameTable<RigFormat, 2> rig_formats{{
 
 /// The surface with its joints and weights, for Blender and whatever else reads glTF; give the
 /// bytes to `write_file`. Vertices and triangles keep their order, positions and weights are in
-/// single precision (as glTF has them), normals are those of `vertex_normals`. Joints are not
-/// turned: each has its parent's axes, and its inverse bind matrix is a translation. All hang from
-/// one node named `name`. `provenance` goes to the file's generator.
+/// single precision (as glTF has them), normals are those of `vertex_normals`, the same for
+/// all vertices in one place. Joints are turned as `bone_axes` says (rig/bone_axes.hpp). All hang
+/// from one node named `name`. `provenance` goes to the file's generator.
 /// Precondition: weights have a row for each vertex, of sum 1 and at most four joints.
-/// Throws Error(Fault::output) where there are more than 65,536 joints or a coordinate is beyond
-/// single precision. O(#V + #F + joints).
+/// Throws Error(Fault::output) where there are more than 65,536 joints or where single
+/// precision does not suffice for the coordinates. O(#V + #F + joints).
 [[nodiscard]] std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                      const std::string& name, const std::string& provenance);
 

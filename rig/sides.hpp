@@ -5,14 +5,14 @@
 
 namespace curveskel {
 
-/// Where most joints have a mirror image, through a plane of the coordinate frame that holds the
-/// root, gives both of each pair the same name and ".L" or ".R", as Blender and others expect it to
-/// mirror poses and weights. Left is where x is larger: a figure that faces you in its file's frame
-/// (z ahead in glTF, -y ahead in Blender) has its left hand there. Of planes normal to y and z,
-/// too,
-/// ".L" is where the coordinate is larger. The plane with the most pairs is taken; of equals x, y,
-/// z. Pairs are within 3 % of the joints' diagonal, and hang from a pair or from one joint.
-/// Unique names stay so. O(j^2); nothing is done for more than 4,000 joints.
+/// Limbs that are each other's mirror images, through a plane of the coordinate frame that holds
+/// the first joint, get the same names and ".L" or ".R" behind them, as Blender and others expect it
+/// to mirror poses and weights; a joint that only one of them has, too. Left is where x is larger: a
+/// figure that faces you in its file's frame (z ahead in glTF, -y ahead in Blender) has its left
+/// hand there. Of planes normal to y and z ".L" is where the coordinate is larger. The plane with
+/// the most pairs is taken; of equals x, y, z. Limbs are matched as wholes, from the root outwards:
+/// to within 6 % of the joints' diagonal in the mean, and hanging from a pair or from one joint.
+/// Unique names stay so. O(limbs^2); nothing is done for more than 1,000 of them.
 void name_sides(Rig& rig);
 
 }  // namespace curveskel

@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <tuple>
 #include <vector>
 
+#include "rig/bone_axes.hpp"
 #include "rig/rig_files.hpp"
 #include "surface/element_index.hpp"
 #include "surface/error.hpp"
@@ -20,6 +23,7 @@ constexpr int component_uint8 = 5121;
 constexpr int component_uint16 = 5123;
 constexpr int component_uint32 = 5125;
 constexpr int component_float = 5126;
+constexpr int first_joint_node = 2;
 constexpr int target_vertices = 34962;
 constexpr int target_triangles = 34963;
 
@@ -51,6 +55,16 @@ void require_single_precision(const Positions& positions) {
   throw Error(Fault::output,
               "a coordinate beyond single precision, which is all that glTF has; scale the "
               "surface down");
+}
+
+void require_digits(const Positions& positions) {
+  constexpr double most = 1e-4;  // of the diagonal
+  const double lost = (positions - positions.cast<float>().cast<double>()).cwiseAbs().maxCoeff();
+  if (lost <= most * bounding_box_diagonal(positions)) return;
+  throw Error(Fault::output,
+              "coordinates so far from the origin that single precision, which is all that glTF "
+              "has, moves vertices by " +
+                  std::to_string(lost) + "; move the surface to the origin");
 }
 
 /// A glTF file that grows accessor by accessor.
@@ -134,8 +148,29 @@ int add_positions(GltfWriter& writer, const Positions& positions) {
   return accessor;
 }
 
+/// Vertices in one place share a normal, or seams would be seen as creases.
+Positions normals_across_seams(const Surface& surface) {
+  Positions normals = vertex_normals(surface);
+  const auto place = [&](int vertex) {
+    const auto point = surface.positions.row(vertex);
+    return std::tuple(point.x(), point.y(), point.z());
+  };
+  std::vector<int> order(at(normals.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (end = first; end < order.size() && place(order[end]) == place(order[first]); ++end) {
+      sum += normals.row(order[end]);
+    }
+    if (end - first == 1 || sum.norm() < 0.1) continue;  // two sides of a sheet keep theirs
+    for (std::size_t k = first; k < end; ++k) normals.row(order[k]) = sum.normalized();
+  }
+  return normals;
+}
+
 int add_normals(GltfWriter& writer, const Surface& surface) {
-  const Positions normals = vertex_normals(surface);
+  const Positions normals = normals_across_seams(surface);
   std::string rows;
   for (const auto& normal : normals.rowwise()) {
     const bool usable = normal.allFinite() && normal.squaredNorm() > 0.5;
@@ -191,32 +226,48 @@ void add_mesh(GltfWriter& writer, const Surface& surface, const Rig& rig, const 
       {{"name", name}, {"primitives", {{{"attributes", attributes}, {"indices", indices}}}}}};
 }
 
+Json numbers_of(const Eigen::Quaterniond& rotation) {
+  return {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+}
+
 /// Node 0 is what all joints hang from, node 1 the mesh, node 2 + k joint k.
-void add_nodes(GltfWriter& writer, const Rig& rig, const std::string& name) {
-  constexpr int first_joint = 2;
+Json nodes_of(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes,
+              const std::string& name) {
   Json nodes;
   nodes.push_back({{"name", name + " rig"}, {"children", Json::array()}});
   nodes.push_back({{"name", name}, {"mesh", 0}, {"skin", 0}});
-  Json listed = Json::array();
   for (Eigen::Index joint = 0; joint < rig.parents.size(); ++joint) {
     const int parent = rig.parents[joint];
-    Eigen::RowVector3d offset = rig.joints.row(joint);
-    if (parent >= 0) offset -= rig.joints.row(parent);
-    nodes.push_back({{"name", rig.names[at(joint)]}, {"translation", numbers_of(offset)}});
-    Json& above = nodes[parent < 0 ? 0 : at(parent + first_joint)];
-    above["children"].push_back(joint + first_joint);
-    listed.push_back(joint + first_joint);
-  }
-  std::string matrices;
-  for (const auto& point : rig.joints.rowwise()) {
-    for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 4; ++row) GltfWriter::put(matrices, row == column ? 1.0F : 0.0F);
+    Eigen::Vector3d offset = rig.joints.row(joint).transpose();
+    Eigen::Quaterniond turn = axes[at(joint)];
+    if (parent >= 0) {
+      const Eigen::Quaterniond back = axes[at(parent)].conjugate();
+      offset = back * (offset - rig.joints.row(parent).transpose());
+      turn = (back * turn).normalized();
     }
-    GltfWriter::put_point(matrices, -point);
+    nodes.push_back({{"name", rig.names[at(joint)]},
+                     {"translation", numbers_of(Eigen::RowVector3d(offset.transpose()))},
+                     {"rotation", numbers_of(turn)}});
+    Json& above = nodes[parent < 0 ? 0 : at(parent + first_joint_node)];
+    above["children"].push_back(joint + first_joint_node);
+  }
+  return nodes;
+}
+
+void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quaterniond>& axes) {
+  Json listed = Json::array();
+  std::string matrices;
+  for (Eigen::Index joint = 0; joint < rig.parents.size(); ++joint) {
+    listed.push_back(joint + first_joint_node);
+    const Eigen::Matrix3d back = axes[at(joint)].conjugate().toRotationMatrix();
+    for (int column = 0; column < 3; ++column) {
+      GltfWriter::put_point(matrices, back.col(column).transpose());
+      GltfWriter::put(matrices, 0.0F);
+    }
+    GltfWriter::put_point(matrices, -(back * rig.joints.row(joint).transpose()).transpose());
     GltfWriter::put(matrices, 1.0F);
   }
   const int bind = writer.add(matrices, component_float, "MAT4", at(rig.joints.rows()));
-  writer.file["nodes"] = std::move(nodes);
   writer.file["skins"] = {{{"inverseBindMatrices", bind}, {"skeleton", 0}, {"joints", listed}}};
 }
 
@@ -232,12 +283,15 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
   }
   require_single_precision(surface.positions);
   require_single_precision(rig.joints);
+  require_digits(surface.positions);
   GltfWriter writer;
   writer.file["asset"] = {{"version", "2.0"}, {"generator", provenance}};
   writer.file["scene"] = 0;
   writer.file["scenes"] = {{{"nodes", {0, 1}}}};
   add_mesh(writer, surface, rig, name);
-  add_nodes(writer, rig, name);
+  const std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
+  writer.file["nodes"] = nodes_of(rig, axes, name);
+  add_skin(writer, rig, axes);
   return format == RigFormat::glb ? writer.binary() : writer.text();
 }
 

@@ -119,7 +119,7 @@ void rig(Workbench& bench) {
   if (ImGui::Button("Make rig")) bench.rig();
   ImGui::EndDisabled();
   tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
-  if (changed && bench.has_rig()) bench.rig();
+  if (changed && (bench.has_rig() || bench.making_rig())) bench.rig();
 }
 
 void corrections(Workbench& bench) {

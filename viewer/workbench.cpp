@@ -128,6 +128,7 @@ bool Workbench::take_opened() {
   }
   retire_run();
   rigging_stop_.request_stop();
+  rig_again_ = false;
   save_rig_to_.clear();
   opened.scene->look = scene->look;
   const bool same_place = reloading_;

@@ -104,6 +104,8 @@ class Workbench {
   /// Makes joints and skin weights of the skeleton as it is, beside what goes on; they become the
   /// last moment of the timeline, until the skeleton changes.
   void rig();
+  /// Whether one is being made, of what was chosen before now.
+  [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
   [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
   // Corrections of the skeleton.

@@ -86,9 +86,9 @@ void Workbench::drop_rig() {
 }
 
 void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
-  if (!has_rig()) {
+  if (!has_rig() || rigging_.valid()) {
     save_rig_to_ = file;
-    rig();
+    if (!rigging_.valid()) rig();
     return;
   }
   const std::string name = files_.empty() ? "surface" : files_.front().stem().string();

@@ -21,7 +21,9 @@ for thing in bpy.data.objects:
         found["armatures"].append({
             "bones": [bone.name for bone in thing.data.bones],
             "roots": [bone.name for bone in thing.data.bones if bone.parent is None],
-            "heads": [list(thing.matrix_world @ bone.head_local) for bone in thing.data.bones],
+            "turns": [(bone.tail_local - bone.head_local).angle(
+                bone.children[0].head_local - bone.head_local)
+                      for bone in thing.data.bones if len(bone.children) == 1],
             "shortest": min(bone.length for bone in thing.data.bones)})
     elif any(modifier.type == "ARMATURE" for modifier in thing.modifiers):
         mesh = thing.data
@@ -61,6 +63,7 @@ class Blender(CommandLineTest):
         bones, skin = found["armatures"][0], found["meshes"][0]
         self.assertEqual(bones["roots"], ["root"])
         self.assertGreater(bones["shortest"], 0)
+        self.assertLess(max(bones["turns"]), 0.01)  # bones lie along their limbs
         self.assertEqual(sorted(bones["bones"]), sorted(skin["groups"]))
         lines = mesh.read_text().split("\n")
         counts = [int(number) for number in lines[1].split()[:2]]

@@ -210,9 +210,9 @@ class Rig(CommandLineTest):
         given = int(Y.read_text().split("\n", 2)[1].split()[0])
         for scene in (binary, text):
             joints = scene["skins"][0]["joints"]
-            self.assertIn(f"rig: {len(joints)} joints, root root", result.out.decode())
+            self.assertIn(f"rig: {len(joints)} joints, ", result.out.decode())
             names = [scene["nodes"][joint]["name"] for joint in joints]
-            self.assertEqual(len([name for name in names if name.endswith("_end")]), 3)
+            self.assertEqual(len([name for name in names if "_end" in name]), 3)
             self.assertEqual(self.vertices(scene), given)
         self.assertIn("wrote y.glb\nwrote y.gltf\n", result.out.decode())
 

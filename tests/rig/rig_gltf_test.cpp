@@ -100,16 +100,17 @@ TEST(WrittenGlb, PutsEachJointWhereItIsInTwoWays) {
       }
     }
     for (int joint = 0; joint < one.joints; ++joint) {
-      Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+      Eigen::Affine3d frame = Eigen::Affine3d::Identity();
       for (int node = skin["joints"][at(joint)]; above.contains(node); node = above.at(node)) {
-        const Json& step = chunks.json["nodes"][at(node)]["translation"];
-        place += Eigen::RowVector3d(step[0], step[1], step[2]);
+        const Json& shift = chunks.json["nodes"][at(node)]["translation"];
+        const Json& turn = chunks.json["nodes"][at(node)]["rotation"];
+        const Eigen::Quaterniond rotation(turn[3], turn[0], turn[1], turn[2]);
+        EXPECT_NEAR(rotation.norm(), 1, 1e-12);
+        frame = Eigen::Translation3d(shift[0], shift[1], shift[2]) * rotation * frame;
       }
-      EXPECT_LT((place - rig.joints.row(joint)).norm(), 1e-9);
+      EXPECT_LT((frame.translation().transpose() - rig.joints.row(joint)).norm(), 1e-9);
       const Eigen::Matrix4f bind = binds.row(joint).reshaped(4, 4);  // by columns
-      const Eigen::Vector3f rest = rig.joints.row(joint).transpose().cast<float>();
-      EXPECT_EQ(bind * rest.homogeneous(), Eigen::Vector4f(0, 0, 0, 1));
-      EXPECT_TRUE(bind.topLeftCorner(3, 3).isIdentity(0));
+      EXPECT_LT((bind.cast<double>() * frame.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-5);
     }
   }
 }
@@ -131,6 +132,43 @@ TEST(WrittenGlb, HasBoundsNormalsAndWeightsAsGltfWantsThem) {
   EXPECT_LT((shares.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-6F);
   EXPECT_GE(shares.minCoeff(), 0);
   EXPECT_EQ(chunks.json["asset"]["generator"], "a test");
+}
+
+TEST(WrittenGlb, HasOneNormalForVerticesInOnePlace) {
+  const Surface whole = torus_surface();
+  std::vector<int> first_at(at(whole.positions.rows()), -1);
+  Surface cut{Positions(whole.triangles.size(), 3), Triangles(whole.triangles.rows(), 3)};
+  for (Eigen::Index f = 0; f < cut.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      cut.triangles(f, k) = static_cast<int>(3 * f + k);
+      int& first = first_at[at(whole.triangles(f, k))];
+      if (first < 0) first = cut.triangles(f, k);
+      cut.positions.row(3 * f + k) = whole.positions.row(whole.triangles(f, k));
+    }
+  }
+  const auto normals_of = [](const Surface& surface) {
+    const Chunks chunks =
+        written_chunks(surface, random_rig(surface.positions.rows(), 3, "joint "));
+    return floats_of(chunks, chunks.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"], 3);
+  };
+  const Eigen::MatrixXf expected = normals_of(whole);
+  const Eigen::MatrixXf found = normals_of(cut);
+  for (Eigen::Index f = 0; f < cut.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LT((found.row(3 * f + k) - expected.row(whole.triangles(f, k))).norm(), 0.2F);
+      const int first = first_at[at(whole.triangles(f, k))];
+      EXPECT_EQ(found.row(3 * f + k), found.row(first));
+    }
+  }
+}
+
+TEST(WrittenGlb, IsRefusedWhereSinglePrecisionWouldMoveTheVertices) {
+  Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 3, "joint ");
+  surface.positions.array() += 1e7;
+  EXPECT_THROW((void)format_rig(surface, rig, RigFormat::glb, "far", ""), Error);
+  surface.positions = surface.positions.cast<float>().cast<double>().eval();  // nothing to lose
+  EXPECT_NO_THROW((void)format_rig(surface, rig, RigFormat::glb, "far", ""));
 }
 
 /// A vertex whose faces have no area gets some unit normal all the same.
