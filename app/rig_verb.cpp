@@ -64,8 +64,12 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface&
   if (!arguments.skeleton.empty()) {
     const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
     require_nodes_nearby(skeleton, repaired.surface, arguments);
-    return skeleton_of_repaired(skeleton, repaired.vertex_of_input,
-                                repaired.surface.positions.rows());
+    try {
+      return skeleton_of_repaired(skeleton, repaired.vertex_of_input,
+                                  repaired.surface.positions.rows());
+    } catch (const Error& error) {
+      throw Error(error.fault(), arguments.skeleton + ": " + error.what());
+    }
   }
   ExtractOptions options = arguments.extract;
   options.openings = repaired.openings;
