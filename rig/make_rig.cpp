@@ -94,7 +94,7 @@ CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton, const Eigen::VectorXi
     throw Error(Fault::input, "the skeleton has a node for each of " +
                                   std::to_string(given.size()) + " vertices, needed one for each " +
                                   "of the surface's " + std::to_string(vertex_of_input.size()) +
-                                  "; extract it from this surface");
+                                  "; extract it again, from this surface");
   }
   skeleton.node_of_vertex.setConstant(vertices, -1);
   for (Eigen::Index v = 0; v < given.size(); ++v) {
