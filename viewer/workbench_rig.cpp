@@ -57,7 +57,9 @@ bool Workbench::take_rig() {
       rigging_.valid() && rigging_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!ready) return false;
   const Rigged made = rigging_.get();
-  const bool stale = run_ || history_.empty() || made.of.skeleton != history_.now().skeleton ||
+  const bool stopped = !made.rig && made.error.empty();  // by a change, even one taken back
+  const bool stale = stopped || run_ || history_.empty() ||
+                     made.of.skeleton != history_.now().skeleton ||
                      made.of.root != history_.now().root;
   const bool again = std::exchange(rig_again_, false) || (stale && !save_rig_to_.empty());
   if (again) {
@@ -68,8 +70,8 @@ bool Workbench::take_rig() {
   if (!made.error.empty()) {
     save_rig_to_.clear();
     say(made.error, true);
+    return true;
   }
-  if (!made.rig) return true;
   drop_rig();
   scene->recording.add(moment_of(made.rig));
   go_to(scene->recording.moments().size() - 1);

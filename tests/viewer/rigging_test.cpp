@@ -165,6 +165,22 @@ TEST_F(Rigging, OfASkeletonThatHasChangedMeanwhileIsNotShown) {
   EXPECT_EQ(saved->joints.rows(), bench.scene->rig()->joints.rows());
 }
 
+TEST_F(Rigging, IsSavedThoughAChangeWasMadeAndTakenBackMeanwhile) {
+  open_y();
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  bench.select(edge, false);
+  bench.split();
+  const auto file = folder.path() / "as-before.glb";
+  bench.save(file);
+  bench.undo();
+  bench.redo();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_TRUE(bench.has_rig());
+  EXPECT_TRUE(std::filesystem::exists(file));
+}
+
 TEST_F(Rigging, NeedsASkeletonAndSaysSo) {
   bench.rig();
   EXPECT_TRUE(bench.messages().back().bad);
