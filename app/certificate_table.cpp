@@ -16,6 +16,8 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
                       c.components_of_surface, verdict(c.components == c.components_of_surface));
   text += fmt::format("  cycles, genus    {:>10} {:>9}   {}\n", c.cycle_rank, c.genus,
                       verdict(c.cycle_rank == c.genus));
+  text += fmt::format("  round handles    {:>10} {:>9}   {}\n", c.homology_rank, c.genus,
+                      verdict(c.homology_rank == c.genus));
   text += fmt::format("  length inside    {:>8.3f} %  >= {:.1f} %   {}\n", 100 * c.inside_fraction,
                       100 * options.inside_needed, verdict(c.inside_enough));
   text += fmt::format("  deepest exit     {:>10.2g} D\n", c.deepest_exit);
@@ -45,6 +47,10 @@ std::string failures(const Certificate& c, const CertificateOptions& options) {
   if (c.cycle_rank != c.genus) {
     add(fmt::format("the skeleton has {} independent cycles, the surface genus {}", c.cycle_rank,
                     c.genus));
+  } else if (c.homology_rank != c.genus) {
+    add(fmt::format(
+        "of the skeleton's {} cycles only {} go round handles of the surface independently",
+        c.cycle_rank, c.homology_rank));
   }
   if (!c.inside_enough) {
     add(fmt::format("{:.3f} % of the length is inside, needed {:.1f} %", 100 * c.inside_fraction,

@@ -16,6 +16,7 @@ Json to_json(const Certificate& c) {
           {"components_of_surface", c.components_of_surface},
           {"cycle_rank", c.cycle_rank},
           {"genus", c.genus},
+          {"homology_rank", c.homology_rank},
           {"inside_fraction", c.inside_fraction},
           {"deepest_exit", c.deepest_exit},
           {"centredness_median", c.centredness_median},

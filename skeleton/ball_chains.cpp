@@ -57,14 +57,21 @@ std::vector<Point> BallChains::chain(const Point& p, const Point& q,
   const int source = holder_of(p, groups);
   const int target = holder_of(q, groups);
   if (source < 0 || target < 0) return {};
-  search(source, target, groups);
   std::vector<Point> points;
-  for (int v = std::isfinite(cost_[at(target)]) ? target : -1; v >= 0; v = previous_[at(v)]) {
-    points.push_back(balls_.centres.row(v));
-  }
-  std::reverse(points.begin(), points.end());
-  forget();
+  for (const int v : way(source, target, groups)) points.push_back(balls_.centres.row(v));
   return points;
+}
+
+std::vector<int> BallChains::way(int from, int to, const std::vector<int>& groups) {
+  prepare();
+  search(from, to, groups);
+  std::vector<int> vertices;
+  for (int v = std::isfinite(cost_[at(to)]) ? to : -1; v >= 0; v = previous_[at(v)]) {
+    vertices.push_back(v);
+  }
+  std::reverse(vertices.begin(), vertices.end());
+  forget();
+  return vertices;
 }
 
 std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& places,
@@ -85,9 +92,13 @@ std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& 
   return costs;
 }
 
-Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups) {
+int BallChains::nearest_vertex(const Point& p, const std::vector<int>& groups) {
   prepare();
-  const int best = least_of(groups, [&](int v) { return distance(p, v); });
+  return least_of(groups, [&](int v) { return distance(p, v); });
+}
+
+Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups) {
+  const int best = nearest_vertex(p, groups);
   return best < 0 ? p : Point(balls_.centres.row(best));
 }
 

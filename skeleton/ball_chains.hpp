@@ -38,6 +38,11 @@ class BallChains {
   [[nodiscard]] std::vector<double> costs(const Point& p, const std::vector<Point>& places,
                                           const std::vector<int>& groups);
 
+  /// The vertices of a cheapest chain from one to another, both included; empty if there is no way.
+  [[nodiscard]] std::vector<int> way(int from, int to, const std::vector<int>& groups);
+
+  /// The vertex of the given groups whose ball's centre is nearest to p; -1 if they have no balls.
+  [[nodiscard]] int nearest_vertex(const Point& p, const std::vector<int>& groups);
   /// The ball centre nearest to p of the vertices of the given groups; p if they have none.
   [[nodiscard]] Point nearest_centre(const Point& p, const std::vector<int>& groups);
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "skeleton/linking.hpp"
 #include "skeleton/measured_curve.hpp"
 #include "skeleton/sequence_tree.hpp"
 #include "surface/measures.hpp"
@@ -205,10 +206,9 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
   monitor.report("certify", 0);
   const Topology counted = topology(surface);
-  return evaluate(
-      {surface.positions, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
-       counted.components(), counted.total_genus()},
-      skeleton, options, monitor);
+  return evaluate({surface, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
+                   counted.components(), counted.total_genus()},
+                  skeleton, options, monitor);
 }
 
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
@@ -221,10 +221,11 @@ Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skele
   const MeasuredCurve subject =
       measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor);
 
+  certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
   measure_inside(subject, certificate);
   certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
   measure_centredness(subject, options.rays, monitor, certificate);
-  measure_coverage(subject, surface.positions, monitor, certificate);
+  measure_coverage(subject, surface.surface.positions, monitor, certificate);
   measure_shape(subject, certificate);
   monitor.report("certify", 1);
   return certificate;

@@ -26,6 +26,8 @@ struct Certificate {
   int components_of_surface = 0;
   int cycle_rank = 0;
   int genus = 0;                  ///< summed over the surface's components
+  int homology_rank = 0;          ///< cycles that are independent inside the surface: equal to the
+                                  ///< genus where each handle has its own
   double length = 0;              ///< of all edges / D
   double inside_fraction = 0;     ///< share of the samples inside the surface
   double deepest_exit = 0;        ///< largest distance of an outside sample to the surface / D
@@ -40,7 +42,7 @@ struct Certificate {
   int spurs = 0;       ///< leaf branches shorter than the inscribed radius at their junction
   double turning = 0;  ///< total turning in radians at scale D/100, per D of length
   [[nodiscard]] bool topology_correct() const {
-    return components == components_of_surface && cycle_rank == genus;
+    return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
   }
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
 };
@@ -55,7 +57,7 @@ struct Certificate {
 
 /// What a certificate compares a skeleton with.
 struct CertifiedSurface {
-  const Positions& positions;
+  const Surface& surface;
   const SurfaceTree& tree;
   double diagonal;  ///< D
   int components;

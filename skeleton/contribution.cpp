@@ -42,6 +42,9 @@ class GrowingTree {
   std::future<SurfaceTree> growing_;
 };
 
+/// Rounds of smoothing of what the contraction is pulled to.
+constexpr int target_rounds = 2;
+
 /// One component, from its canonical form to its skeleton.
 class Pipeline {
  public:
@@ -105,7 +108,8 @@ class Pipeline {
       SurfaceTree rough(working->surface);
       SurfaceTree near = plant_near();
       InscribedBalls balls = inscribed_balls(working->surface, near, options_.threads);
-      return WorkingBalls{std::move(rough), std::move(near), std::move(balls)};
+      Positions targets = smoothed_centres(working->surface, balls, target_rounds);
+      return WorkingBalls{std::move(rough), std::move(near), std::move(balls), std::move(targets)};
     });
   }
 
@@ -119,7 +123,7 @@ class Pipeline {
       ++record.attempts;
       const Shared<Contraction> contracted =
           stage_("contract", attempt.contraction, {balls, what_counts(contraction)},
-                 [&] { return contract(working, balls->balls.centres, contraction, monitor_); });
+                 [&] { return contract(working, balls->targets, contraction, monitor_); });
       const auto graph = stage_("surgery", attempt.graph, {contracted, options_.surgery}, [&] {
         auto made = surgery(working, *contracted, options_.surgery, monitor_);
         if (made && monitor_.curve) show_curve(*made, *contracted);

@@ -8,10 +8,12 @@
 
 #include "contraction/laplacian.hpp"
 #include "skeleton/grow.hpp"
+#include "skeleton/handle_keeper.hpp"
 #include "skeleton/inside.hpp"
 #include "skeleton/network.hpp"
 #include "skeleton/prune.hpp"
 #include "skeleton/relax.hpp"
+#include "skeleton/thread.hpp"
 #include "skeleton/tips.hpp"
 #include "skeleton/wider_ways.hpp"
 #include "surface/element_index.hpp"
@@ -45,7 +47,8 @@ std::vector<Point> positions_from_balls(const Surface& surface, const InscribedB
 }
 
 /// Junctions that share most of one inscribed ball become one, at the larger ball.
-void merge_junctions(Network& network, const SurfaceTree& tree, double factor) {
+void merge_junctions(Network& network, const SurfaceTree& tree, HandleKeeper& keeper,
+                     double factor) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto ratio_of = [&](const Strand& strand) {
     if (!strand.alive || strand.from == strand.to) return never;
@@ -65,7 +68,7 @@ void merge_junctions(Network& network, const SurfaceTree& tree, double factor) {
     const Point b = network.hubs[at(strand.to)].position;
     const bool keep_from = tree.inscribed_radius(a) >= tree.inscribed_radius(b);
     const int into = keep_from ? strand.from : strand.to;
-    network.collapse(best, into, keep_from ? a : b);
+    keeper.collapse(network, best, into, keep_from ? a : b);
     *least = never;
     for (const int s : network.hubs[at(into)].strands) {
       ratio[at(s)] = ratio_of(network.strands[at(s)]);
@@ -157,13 +160,39 @@ struct Setting {
   const EmbedOptions& options;
   int threads;
   double spacing;  // of the points of a strand, at most
+  HandleKeeper& keeper;
 };
+
+/// Makes a change that gives strands other points, and takes back what leads a cycle off its
+/// handle.
+template <typename Change>
+void keep_handles(Network& network, const Setting& setting, const Change& change) {
+  if (!setting.keeper.has_handles()) {
+    change();
+    return;
+  }
+  const Network before = network;
+  change();
+  setting.keeper.restore_strands(before, network, setting.tree);
+}
+
+void straighten(Network& network, const Setting& setting) {
+  keep_handles(network, setting, [&] {
+    straighten_at_junctions(network, setting.tree, setting.options.straight, false);
+  });
+}
+
+/// The number of places that could not be kept inside.
+int stay_inside(Network& network, const Setting& setting) {
+  const auto& [surface, tree, balls, graph, options, threads, spacing, keeper] = setting;
+  return keep_inside(network, surface, balls, graph, tree, keeper);
+}
 
 void centre(Network& network, const Setting& setting) {
   RelaxOptions centring;
   centring.keep = setting.options.keep_radius;
   centring.rounds = setting.options.first_rounds;
-  relax(network, setting.tree, centring, setting.threads);
+  relax(network, setting.tree, centring, setting.keeper, setting.threads);
 }
 
 /// Once it is settled which strands there are: where junctions lie decides what is a spur.
@@ -173,24 +202,23 @@ void centre_at_last(Network& network, const Setting& setting) {
   centring.rounds = setting.options.relax_rounds;
   centring.meet = true;
   centring.keep_junction = 1;
-  relax(network, setting.tree, centring, setting.threads);
+  relax(network, setting.tree, centring, setting.keeper, setting.threads);
 }
 
 void space_and_centre(Network& network, const Setting& setting) {
-  straighten_at_junctions(network, setting.tree, setting.options.straight, false);
-  resample(network, setting.tree, setting.spacing);
+  straighten(network, setting);
+  keep_handles(network, setting, [&] { resample(network, setting.tree, setting.spacing); });
   centre(network, setting);
 }
 
 /// All stays as it is where the change makes nothing, or something to which no way inside is found.
 template <typename Change>
 void change_and_centre(Network& network, const Setting& setting, const Change& change) {
-  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
   Network changed = network;
-  if (change(changed) == 0 || keep_inside(changed, surface, balls, graph, tree) > 0) return;
+  if (change(changed) == 0 || stay_inside(changed, setting) > 0) return;
   network = std::move(changed);
   space_and_centre(network, setting);
-  prune_spurs(network, tree, 1);
+  prune_spurs(network, setting.tree, 1);
 }
 
 /// What the surgery has led astray, left out or left short.
@@ -205,26 +233,43 @@ void correct(Network& network, const Setting& in) {
   });
 }
 
+/// Without blunt ends and inside. Where straight lines between the graph's nodes, kept inside as
+/// they are, lead a cycle off its handle, cycles go along the surface.
+Network first_network(const Setting& setting) {
+  const auto& [surface, tree, balls, graph, options, threads, spacing, keeper] = setting;
+  const double limit = slenderness_limit(options.detail);
+  const Network whole = network_of_graph(graph, positions_from_balls(surface, balls, graph));
+  Network network = whole;
+  prune_blunt(network, surface, graph, limit);
+  HandleKeeper anywhere;  // outside, lines say nothing about handles yet
+  const int uncovered = keep_inside(network, surface, balls, graph, tree, anywhere);
+  if (!keeper.has_handles()) return network;
+  if (uncovered == 0 && goes_round_all_handles(network, graph, surface)) return network;
+  network = whole;
+  thread_through(network, surface, tree, balls, graph, keeper);
+  prune_blunt(network, surface, graph, limit);
+  stay_inside(network, setting);
+  return network;
+}
+
 /// Within the coarsened surface, whose tree is quick to ask: all that takes many rays.
 Network lay_out(const Setting& setting, const Monitor& monitor) {
   monitor.report("embed", 0);
-  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
-  Network network = network_of_graph(graph, positions_from_balls(surface, balls, graph));
-  prune_blunt(network, surface, graph, slenderness_limit(options.detail));
-  keep_inside(network, surface, balls, graph, tree);
-  centre_junctions(network, tree);
-  merge_junctions(network, tree, options.merge);
+  const auto& [surface, tree, balls, graph, options, threads, spacing, keeper] = setting;
+  Network network = first_network(setting);
+  keep_handles(network, setting, [&] { centre_junctions(network, setting.tree); });
+  merge_junctions(network, tree, keeper, options.merge);
   monitor.report("embed", 0.2);
 
   do {
     space_and_centre(network, setting);
-    straighten_at_junctions(network, tree, options.straight, false);
+    straighten(network, setting);
     shape_tips(network, tree, options.tip_reach, options.tip_gap);
     lengthen_short_leaves(network, tree);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
   correct(network, setting);
-  merge_junctions(network, tree, options.merge);  // centred, they may have come together
+  merge_junctions(network, tree, keeper, options.merge);  // centred, they may have come together
   centre_at_last(network, setting);
   monitor.report("embed", 0.6);
   return network;
@@ -232,19 +277,21 @@ Network lay_out(const Setting& setting, const Monitor& monitor) {
 
 /// Within the surface that counts: what must hold there, and the last smoothing.
 CurveSkeleton settle(Network network, const Setting& setting, const Monitor& monitor) {
-  const auto& [surface, tree, balls, graph, options, threads, spacing] = setting;
+  const auto& [surface, tree, balls, graph, options, threads, spacing, keeper] = setting;
   RelaxOptions smoothing;
   smoothing.keep = options.keep_radius;
   smoothing.covered = true;
   smoothing.rounds = options.smooth_rounds;
   do {
     keep_simple(network);
-    keep_inside(network, surface, balls, graph, tree);
-    thin_out(network, tree, spacing);
-    cut_detours(network, tree);
-    relax(network, tree, smoothing, threads);
-    straighten_at_junctions(network, tree, options.straight_at_last, true);
-    cut_detours(network, tree);
+    stay_inside(network, setting);
+    keep_handles(network, setting, [&] { thin_out(network, setting.tree, setting.spacing); });
+    keep_handles(network, setting, [&] { cut_detours(network, setting.tree); });
+    relax(network, tree, smoothing, keeper, threads);
+    keep_handles(network, setting, [&] {
+      straighten_at_junctions(network, setting.tree, setting.options.straight_at_last, true);
+    });
+    keep_handles(network, setting, [&] { cut_detours(network, setting.tree); });
     lengthen_short_leaves(network, tree);
   } while (prune_spurs(network, tree, 1));
   monitor.report("embed", 0.9);
@@ -273,9 +320,11 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
                     const VertexGraph& graph, const EmbedOptions& options, int threads,
                     const Monitor& monitor) {
   const double spacing = most_spacing(surface);
-  Network network = lay_out({surface, tree, balls, graph, options, threads, spacing}, monitor);
-  return settle(std::move(network), {surface, finer(), balls, graph, options, threads, spacing},
-                monitor);
+  HandleKeeper keeper(surface);
+  Network network =
+      lay_out({surface, tree, balls, graph, options, threads, spacing, keeper}, monitor);
+  return settle(std::move(network),
+                {surface, finer(), balls, graph, options, threads, spacing, keeper}, monitor);
 }
 
 }  // namespace curveskel

@@ -141,7 +141,7 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
         const SurfaceTree& tree = tree_of_all.get(contributions);
         reach_openings(made.skeleton, surface, tree, options.openings);
         made.certificate =
-            evaluate({surface.positions, tree, bounding_box_diagonal(surface.positions),
+            evaluate({surface, tree, bounding_box_diagonal(surface.positions),
                       parts->counted.components(), parts->counted.total_genus()},
                      made.skeleton, options.certificate, monitor);
         return made;

@@ -83,8 +83,12 @@ std::vector<Point> shortcut(const std::vector<Point>& chain, const SurfaceTree& 
 class Keeper {
  public:
   Keeper(Network& network, const Surface& surface, const InscribedBalls& balls,
-         const VertexGraph& graph, const SurfaceTree& tree)
-      : network_(network), graph_(graph), tree_(tree), chains_(surface, balls, graph) {}
+         const VertexGraph& graph, const SurfaceTree& tree, HandleKeeper& handles)
+      : network_(network),
+        graph_(graph),
+        tree_(tree),
+        handles_(handles),
+        chains_(surface, balls, graph) {}
 
   int run() {
     for (Hub& hub : network_.hubs) {
@@ -94,15 +98,28 @@ class Keeper {
         hub.position = chains_.nearest_centre(hub.position, groups_among(hub.nodes, graph_));
       }
     }
-    for (Strand& strand : network_.strands) {
-      if (strand.alive) cover_strand(strand);
+    std::vector<char> on_cycle(network_.strands.size(), 0);
+    if (handles_.has_handles()) {
+      for (const int s : core(network_)) on_cycle[at(s)] = 1;
+    }
+    for (std::size_t s = 0; s < network_.strands.size(); ++s) {
+      if (network_.strands[s].alive) cover_strand(network_.strands[s], on_cycle[s] != 0);
     }
     return uncovered_;
   }
 
  private:
-  void cover_strand(Strand& strand) {
-    for (Point& p : strand.points) p = pulled_inside(tree_, p);
+  void cover_strand(Strand& strand, bool on_cycle) {
+    const auto given = network_.polyline(strand);
+    for (std::size_t k = 1; k + 1 < given.size(); ++k) {
+      const Point moved = pulled_inside(tree_, given[k]);
+      const Point& before = k == 1 ? given.front() : strand.points[k - 2];
+      if (on_cycle && moved != given[k] &&
+          !handles_.alike({before, given[k], given[k + 1]}, {before, moved, given[k + 1]})) {
+        continue;
+      }
+      strand.points[k - 1] = moved;
+    }
     const auto line = network_.polyline(strand);
     const auto radii = radii_at(tree_, line);
     std::vector<Point> points;
@@ -110,10 +127,26 @@ class Keeper {
     while (i + 1 < line.size()) {
       std::size_t next = i + 1;
       std::vector<Point> between;
-      if (!Cover(tree_, true).between(line[i], line[next], between)) {
+      const auto keeps_handle = [&] {
+        if (!on_cycle || between.empty()) return true;
+        const auto first = line.begin() + static_cast<std::ptrdiff_t>(i);
+        between.insert(between.begin(), line[i]);
+        between.push_back(line[next]);
+        const bool alike =
+            handles_.alike({first, first + static_cast<std::ptrdiff_t>(next - i + 1)}, between);
+        between.erase(between.begin());
+        between.pop_back();
+        return alike;
+      };
+      if (!Cover(tree_, true).between(line[i], line[next], between) || !keeps_handle()) {
         // From the last point that is inside to the next one.
         while (next + 1 < line.size() && radii[next] < least_radius) ++next;
         between = detour(strand, line[i], line[next]);
+        if (!keeps_handle()) {
+          next = i + 1;
+          between.clear();
+          if (crosses(tree_, line[i], line[next])) ++uncovered_;
+        }
       }
       points.insert(points.end(), between.begin(), between.end());
       if (next + 1 < line.size()) points.push_back(line[next]);
@@ -147,6 +180,7 @@ class Keeper {
   Network& network_;
   const VertexGraph& graph_;
   const SurfaceTree& tree_;
+  HandleKeeper& handles_;
   BallChains chains_;
   int uncovered_ = 0;
 };
@@ -154,8 +188,8 @@ class Keeper {
 }  // namespace
 
 int keep_inside(Network& network, const Surface& surface, const InscribedBalls& balls,
-                const VertexGraph& graph, const SurfaceTree& tree) {
-  return Keeper(network, surface, balls, graph, tree).run();
+                const VertexGraph& graph, const SurfaceTree& tree, HandleKeeper& handles) {
+  return Keeper(network, surface, balls, graph, tree, handles).run();
 }
 
 }  // namespace curveskel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "skeleton/circles.hpp"
+#include "skeleton/handle_keeper.hpp"
 #include "skeleton/network.hpp"
 #include "surface/inscribed_balls.hpp"
 #include "surface/surface.hpp"
@@ -15,8 +16,9 @@ namespace curveskel {
 /// Points outside, and midpoints of edges that are not covered, go to the centre of the inscribed
 /// ball at the nearest surface point. Where that does not close the gap, the strand follows the
 /// cheapest chain of the vertices' own inscribed balls through the strand's part of the surface.
-/// Returns the number of edges that are still not covered. Precondition: D = 1.
+/// What would lead a strand on a cycle off its handle is left out. Returns the number of edges that
+/// are still not covered. Precondition: D = 1.
 int keep_inside(Network& network, const Surface& surface, const InscribedBalls& balls,
-                const VertexGraph& graph, const SurfaceTree& tree);
+                const VertexGraph& graph, const SurfaceTree& tree, HandleKeeper& handles);
 
 }  // namespace curveskel

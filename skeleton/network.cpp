@@ -114,6 +114,25 @@ void Network::dissolve(int hub) {
   attach(hubs[at(first.to)], around[0]);
 }
 
+void Network::end_in_ring(int strand, std::size_t cut, std::vector<Point> way,
+                          std::vector<Point> ring) {
+  const auto hub = static_cast<int>(hubs.size());
+  const auto closed = static_cast<int>(strands.size());
+  hubs.push_back({way.back(), {}});
+  way.pop_back();
+  Strand& s = strands[at(strand)];
+  const int end = std::exchange(s.to, hub);
+  s.points = std::move(way);
+  const auto first = s.nodes.begin() + static_cast<std::ptrdiff_t>(cut);
+  std::vector<int> nodes(first, s.nodes.end());
+  s.nodes.erase(first, s.nodes.end());
+  if (s.from != end) detach(hubs[at(end)], strand);
+  attach(hubs[at(hub)], strand);
+  attach(hubs[at(hub)], closed);
+  ring.erase(ring.begin());
+  strands.push_back({hub, hub, std::move(ring), std::move(nodes)});
+}
+
 int Network::split(int strand, std::size_t segment, const Point& place) {
   const auto hub = static_cast<int>(hubs.size());
   const auto rest = static_cast<int>(strands.size());

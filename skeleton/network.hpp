@@ -51,6 +51,11 @@ struct Network {
   void collapse(int strand, int into, const Point& position);
   /// Joins the two strands at a hub of degree 2 into one; nothing to do at a closed curve's hub.
   void dissolve(int hub);
+  /// Cuts a strand loose from its `to` and lets it end where a new, closed strand begins: `way`
+  /// goes on from its `from` to there, `ring` from there once round. What belongs to the strand
+  /// from node `cut` on belongs to the closed one. The old `to` may be left with two strands or
+  /// none.
+  void end_in_ring(int strand, std::size_t cut, std::vector<Point> way, std::vector<Point> ring);
   /// A new hub at a place on the strand's segment (counted along its polyline); both parts belong
   /// to what the strand belonged to.
   int split(int strand, std::size_t segment, const Point& place);

@@ -214,7 +214,8 @@ void turn_half_way_round(Network& network, Strand& strand) {
 
 }  // namespace
 
-void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options, int threads) {
+void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options,
+           HandleKeeper& keeper, int threads) {
   std::vector<double> hub_radius;
   for (const Hub& hub : network.hubs) {
     hub_radius.push_back(hub.alive ? tree.inscribed_radius(hub.position) : 0);
@@ -234,6 +235,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
       turn_half_way_round(network, strand);
       rest[s] = {};
     }
+    const Network before = keeper.has_handles() ? network : Network{};
     parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t s = longest_first[i];
@@ -241,6 +243,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
       }
     });
     if (!options.covered) relax_hubs(network, tree, hub_radius, options);
+    for (const int s : keeper.restore_points(before, network, tree)) rest[at(s)] = {};
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "skeleton/handle_keeper.hpp"
 #include "skeleton/network.hpp"
 #include "surface/tree.hpp"
 
@@ -32,8 +33,9 @@ struct RelaxOptions {
 };
 
 /// Rounds of centring and smoothing of all inner points and straightening at junctions. The result
-/// does not depend on the number of threads.
-void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options, int threads);
+/// does not depend on the number of threads. No cycle leaves its handle.
+void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& options,
+           HandleKeeper& keeper, int threads);
 
 /// Moves each junction away from the nearest surface as long as that widens its inscribed ball, by
 /// one radius at most.

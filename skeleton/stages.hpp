@@ -61,6 +61,7 @@ struct WorkingBalls {
   SurfaceTree rough;  ///< over the working surface
   SurfaceTree near;   ///< over what the balls are inscribed in
   InscribedBalls balls;
+  Positions targets;  ///< where the contraction is pulled to: the balls' centres, smoothed
 };
 
 /// Where the surgery gave up.

@@ -55,8 +55,16 @@ InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, 
                    const auto v = static_cast<Eigen::Index>(i);
                    const Eigen::Vector3d inward = -normals.row(v);
                    if (inward.squaredNorm() == 0) continue;
-                   const auto ball = tree.inscribed_ball(surface.positions.row(v), inward);
-                   if (!(ball.radius < largest) || !tree.inside(ball.centre)) continue;
+                   const auto fits = [&](const SurfaceTree::Ball& ball) {
+                     return ball.radius < largest && tree.inside(ball.centre);
+                   };
+                   auto ball = tree.inscribed_ball(surface.positions.row(v), inward);
+                   if (!fits(ball)) {
+                     // A vertex off the tree's surface touches it from outside.
+                     const auto nearest = tree.nearest(surface.positions.row(v));
+                     ball = tree.inscribed_ball(nearest.point, inward);
+                     if (!fits(ball)) continue;
+                   }
                    balls.centres.row(v) = ball.centre;
                    balls.radii[v] = ball.radius;
                    valid[i] = 1;
@@ -64,6 +72,22 @@ InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, 
                });
   fill_invalid(surface, valid, balls);
   return balls;
+}
+
+Positions smoothed_centres(const Surface& surface, const InscribedBalls& balls, int rounds) {
+  Positions centres = balls.centres;
+  for (int round = 0; round < rounds; ++round) {
+    Positions sum = Positions::Zero(centres.rows(), 3);
+    Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(centres.rows());
+    for (const auto& t : surface.triangles.rowwise()) {
+      for (int k = 0; k < 3; ++k) {
+        sum.row(t(k)) += centres.row(t((k + 1) % 3));  // the other way in the next triangle
+        ++neighbours[t(k)];
+      }
+    }
+    centres = sum.array().colwise() / neighbours.array().max(1);
+  }
+  return centres;
 }
 
 }  // namespace curveskel
