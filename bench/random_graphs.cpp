@@ -52,10 +52,11 @@ void measure(int seed, const std::string& folder, Failures& failures) {
   const Certificate& certificate = found.certificate;
   const bool right = graph.tips == shape.tips && graph.junctions == shape.junctions &&
                      graph.cycle_rank == shape.cycles && far < 0.02 &&
-                     certificate.inside_fraction == 1 && certificate.spurs == 0;
+                     certificate.topology_correct() && certificate.inside_fraction == 1 &&
+                     certificate.spurs == 0;
   failures.tips += graph.tips != shape.tips ? 1 : 0;
   failures.junctions += graph.junctions != shape.junctions ? 1 : 0;
-  failures.cycles += graph.cycle_rank != shape.cycles ? 1 : 0;
+  failures.cycles += graph.cycle_rank != shape.cycles || !certificate.topology_correct() ? 1 : 0;
   failures.far += far < 0.02 ? 0 : 1;
   failures.outside += certificate.inside_fraction < 1 ? 1 : 0;
   failures.spurs += certificate.spurs > 0 ? 1 : 0;

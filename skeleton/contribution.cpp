@@ -108,7 +108,9 @@ class Pipeline {
       SurfaceTree rough(working->surface);
       SurfaceTree near = plant_near();
       InscribedBalls balls = inscribed_balls(working->surface, near, options_.threads);
-      Positions targets = smoothed_centres(working->surface, balls, target_rounds);
+      Positions targets = smoothed_centres(
+          working->surface, balls,
+          working->surface.positions.rows() < source.positions.rows() ? target_rounds : 0);
       return WorkingBalls{std::move(rough), std::move(near), std::move(balls), std::move(targets)};
     });
   }
