@@ -164,6 +164,7 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"parameters", std::move(parameters)},
           {"components", std::move(components)},
           {"faired_again", record.extraction.faired_again},
+          {"all_vertices_again", record.extraction.all_vertices_again},
           {"notes", record.notes},
           {"skeleton",
            {{"nodes", record.extraction.skeleton.nodes.rows()},

@@ -140,10 +140,9 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
                                {}};
         const SurfaceTree& tree = tree_of_all.get(contributions);
         reach_openings(made.skeleton, surface, tree, options.openings);
-        made.certificate =
-            evaluate({surface, tree, bounding_box_diagonal(surface.positions),
-                      parts->counted.components(), parts->counted.total_genus()},
-                     made.skeleton, options.certificate, monitor);
+        made.certificate = evaluate({surface, tree, bounding_box_diagonal(surface.positions),
+                                     parts->counted.components(), parts->counted.total_genus()},
+                                    made.skeleton, options.certificate, monitor);
         return made;
       });
   result.skeleton = certified->skeleton;
@@ -163,38 +162,74 @@ void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
   }
 }
 
+bool better(const Certificate& a, const Certificate& b) {
+  return std::pair(a.topology_correct(), a.inside_fraction) >
+         std::pair(b.topology_correct(), b.inside_fraction);
+}
+
+/// Runs with other options and keeps the better result; whether that is the new one.
+bool try_again(Extraction& result, const Surface& surface, const ExtractOptions& options,
+               const Monitor& monitor, SurfaceStages* kept) {
+  std::optional<Extraction> other;
+  try {
+    other = extract_once(surface, options, monitor, kept);
+  } catch (const Error&) {
+    return false;  // what is too thin to be faired is no noise
+  }
+  std::vector<StageTime> ran = result.times;
+  ran.insert(ran.end(), other->times.begin(), other->times.end());
+  std::vector<std::string> reused = result.reused;
+  reused.insert(reused.end(), other->reused.begin(), other->reused.end());
+  const bool is_better = better(other->certificate, result.certificate);
+  if (is_better) result = std::move(*other);
+  result.reused = only_reused(reused, ran);
+  result.times = std::move(ran);
+  return is_better;
+}
+
+bool was_coarsened(const Extraction& extraction) {
+  return std::any_of(
+      extraction.components.begin(), extraction.components.end(),
+      [](const ComponentRecord& one) { return one.working_vertices < one.vertices; });
+}
+
 Extraction extract_with(const Surface& surface, const ExtractOptions& options,
                         const Monitor& monitor, ExtractionCache::Implementation* kept) {
   Extraction result =
       extract_once(surface, options, monitor, kept != nullptr ? &kept->as_asked : nullptr);
-  if (result.certificate.inside_enough || options.fairing || !options.fair_if_outside) {
-    return result;
+  const auto failed = [&result] {
+    return !result.certificate.topology_correct() || !result.certificate.inside_enough;
+  };
+  // What is as thin as the coarsened triangles are long has other handles there.
+  constexpr Eigen::Index most_vertices = 50000;
+  if (failed() && options.all_vertices_if_failed && was_coarsened(result) &&
+      surface.positions.rows() <= most_vertices) {
+    ExtractOptions finest = options;
+    finest.resolution = 0;
+    if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
+    if (try_again(result, surface, finest, monitor,
+                  kept != nullptr ? &kept->all_vertices : nullptr)) {
+      result.all_vertices_again = true;
+      monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
+    }
   }
   // Noise as thick as the limbs turns them inside out here and there; without it the curve has a
   // way through.
-  ExtractOptions gentler = options;
-  gentler.fairing = true;
-  gentler.fair.iterations = 30;
-  if (kept != nullptr) share_beginning(kept->as_asked, kept->faired_again);
-  std::optional<Extraction> faired;
-  try {
-    faired =
-        extract_once(surface, gentler, monitor, kept != nullptr ? &kept->faired_again : nullptr);
-  } catch (const Error&) {
-    return result;  // what is too thin to be faired is no noise
+  if (!result.certificate.inside_enough && !options.fairing && options.fair_if_outside) {
+    ExtractOptions gentler = options;
+    gentler.fairing = true;
+    gentler.fair.iterations = 30;
+    if (kept != nullptr) share_beginning(kept->as_asked, kept->faired_again);
+    if (try_again(result, surface, gentler, monitor,
+                  kept != nullptr ? &kept->faired_again : nullptr)) {
+      result.all_vertices_again = false;
+      result.faired_again = true;
+      monitor.say(
+          "the curve left the surface, so it was extracted again from the faired surface (30 "
+          "iterations)");
+    }
   }
-  std::vector<StageTime> ran = result.times;
-  ran.insert(ran.end(), faired->times.begin(), faired->times.end());
-  result.reused.insert(result.reused.end(), faired->reused.begin(), faired->reused.end());
-  result.reused = only_reused(result.reused, ran);
-  if (faired->certificate.inside_fraction <= result.certificate.inside_fraction) return result;
-  faired->times = std::move(ran);
-  faired->reused = std::move(result.reused);
-  monitor.say(
-      "the curve left the surface, so it was extracted again from the faired surface (30 "
-      "iterations)");
-  faired->faired_again = true;
-  return std::move(*faired);
+  return result;
 }
 
 }  // namespace

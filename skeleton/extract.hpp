@@ -33,6 +33,9 @@ struct ExtractOptions {
   /// If the certificate finds too much outside: extract once more with thirty iterations of
   /// fairing, and keep the better one.
   bool fair_if_outside = true;
+  /// If the certificate fails, a component was coarsened and there are 50,000 vertices at most:
+  /// extract once more with all of them, and keep the better one.
+  bool all_vertices_if_failed = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;
   EmbedOptions embed;
@@ -63,6 +66,7 @@ struct Extraction {
                                  ///< of those that ran
   std::vector<std::string> reused;  ///< stages all of which came from the ExtractionCache, in order
   bool faired_again = false;        ///< see ExtractOptions::fair_if_outside
+  bool all_vertices_again = false;  ///< see ExtractOptions::all_vertices_if_failed
 };
 
 /// normalise -> coarsen -> fair -> contract -> surgery -> embed -> certify, each component on its

@@ -112,6 +112,7 @@ struct ExtractionCache::Implementation {
   Surface surface;
   SurfaceStages as_asked;
   SurfaceStages faired_again;  ///< see ExtractOptions::fair_if_outside
+  SurfaceStages all_vertices;  ///< see ExtractOptions::all_vertices_if_failed
 
   /// Forgets everything if it is of another surface.
   void keep_only(const Surface& wanted);

@@ -43,6 +43,7 @@ void expect_equal(const Extraction& a, const Extraction& b) {
   EXPECT_EQ(a.skeleton.node_of_vertex, b.skeleton.node_of_vertex);
   expect_equal(a.certificate, b.certificate);
   EXPECT_EQ(a.faired_again, b.faired_again);
+  EXPECT_EQ(a.all_vertices_again, b.all_vertices_again);
   ASSERT_EQ(a.components.size(), b.components.size());
   for (std::size_t c = 0; c < a.components.size(); ++c) {
     const ComponentRecord& one = a.components[c];
