@@ -249,6 +249,7 @@ Network first_network(const Setting& setting) {
   thread_through(network, surface, tree, balls, graph, keeper);
   prune_blunt(network, surface, graph, limit);
   stay_inside(network, setting);
+  keeper.pull_taut(network, tree);
   return network;
 }
 

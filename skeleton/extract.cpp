@@ -202,17 +202,21 @@ Extraction extract_with(const Surface& surface, const ExtractOptions& options,
   };
   // What is as thin as the coarsened triangles are long has other handles there.
   constexpr Eigen::Index most_vertices = 50000;
-  if (failed() && options.all_vertices_if_failed && was_coarsened(result) &&
-      surface.positions.rows() <= most_vertices) {
+  bool may_take_all = options.all_vertices_if_failed && was_coarsened(result) &&
+                      surface.positions.rows() <= most_vertices;
+  const auto take_all = [&] {
+    may_take_all = false;
     ExtractOptions finest = options;
     finest.resolution = 0;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    if (try_again(result, surface, finest, monitor,
-                  kept != nullptr ? &kept->all_vertices : nullptr)) {
-      result.all_vertices_again = true;
-      monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
+    if (!try_again(result, surface, finest, monitor,
+                   kept != nullptr ? &kept->all_vertices : nullptr)) {
+      return;
     }
-  }
+    result.all_vertices_again = true;
+    monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
+  };
+  if (may_take_all && !result.certificate.topology_correct()) take_all();
   // Noise as thick as the limbs turns them inside out here and there; without it the curve has a
   // way through.
   if (!result.certificate.inside_enough && !options.fairing && options.fair_if_outside) {
@@ -222,13 +226,13 @@ Extraction extract_with(const Surface& surface, const ExtractOptions& options,
     if (kept != nullptr) share_beginning(kept->as_asked, kept->faired_again);
     if (try_again(result, surface, gentler, monitor,
                   kept != nullptr ? &kept->faired_again : nullptr)) {
-      result.all_vertices_again = false;
       result.faired_again = true;
       monitor.say(
           "the curve left the surface, so it was extracted again from the faired surface (30 "
           "iterations)");
     }
   }
+  if (may_take_all && failed()) take_all();
   return result;
 }
 

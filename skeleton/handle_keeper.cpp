@@ -74,7 +74,10 @@ bool crosses(const SurfaceTree& tree, const Point& from, const Point& to) {
   return length > 0 && tree.ray(from, (to - from) / length, length).triangle >= 0;
 }
 
-HandleKeeper::HandleKeeper(const Surface& surface) : classes_(surface) {}
+HandleKeeper::HandleKeeper(const Surface& surface) {
+  const Eigen::Index euler = surface.positions.rows() - surface.triangles.rows() / 2;
+  if (euler != 2) classes_.emplace(surface);
+}
 
 void HandleKeeper::restore_strands(const Network& before, Network& network,
                                    const SurfaceTree& tree) {
@@ -97,6 +100,41 @@ void HandleKeeper::restore_strands(const Network& before, Network& network,
       network.hubs[at(strand.to)].position = was.back();
       changed = true;
     }
+  }
+}
+
+void HandleKeeper::pull_taut(Network& network, const SurfaceTree& tree) {
+  constexpr double clearance = 0.5;
+  constexpr int places = 16;  // along a chord
+  const auto line_of_sight = [&](const std::vector<Point>& way) {
+    const Point& from = way.front();
+    const Point& to = way.back();
+    if (crosses(tree, from, to)) return false;
+    const double least =
+        clearance * std::min(tree.inscribed_radius(from), tree.inscribed_radius(to));
+    for (int k = 1; k < places; ++k) {
+      const double share = static_cast<double>(k) / places;
+      if (tree.inscribed_radius(from + share * (to - from)) < least) return false;
+    }
+    return classes_->alike(way, {from, to});
+  };
+  for (const int s : core(network)) {
+    Strand& strand = network.strands[at(s)];
+    const auto line = network.polyline(strand);
+    std::vector<Point> kept;
+    std::size_t here = 0;
+    while (here + 1 < line.size()) {
+      std::size_t next = here + 1;
+      for (std::size_t step = 2; here + step < line.size(); step *= 2) {
+        const auto first = line.begin() + static_cast<std::ptrdiff_t>(here);
+        if (!line_of_sight({first, first + static_cast<std::ptrdiff_t>(step + 1)})) break;
+        next = here + step;
+      }
+      if (next + 1 < line.size()) kept.push_back(line[next]);
+      here = next;
+    }
+    if (strand.from == strand.to && kept.size() < 2) continue;
+    strand.points = std::move(kept);
   }
 }
 

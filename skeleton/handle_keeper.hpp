@@ -25,13 +25,17 @@ namespace curveskel {
 class HandleKeeper {
  public:
   HandleKeeper() = default;  ///< lets everything go where it likes
-  explicit HandleKeeper(const Surface& surface);
+  explicit HandleKeeper(const Surface& surface);  ///< one closed component
 
   [[nodiscard]] bool has_handles() const { return classes_ && classes_->has_handles(); }
 
   [[nodiscard]] bool alike(const std::vector<Point>& there, const std::vector<Point>& back) {
     return classes_->alike(there, back);
   }
+
+  /// Pulls the strands on cycles taut: of each way the chord stays, as far as it can be drawn round
+  /// the same handles with half of the clearance at its ends or more.
+  void pull_taut(Network& network, const SurfaceTree& tree);
 
   /// Strands get back all their points, and hubs their places, where a strand's new course is not
   /// `alike` its old one, or crosses the surface where that did not.

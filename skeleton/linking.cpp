@@ -401,6 +401,10 @@ int homology_rank(const Surface& surface, const CurveSkeleton& skeleton) {
     return rank_within(loops, skeleton);
   }
   const auto parts = with_cycles(skeleton);
+  std::vector<Eigen::Matrix<double, 2, 3>> boxes(parts.size());
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    boxes[n] << parts[n].nodes.colwise().minCoeff(), parts[n].nodes.colwise().maxCoeff();
+  }
   std::vector<std::vector<std::array<int, 2>>> ranks;
   std::vector<int> genus;
   const auto components = split_components(surface, counted);
@@ -413,9 +417,8 @@ int homology_rank(const Surface& surface, const CurveSkeleton& skeleton) {
     genus.push_back(counted.genus[c]);
     ranks.emplace_back();
     for (std::size_t n = 0; n < parts.size(); ++n) {
-      const auto& nodes = parts[n].nodes;
-      if ((nodes.colwise().minCoeff().array() > high.array()).any()) continue;
-      if ((nodes.colwise().maxCoeff().array() < low.array()).any()) continue;
+      if ((boxes[n].row(0).array() > high.array()).any()) continue;
+      if ((boxes[n].row(1).array() < low.array()).any()) continue;
       const int rank = rank_within(loops, parts[n]);
       if (rank > 0) ranks.back().push_back({static_cast<int>(n), std::min(rank, genus.back())});
     }
