@@ -106,6 +106,7 @@ TEST(Damaged, NoiseAsThickAsTheLimbsIsSmoothedAway) {
     EXPECT_EQ(found.certificate.tips, 5);
     ExtractOptions as_it_is;
     as_it_is.fair_if_outside = false;
+    as_it_is.all_vertices_if_failed = false;
     // Otherwise this shape would show nothing.
     EXPECT_FALSE(extract(noisy.surface, as_it_is, {}).certificate.inside_enough);
     EXPECT_TRUE(found.faired_again);
