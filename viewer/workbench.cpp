@@ -263,8 +263,8 @@ void Workbench::judge() {
                    counted.total_genus()});
       }
       found.ground = ground;
-      found.certificate = evaluate({ground->repaired->surface, ground->tree,
-                                    ground->diagonal, ground->components, ground->genus},
+      found.certificate = evaluate({ground->repaired->surface, ground->tree, ground->diagonal,
+                                    ground->components, ground->genus},
                                    *skeleton, options, Monitor{});
       found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, Monitor{});
     } catch (const std::exception& error) {
