@@ -24,7 +24,7 @@ namespace curveskel {
 /// where they like. A surface without handles costs nothing.
 class HandleKeeper {
  public:
-  HandleKeeper() = default;  ///< lets everything go where it likes
+  HandleKeeper() = default;                       ///< lets everything go where it likes
   explicit HandleKeeper(const Surface& surface);  ///< one closed component
 
   [[nodiscard]] bool has_handles() const { return classes_ && classes_->has_handles(); }
