@@ -201,9 +201,9 @@ Extraction extract_with(const Surface& surface, const ExtractOptions& options,
     return !result.certificate.topology_correct() || !result.certificate.inside_enough;
   };
   // What is as thin as the coarsened triangles are long has other handles there.
-  constexpr Eigen::Index most_vertices = 50000;
+  constexpr Eigen::Index most_for_all = 50000;
   bool may_take_all = options.all_vertices_if_failed && was_coarsened(result) &&
-                      surface.positions.rows() <= most_vertices;
+                      surface.positions.rows() <= most_for_all;
   const auto take_all = [&] {
     may_take_all = false;
     ExtractOptions finest = options;

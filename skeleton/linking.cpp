@@ -454,16 +454,16 @@ bool HandleClasses::has_handles() const { return !implementation_->loops.edges.e
 bool HandleClasses::alike(const std::vector<Eigen::Vector3d>& there,
                           const std::vector<Eigen::Vector3d>& back) {
   const linking::Projection& projection = implementation_->loops.projection;
-  const Seen first = projection(there.front());
-  Seen last = first;
+  Seen last = projection(there.front());
   std::uint64_t number = 0;
-  const auto go_on_to = [&](const Seen& next) {
+  const auto go_on_to = [&](const Eigen::Vector3d& point) {
+    const Seen next = projection(point);
     number ^= implementation_->number_of({last, next});
     last = next;
   };
-  for (auto p = there.begin() + 1; p != there.end(); ++p) go_on_to(projection(*p));
-  for (auto p = back.rbegin(); p != back.rend(); ++p) go_on_to(projection(*p));
-  go_on_to(first);
+  std::for_each(there.begin() + 1, there.end(), go_on_to);
+  std::for_each(back.rbegin(), back.rend(), go_on_to);
+  go_on_to(there.front());
   return number == 0;
 }
 

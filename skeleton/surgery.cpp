@@ -17,19 +17,17 @@
 namespace curveskel {
 namespace {
 
-using Point = Eigen::Vector3d;
-
 /// Sum of squared distances to lines through a vertex (Au et al., eq. 6): p -> (p^T A p - 2 b.p +
 /// c).
 struct LineQuadric {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
-  Point b = Point::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
   double c = 0;
 
-  void add_line(const Point& origin, const Point& unit_direction) {
+  void add_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& unit_direction) {
     const Eigen::Matrix3d projector =
         Eigen::Matrix3d::Identity() - unit_direction * unit_direction.transpose();
-    const Point offset = projector * origin;
+    const Eigen::Vector3d offset = projector * origin;
     a += projector;
     b += offset;
     c += origin.dot(offset);
@@ -39,7 +37,7 @@ struct LineQuadric {
     b += other.b;
     c += other.c;
   }
-  [[nodiscard]] double at(const Point& p) const {
+  [[nodiscard]] double at(const Eigen::Vector3d& p) const {
     return std::max(0.0, p.dot(a * p) - 2 * b.dot(p) + c);
   }
 };
@@ -64,7 +62,7 @@ class Surgeon {
     quadrics_.resize(vertices);
     for (int v = 0; v < vertices; ++v) {
       for (const int neighbour : neighbours(v)) {
-        const Point edge = positions_.row(neighbour) - positions_.row(v);
+        const Eigen::Vector3d edge = positions_.row(neighbour) - positions_.row(v);
         const double length = edge.norm();
         if (length > 0) quadrics_[v].add_line(positions_.row(v), edge / length);
       }
@@ -114,7 +112,7 @@ class Surgeon {
   }
 
   void push(int from, int into, double edge_sum_of_from) {
-    const Point target = positions_.row(into);
+    const Eigen::Vector3d target = positions_.row(into);
     const double shape = quadrics_[from].at(target) + quadrics_[into].at(target);
     const double sampling = (positions_.row(from) - positions_.row(into)).norm() * edge_sum_of_from;
     heap_.push({options_.shape_weight * shape + options_.sampling_weight * sampling, from, into,

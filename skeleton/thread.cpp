@@ -159,6 +159,7 @@ class Threading {
       if (!std::binary_search(tunnels.begin(), tunnels.end(), s)) thread(network_.strands[at(s)]);
     }
     std::vector<int> ends;
+    ends.reserve(2 * tunnels.size());
     for (const int s : tunnels) {
       ends.push_back(network_.strands[at(s)].from);
       ends.push_back(network_.strands[at(s)].to);
@@ -245,6 +246,7 @@ class Threading {
   [[nodiscard]] std::vector<int> strands_along_tunnels() const {
     const auto strands = core(network_);
     std::vector<std::vector<Point>> rings;
+    rings.reserve(strands.size());
     for (const int s : strands) {
       rings.push_back(curves_.below(edges_across(network_.strands[at(s)].nodes.front())));
     }
