@@ -79,7 +79,7 @@ void certificate(Workbench& bench) {
        verdict(c.components == c.components_of_surface));
   line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
        verdict(c.cycle_rank == c.genus));
-  line("round handles", fmt::format("{} of {}", c.homology_rank, c.genus),
+  line("handles", fmt::format("round {} of {}", c.homology_rank, c.genus),
        verdict(c.homology_rank == c.genus));
   line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough));
   if (!found->findings.exits.empty()) {
