@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "skeleton/shorten.hpp"
 #include "surface/element_index.hpp"
 
 namespace curveskel {
@@ -121,20 +122,13 @@ void HandleKeeper::pull_taut(Network& network, const SurfaceTree& tree) {
   for (const int s : core(network)) {
     Strand& strand = network.strands[at(s)];
     const auto line = network.polyline(strand);
-    std::vector<Point> kept;
-    std::size_t here = 0;
-    while (here + 1 < line.size()) {
-      std::size_t next = here + 1;
-      for (std::size_t step = 2; here + step < line.size(); step *= 2) {
-        const auto first = line.begin() + static_cast<std::ptrdiff_t>(here);
-        if (!line_of_sight({first, first + static_cast<std::ptrdiff_t>(step + 1)})) break;
-        next = here + step;
-      }
-      if (next + 1 < line.size()) kept.push_back(line[next]);
-      here = next;
-    }
-    if (strand.from == strand.to && kept.size() < 2) continue;
-    strand.points = std::move(kept);
+    const auto taut = shortened(line, [&](std::size_t first, std::size_t last) {
+      const auto begin = line.begin();
+      return line_of_sight({begin + static_cast<std::ptrdiff_t>(first),
+                            begin + static_cast<std::ptrdiff_t>(last + 1)});
+    });
+    const std::size_t fewest = strand.from == strand.to ? 4 : 2;  // a closed one stays a polygon
+    if (taut.size() >= fewest) strand.points.assign(taut.begin() + 1, taut.end() - 1);
   }
 }
 

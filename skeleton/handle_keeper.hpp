@@ -41,13 +41,13 @@ class HandleKeeper {
   /// `alike` its old one, or crosses the surface where that did not.
   void restore_strands(const Network& before, Network& network, const SurfaceTree& tree);
 
-  /// Shrinks a strand to its hub `into` at `position`, which must be there or at its other hub.
-  /// What ended at that one first goes along the strand where the short way would not be alike.
-  void collapse(Network& network, int strand, int into, const Point& position);
-
   /// The same point by point, for a change that leaves each point its number. The strands that got
   /// something back.
   std::vector<int> restore_points(const Network& before, Network& network, const SurfaceTree& tree);
+
+  /// Shrinks a strand to its hub `into` at `position`, which must be there or at its other hub.
+  /// What ended at that one first goes along the strand where the short way would not be alike.
+  void collapse(Network& network, int strand, int into, const Point& position);
 
  private:
   std::optional<HandleClasses> classes_;

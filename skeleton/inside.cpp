@@ -8,6 +8,7 @@
 
 #include "skeleton/ball_chains.hpp"
 #include "skeleton/relax.hpp"
+#include "skeleton/shorten.hpp"
 #include "surface/element_index.hpp"
 
 namespace curveskel {
@@ -66,18 +67,10 @@ class Cover {
 /// Leaves out the points of a chain that a straight line inside makes needless.
 std::vector<Point> shortcut(const std::vector<Point>& chain, const SurfaceTree& tree) {
   const Cover straight(tree, false);
-  std::vector<Point> kept{chain.front()};
-  for (std::size_t i = 0; i + 1 < chain.size();) {
-    std::size_t next = i + 1;
+  return shortened(chain, [&](std::size_t first, std::size_t last) {
     std::vector<Point> unused;
-    for (std::size_t step = 2; i + step < chain.size(); step *= 2) {
-      if (!straight.between(chain[i], chain[i + step], unused)) break;
-      next = i + step;
-    }
-    kept.push_back(chain[next]);
-    i = next;
-  }
-  return kept;
+    return straight.between(chain[first], chain[last], unused);
+  });
 }
 
 class Keeper {

@@ -395,11 +395,8 @@ class Matching {
 }  // namespace
 
 int homology_rank(const Surface& surface, const CurveSkeleton& skeleton) {
+  if (SeenLoops loops(surface); loops.handles.components == 1) return rank_within(loops, skeleton);
   const Topology counted = topology(surface);
-  if (counted.components() == 1) {
-    SeenLoops loops(surface);
-    return rank_within(loops, skeleton);
-  }
   const auto parts = with_cycles(skeleton);
   std::vector<Eigen::Matrix<double, 2, 3>> boxes(parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n) {

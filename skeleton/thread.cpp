@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "skeleton/ball_chains.hpp"
+#include "skeleton/curve_samples.hpp"
 #include "skeleton/handle_keeper.hpp"
 #include "skeleton/linking.hpp"
 #include "surface/element_index.hpp"
@@ -17,12 +18,6 @@
 
 namespace curveskel {
 namespace {
-
-double length_of(const std::vector<Point>& line) {
-  double sum = 0;
-  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
-  return sum;
-}
 
 /// Curves just below a surface, and deeper ones that go round the same handles. The shallow ones
 /// run from triangle to triangle, as below a vertex there may be no inside at all.
@@ -285,7 +280,7 @@ class Threading {
     double shortest = std::numeric_limits<double>::infinity();
     const auto nodes = course(strand);
     for (std::size_t k = 1; k < nodes.size(); k += 2) {
-      const double length = length_of(curves_.below(edges_across(nodes[k])));
+      const double length = polyline_length(curves_.below(edges_across(nodes[k])));
       if (length >= shortest) continue;
       shortest = length;
       best.place = k - 1;
@@ -309,7 +304,7 @@ class Threading {
     Half other = half_from(from);
     const auto length = [&](const Half& h) {
       return h.way.empty() ? std::numeric_limits<double>::infinity()
-                           : length_of(curves_.deep(h.way));
+                           : polyline_length(curves_.deep(h.way));
     };
     if (length(other) <= length(half)) {
       std::swap(half, other);

@@ -42,6 +42,7 @@ class TreeAndCotree {
   }
 
   [[nodiscard]] int origin(std::int32_t h) const { return triangles_(h / 3, h % 3); }
+  [[nodiscard]] int components() const { return components_; }
 
  private:
   void take(std::int32_t h) { taken_[at(h)] = taken_[at(half_.twin[at(h)])] = 1; }
@@ -52,6 +53,7 @@ class TreeAndCotree {
     std::vector<int> queue;
     for (int root = 0; root < static_cast<int>(out.size()); ++root) {
       if (depth_[at(root)] >= 0 || out[at(root)] < 0) continue;
+      ++components_;
       depth_[at(root)] = 0;
       queue.assign(1, root);
       for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -94,6 +96,7 @@ class TreeAndCotree {
   std::vector<std::int32_t> way_in_;  // per vertex, the half-edge from its parent
   std::vector<int> depth_;            // per vertex
   std::vector<char> taken_;           // per half-edge, by either tree
+  int components_ = 0;
 };
 
 }  // namespace
@@ -101,6 +104,7 @@ class TreeAndCotree {
 HandleLoops handle_loops(const Surface& surface) {
   const TreeAndCotree trees(surface);
   HandleLoops result;
+  result.components = trees.components();
   std::vector<int> row(at(3 * surface.triangles.rows()), -1);
   for (const auto& loop : trees.loops()) {
     auto& edges = result.loops.emplace_back();

@@ -14,6 +14,7 @@ namespace curveskel {
 struct HandleLoops {
   std::vector<std::array<std::int32_t, 2>> edges;  ///< vertices; those on any loop, each once
   std::vector<std::vector<int>> loops;             ///< the edges of each, in no order
+  int components = 0;                              ///< of the surface
 };
 
 /// What a spanning tree of the vertices and one of the faces across the other edges leave over

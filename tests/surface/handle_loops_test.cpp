@@ -22,8 +22,9 @@ std::vector<Shape> closed_shapes() {
 
 TEST(HandleLoops, AreTwiceAsManyAsTheHandles) {
   for (const Shape& shape : closed_shapes()) {
-    EXPECT_EQ(handle_loops(shape.surface).loops.size(), 2 * static_cast<std::size_t>(shape.genus))
-        << shape.name;
+    const HandleLoops found = handle_loops(shape.surface);
+    EXPECT_EQ(found.loops.size(), 2 * static_cast<std::size_t>(shape.genus)) << shape.name;
+    EXPECT_EQ(found.components, shape.components) << shape.name;
   }
 }
 
