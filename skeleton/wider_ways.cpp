@@ -16,7 +16,7 @@ namespace {
 
 constexpr double wider = 2;       // in its narrowest place
 constexpr double cheaper = 3;     // on the whole
-constexpr double shortest = 0.5;  // of what there was: a limb must still be reached
+constexpr double shortest = 1.0 / 3;  // of what there was: a limb must still be reached
 
 /// Whether its hubs fall apart without the strand.
 bool is_bridge(const Network& network, int strand) {

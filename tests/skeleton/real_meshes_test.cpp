@@ -227,7 +227,8 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
   if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
   for (const auto& [name, axis] :
        {std::pair{"spot-3k.obj", 0}, std::pair{"rigs/quaternius-horse-1k.ply", 0},
-        std::pair{"rigs/cesium-man-2k.ply", 1}}) {
+        std::pair{"rigs/cesium-man-2k.ply", 1},
+        std::pair{"rigs/makehuman-body-13k-quads.obj", 0}}) {
     const Surface surface = clean(read_polygons(meshes / name, {}), {}).surface;
     const CurveSkeleton curve = extract(surface, {}, {}).skeleton;
     CurveSkeleton mirrored = curve;
