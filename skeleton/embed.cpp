@@ -9,6 +9,7 @@
 #include "contraction/laplacian.hpp"
 #include "skeleton/grow.hpp"
 #include "skeleton/handle_keeper.hpp"
+#include "skeleton/hosts.hpp"
 #include "skeleton/inside.hpp"
 #include "skeleton/network.hpp"
 #include "skeleton/prune.hpp"
@@ -202,6 +203,12 @@ void centre_at_last(Network& network, const Setting& setting) {
   centring.rounds = setting.options.relax_rounds;
   centring.meet = true;
   centring.keep_junction = 1;
+  const auto hosts = hosts_of_vertices(network, setting.surface, setting.balls, setting.graph);
+  centring.is_own = [&](int triangle, int strand) {
+    const auto corners = setting.surface.triangles.row(triangle);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](int vertex) { return hosts[at(vertex)].strand == strand; });
+  };
   relax(network, setting.tree, centring, setting.keeper, setting.threads);
 }
 

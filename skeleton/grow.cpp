@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "skeleton/hosts.hpp"
 #include "skeleton/slenderness.hpp"
 #include "surface/element_index.hpp"
 
@@ -23,13 +24,6 @@ constexpr double most_ball = 1.2;  // a wider one is where the strand comes from
 constexpr double least_extension_slenderness = 1.5;
 /// The network does not enter a part while its vertices' places are this much nearer to the centre.
 constexpr double within = 0.6;
-
-/// The place of the network that a vertex belongs to.
-struct Host {
-  int strand = -1;
-  std::size_t segment = 0;  // along the strand's polyline
-  Point place = Point::Zero();
-};
 
 struct Summit {
   int vertex = -1;
@@ -54,7 +48,7 @@ class Growth {
   int run(double limit) {
     int count = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
-      find_hosts();
+      hosts_ = hosts_of_vertices(network_, surface_, balls_, graph_);
       const int before = count;
       touched_.clear();
       for (const Summit& summit : summits(limit)) count += grow(summit) ? 1 : 0;
@@ -66,56 +60,6 @@ class Growth {
  private:
   [[nodiscard]] Point place(int v) const { return surface_.positions.row(v); }
   [[nodiscard]] double height(int v) const { return (place(v) - hosts_[at(v)].place).norm(); }
-
-  /// Where a vertex looks for its host. A ball that does not touch it is one of its neighbours'.
-  [[nodiscard]] Point centre(int v) const {
-    constexpr double touching = 1.2;
-    const Point ball = balls_.centres.row(v);
-    return (ball - place(v)).norm() <= touching * balls_.radii[v] ? ball : place(v);
-  }
-
-  [[nodiscard]] std::vector<std::vector<int>> strands_of_groups() const {
-    std::vector<std::vector<int>> strands(at(graph_.groups));
-    const auto claim = [&](const std::vector<int>& nodes, int strand) {
-      for (const int node : nodes) {
-        if (node < graph_.groups) strands[at(node)].push_back(strand);
-      }
-    };
-    for (int s = 0; s < static_cast<int>(network_.strands.size()); ++s) {
-      const Strand& strand = network_.strands[at(s)];
-      if (!strand.alive) continue;
-      claim(strand.nodes, s);
-      claim(network_.hubs[at(strand.from)].nodes, s);
-      if (strand.to != strand.from) claim(network_.hubs[at(strand.to)].nodes, s);
-    }
-    return strands;
-  }
-
-  void find_hosts() {
-    const auto strands = strands_of_groups();
-    std::vector<std::vector<Point>> lines;
-    for (const Strand& strand : network_.strands) {
-      lines.push_back(strand.alive ? network_.polyline(strand) : std::vector<Point>{});
-    }
-    for (int v = 0; v < static_cast<int>(hosts_.size()); ++v) {
-      const Point from = centre(v);
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const int s : strands[at(graph_.group_of_vertex[v])]) {
-        const auto& line = lines[at(s)];
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-          const Point along = line[i + 1] - line[i];
-          const double squared = along.squaredNorm();
-          const double share =
-              squared > 0 ? std::clamp((from - line[i]).dot(along) / squared, 0.0, 1.0) : 0;
-          const Point here = share < 1 ? Point(line[i] + share * along) : line[i + 1];
-          const double distance = (here - from).squaredNorm();
-          if (distance >= nearest) continue;
-          nearest = distance;
-          hosts_[at(v)] = {s, i, here};
-        }
-      }
-    }
-  }
 
   /// The hub that stands for a place of a strand: the tip whose ball holds it, or the hub that is
   /// there; -1 if there is none.

@@ -2,13 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "skeleton/axes.hpp"
+#include "skeleton/cross_section.hpp"
 #include "surface/element_index.hpp"
 #include "surface/parallel.hpp"
 
@@ -42,30 +41,6 @@ std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& 
   std::transform(points.begin(), points.end(), radii.begin(),
                  [&](const Point& p) { return tree.inscribed_radius(p); });
   return radii;
-}
-
-Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
-                           double radius) {
-  const double shortest = radius;
-  const double length = direction.norm();
-  if (!(shortest > 0) || !(length > 0)) return point;
-  const Point n = direction / length;
-  const Point u = n.unitOrthogonal();
-  const Point w = n.cross(u);
-  const double limit = 3 * shortest;
-  constexpr int rays = 12;
-  std::array<Point, rays> directions;
-  for (int k = 0; k < rays; ++k) {
-    const double angle = 2 * std::numbers::pi * k / rays;
-    directions[at(k)] = std::cos(angle) * u + std::sin(angle) * w;
-  }
-  std::array<double, rays> distances{};
-  tree.rays_in_plane(point, n, directions, limit, distances);
-  Point sum = Point::Zero();
-  for (std::size_t k = 0; k < rays; ++k) {
-    sum += std::min(limit, distances[k]) * directions[k];
-  }
-  return point + 2 * sum / rays;
 }
 
 void resample(Network& network, const SurfaceTree& tree, double most_spacing) {
@@ -153,14 +128,16 @@ void update_radii(Rest& rest, const SurfaceTree& tree, const std::vector<Point>&
 /// Moves the inner points of one strand in turn, each half-way to the centre of its cross-section
 /// and half-way to the middle of its neighbours.
 /// Those whose neighbourhood moved by less than 0.3 % of the radius last time are at rest.
-void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tree,
-                  const RelaxOptions& options, Rest& rest) {
+void relax_strand(Network& network, int s, const SurfaceTree& tree, const RelaxOptions& options,
+                  Rest& rest) {
+  Strand& strand = network.strands[at(s)];
   const auto line = network.polyline(strand);
   update_radii(rest, tree, line);
   auto& [last_move, radius, from, to] = rest;
   const auto overlap = [&](const Point& p, double p_radius, const Point& q, double q_radius) {
     return (p - q).norm() <= p_radius + q_radius;
   };
+  const auto is_own = [&](int triangle) { return options.is_own(triangle, s); };
   auto& points = strand.points;
   last_move.resize(points.size(), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -171,7 +148,10 @@ void relax_strand(const Network& network, Strand& strand, const SurfaceTree& tre
     last_move[i] = 0;
     const Point& before = i > 0 ? points[i - 1] : line.front();
     const Point& after = i + 1 < points.size() ? points[i + 1] : line.back();
-    const Point centre = cross_section_centre(tree, points[i], after - before, radius[i + 1]);
+    const Point along = after - before;
+    const Point centre = options.is_own
+                             ? cross_section_centre(tree, points[i], along, radius[i + 1], is_own)
+                             : cross_section_centre(tree, points[i], along, radius[i + 1]);
     const Point target = 0.5 * (points[i] + centre);
     // Along a cubic through two points either way, which does not cut corners (bilaplacian).
     Point middle = 0.5 * (before + after);
@@ -239,7 +219,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
     parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t s = longest_first[i];
-        relax_strand(network, network.strands[s], tree, options, rest[s]);
+        relax_strand(network, static_cast<int>(s), tree, options, rest[s]);
       }
     });
     if (!options.covered) relax_hubs(network, tree, hub_radius, options);

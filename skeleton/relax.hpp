@@ -1,6 +1,7 @@
 // Central and smooth: where the points of a network go.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "skeleton/handle_keeper.hpp"
@@ -13,12 +14,6 @@ namespace curveskel {
 [[nodiscard]] std::vector<double> radii_at(const SurfaceTree& tree,
                                            const std::vector<Point>& points);
 
-/// The centre of the cross-section through `point` normal to `direction`: twice the mean of the
-/// vectors along rays to the surface, which is exact to first order for a circle. 12 rays, each cut
-/// at three times the point's inscribed `radius`. The point itself if that is not positive.
-[[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
-                                         const Point& direction, double radius);
-
 /// Places the inner points of each strand evenly, about half an inscribed radius apart, but at most
 /// `most_spacing`. Lengths relative to D = 1.
 void resample(Network& network, const SurfaceTree& tree, double most_spacing);
@@ -30,6 +25,9 @@ struct RelaxOptions {
   bool meet = false;            ///< junctions go to where the axes of their strands meet
   double smoothing = 0.5;       ///< share of the neighbours' middle in a point's new place
   bool covered = false;         ///< keep the balls of neighbouring points overlapping; hubs stay
+  /// Whether a triangle of the tree belongs to a strand. If given, flat limbs are centred from one
+  /// edge to the other. Called from all threads.
+  std::function<bool(int triangle, int strand)> is_own = {};
 };
 
 /// Rounds of centring and smoothing of all inner points and straightening at junctions. The result

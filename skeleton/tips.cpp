@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "skeleton/relax.hpp"
+#include "skeleton/cross_section.hpp"
 #include "surface/element_index.hpp"
 
 namespace curveskel {
