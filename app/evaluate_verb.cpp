@@ -57,6 +57,8 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
     const double spacing = arguments.options.sample_spacing * diagonal;
     evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
     evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
+    evaluation.common_ground =
+        common_ground(SurfaceTree(surface), diagonal, skeleton, other, arguments.options, monitor);
   }
 
   session.terminal.end_progress();
@@ -72,6 +74,11 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
       text +=
           fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
                       evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
+      const auto& [own, other] = evaluation.common_ground;
+      text += fmt::format(
+          "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
+          "  centredness there {:>9.3f} median, the other's {:.3f}\n",
+          100 * own.share, 100 * other.share, own.centredness_median, other.centredness_median);
     }
     session.terminal.result(text);
   }
@@ -100,7 +107,8 @@ Verb add_evaluate(CLI::App& program) {
       ->type_name("FILE");
   parser
       ->add_option("--against", arguments->against,
-                   "another skeleton file: the Hausdorff distance to it")
+                   "another skeleton file: distances to it, and which of both is more central "
+                   "where both run")
       ->type_name("SKELETON");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);

@@ -209,9 +209,15 @@ std::string evaluation_json(const std::string& surface_file, const std::string& 
                {"parameters", to_json(evaluation.options)},
                {"certificate", to_json(evaluation.certificate)}};
   if (!evaluation.against.empty()) {
+    const auto side = [](const CommonGround::Side& of) {
+      return Json{{"share_of_length", of.share}, {"centredness_median", of.centredness_median}};
+    };
     json["against"] = {{"skeleton", evaluation.against},
                        {"hausdorff_distance", evaluation.hausdorff_distance},
-                       {"mean_distance", evaluation.mean_distance}};
+                       {"mean_distance", evaluation.mean_distance},
+                       {"where_both_run",
+                        {{"this", side(evaluation.common_ground.a)},
+                         {"other", side(evaluation.common_ground.b)}}}};
   }
   return text_of(json, 2) + "\n";
 }

@@ -42,6 +42,7 @@ struct Evaluation {
   std::string against;            ///< the other skeleton's file, empty = none
   double hausdorff_distance = 0;  ///< to that one, of the surface's D
   double mean_distance = 0;       ///< the same in the mean
+  CommonGround common_ground;
 };
 
 /// Certificate of a skeleton file against a surface file. Ends with a newline.

@@ -18,6 +18,7 @@
 #include "skeleton/extract.hpp"
 #include "skeleton/picture.hpp"
 #include "skeleton/skeleton_files.hpp"
+#include "surface/measures.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
 
@@ -46,8 +47,10 @@ struct Run {
   double processor_seconds = 0;  // of all threads together
   Eigen::Index nodes = 0;
   Eigen::Index edges = 0;
+  CurveSkeleton skeleton;
   Certificate certificate;
-  std::string failure;  // empty = none
+  CommonGround::Side common;  // where the other one runs as well
+  std::string failure;        // empty = none
 };
 
 double processor_seconds() {
@@ -76,7 +79,7 @@ Run timed(const std::string& program, const fs::path& file, const Surface& surfa
   Run run;
   run.program = program;
   run.file = file.filename().string();
-  CurveSkeleton skeleton;
+  CurveSkeleton& skeleton = run.skeleton;
   const double before = processor_seconds();
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -119,7 +122,8 @@ Run run_cgal(const fs::path& file, const Surface& surface, const Options& option
 
 constexpr const char* columns =
     "file,components,cycle_rank,inside_fraction,deepest_exit,centredness_median,centredness_p90,"
-    "coverage,reach,spurs,turning,seconds,nodes,edges,processor_seconds,program";
+    "coverage,reach,spurs,turning,seconds,nodes,edges,processor_seconds,program,common_share,"
+    "common_centredness";
 
 std::string csv_row(const Run& run) {
   const Certificate& c = run.certificate;
@@ -128,7 +132,8 @@ std::string csv_row(const Run& run) {
       << c.inside_fraction << ',' << c.deepest_exit << ',' << c.centredness_median << ','
       << c.centredness_p90 << ',' << c.coverage << ',' << c.reach << ',' << c.spurs << ','
       << c.turning << ',' << run.seconds << ',' << run.nodes << ',' << run.edges << ','
-      << run.processor_seconds << ',' << run.program << (run.failure.empty() ? "" : " (failed)");
+      << run.processor_seconds << ',' << run.program << (run.failure.empty() ? "" : " (failed)")
+      << ',' << run.common.share << ',' << run.common.centredness_median;
   return row.str();
 }
 
@@ -150,9 +155,10 @@ std::string markdown_row(const Run& run, double ratio, const Options& options) {
   }
   row << (c.topology_correct() ? "right" : "wrong") << " | " << std::setprecision(4)
       << c.inside_fraction << " | " << c.deepest_exit << " | " << std::setprecision(3)
-      << c.centredness_median << " | " << c.centredness_p90 << " | " << c.coverage << " | "
-      << std::setprecision(4) << c.reach << " | " << c.spurs << " | " << std::setprecision(1)
-      << c.turning << " | " << std::setprecision(3) << run.seconds << " | ";
+      << c.centredness_median << " | " << c.centredness_p90 << " | "
+      << run.common.centredness_median << " | " << c.coverage << " | " << std::setprecision(4)
+      << c.reach << " | " << c.spurs << " | " << std::setprecision(1) << c.turning << " | "
+      << std::setprecision(3) << run.seconds << " | ";
   if (ratio > 0) row << std::setprecision(1) << ratio;
   row << " |";
   return row.str();
@@ -160,8 +166,9 @@ std::string markdown_row(const Run& run, double ratio, const Options& options) {
 
 constexpr const char* markdown_head =
     "| file | program | topology | inside | deepest exit / D | centredness, median | 90th "
-    "percentile | coverage | reach / D | spurs | turning per D | seconds | ratio |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+    "percentile | where both run | coverage | reach / D | spurs | turning per D | seconds | ratio "
+    "|\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
 void print(const Run& run) {
   std::cout << "  " << std::left << std::setw(10) << run.program << std::right << std::fixed;
@@ -175,9 +182,10 @@ void print(const Run& run) {
             << c.components_of_surface << "  cycles " << c.cycle_rank << '/' << c.genus
             << std::setprecision(4) << "  inside " << c.inside_fraction << "  exit "
             << c.deepest_exit << std::setprecision(3) << "  centredness " << c.centredness_median
-            << ' ' << c.centredness_p90 << "  coverage " << c.coverage << std::setprecision(4)
-            << "  reach " << c.reach << "  tips " << c.tips << "  junctions " << c.junctions
-            << "  spurs " << c.spurs << std::setprecision(2) << "  turning " << c.turning << '\n';
+            << ' ' << c.centredness_p90 << "  (where both run " << run.common.centredness_median
+            << ")  coverage " << c.coverage << std::setprecision(4) << "  reach " << c.reach
+            << "  tips " << c.tips << "  junctions " << c.junctions << "  spurs " << c.spurs
+            << std::setprecision(2) << "  turning " << c.turning << '\n';
 }
 
 void compare(const Options& options) {
@@ -193,6 +201,13 @@ void compare(const Options& options) {
     std::vector<Run> runs;
     if (!options.cgal_only) runs.push_back(run_ours(file, surface, options));
     if (!options.ours_only) runs.push_back(run_cgal(file, surface, options));
+    if (runs.size() == 2 && runs[0].failure.empty() && runs[1].failure.empty()) {
+      const CommonGround common =
+          common_ground(SurfaceTree(surface), bounding_box_diagonal(surface.positions),
+                        runs[0].skeleton, runs[1].skeleton, {}, {});
+      runs[0].common = common.a;
+      runs[1].common = common.b;
+    }
     const double ratio = runs.size() == 2 ? runs[1].seconds / runs[0].seconds : 0;
     for (const Run& run : runs) {
       print(run);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "skeleton/centredness.hpp"
 #include "skeleton/linking.hpp"
 #include "skeleton/measured_curve.hpp"
 #include "skeleton/sequence_tree.hpp"
@@ -25,49 +26,6 @@ using Eigen::Vector3d;
 constexpr double turning_scale = 1.0 / 100;  // of D
 constexpr double coverage_factor = 1.5;      // of the local radius
 constexpr Eigen::Index most_vertices = 20000;
-
-// Standard deviation over mean of the ray lengths in the plane normal to the curve.
-double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int rays) {
-  const Vector3d u = sample.tangent.unitOrthogonal();
-  const Vector3d w = sample.tangent.cross(u);
-  double sum = 0;
-  double squares = 0;
-  for (int k = 0; k < rays; ++k) {
-    const double angle = 2 * std::numbers::pi * k / rays;
-    const double length =
-        tree.ray(sample.position, std::cos(angle) * u + std::sin(angle) * w).distance;
-    if (!std::isfinite(length)) return 0;  // the surface is not closed
-    sum += length;
-    squares += length * length;
-  }
-  const double mean = sum / rays;
-  return std::sqrt(std::max(0.0, squares / rays - mean * mean)) / mean;
-}
-
-// Within the ball of a junction at an end of its branch the normal plane cuts the other branches.
-bool at_junction(const MeasuredCurve& subject, const CurveSample& sample) {
-  if (sample.branch < 0) return false;
-  const Branch& branch = subject.branches[static_cast<std::size_t>(sample.branch)];
-  for (const int node : {branch.nodes.front(), branch.nodes.back()}) {
-    if (!subject.is_junction(node)) continue;
-    const Vector3d junction = subject.skeleton.nodes.row(node);
-    if ((sample.position - junction).norm() < subject.clearance[node]) return true;
-  }
-  return false;
-}
-
-// The smallest value that at least `share` of the weight does not exceed.
-double weighted_quantile(std::vector<std::pair<double, double>> value_and_weight, double share) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
-  double total = 0;
-  for (const auto& [value, weight] : value_and_weight) total += weight;
-  double below = 0;
-  for (const auto& [value, weight] : value_and_weight) {
-    below += weight;
-    if (below >= share * total) return value;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
   double length = 0;
@@ -86,24 +44,10 @@ void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
 
 void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& monitor,
                          Certificate& certificate) {
-  constexpr double left_out = -1;
-  std::vector<double> variation(subject.samples.size(), left_out);
-  const auto measure = [&](bool at_junctions_too) {
-    for_samples(subject, 0.2, 0.7, monitor, [&](std::size_t i) {
-      const CurveSample& sample = subject.samples[i];
-      if (subject.radius[i] <= 0) {
-        variation[i] = std::numeric_limits<double>::infinity();
-      } else if (at_junctions_too || !at_junction(subject, sample)) {
-        variation[i] = ray_variation(subject.tree, sample, rays);
-      }
-    });
-  };
-  const auto measured = [](double value) { return std::isfinite(value) && value != left_out; };
-  measure(false);
-  if (std::none_of(variation.begin(), variation.end(), measured)) measure(true);
+  const std::vector<double> variation = ray_variations(subject, rays, monitor);
   std::vector<std::pair<double, double>> weighted;
   for (std::size_t i = 0; i < variation.size(); ++i) {
-    if (variation[i] != left_out) weighted.emplace_back(variation[i], subject.samples[i].length);
+    if (variation[i] >= 0) weighted.emplace_back(variation[i], subject.samples[i].length);
   }
   certificate.centredness_median = weighted_quantile(weighted, 0.5);
   certificate.centredness_p90 = weighted_quantile(std::move(weighted), 0.9);

@@ -77,4 +77,21 @@ struct CertifiedSurface {
 /// empty.
 [[nodiscard]] double mean_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing);
 
+/// Two skeletons of one surface where both run: the one that also goes where no curve can be
+/// centred, into a sheet, is not behind for that.
+struct CommonGround {
+  struct Side {
+    double share = 0;               ///< of its length that lies on common ground
+    double centredness_median = 0;  ///< there; infinite if there is no such place
+  };
+  Side a;
+  Side b;
+};
+
+/// A sample is on common ground if the other's curve passes it within its inscribed radius, or D /
+/// 100 where that is more. Precondition and errors as of `evaluate`; `diagonal` is D.
+[[nodiscard]] CommonGround common_ground(const SurfaceTree& tree, double diagonal,
+                                         const CurveSkeleton& a, const CurveSkeleton& b,
+                                         const CertificateOptions& options, const Monitor& monitor);
+
 }  // namespace curveskel

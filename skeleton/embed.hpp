@@ -22,7 +22,7 @@ struct EmbedOptions {
   int smooth_rounds = 8;          ///< the same, within what is known to be inside
   double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
   double tip_reach = 1.5;         ///< what ends within this x the local radius is cut back first
-  double tip_gap = 1.25;  ///< tips grow until the surface ends within this x the local radius
+  double tip_gap = 1.15;  ///< tips grow until the surface ends within this x the local radius
 
   [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
 };

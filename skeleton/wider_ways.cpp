@@ -14,8 +14,8 @@
 namespace curveskel {
 namespace {
 
-constexpr double wider = 2;       // in its narrowest place
-constexpr double cheaper = 3;     // on the whole
+constexpr double wider = 2;           // in its narrowest place
+constexpr double cheaper = 3;         // on the whole
 constexpr double shortest = 1.0 / 3;  // of what there was: a limb must still be reached
 
 /// Whether its hubs fall apart without the strand.

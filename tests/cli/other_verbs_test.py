@@ -177,6 +177,9 @@ class Evaluate(CommandLineTest):
             self.assertEqual(found["skeleton"], other)
             distances.append(found["hausdorff_distance"])
             self.assertLessEqual(found["mean_distance"], found["hausdorff_distance"] + 1e-12)
+            for side in ("this", "other"):
+                self.assertGreater(found["where_both_run"][side]["share_of_length"], 0.9)
+                self.assertLess(found["where_both_run"][side]["centredness_median"], 1)
         self.assertAlmostEqual(distances[0], 0, places=9)
         self.assertGreater(distances[1], 0.001)
 

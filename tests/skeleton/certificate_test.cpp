@@ -11,6 +11,7 @@
 
 #include "meshes/shapes.hpp"
 #include "surface/measures.hpp"
+#include "surface/tree.hpp"
 
 namespace curveskel::certificate_laws {
 namespace {
@@ -318,6 +319,31 @@ TEST(Hausdorff, IsWhatTryingEveryPairOfSamplesFinds) {
     one_sided(samples_b.nodes, samples_a.nodes);
     EXPECT_NEAR(hausdorff_distance(a, b, 0.002), expected, 0.01);
   }
+}
+
+// Where the longer one goes on alone, into what may be wide and flat, is nothing to compare.
+TEST(CommonGround, IsWhereBothRun) {
+  const Shape shape = shapes::tube("straight", shapes::straight(2), shapes::constant(0.15), 48);
+  const SurfaceTree tree(shape.surface);
+  const double diagonal = bounding_box_diagonal(shape.surface.positions);
+  const CurveSkeleton whole = chain({{-0.9, 0, 0}, {0.9, 0, 0}});
+  const CurveSkeleton half = chain({{-0.9, 0.045, 0}, {0, 0.045, 0}});
+  const auto [a, b] = common_ground(tree, diagonal, whole, half, {}, {});
+  const double beyond = std::sqrt(0.15 * 0.15 - 0.045 * 0.045);  // its end's, seen from the axis
+  EXPECT_NEAR(a.share, (0.9 + beyond) / 1.8, 0.01);
+  EXPECT_NEAR(b.share, 1, 1e-12);
+  EXPECT_LT(a.centredness_median, 0.02);
+  EXPECT_NEAR(b.centredness_median, 0.3 / std::sqrt(2.0), 0.02);
+
+  const auto [c, d] = common_ground(tree, diagonal, half, whole, {}, {});
+  EXPECT_EQ(c.share, b.share);
+  EXPECT_EQ(d.centredness_median, a.centredness_median);
+
+  const CurveSkeleton away = chain({{3, 0, 0}, {4, 0, 0}});
+  const auto [e, f] = common_ground(tree, diagonal, whole, away, {}, {});
+  EXPECT_EQ(e.share, 0);
+  EXPECT_TRUE(std::isinf(e.centredness_median));
+  EXPECT_EQ(f.share, 0);
 }
 
 }  // namespace

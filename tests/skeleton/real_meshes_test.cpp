@@ -29,15 +29,17 @@ namespace curveskel::real_meshes_laws {
 namespace {
 
 constexpr std::array known{
-    // Flat parts and strands, whose medial axis is a sheet: there is no one centred curve.
-    Shortfall{"gears-7parts-10k.ply", "centredness behind CGAL's", 0.055},
-    Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.125},
+    // It goes on into the wings, in which no curve is central: docs/quality.md has both where both
+    // run, .23 and .23.
+    Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.175},
     // Thin sheets with 24 holes, all of which it goes round.
-    Shortfall{"cad-129110-5k.obj", "centredness behind CGAL's", 0.07},
-    // Behind by a hair.
+    Shortfall{"cad-129110-5k.obj", "centredness behind CGAL's", 0.01},
+    // Its legs go on to the heels; .098 and .103 where both run.
     Shortfall{"diplodocus-24k.ply", "centredness behind CGAL's", 0.006},
-    Shortfall{"fertility-12k.ply", "reach behind CGAL's", 0.002},
-    Shortfall{"hand-10k.ply", "centredness behind CGAL's", 0.002},
+    // Up the neck, and not along the jaw into the head.
+    Shortfall{"rigs/makehuman-body-13k-quads.obj", "reach behind CGAL's", 0.0025},
+    // Behind by a hair.
+    Shortfall{"scorpion-200k-subdivided.ply.gz", "reach behind CGAL's", 0.0005},
     Shortfall{"botijo-41k.ply", "reach behind CGAL's", 0.001},
 };
 
@@ -62,7 +64,8 @@ std::vector<std::string> listed_meshes() {
   return files;
 }
 
-/// A row of cgal_baseline.csv: what `evaluate` says of CGAL's mean curvature flow skeleton.
+/// A row of cgal_baseline.csv: what `evaluate` says of CGAL's mean curvature flow skeleton. Each
+/// figure is the median of five runs, between which they vary by up to 5 %.
 using Baseline = std::map<std::string, double>;
 
 std::optional<Baseline> baseline_of(const std::string& mesh) {
