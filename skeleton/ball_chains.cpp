@@ -51,14 +51,19 @@ void BallChains::prepare() {
   }
 }
 
-std::vector<Point> BallChains::chain(const Point& p, const Point& q,
-                                     const std::vector<int>& groups) {
+std::vector<int> BallChains::way_between(const Point& p, const Point& q,
+                                         const std::vector<int>& groups) {
   prepare();
   const int source = holder_of(p, groups);
   const int target = holder_of(q, groups);
   if (source < 0 || target < 0) return {};
+  return way(source, target, groups);
+}
+
+std::vector<Point> BallChains::chain(const Point& p, const Point& q,
+                                     const std::vector<int>& groups) {
   std::vector<Point> points;
-  for (const int v : way(source, target, groups)) points.push_back(balls_.centres.row(v));
+  for (const int v : way_between(p, q, groups)) points.push_back(balls_.centres.row(v));
   return points;
 }
 

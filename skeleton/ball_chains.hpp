@@ -28,8 +28,11 @@ class BallChains {
   /// Kept by reference.
   BallChains(const Surface& surface, const InscribedBalls& balls, const VertexGraph& graph);
 
-  /// Ball centres from about p to about q through vertices of the given groups; empty if there is
-  /// no way.
+  /// From the vertex whose ball holds p best to that of q, through vertices of the given groups;
+  /// empty if there is no way.
+  [[nodiscard]] std::vector<int> way_between(const Point& p, const Point& q,
+                                             const std::vector<int>& groups);
+  /// The ball centres on it.
   [[nodiscard]] std::vector<Point> chain(const Point& p, const Point& q,
                                          const std::vector<int>& groups);
 

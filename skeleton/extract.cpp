@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <future>
 #include <optional>
 #include <string_view>
@@ -171,10 +172,13 @@ bool better(const Certificate& a, const Certificate& b) {
 bool try_again(Extraction& result, const Surface& surface, const ExtractOptions& options,
                const Monitor& monitor, SurfaceStages* kept) {
   std::optional<Extraction> other;
+  const auto start = std::chrono::steady_clock::now();
   try {
     other = extract_once(surface, options, monitor, kept);
-  } catch (const Error&) {
-    return false;  // what is too thin to be faired is no noise
+  } catch (const Error&) {  // what is too thin to be faired is no noise
+    const auto lost = std::chrono::steady_clock::now() - start;
+    result.times.push_back({"second try", std::chrono::duration<double>(lost).count()});
+    return false;
   }
   std::vector<StageTime> ran = result.times;
   ran.insert(ran.end(), other->times.begin(), other->times.end());

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "skeleton/ball_chains.hpp"
+#include "skeleton/below_surface.hpp"
 #include "skeleton/relax.hpp"
 #include "skeleton/shorten.hpp"
 #include "surface/element_index.hpp"
@@ -78,6 +80,8 @@ class Keeper {
   Keeper(Network& network, const Surface& surface, const InscribedBalls& balls,
          const VertexGraph& graph, const SurfaceTree& tree, HandleKeeper& handles)
       : network_(network),
+        surface_(surface),
+        balls_(balls),
         graph_(graph),
         tree_(tree),
         handles_(handles),
@@ -131,7 +135,7 @@ class Keeper {
         between.pop_back();
         return alike;
       };
-      if (!Cover(tree_, true).between(line[i], line[next], between) || !keeps_handle()) {
+      if (!is_covered(line[i], line[next], between) || !keeps_handle()) {
         // From the last point that is inside to the next one.
         while (next + 1 < line.size() && radii[next] < least_radius) ++next;
         between = detour(strand, line[i], line[next]);
@@ -148,32 +152,84 @@ class Keeper {
     strand.points = std::move(points);
   }
 
+  /// Whether nothing needs to come between two points, or what has to does. No straight line
+  /// between two points inside that meets no surface leaves it, however small their balls.
+  bool is_covered(const Point& p, const Point& q, std::vector<Point>& between) const {
+    if (Cover(tree_, true).between(p, q, between)) return true;
+    between.clear();
+    return tree_.inscribed_radius(p) > 0 && tree_.inscribed_radius(q) > 0 && !crosses(tree_, p, q);
+  }
+
+  /// Where a vertex' ball comes near to it.
+  Point under(int vertex) const {
+    constexpr double share = 0.02;  // of the radius
+    const Point top = surface_.positions.row(vertex);
+    return top + share * (Point(balls_.centres.row(vertex)) - top);
+  }
+
+  /// From one ball to that of a neighbour: to the surface, along below it, and up again. Empty
+  /// where the surface meets itself and that leads outside.
+  std::vector<Point> way_below(int from, int to) {
+    std::vector<Point> way = below().step(from, to);
+    const auto sees = [this](const Point& p) {
+      return [this, p](const Point& q) {
+        std::vector<Point> unused;
+        return is_covered(p, q, unused);
+      };
+    };
+    // One-rings need not be seen as a whole from below their vertex.
+    way.erase(way.begin(), std::find_if(way.begin(), way.end(), sees(under(from))));
+    way.erase(std::find_if(way.rbegin(), way.rend(), sees(under(to))).base(), way.end());
+    if (way.empty()) return {};
+    way.insert(way.begin(), under(from));
+    way.push_back(under(to));
+    const auto leaves = [&](const Point& p, const Point& q) { return !sees(p)(q); };
+    if (std::adjacent_find(way.begin(), way.end(), leaves) != way.end()) return {};
+    return way;
+  }
+
+  /// From ball to ball, but just below the surface where no way between two of them is found.
   std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
-    auto chain = chains_.chain(p, q, groups_along(network_, strand, graph_));
-    if (chain.empty()) {
+    const auto vertices = chains_.way_between(p, q, groups_along(network_, strand, graph_));
+    if (vertices.empty()) {
       ++uncovered_;
       return {};
     }
-    chain.insert(chain.begin(), p);
+    std::vector<Point> chain{p};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Point centre = balls_.centres.row(vertices[i]);
+      std::vector<Point> unused;
+      if (i > 0 && !is_covered(chain.back(), centre, unused)) {
+        const auto step = way_below(vertices[i - 1], vertices[i]);
+        chain.insert(chain.end(), step.begin(), step.end());
+      }
+      chain.push_back(centre);
+    }
     chain.push_back(q);
     chain = shortcut(chain, tree_);
     std::vector<Point> points;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       if (i > 0) points.push_back(chain[i]);
       std::vector<Point> between;
-      if (Cover(tree_, true).between(chain[i], chain[i + 1], between)) {
-        points.insert(points.end(), between.begin(), between.end());
-      } else {
-        ++uncovered_;
-      }
+      if (!is_covered(chain[i], chain[i + 1], between)) ++uncovered_;
+      points.insert(points.end(), between.begin(), between.end());
     }
     return points;
   }
 
+  /// Made when first asked for, as there is mostly another way.
+  const BelowSurface& below() {
+    if (!below_) below_.emplace(surface_);
+    return *below_;
+  }
+
   Network& network_;
+  const Surface& surface_;
+  const InscribedBalls& balls_;
   const VertexGraph& graph_;
   const SurfaceTree& tree_;
   HandleKeeper& handles_;
+  std::optional<BelowSurface> below_;
   BallChains chains_;
   int uncovered_ = 0;
 };

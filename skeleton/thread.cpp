@@ -3,59 +3,32 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "skeleton/ball_chains.hpp"
+#include "skeleton/below_surface.hpp"
 #include "skeleton/curve_samples.hpp"
 #include "skeleton/handle_keeper.hpp"
 #include "skeleton/linking.hpp"
 #include "surface/element_index.hpp"
-#include "surface/half_edges.hpp"
 
 namespace curveskel {
 namespace {
 
-/// Curves just below a surface, and deeper ones that go round the same handles. The shallow ones
-/// run from triangle to triangle, as below a vertex there may be no inside at all.
+/// From ball centre to ball centre of vertices, but just below the surface where two lie on
+/// different sides of a tunnel.
 class InnerCurves {
  public:
   InnerCurves(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
               HandleKeeper& keeper)
-      : surface_(surface),
-        tree_(tree),
-        balls_(balls),
-        keeper_(keeper),
-        half_(pair_half_edges(surface.triangles,
-                              static_cast<std::int32_t>(surface.positions.rows()))),
-        out_(at(surface.positions.rows()), -1) {
-    for (auto h = static_cast<std::int32_t>(half_.twin.size()) - 1; h >= 0; --h) {
-      out_[at(origin(h))] = h;
-    }
-  }
+      : below_(surface), tree_(tree), balls_(balls), keeper_(keeper) {}
 
-  /// Across edges of which each shares a triangle with the next, the last one with the first.
-  [[nodiscard]] std::vector<Point> below(const std::vector<std::array<int, 2>>& edges) const {
-    std::vector<Point> points;
-    std::int32_t last = half_edge(edges.back());
-    for (const auto& edge : edges) {
-      const std::int32_t next = half_edge(edge);
-      for (const std::int32_t side : {last, half_.twin[at(last)]}) {
-        if (side / 3 != next / 3 && side / 3 != half_.twin[at(next)] / 3) continue;
-        points.push_back(below_triangle(side / 3));
-        break;
-      }
-      points.push_back(below_edge(next));
-      last = next;
-    }
-    return points;
-  }
+  [[nodiscard]] const BelowSurface& below() const { return below_; }
 
-  /// From ball centre to ball centre of vertices of which each is the next one's neighbour, but
-  /// just below the surface where two lie on different sides of a tunnel.
+  /// Each vertex is the next one's neighbour.
   [[nodiscard]] std::vector<Point> deep(const std::vector<int>& vertices) const {
     std::vector<Point> points;
     const auto centre = [this](int v) -> Point { return balls_.centres.row(v); };
@@ -63,7 +36,7 @@ class InnerCurves {
       if (i > 0 && vertices[i] != vertices[i - 1]) {
         const Point from = centre(vertices[i - 1]);
         const Point to = centre(vertices[i]);
-        const auto step = below_step(vertices[i - 1], vertices[i]);
+        const auto step = below_.step(vertices[i - 1], vertices[i]);
         if (crosses(tree_, from, to) || !keeper_.alike(step, {from, to})) {
           points.insert(points.end(), step.begin(), step.end());
         }
@@ -74,67 +47,10 @@ class InnerCurves {
   }
 
  private:
-  [[nodiscard]] int origin(std::int32_t h) const { return surface_.triangles(h / 3, h % 3); }
-  [[nodiscard]] Point place(std::int32_t h) const { return surface_.positions.row(origin(h)); }
-  /// The next half-edge around its origin.
-  [[nodiscard]] std::int32_t turned(std::int32_t h) const {
-    return half_.twin[at(previous_half_edge(h))];
-  }
-
-  [[nodiscard]] std::int32_t half_edge(const std::array<int, 2>& edge) const {
-    std::int32_t h = out_[at(edge[0])];
-    while (origin(next_half_edge(h)) != edge[1]) h = turned(h);
-    return h;
-  }
-
-  struct Below {
-    Point inwards = Point::Zero();
-    double depth = 0;
-  };
-  [[nodiscard]] Below below_face(std::int32_t face) const {
-    constexpr double share = 0.01;  // of the least height
-    constexpr double least = 5e-7;  // linking numbers need it; D = 1
-    const Point a = place(3 * face);
-    const Point ab = place(3 * face + 1) - a;
-    const Point ac = place(3 * face + 2) - a;
-    const Point normal = ab.cross(ac);
-    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-    const double height = longest > 0 ? normal.norm() / longest : 0;
-    return {-normal.normalized(), std::max(least, share * height)};
-  }
-  [[nodiscard]] Point below_triangle(std::int32_t face) const {
-    const auto [inwards, depth] = below_face(face);
-    return (place(3 * face) + place(3 * face + 1) + place(3 * face + 2)) / 3 + depth * inwards;
-  }
-  [[nodiscard]] Point below_edge(std::int32_t h) const {
-    const Below one = below_face(h / 3);
-    const Below other = below_face(half_.twin[at(h)] / 3);
-    return 0.5 * (place(h) + place(next_half_edge(h))) +
-           std::min(one.depth, other.depth) * (one.inwards + other.inwards).normalized();
-  }
-
-  /// From the first triangle at one vertex to that at its neighbour, round both.
-  [[nodiscard]] std::vector<Point> below_step(int from, int to) const {
-    std::vector<Point> points{below_triangle(out_[at(from)] / 3)};
-    const auto turn = [&](std::int32_t h) {
-      points.push_back(below_edge(previous_half_edge(h)));
-      h = turned(h);
-      points.push_back(below_triangle(h / 3));
-      return h;
-    };
-    std::int32_t h = out_[at(from)];
-    while (origin(next_half_edge(h)) != to) h = turn(h);
-    h = next_half_edge(h);
-    while (h != out_[at(to)]) h = turn(h);
-    return points;
-  }
-
-  const Surface& surface_;
+  BelowSurface below_;
   const SurfaceTree& tree_;
   const InscribedBalls& balls_;
   HandleKeeper& keeper_;
-  HalfEdges half_;
-  std::vector<std::int32_t> out_;  // per vertex, one half-edge that leaves it
 };
 
 class Threading {
@@ -243,7 +159,7 @@ class Threading {
     std::vector<std::vector<Point>> rings;
     rings.reserve(strands.size());
     for (const int s : strands) {
-      rings.push_back(curves_.below(edges_across(network_.strands[at(s)].nodes.front())));
+      rings.push_back(curves_.below().round(edges_across(network_.strands[at(s)].nodes.front())));
     }
     const auto rows = linking_numbers(surface_, rings);
     const auto vanishes = [&](std::size_t i) {
@@ -280,7 +196,7 @@ class Threading {
     double shortest = std::numeric_limits<double>::infinity();
     const auto nodes = course(strand);
     for (std::size_t k = 1; k < nodes.size(); k += 2) {
-      const double length = polyline_length(curves_.below(edges_across(nodes[k])));
+      const double length = polyline_length(curves_.below().round(edges_across(nodes[k])));
       if (length >= shortest) continue;
       shortest = length;
       best.place = k - 1;

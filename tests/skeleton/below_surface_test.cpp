@@ -1,0 +1,58 @@
+// Where there is no other way inside, there is one just below the surface.
+#include "skeleton/below_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "skeleton/handle_keeper.hpp"
+#include "surface/measures.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel::below_surface_laws {
+namespace {
+
+std::vector<std::pair<const char*, Surface>> surfaces() {
+  std::vector<std::pair<const char*, Surface>> all{
+      {"tube", shapes::tube("tube", shapes::straight(2), shapes::constant(0.3), 12).surface},
+      {"helix",
+       shapes::tube("helix", shapes::helix(1, 1.2, 1.5), shapes::constant(0.2), 9).surface},
+      {"torus", shapes::torus(1, 0.3, 14).surface}};
+  all.push_back({"flat torus", all.back().second});
+  all.back().second.positions.col(2) *= 0.05;
+  for (auto& [name, surface] : all) {
+    surface.positions /= bounding_box_diagonal(surface.positions);
+  }
+  return all;
+}
+
+TEST(BelowSurface, StepsLieInsideAndMeetNoSurface) {
+  for (const auto& [name, surface] : surfaces()) {
+    SCOPED_TRACE(name);
+    const SurfaceTree tree(surface);
+    const BelowSurface below(surface);
+    for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 3) {
+      const auto way = below.step(surface.triangles(t, 0), surface.triangles(t, 1));
+      for (std::size_t i = 0; i < way.size(); ++i) {
+        EXPECT_GT(tree.inscribed_radius(way[i]), 0);
+        if (i > 0) EXPECT_FALSE(crosses(tree, way[i - 1], way[i]));
+      }
+    }
+  }
+}
+
+TEST(BelowSurface, StepsJoin) {
+  for (const auto& [name, surface] : surfaces()) {
+    const BelowSurface below(surface);
+    for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 5) {
+      const auto first = below.step(surface.triangles(t, 0), surface.triangles(t, 1));
+      const auto second = below.step(surface.triangles(t, 1), surface.triangles(t, 2));
+      EXPECT_EQ(first.back(), second.front()) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::below_surface_laws
