@@ -160,6 +160,11 @@ class Keeper {
     return tree_.inscribed_radius(p) > 0 && tree_.inscribed_radius(q) > 0 && !crosses(tree_, p, q);
   }
 
+  bool sees(const Point& p, const Point& q) const {
+    std::vector<Point> unused;
+    return is_covered(p, q, unused);
+  }
+
   /// Where a vertex' ball comes near to it.
   Point under(int vertex) const {
     constexpr double share = 0.02;  // of the radius
@@ -171,19 +176,15 @@ class Keeper {
   /// where the surface meets itself and that leads outside.
   std::vector<Point> way_below(int from, int to) {
     std::vector<Point> way = below().step(from, to);
-    const auto sees = [this](const Point& p) {
-      return [this, p](const Point& q) {
-        std::vector<Point> unused;
-        return is_covered(p, q, unused);
-      };
-    };
     // One-rings need not be seen as a whole from below their vertex.
-    way.erase(way.begin(), std::find_if(way.begin(), way.end(), sees(under(from))));
-    way.erase(std::find_if(way.rbegin(), way.rend(), sees(under(to))).base(), way.end());
+    const auto from_first = [&](const Point& q) { return sees(under(from), q); };
+    const auto from_last = [&](const Point& q) { return sees(q, under(to)); };
+    way.erase(way.begin(), std::find_if(way.begin(), way.end(), from_first));
+    way.erase(std::find_if(way.rbegin(), way.rend(), from_last).base(), way.end());
     if (way.empty()) return {};
     way.insert(way.begin(), under(from));
     way.push_back(under(to));
-    const auto leaves = [&](const Point& p, const Point& q) { return !sees(p)(q); };
+    const auto leaves = [&](const Point& p, const Point& q) { return !sees(p, q); };
     if (std::adjacent_find(way.begin(), way.end(), leaves) != way.end()) return {};
     return way;
   }
@@ -198,8 +199,7 @@ class Keeper {
     std::vector<Point> chain{p};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Point centre = balls_.centres.row(vertices[i]);
-      std::vector<Point> unused;
-      if (i > 0 && !is_covered(chain.back(), centre, unused)) {
+      if (i > 0 && !sees(chain.back(), centre)) {
         const auto step = way_below(vertices[i - 1], vertices[i]);
         chain.insert(chain.end(), step.begin(), step.end());
       }

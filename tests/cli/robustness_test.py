@@ -20,8 +20,7 @@ DOCUMENT = SOURCE / "docs" / "robustness.md"
 # What the index calls open, non-manifold or one-sided outside defects/.
 IMPERFECT = ["neuron-722817260-18k.ply", "rigs/quaternius-robot-multipart.ply"]
 
-# Named shortfalls: the limbs are thinner than the sampling resolves; a hole through a fin whose two
-# sides coincide, so that no curve goes round it.
+# Named shortfall: a hole through a fin whose two sides coincide, so that no curve goes round it.
 FALL_SHORT = {"defects/nonorientable-shark-15parts.ply"}
 
 Outcome = collections.namedtuple("Outcome", "file code surface inside how seconds")
