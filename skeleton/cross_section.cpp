@@ -13,7 +13,7 @@ namespace curveskel {
 namespace {
 
 constexpr std::size_t ray_count = 12;
-constexpr double cut = 3;  // of the inscribed radius: what is farther away is another limb
+constexpr double ray_limit = 3;  // of the inscribed radius: what is farther off is another limb
 
 struct Section {
   std::array<Point, ray_count> directions;
@@ -51,7 +51,7 @@ bool has_section(const Point& direction, double radius) {
 Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
                            double radius) {
   if (!has_section(direction, radius)) return point;
-  const double limit = cut * radius;
+  const double limit = ray_limit * radius;
   Section section = section_at(tree, point, direction, limit);
   for (double& distance : section.distances) distance = std::min(distance, limit);
   return point + step_of(section);
@@ -61,7 +61,7 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
                            double radius, const std::function<bool(int)>& is_own) {
   constexpr double longest_step = 0.5;
   if (!has_section(direction, radius)) return point;
-  const double limit = cut * radius;
+  const double limit = ray_limit * radius;
   Section section = section_at(tree, point, direction, std::numeric_limits<double>::infinity());
   const auto stays = [&](std::size_t k) {
     if (section.distances[k] <= limit) return true;
