@@ -77,7 +77,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
       const auto& [own, other] = evaluation.common_ground;
       text += fmt::format(
           "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
-          "  centredness there {:>9.3f} median, the other's {:.3f}\n",
+          "  centredness there{:>10.3f} median, the other's {:.3f}\n",
           100 * own.share, 100 * other.share, own.centredness_median, other.centredness_median);
     }
     session.terminal.result(text);
