@@ -2,8 +2,8 @@
 //
 //   using namespace curveskel;
 //   const RepairedSurface repaired = repair(read_polygons("model.obj", {}), {}, {});
-//   const Extraction extraction = extract(repaired.surface, ExtractOptions{}, Monitor{});
-//   extraction.skeleton.nodes;   // #N by 3
+//   const RepairedExtraction found = extract_repaired(repaired, {}, ExtractOptions{}, Monitor{});
+//   found.extraction.skeleton.nodes;   // #N by 3
 #pragma once
 
 #include "contraction/contract.hpp"
@@ -21,6 +21,7 @@
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/edit.hpp"
 #include "skeleton/extract.hpp"
+#include "skeleton/extract_repaired.hpp"
 #include "skeleton/extraction_cache.hpp"
 #include "skeleton/findings.hpp"
 #include "skeleton/skeleton_files.hpp"

@@ -55,7 +55,7 @@ CLI::Option* add_number(CLI::App& parser, const std::string& flag, Number& value
       ->check(CLI::Validator(within, ""));
 }
 
-/// --components and --min-size.
+/// --components, --min-size, --wrap and --wrap-opening.
 void add_repair(CLI::App& parser, RepairOptions& options);
 
 /// --time-limit, in seconds; 0 = none.

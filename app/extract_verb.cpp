@@ -13,7 +13,7 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "app/viewer_program.hpp"
-#include "skeleton/extract.hpp"
+#include "skeleton/extract_repaired.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
@@ -139,12 +139,14 @@ int run_extract(ExtractArguments arguments, Session& session) {
   std::vector<StageTime> times;
   const PolygonSoup soup =
       timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
-  const RepairedSurface repaired = timed(times, "repair", [&] {
+  RepairedSurface repaired = timed(times, "repair", [&] {
     return repair(soup, arguments.repair, monitor, arguments.options.threads);
   });
-  arguments.options.openings = repaired.openings;
   monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
-  const Extraction extraction = extract(repaired.surface, arguments.options, monitor);
+  RepairedExtraction found =
+      extract_repaired(repaired, arguments.repair, arguments.options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Extraction& extraction = found.extraction;
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());
 
   CurveSkeleton skeleton = extraction.skeleton;

@@ -61,6 +61,8 @@ Json to_json(const Repairs& r) {
           {"sheets_dropped", r.sheets_dropped},
           {"not_chosen", r.not_chosen},
           {"faces_wrapped", r.faces_wrapped},
+          {"wrapped_as_asked", r.wrapped_as_asked},
+          {"components_wrapped", r.components_wrapped},
           {"wrap_opening", r.wrap_opening},
           {"wrap_distance", r.wrap_distance},
           {"wrap_mean_distance", r.wrap_mean_distance},
@@ -68,11 +70,10 @@ Json to_json(const Repairs& r) {
 }
 
 Json to_json(const RepairOptions& o) {
-  return {{"join_distance", o.join_distance},
-          {"least_area", o.least_area},
-          {"components", o.components},
-          {"most_added_area", o.most_added_area},
-          {"least_crumb", o.least_crumb}};
+  return {{"join_distance", o.join_distance}, {"least_area", o.least_area},
+          {"components", o.components},       {"most_added_area", o.most_added_area},
+          {"least_crumb", o.least_crumb},     {"wrap", name_of(wrappings, o.wrap)},
+          {"wrap_opening", o.wrap_opening}};
 }
 
 Json to_json(const ContractionOptions& o) {

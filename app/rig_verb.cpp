@@ -18,7 +18,7 @@
 #include "app/verbs.hpp"
 #include "rig/make_rig.hpp"
 #include "rig/rig_files.hpp"
-#include "skeleton/extract.hpp"
+#include "skeleton/extract_repaired.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "surface/read.hpp"
 #include "surface/repair.hpp"
@@ -58,8 +58,9 @@ void require_nodes_nearby(const CurveSkeleton& skeleton, const Surface& surface,
                           arguments.mesh.filename().string()));
 }
 
-/// Read or extracted; what its certificate lacks is said.
-CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface& repaired,
+/// Read or extracted; what its certificate lacks is said. Where only a wrap would do, this is what
+/// `repaired` becomes.
+CurveSkeleton skeleton_for(const RigArguments& arguments, RepairedSurface& repaired,
                            const Monitor& monitor, Session& session) {
   if (!arguments.skeleton.empty()) {
     const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
@@ -72,11 +73,12 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, const RepairedSurface&
     }
   }
   ExtractOptions options = arguments.extract;
-  options.openings = repaired.openings;
   options.threads = options.fair.threads = options.certificate.threads = arguments.threads;
   options.fairing = arguments.fair_iterations > 0;
   options.fair.iterations = arguments.fair_iterations;
-  const Extraction extraction = extract(repaired.surface, options, monitor);
+  RepairedExtraction found = extract_repaired(repaired, arguments.repair, options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Extraction& extraction = found.extraction;
   const std::string failed = failures(extraction.certificate, options.certificate);
   if (!failed.empty()) session.terminal.warn(failed);
   return extraction.skeleton;
@@ -99,7 +101,7 @@ int run_rig(RigArguments arguments, Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
-  const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
   const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
                                repaired.surface, repaired.vertex_of_input, soup.positions);

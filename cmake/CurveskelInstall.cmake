@@ -27,6 +27,7 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/edit.hpp
   skeleton/embed.hpp
   skeleton/extract.hpp
+  skeleton/extract_repaired.hpp
   skeleton/extraction_cache.hpp
   skeleton/findings.hpp
   skeleton/skeleton_files.hpp

@@ -107,25 +107,33 @@ int edge_between(const CurveSkeleton& skeleton, int a, int b) {
   return -1;
 }
 
-GraphTopology graph_topology(const CurveSkeleton& skeleton) {
-  const auto nodes = static_cast<int>(skeleton.nodes.rows());
-  GraphTopology topology;
-  std::vector<int> parent(static_cast<std::size_t>(nodes));
-  std::iota(parent.begin(), parent.end(), 0);
-  std::vector<int> degree(static_cast<std::size_t>(nodes), 0);
-  topology.components = nodes;
-  for (int e = 0; e < skeleton.edges.rows(); ++e) {
-    const int i = skeleton.edges(e, 0);
-    const int j = skeleton.edges(e, 1);
-    ++degree[static_cast<std::size_t>(i)];
-    ++degree[static_cast<std::size_t>(j)];
-    const int a = find_root(parent, i);
-    const int b = find_root(parent, j);
-    if (a == b) continue;
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    --topology.components;
+std::vector<int> component_of_node(const CurveSkeleton& skeleton) {
+  std::vector<int> component(static_cast<std::size_t>(skeleton.nodes.rows()));
+  std::iota(component.begin(), component.end(), 0);  // a parent, the lower node, until the end
+  for (const auto& edge : skeleton.edges.rowwise()) {
+    const int a = find_root(component, edge(0));
+    const int b = find_root(component, edge(1));
+    component[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
-  topology.cycle_rank = static_cast<int>(skeleton.edges.rows()) - nodes + topology.components;
+  int components = 0;
+  for (std::size_t node = 0; node < component.size(); ++node) {
+    const auto parent = static_cast<std::size_t>(component[node]);
+    component[node] = parent == node ? components++ : component[parent];
+  }
+  return component;
+}
+
+GraphTopology graph_topology(const CurveSkeleton& skeleton) {
+  GraphTopology topology;
+  const std::vector<int> component = component_of_node(skeleton);
+  std::vector<int> degree(component.size(), 0);
+  for (const std::int32_t node : skeleton.edges.reshaped())
+    ++degree[static_cast<std::size_t>(node)];
+  if (!component.empty()) {
+    topology.components = *std::max_element(component.begin(), component.end()) + 1;
+  }
+  topology.cycle_rank =
+      static_cast<int>(skeleton.edges.rows() - skeleton.nodes.rows()) + topology.components;
   topology.tips = static_cast<int>(std::count(degree.begin(), degree.end(), 1));
   topology.junctions =
       static_cast<int>(std::count_if(degree.begin(), degree.end(), [](int d) { return d >= 3; }));

@@ -41,6 +41,9 @@ struct GraphTopology {
   int junctions = 0;   ///< nodes of degree >= 3
 };
 
+/// Of each node, numbered by the lowest node in each. O(#N + #E log #N).
+[[nodiscard]] std::vector<int> component_of_node(const CurveSkeleton& skeleton);
+
 /// Nodes without an edge count as components. Precondition: edge rows index into `nodes`.
 /// O(#N + #E log #N).
 [[nodiscard]] GraphTopology graph_topology(const CurveSkeleton& skeleton);

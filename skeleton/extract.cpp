@@ -201,26 +201,19 @@ Extraction extract_with(const Surface& surface, const ExtractOptions& options,
                         const Monitor& monitor, ExtractionCache::Implementation* kept) {
   Extraction result =
       extract_once(surface, options, monitor, kept != nullptr ? &kept->as_asked : nullptr);
-  const auto failed = [&result] {
-    return !result.certificate.topology_correct() || !result.certificate.inside_enough;
-  };
   // What is as thin as the coarsened triangles are long has other handles there.
   constexpr Eigen::Index most_for_all = 50000;
-  bool may_take_all = options.all_vertices_if_failed && was_coarsened(result) &&
-                      surface.positions.rows() <= most_for_all;
-  const auto take_all = [&] {
-    may_take_all = false;
+  if (!result.certificate.topology_correct() && options.all_vertices_if_failed &&
+      was_coarsened(result) && surface.positions.rows() <= most_for_all) {
     ExtractOptions finest = options;
     finest.resolution = 0;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    if (!try_again(result, surface, finest, monitor,
-                   kept != nullptr ? &kept->all_vertices : nullptr)) {
-      return;
+    if (try_again(result, surface, finest, monitor,
+                  kept != nullptr ? &kept->all_vertices : nullptr)) {
+      result.all_vertices_again = true;
+      monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
     }
-    result.all_vertices_again = true;
-    monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
-  };
-  if (may_take_all && !result.certificate.topology_correct()) take_all();
+  }
   // Noise as thick as the limbs turns them inside out here and there; without it the curve has a
   // way through.
   if (!result.certificate.inside_enough && !options.fairing && options.fair_if_outside) {
@@ -236,7 +229,6 @@ Extraction extract_with(const Surface& surface, const ExtractOptions& options,
           "iterations)");
     }
   }
-  if (may_take_all && failed()) take_all();
   return result;
 }
 

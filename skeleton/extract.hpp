@@ -33,7 +33,7 @@ struct ExtractOptions {
   /// If the certificate finds too much outside: extract once more with thirty iterations of
   /// fairing, and keep the better one.
   bool fair_if_outside = true;
-  /// If the certificate fails, a component was coarsened and there are 50,000 vertices at most:
+  /// If the topology is wrong, a component was coarsened and there are 50,000 vertices at most:
   /// extract once more with all of them, and keep the better one.
   bool all_vertices_if_failed = true;
   ContractionOptions contraction;

@@ -11,10 +11,12 @@
 #include <utility>
 
 #include "surface/close_surface.hpp"
+#include "surface/describe_repairs.hpp"
 #include "surface/element_index.hpp"
 #include "surface/half_edges.hpp"
 #include "surface/join_soup.hpp"
 #include "surface/measures.hpp"
+#include "surface/nearest_vertex.hpp"
 #include "surface/orient.hpp"
 #include "surface/select_components.hpp"
 #include "surface/topology.hpp"
@@ -153,17 +155,6 @@ Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joi
   return sheets;
 }
 
-std::int32_t nearest_vertex(const Surface& surface, const SurfaceTree& tree,
-                            const Eigen::Vector3d& p) {
-  const auto corners = surface.triangles.row(tree.nearest(p).triangle);
-  Eigen::Index nearest = 0;
-  (surface.positions(corners.transpose(), Eigen::all).rowwise() - p.transpose())
-      .rowwise()
-      .squaredNorm()
-      .minCoeff(&nearest);
-  return corners(nearest);
-}
-
 /// Which final vertex each vertex of the file became, while the surface is put together.
 class VertexMap {
  public:
@@ -250,15 +241,51 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
                                 "the Solidify modifier) or close it first");
 }
 
+void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
+  repairs.wrap_opening = wrapped.opening;
+  repairs.wrap_distance = wrapped.distance;
+  repairs.wrap_mean_distance = wrapped.mean_distance;
+}
+
+/// Faces as they were joined; the refusal stands where there are none, or too many to count.
+Joined joined_faces(const PolygonSoup& soup, const RepairOptions& options, const Error& refusal,
+                    RepairedSurface& result) {
+  constexpr std::int64_t most_corners = 2147483647 / 2;
+  if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
+  Joined joined =
+      join_soup(soup, options.join_distance, result.changes, result.repairs.vertices_joined);
+  if (joined.surface.triangles.rows() == 0) throw refusal;
+  return joined;
+}
+
+RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
+                         const Monitor& monitor) {
+  const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  RepairedSurface result;
+  const Joined joined =
+      joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
+  const auto wrapped = wrap_solid(joined.surface, options.wrap_opening, monitor);
+  if (!wrapped) {
+    throw Error(Fault::input, file +
+                                  ": found nothing that a wrap encloses more of than its own "
+                                  "thickness; try a wider --wrap-opening, or give the surface "
+                                  "thickness (Blender: the Solidify modifier)");
+  }
+  result.repairs.faces_wrapped = joined.surface.triangles.rows();
+  result.repairs.wrapped_as_asked = true;
+  note_wrap(result.repairs, *wrapped);
+  VertexMap vertex_map(joined);
+  vertex_map.add_wrapped(joined.surface, wrapped->surface, 0);
+  result.surface = wrapped->surface;
+  result.vertex_of_input = vertex_map.of_file();
+  return result;
+}
+
 /// For what `clean` refuses. The refusal stands where there are no faces, or too many to count.
 RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
-  constexpr std::int64_t most_corners = 2147483647 / 2;
-  if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
   RepairedSurface result;
-  const Joined joined =
-      join_soup(soup, options.join_distance, result.changes, result.repairs.vertices_joined);
-  if (joined.surface.triangles.rows() == 0) throw refusal;
+  const Joined joined = joined_faces(soup, options, refusal, result);
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;
@@ -276,14 +303,13 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   const double all_area = area(joined.surface);
   constexpr double negligible = 0.05;  // of the area
   std::optional<WrappedSolid> wrapped;
-  if (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0) {
-    wrapped = wrap_solid(sheets.surface, monitor);
+  if (options.wrap != Wrapping::never &&
+      (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0)) {
+    wrapped = wrap_solid(sheets.surface, options.wrap_opening, monitor);
   }
   if (wrapped) {
     result.repairs.faces_wrapped = sheets.surface.triangles.rows();
-    result.repairs.wrap_opening = wrapped->opening;
-    result.repairs.wrap_distance = wrapped->distance;
-    result.repairs.wrap_mean_distance = wrapped->mean_distance;
+    note_wrap(result.repairs, *wrapped);
     vertex_map.add_wrapped(sheets.surface, wrapped->surface,
                            static_cast<std::int32_t>(result.surface.positions.rows()));
     append_surface(result.surface, wrapped->surface);
@@ -322,74 +348,54 @@ void leave_out(RepairedSurface& result, const SelectionRules& rules) {
   }
 }
 
-std::string share_words(double share) {
-  std::ostringstream words;
-  words.precision(2);
-  words << share;
-  return words.str();
+/// Closed, before anything is left out.
+struct Mended {
+  RepairedSurface result;
+  bool has_one_component = false;
+  bool was_cut = false;  // pieces may have come off
+};
+
+Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
+                        const Monitor& monitor, int threads) {
+  std::optional<Error> refusal;
+  try {
+    CleanSurface cleaned = clean(soup, monitor, threads);
+    return {{std::move(cleaned.surface),
+             std::move(cleaned.vertex_of_input),
+             std::move(cleaned.changes),
+             {},
+             {}},
+            cleaned.components == 1,
+            false};
+  } catch (const Error& error) {
+    refusal = error;  // what is wrong is found again, and mended, below
+  }
+  RepairedSurface rebuilt = rebuild(soup, *refusal, options, monitor, threads);
+  describe_changes(rebuilt.changes, monitor);
+  return {std::move(rebuilt), false, true};
 }
 
-void describe(Repairs& repairs, const Monitor& monitor) {
-  const auto line = [&](std::int64_t count, const std::string& one, const std::string& many,
-                        const std::string& what) {
-    if (count == 0) return;
-    repairs.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
-    monitor.say(repairs.lines.back());
-  };
-  line(repairs.vertices_joined, "vertex", "vertices", "joined with one that nearly coincides");
-  line(repairs.vertices_copied, "copy of a vertex", "copies of vertices",
-       "made where faces met in no orientable 2-manifold");
-  line(repairs.holes_closed, "hole", "holes",
-       "closed with " + std::to_string(repairs.faces_added) + " faces and " +
-           std::to_string(repairs.vertices_added) + " vertices (the longest has " +
-           std::to_string(repairs.longest_hole) + " edges)");
-  line(repairs.holes_narrowed, "hole", "holes",
-       "of more than " + std::to_string(most_edges_without_rings) +
-           " edges narrowed by rings of triangles, each of half as many, before it was closed");
-  line(repairs.faces_wrapped, "face", "faces",
-       "wrapped, as no closing of the holes gives them an inside; the wrap spans gaps up to " +
-           share_words(repairs.wrap_opening) + " D and lies " +
-           share_words(repairs.wrap_mean_distance) + " D from them in the mean, " +
-           share_words(repairs.wrap_distance) + " D at most");
-  line(repairs.copies_dropped, "component", "components", "left out as copies of another");
-  line(repairs.sheets_dropped, "open or flat part", "open or flat parts",
-       "left out, enclosing nothing");
-  line(repairs.crumbs_dropped, "crumb", "crumbs",
-       "left out (small pieces cut off a much larger one; their vertices follow its nearest)");
-  line(repairs.specks_dropped, "speck", "specks",
-       "left out (components with very little of the largest one's area; see --min-size)");
-  line(repairs.not_chosen, "smaller component", "smaller components", "left out as asked");
+Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options,
+                     const Monitor& monitor) {
+  RepairedSurface wrapped = wrap_all(soup, options, monitor);
+  describe_changes(wrapped.changes, monitor);
+  return {std::move(wrapped), false, false};
 }
 
 }  // namespace
 
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
-  std::optional<RepairedSurface> result;
-  std::optional<Error> refusal;
-  bool has_one_component = false;
-  try {
-    CleanSurface cleaned = clean(soup, monitor, threads);
-    has_one_component = cleaned.components == 1;
-    result = {std::move(cleaned.surface),
-              std::move(cleaned.vertex_of_input),
-              std::move(cleaned.changes),
-              {},
-              {}};
-  } catch (const Error& error) {
-    refusal = error;  // what is wrong is found again, and mended, below
+  Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor)
+                                                : clean_or_rebuilt(soup, options, monitor, threads);
+  RepairedSurface& result = mended.result;
+  if (!mended.has_one_component) {
+    leave_out(result,
+              {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
   }
-  if (!result) {
-    result = rebuild(soup, *refusal, options, monitor, threads);
-    describe_changes(result->changes, monitor);
-  }
-  const bool was_cut = refusal.has_value();
-  if (!has_one_component) {
-    leave_out(*result, {options.least_area, was_cut ? options.least_crumb : 0, options.components});
-  }
-  describe(result->repairs, monitor);
-  if (refusal) monitor.report("repair", 1);
-  return std::move(*result);
+  describe_repairs(result.repairs, monitor);
+  if (mended.was_cut) monitor.report("repair", 1);
+  return std::move(result);
 }
 
 }  // namespace curveskel

@@ -8,10 +8,21 @@
 
 #include "surface/clean.hpp"
 #include "surface/monitor.hpp"
+#include "surface/names.hpp"
 #include "surface/read.hpp"
 #include "surface/surface.hpp"
 
 namespace curveskel {
+
+/// What is put into a closed surface that is shrunk onto it from outside.
+enum class Wrapping : std::uint8_t { never, needed, all };
+
+inline constexpr NameTable<Wrapping, 3> wrappings{{
+    {Wrapping::never, "never", "nothing: what encloses nothing is left out or refused"},
+    {Wrapping::needed, "needed",
+     "what encloses nothing, and components whose certificate fails (what crosses itself)"},
+    {Wrapping::all, "all", "everything together: parts that overlap or touch become one body"},
+}};
 
 struct RepairOptions {
   /// Vertices on the boundary that lie nearer to each other become one, of D. Rounding tears a
@@ -26,6 +37,11 @@ struct RepairOptions {
   /// Where cutting what is no 2-manifold leaves pieces that touch, those with less area, of the
   /// largest one's, are crumbs: left out, their vertices follow the nearest one that stays.
   double least_crumb = 1e-2;
+  Wrapping wrap = Wrapping::needed;
+  /// Of D of what is wrapped: gaps up to this are spanned, and some up to twice as wide. 0 =
+  /// chosen among 1/100, 1/40 and 1/15: the narrowest that encloses something, or after an
+  /// extraction the one whose skeleton explains most.
+  double wrap_opening = 0;
 };
 
 /// What was repaired beyond what `Changes` counts. `lines` says the same in words.
@@ -37,15 +53,17 @@ struct Repairs {
   std::int64_t holes_narrowed = 0;  ///< by rings before they were closed, see `ClosedParts`
   std::int64_t faces_added = 0;
   std::int64_t vertices_added = 0;
-  std::int64_t copies_dropped = 0;  ///< components that coincide with an earlier one
-  std::int64_t crumbs_dropped = 0;  ///< small components cut off a much larger one
-  std::int64_t specks_dropped = 0;  ///< components below the least area
-  std::int64_t sheets_dropped = 0;  ///< components that enclose nothing
-  std::int64_t not_chosen = 0;      ///< components beyond the number wanted
-  std::int64_t faces_wrapped = 0;   ///< given faces that a wrap stands for
-  double wrap_opening = 0;          ///< widest gap that the wrap spans, of D
-  double wrap_distance = 0;         ///< greatest distance from the wrap to the faces given, of D
-  double wrap_mean_distance = 0;    ///< mean over the wrap's vertices, of D
+  std::int64_t copies_dropped = 0;      ///< components that coincide with an earlier one
+  std::int64_t crumbs_dropped = 0;      ///< small components cut off a much larger one
+  std::int64_t specks_dropped = 0;      ///< components below the least area
+  std::int64_t sheets_dropped = 0;      ///< components that enclose nothing
+  std::int64_t not_chosen = 0;          ///< components beyond the number wanted
+  std::int64_t faces_wrapped = 0;       ///< given faces that a wrap stands for
+  bool wrapped_as_asked = false;        ///< see Wrapping::all
+  std::int64_t components_wrapped = 0;  ///< whose certificate failed, see `extract_repaired`
+  double wrap_opening = 0;              ///< gaps up to this are spanned, of D
+  double wrap_distance = 0;       ///< greatest distance from the wrap to the faces given, of D
+  double wrap_mean_distance = 0;  ///< mean over the wrap's vertices, of D
   std::vector<std::string> lines;
 };
 
@@ -62,8 +80,9 @@ struct RepairedSurface {
 
 /// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is
 /// no orientable 2-manifold, closes holes (see `close_surface`), wraps what still encloses nothing
-/// (see `wrap`) if the wrap holds more than its own thickness. Then leaves out coincident copies of
-/// components, crumbs, specks, sheets, and all but the largest components if so wanted.
+/// (see `wrap`) if the wrap holds more than its own thickness. With `Wrapping::all`, wraps what the
+/// file holds, whole or not. Then leaves out coincident copies of components, crumbs, specks,
+/// sheets, and all but the largest components if so wanted.
 /// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.
 /// Deterministic. As fast as `clean` for what is whole.
 [[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,

@@ -7,12 +7,13 @@
 namespace curveskel {
 
 struct WrapOptions {
-  double opening = 0;  ///< alpha in model units: what is narrower is not entered; > 0
+  double opening = 0;  ///< alpha in model units: what is narrower is not entered, what is up to
+                       ///< twice as wide may not be; > 0
   double offset = 0;   ///< distance of the wrap from the triangles in model units; > 0
 };
 
 /// Shrinks a closed 2-manifold onto the triangles from outside (alpha wrapping, Portaneri et al.
-/// 2022). Contains all of them; everything that an opening wider than alpha leads to is outside.
+/// 2022). Contains all of them; everything that an opening wider than 2 alpha leads to is outside.
 /// Any triangles will do: crossing, doubled, with holes. Time and faces grow with area / alpha^2.
 /// Throws Cancelled on a stop.
 [[nodiscard]] Surface wrap(const Surface& triangles, const WrapOptions& options,

@@ -6,6 +6,7 @@
 #include "surface/element_index.hpp"
 #include "surface/join_soup.hpp"
 #include "surface/measures.hpp"
+#include "surface/memory.hpp"
 #include "surface/select_components.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
@@ -44,21 +45,26 @@ WrappedSolid measured(Surface surface, double opening, const Surface& faces, dou
 
 }  // namespace
 
-std::optional<WrappedSolid> wrap_solid(const Surface& faces, const Monitor& monitor) {
-  constexpr double widest = 1.0 / 15;
+std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
+                                       const Monitor& monitor) {
   const double extent = extent_of_faces(faces);
   const double offset = extent / 3000;
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
-  const auto solid_at = [&](double opening) {
-    return solid_components(wrap(faces, {opening * extent, offset}, monitor), offset, given_area);
+  // Measured: 0.5 KB a face for the hierarchy of the triangles, and what the wrap itself has.
+  require_memory(600.0 * double(faces.triangles.rows()), available_memory_bytes(), "wrapping",
+                 Fault::input, "decimate the surface first");
+  const auto solid_at = [&](double share) {
+    return solid_components(wrap(faces, {share * extent, offset}, monitor), offset, given_area);
   };
   // The widest costs least: what it cannot enclose none can.
+  const double widest = opening > 0 ? opening : wrap_openings.back();
   Surface solid = solid_at(widest);
   if (solid.triangles.rows() == 0) return std::nullopt;
-  for (const double opening : {1.0 / 100, 1.0 / 40}) {
-    Surface closer = solid_at(opening);
-    if (closer.triangles.rows() > 0) return measured(std::move(closer), opening, faces, extent);
+  for (const double narrower : wrap_openings) {
+    if (opening > 0 || narrower == widest) break;
+    Surface closer = solid_at(narrower);
+    if (closer.triangles.rows() > 0) return measured(std::move(closer), narrower, faces, extent);
   }
   return measured(std::move(solid), widest, faces, extent);
 }

@@ -1,6 +1,7 @@
 // A wrap that encloses more than its own thickness.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "surface/monitor.hpp"
@@ -16,9 +17,15 @@ struct WrappedSolid {
   double mean_distance = 0;  ///< over its vertices
 };
 
-/// Wraps (see `wrap`) with the narrowest of three openings that encloses something: the volume is
-/// more than twice the offset times the area, and the wrap has not two sides for most of what it
-/// wraps. Nothing if there is none: these are sheets.
-[[nodiscard]] std::optional<WrappedSolid> wrap_solid(const Surface& faces, const Monitor& monitor);
+/// From narrow to wide, of the extent. The narrower, the more is seen of the surface, and the less
+/// is spanned.
+inline constexpr std::array wrap_openings{1.0 / 100, 1.0 / 40, 1.0 / 15};
+
+/// Wraps (see `wrap`) with this opening, of the extent, or, for 0, with the narrowest of
+/// `wrap_openings` that encloses something: the volume is more than twice the offset times the
+/// area, and the wrap has not two sides for most of what it wraps. Nothing if none does: these are
+/// sheets. Throws Error(Fault::input) where memory does not suffice.
+[[nodiscard]] std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
+                                                     const Monitor& monitor);
 
 }  // namespace curveskel

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "skeleton/extract_repaired.hpp"
 #include "viewer/priority.hpp"
 
 namespace curveskel::viewer {
@@ -12,7 +13,7 @@ namespace {
 bool same(const RepairOptions& a, const RepairOptions& b) {
   return a.join_distance == b.join_distance && a.least_area == b.least_area &&
          a.components == b.components && a.most_added_area == b.most_added_area &&
-         a.least_crumb == b.least_crumb;
+         a.least_crumb == b.least_crumb && a.wrap == b.wrap && a.wrap_opening == b.wrap_opening;
 }
 
 CurveSkeleton on_file_vertices(const RepairedSurface& repaired, const CurveSkeleton& skeleton) {
@@ -90,12 +91,14 @@ void Run::extract_all(const Monitor& monitor) {
   }
   RunResult result;
   result.repaired = memory_->repaired;
-  ExtractOptions extract_options = options_.extract;
-  extract_options.openings = result.repaired->openings;
   Monitor noting = monitor;
   noting.note = [&result](std::string_view line) { result.notes.emplace_back(line); };
-  result.extraction = std::make_shared<const Extraction>(
-      extract(result.repaired->surface, extract_options, noting, memory_->extraction));
+  RepairedExtraction found = extract_repaired(*result.repaired, options_.repair, options_.extract,
+                                              noting, memory_->extraction);
+  if (found.wrapped) {
+    result.repaired = std::make_shared<const RepairedSurface>(std::move(*found.wrapped));
+  }
+  result.extraction = std::make_shared<const Extraction>(std::move(found.extraction));
   result.skeleton = std::make_shared<const CurveSkeleton>(
       on_file_vertices(*result.repaired, result.extraction->skeleton));
   result.seconds = seconds();

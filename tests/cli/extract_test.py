@@ -131,6 +131,21 @@ class Repair(CommandLineTest):
             report = json.loads((self.folder / "r.json").read_text())
             self.assertEqual(report["surface"]["components"], components, arguments)
 
+    def test_parts_become_one_body(self):
+        report = self.folder / "r.json"
+        for arguments, components in (((), 2), (("--wrap", "never"), 2), (("--wrap", "all"), 2),
+                                      (("--wrap", "all", "--wrap-opening", "0.25"), 1)):
+            self.run_ok("extract", LINKED_RINGS, "-o", "x.json", "--report", report, *arguments,
+                        "--strict", cwd=self.folder)
+            result = json.loads(report.read_text())
+            self.assertEqual(result["surface"]["components"], components, arguments)
+            self.assertEqual(result["repairs"]["wrapped_as_asked"], "all" in arguments)
+            skeleton = json.loads((self.folder / "x.json").read_text())
+            self.assertEqual(len(skeleton["node_of_vertex"]), result["input"]["vertices"])
+            self.assertGreaterEqual(min(skeleton["node_of_vertex"]), 0)
+        self.refused(2, "extract", LINKED_RINGS, "-o", "x.obj", "--wrap", "some",
+                     says=["never, needed, all"], cwd=self.folder)
+
     def test_a_sheet_is_refused(self):
         sheet = self.folder / "sheet.off"
         sheet.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")

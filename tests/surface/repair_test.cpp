@@ -315,6 +315,58 @@ TEST(Repairing, WrapsWhatHasGapsEverywhere) {
   }
 }
 
+RepairedSurface wrapped_whole(const PolygonSoup& soup, double opening = 0) {
+  RepairOptions options;
+  options.wrap = Wrapping::all;
+  options.wrap_opening = opening;
+  return repair(soup, options, {});
+}
+
+TEST(Repairing, WrapsAllThatOverlapsIntoOneBodyIfAsked) {
+  const auto ball = shapes::ellipsoid({1, 1, 1}, 4);
+  const auto pair = shapes::together("pair", {ball, shapes::translated(ball, {1.2, 0, 0})}).surface;
+  EXPECT_EQ(topology(repair(soup_of(pair), {}, {}).surface).components(), 2);
+  const RepairedSurface result = wrapped_whole(soup_of(pair));
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_EQ(genus_of(result.surface), 0);
+  EXPECT_TRUE(result.repairs.wrapped_as_asked);
+  EXPECT_EQ(result.repairs.faces_wrapped, pair.triangles.rows());
+  ASSERT_EQ(result.repairs.lines.size(), 1U);
+  expect_said(result.repairs.lines[0], {"wrapped, as asked"});
+  ASSERT_EQ(result.vertex_of_input.size(), pair.positions.rows());
+  EXPECT_GE(result.vertex_of_input.minCoeff(), 0);
+}
+
+TEST(Repairing, AWrapSpansGapsThatAreNarrowerThanItsOpening) {
+  const auto box = shapes::box({1, 1, 1}, 8);
+  const auto pair = shapes::together("pair", {box, shapes::translated(box, {1.1, 0, 0})}).surface;
+  const double gap = 0.1 / bounding_box_diagonal(pair.positions);
+  EXPECT_EQ(topology(wrapped_whole(soup_of(pair), 0.4 * gap).surface).components(), 2);
+  const RepairedSurface one = wrapped_whole(soup_of(pair), 3 * gap);
+  EXPECT_EQ(topology(one.surface).components(), 1);
+  EXPECT_EQ(one.repairs.wrap_opening, 3 * gap);
+}
+
+TEST(Repairing, RefusesToWrapWhatHasNoInside) {
+  const auto sheet = with_polygons(soup_of(shapes::box({1, 1, 1}, 4).surface),
+                                   [](std::size_t p) { return p < 2; });
+  try {
+    (void)wrapped_whole(sheet);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    expect_said(error.what(), {"--wrap-opening"});
+  }
+}
+
+TEST(Repairing, WrapsNothingIfItMayNot) {
+  RepairOptions options;
+  options.wrap = Wrapping::never;
+  const PolygonSoup soup = shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05);
+  EXPECT_THROW((void)repair(soup, options, {}), Error);
+}
+
 TEST(Repairing, IsTheSameForAnyNumberOfThreads) {
   const PolygonSoup soup = shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05);
   const RepairedSurface one = repair(soup, {}, {}, 1);

@@ -1,0 +1,144 @@
+// Laws of what is wrapped because its certificate fails: limbs that noise as thick as they are
+// turns inside out, here and there.
+#include "skeleton/extract_repaired.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "surface/measures.hpp"
+#include "surface/topology.hpp"
+#include "tests/soups.hpp"
+
+namespace curveskel::extract_repaired_laws {
+namespace {
+
+using shapes::Shape;
+
+/// A limb whose vertices were moved by nearly its radius.
+Shape ragged() {
+  const Shape tube = shapes::tube("ragged", shapes::straight(4), shapes::constant(0.06), 12);
+  return shapes::noisy(tube, 0.045, 1);
+}
+
+/// Ragged, what has a graph of its own.
+std::vector<Shape> ragged_graphs() {
+  const Shape y = shapes::tube_union("y", shapes::star(3, 2, 0.1));
+  const Shape ring = shapes::torus(1, 0.06, 12);
+  return {ragged(), shapes::noisy(y, 0.07, 1), shapes::noisy(ring, 0.03, 1)};
+}
+
+RepairedSurface as_given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }
+
+bool holds(const RepairedExtraction& found) {
+  return found.extraction.certificate.topology_correct() &&
+         found.extraction.certificate.inside_enough;
+}
+
+TEST(ExtractRepaired, LeavesAloneWhatIsCertified) {
+  for (const Shape& shape : {shapes::torus(3, 1, 32), shapes::linked_rings(3, 0.5, 32)}) {
+    SCOPED_TRACE(shape.name);
+    const RepairedSurface repaired = as_given(shape);
+    const RepairedExtraction found = extract_repaired(repaired, {}, {}, {});
+    EXPECT_FALSE(found.wrapped);
+    const Extraction plain = extract(repaired.surface, {}, {});
+    EXPECT_EQ(found.extraction.skeleton.nodes, plain.skeleton.nodes);
+    EXPECT_EQ(found.extraction.skeleton.node_of_vertex, plain.skeleton.node_of_vertex);
+  }
+}
+
+void expect_wrapped(const Shape& shape) {
+  SCOPED_TRACE(shape.name);
+  const RepairedSurface repaired = as_given(shape);
+  const Extraction alone = extract(repaired.surface, {}, {});
+  ASSERT_FALSE(alone.certificate.topology_correct() && alone.certificate.inside_enough)
+      << "no test of wrapping: raise the noise";
+  std::vector<std::string> notes;
+  Monitor monitor;
+  monitor.note = [&](std::string_view line) { notes.emplace_back(line); };
+  const RepairedExtraction found = extract_repaired(repaired, {}, {}, monitor);
+  ASSERT_TRUE(found.wrapped);
+  EXPECT_TRUE(holds(found));
+  EXPECT_EQ(found.extraction.certificate.genus, shape.genus);
+  EXPECT_EQ(found.extraction.certificate.tips, shape.tips);
+  EXPECT_EQ(found.extraction.certificate.junctions, shape.junctions);
+  const Repairs& repairs = found.wrapped->repairs;
+  EXPECT_EQ(repairs.components_wrapped, 1);
+  EXPECT_EQ(repairs.faces_wrapped, shape.surface.triangles.rows());
+  ASSERT_EQ(repairs.lines.size(), 1U);
+  EXPECT_NE(repairs.lines[0].find("certificate failed"), std::string::npos);
+  EXPECT_NE(notes.back().find("wrap"), std::string::npos);
+  EXPECT_EQ(found.extraction.times.back().stage, "wrap");
+  // Every vertex of the file belongs to a node nearby.
+  const CurveSkeleton& skeleton = found.extraction.skeleton;
+  for (Eigen::Index v = 0; v < shape.surface.positions.rows(); ++v) {
+    const int node = skeleton.node_of_vertex[found.wrapped->vertex_of_input[v]];
+    ASSERT_LT((skeleton.nodes.row(node) - shape.surface.positions.row(v)).norm(), 0.6);
+  }
+}
+
+TEST(ExtractRepaired, WrapsWhatNoiseTurnsInsideOut) {
+  for (const Shape& shape : ragged_graphs()) expect_wrapped(shape);
+}
+
+TEST(ExtractRepaired, WrapsNoComponentThatIsCertified) {
+  const Shape ball = shapes::translated(shapes::ellipsoid({1, 1, 2}, 4), {0, 0, 6});
+  const Shape ring = shapes::translated(shapes::torus(2, 0.5, 32), {0, 0, -6});
+  const Shape shape = shapes::together("three", {ball, ragged(), ring});
+  const RepairedSurface repaired = as_given(shape);
+  const RepairedExtraction found = extract_repaired(repaired, {}, {}, {});
+  ASSERT_TRUE(found.wrapped);
+  EXPECT_TRUE(holds(found));
+  EXPECT_EQ(found.wrapped->repairs.components_wrapped, 1);
+  EXPECT_EQ(found.wrapped->repairs.faces_wrapped, ragged().surface.triangles.rows());
+  const Eigen::Index before = ball.surface.positions.rows();
+  EXPECT_EQ(found.wrapped->surface.positions.topRows(before), ball.surface.positions);
+  EXPECT_EQ(found.wrapped->surface.positions.bottomRows(ring.surface.positions.rows()),
+            ring.surface.positions);
+  const Topology counted = topology(found.wrapped->surface);
+  EXPECT_EQ(counted.components(), 3);
+  EXPECT_EQ(counted.genus, (std::vector<int>{0, 0, 1}));
+}
+
+TEST(ExtractRepaired, WrapsNothingUnlessItMay) {
+  const RepairedSurface repaired = as_given(ragged());
+  for (const Wrapping wrap : {Wrapping::never, Wrapping::all}) {  // all: it was done before
+    RepairOptions options;
+    options.wrap = wrap;
+    const RepairedExtraction found = extract_repaired(repaired, options, {}, {});
+    EXPECT_FALSE(found.wrapped);
+    EXPECT_FALSE(holds(found));
+  }
+}
+
+TEST(ExtractRepaired, IsTheSameWithACacheAndForAnyNumberOfThreads) {
+  const RepairedSurface repaired = as_given(ragged());
+  ExtractionCache cache;
+  const RepairedExtraction one = extract_repaired(repaired, {}, {}, {});
+  for (const int threads : {1, 2, 2}) {
+    ExtractOptions options;
+    options.threads = options.certificate.threads = threads;
+    const RepairedExtraction other = extract_repaired(repaired, {}, options, {}, cache);
+    EXPECT_EQ(one.extraction.skeleton.nodes, other.extraction.skeleton.nodes);
+    EXPECT_EQ(one.extraction.skeleton.edges, other.extraction.skeleton.edges);
+    ASSERT_TRUE(other.wrapped);
+    EXPECT_EQ(one.wrapped->surface.positions, other.wrapped->surface.positions);
+  }
+}
+
+TEST(ExtractRepaired, StopsWhileItWraps) {
+  const RepairedSurface repaired = as_given(ragged());
+  std::stop_source stop;
+  Monitor monitor;
+  monitor.stop = stop.get_token();
+  monitor.progress = [&](std::string_view stage, double) {
+    if (stage == "wrap") stop.request_stop();
+  };
+  EXPECT_THROW((void)extract_repaired(repaired, {}, {}, monitor), Cancelled);
+}
+
+}  // namespace
+}  // namespace curveskel::extract_repaired_laws
