@@ -9,17 +9,18 @@ namespace curveskel {
 
 /// A surface with the graph of its bands.
 struct BandGraph {
-  Surface surface;                  ///< the input, subdivided where its handles are too fine
+  Surface surface;                  ///< the input, its edges split where handles are too fine
   Eigen::VectorXi vertex_of_input;  ///< #V of the input: the same vertex in `surface`
   VertexGraph graph;                ///< of `surface`
 };
 
-/// Cuts the surface where the edge distance d from an extreme vertex passes k w + w/2. Edges are
-/// shorter than w, so no triangle meets three bands, and the connected components of the bands are
-/// pieces that meet along circles: a discrete Reeb graph (Reeb 1946). A component with a handle of
-/// its own means that w is too wide; the surface is then subdivided 1:4 and cut again with w
-/// halved. Precondition: one closed oriented component. Throws Error(Fault::solver) if a piece
-/// keeps a handle after six subdivisions.
+/// Cuts the surface where the edge distance d from an extreme vertex passes k w + w/2. Along an
+/// edge d changes by less than w, so no triangle meets three bands, and the connected components of
+/// the bands are pieces that meet along circles: a discrete Reeb graph (Reeb 1946). Where a
+/// component has a handle of its own, w is too wide: its edges are split until d changes by less
+/// than w/2 along each, and it alone is cut again, and so on. Precondition: one closed oriented
+/// component. Throws Error(Fault::solver) if a piece keeps a handle after twenty halvings or when
+/// there are four million vertices.
 [[nodiscard]] BandGraph band_graph(const Surface& surface, const Monitor& monitor);
 
 /// Genus of each group's piece of surface, (2 - chi - circles) / 2.

@@ -12,6 +12,7 @@
 #include "surface/inscribed_balls.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
+#include "tests/skeleton/dwindling_rings.hpp"
 
 namespace curveskel::surgery_laws {
 namespace {
@@ -101,6 +102,22 @@ TEST(Bands, HandlesFinerThanABandAreFoundBySubdividing) {
   // A torus of three by three rings: any cut by distance needs finer triangles first.
   const auto torus = shapes::torus(1, 0.6, 3);
   EXPECT_EQ(cycle_rank(band_graph(torus.surface, {}).graph), 1);
+}
+
+TEST(Bands, AreAsNarrowAsNeededWhereTheyAreNeededOnly) {
+  for (const double ratio : {10.0, 1e3, 1e5}) {
+    SCOPED_TRACE(ratio);
+    const auto shape = dwindling_rings(8, ratio);
+    const BandGraph bands = band_graph(shape.surface, {});
+    EXPECT_EQ(cycle_rank(bands.graph), shape.genus);
+    const auto genus = genus_of_groups(bands.surface, bands.graph);
+    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups);
+    EXPECT_LT(bands.surface.positions.rows(), 3 * shape.surface.positions.rows());
+    EXPECT_EQ(bands.surface.positions(bands.vertex_of_input, Eigen::all), shape.surface.positions);
+    const Topology counted = topology(bands.surface);
+    EXPECT_EQ(counted.components(), 1);
+    EXPECT_EQ(counted.total_genus(), shape.genus);
+  }
 }
 
 TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {

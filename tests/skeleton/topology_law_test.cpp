@@ -13,6 +13,7 @@
 #include "meshes/shapes.hpp"
 #include "skeleton/extract.hpp"
 #include "surface/topology.hpp"
+#include "tests/skeleton/dwindling_rings.hpp"
 
 namespace curveskel::topology_law_laws {
 namespace {
@@ -238,6 +239,8 @@ TEST(TopologyLaw, ManyAndThinHandles) {
   expect_law(lattice(2));
   expect_law(lattice(3));
   expect_law(ball_with_thin_handles());
+  expect_law(dwindling_rings(8, 100));
+  EXPECT_TRUE(expect_law(dwindling_rings(8, 1e4)).components.front().bands);
   // Its handles need more than the 8,000 working vertices that are usual.
   const Extraction found = expect_law(shapes::subdivided(shapes::sieve(20)));
   EXPECT_GE(found.components.front().working_vertices, 32 * 400);
