@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
+#include "skeleton/extract_repaired.hpp"
 #include "surface/coarsen.hpp"
 #include "surface/measures.hpp"
 #include "surface/read.hpp"
@@ -80,7 +80,10 @@ struct Tally {
 };
 
 std::string cell(const Extraction& base, const Surface& changed, double diagonal, Tally& tally) {
-  const Extraction found = extract(changed, {}, {});
+  RepairedSurface whole{changed, {}, {}, {}, {}};
+  whole.vertex_of_input.setLinSpaced(changed.positions.rows(), 0,
+                                     static_cast<int>(changed.positions.rows()) - 1);
+  const Extraction found = extract_repaired(whole, {}, {}, {}).extraction;
   const double spacing = diagonal / 400;
   const double distance = hausdorff_distance(base.skeleton, found.skeleton, spacing) / diagonal;
   const double mean = mean_distance(base.skeleton, found.skeleton, spacing) / diagonal;

@@ -143,6 +143,8 @@ class Repair(CommandLineTest):
             skeleton = json.loads((self.folder / "x.json").read_text())
             self.assertEqual(len(skeleton["node_of_vertex"]), result["input"]["vertices"])
             self.assertGreaterEqual(min(skeleton["node_of_vertex"]), 0)
+        self.run_ok("rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-opening", "0.25",
+                    cwd=self.folder)
         self.refused(2, "extract", LINKED_RINGS, "-o", "x.obj", "--wrap", "some",
                      says=["never, needed, all"], cwd=self.folder)
 
