@@ -81,14 +81,14 @@ std::optional<RepairedExtraction> extracted_from_wraps(const RepairedSurface& re
                                                        const std::vector<int>& components,
                                                        double opening, ExtractOptions options,
                                                        const Monitor& monitor) {
-  auto wrapped = wrap_components(repaired, components, opening, monitor);
-  if (!wrapped) return std::nullopt;
-  options.openings = wrapped->openings;
-  options.fair_if_outside = options.all_vertices_if_failed = false;
   try {
+    auto wrapped = wrap_components(repaired, components, opening, monitor);
+    if (!wrapped) return std::nullopt;
+    options.openings = wrapped->openings;
+    options.fair_if_outside = options.all_vertices_if_failed = false;
     RepairedExtraction found{extract(wrapped->surface, options, monitor), std::move(wrapped)};
     if (holds(found.extraction.certificate)) return found;
-  } catch (const Error&) {  // too thin to be contracted
+  } catch (const Error&) {  // too large to be wrapped, or too thin to be contracted
   }
   return std::nullopt;
 }

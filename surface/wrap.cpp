@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "surface/element_index.hpp"
+#include "surface/measures.hpp"
+#include "surface/memory.hpp"
 
 namespace curveskel {
 namespace {
@@ -33,6 +35,11 @@ struct StoppableWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visit
 
 Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor& monitor) {
   monitor.report("wrap", 0);
+  // As measured: the hierarchy over the faces, and a triangulation with that many vertices.
+  const double expected_vertices = area(triangles) / (options.opening * options.opening);
+  require_memory(600.0 * double(triangles.triangles.rows()) + 3500 * expected_vertices,
+                 available_memory_bytes(), "wrapping", Fault::input,
+                 "choose a wider --wrap-opening or decimate the surface first");
   std::vector<WrapKernel::Point_3> points;
   points.reserve(at(triangles.positions.rows()));
   for (const auto& p : triangles.positions.rowwise()) points.emplace_back(p.x(), p.y(), p.z());

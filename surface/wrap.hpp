@@ -15,7 +15,7 @@ struct WrapOptions {
 /// Shrinks a closed 2-manifold onto the triangles from outside (alpha wrapping, Portaneri et al.
 /// 2022). Contains all of them; everything that an opening wider than 2 alpha leads to is outside.
 /// Any triangles will do: crossing, doubled, with holes. Time and faces grow with area / alpha^2.
-/// Throws Cancelled on a stop.
+/// Throws Error(Fault::input) if that would not fit into memory, Cancelled on a stop.
 [[nodiscard]] Surface wrap(const Surface& triangles, const WrapOptions& options,
                            const Monitor& monitor);
 

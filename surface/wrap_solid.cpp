@@ -6,7 +6,6 @@
 #include "surface/element_index.hpp"
 #include "surface/join_soup.hpp"
 #include "surface/measures.hpp"
-#include "surface/memory.hpp"
 #include "surface/select_components.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
@@ -51,9 +50,6 @@ std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
   const double offset = extent / 3000;
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
-  // Measured: 0.5 KB a face for the hierarchy of the triangles, and what the wrap itself has.
-  require_memory(600.0 * double(faces.triangles.rows()), available_memory_bytes(), "wrapping",
-                 Fault::input, "decimate the surface first");
   const auto solid_at = [&](double share) {
     return solid_components(wrap(faces, {share * extent, offset}, monitor), offset, given_area);
   };

@@ -24,7 +24,7 @@ inline constexpr std::array wrap_openings{1.0 / 100, 1.0 / 40, 1.0 / 15};
 /// Wraps (see `wrap`) with this opening, of the extent, or, for 0, with the narrowest of
 /// `wrap_openings` that encloses something: the volume is more than twice the offset times the
 /// area, and the wrap has not two sides for most of what it wraps. Nothing if none does: these are
-/// sheets. Throws Error(Fault::input) where memory does not suffice.
+/// sheets. Throws what `wrap` throws.
 [[nodiscard]] std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
                                                      const Monitor& monitor);
 

@@ -360,6 +360,16 @@ TEST(Repairing, RefusesToWrapWhatHasNoInside) {
   }
 }
 
+TEST(Repairing, RefusesAWrapThatDoesNotFitIntoMemory) {
+  try {
+    (void)wrapped_whole(soup_of(shapes::torus(3, 1, 24).surface), 1e-6);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    expect_said(error.what(), {"wrapping", "MB", "--wrap-opening"});
+  }
+}
+
 TEST(Repairing, WrapsNothingIfItMayNot) {
   RepairOptions options;
   options.wrap = Wrapping::never;
