@@ -189,9 +189,25 @@ class Keeper {
     return way;
   }
 
+  /// The vertices of a chain of balls. The ball that holds an end best may not be seen from it;
+  /// the chain then goes on to the ball whose centre is nearest.
+  std::vector<int> balls_between(const Point& p, const Point& q, const std::vector<int>& groups) {
+    std::vector<int> vertices = chains_.way_between(p, q, groups);
+    if (vertices.empty()) return {};
+    if (!sees(p, balls_.centres.row(vertices.front()))) {
+      auto way = chains_.way(chains_.nearest_vertex(p, groups), vertices.front(), groups);
+      if (!way.empty()) vertices.insert(vertices.begin(), way.begin(), way.end() - 1);
+    }
+    if (!sees(balls_.centres.row(vertices.back()), q)) {
+      const auto way = chains_.way(vertices.back(), chains_.nearest_vertex(q, groups), groups);
+      if (!way.empty()) vertices.insert(vertices.end(), way.begin() + 1, way.end());
+    }
+    return vertices;
+  }
+
   /// From ball to ball, but just below the surface where no way between two of them is found.
   std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
-    const auto vertices = chains_.way_between(p, q, groups_along(network_, strand, graph_));
+    const auto vertices = balls_between(p, q, groups_along(network_, strand, graph_));
     if (vertices.empty()) {
       ++uncovered_;
       return {};

@@ -4,12 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "meshes/shapes.hpp"
-#include "surface/measures.hpp"
+#include "surface/read.hpp"
 #include "surface/topology.hpp"
 #include "tests/soups.hpp"
 
@@ -101,6 +102,21 @@ TEST(ExtractRepaired, WrapsNoComponentThatIsCertified) {
   const Topology counted = topology(found.wrapped->surface);
   EXPECT_EQ(counted.components(), 3);
   EXPECT_EQ(counted.genus, (std::vector<int>{0, 0, 1}));
+}
+
+TEST(ExtractRepaired, KitsThatAreWrappedAsAWholeHaveTheirCurveInside) {
+  const std::filesystem::path folder = std::filesystem::path(CURVESKEL_SHARED_MESHES) / "defects";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes at " << folder;
+  RepairOptions options;
+  options.wrap = Wrapping::all;
+  for (const char* file : {"soup-spider-ascii.stl", "messy-office-chair.obj"}) {
+    SCOPED_TRACE(file);
+    const RepairedSurface repaired = repair(read_polygons(folder / file, {}), options, {});
+    const Certificate found = extract_repaired(repaired, options, {}, {}).extraction.certificate;
+    EXPECT_TRUE(found.topology_correct());
+    EXPECT_GT(found.genus, 0) << "handles as fine as the gaps between parts";
+    EXPECT_EQ(found.inside_fraction, 1);
+  }
 }
 
 TEST(ExtractRepaired, WrapsNothingUnlessItMay) {
