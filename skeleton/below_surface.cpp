@@ -48,6 +48,16 @@ std::vector<Point> BelowSurface::step(int from, int to) const {
   return points;
 }
 
+std::vector<Point> BelowSurface::around(int vertex) const {
+  const std::int32_t first = out_[at(vertex)];
+  std::vector<Point> points{below_triangle(first / 3)};
+  for (std::int32_t h = turned(first); h != first; h = turned(h)) {
+    points.push_back(below_edge(half_.twin[at(h)]));
+    points.push_back(below_triangle(h / 3));
+  }
+  return points;
+}
+
 std::int32_t BelowSurface::turned(std::int32_t h) const {
   return half_.twin[at(previous_half_edge(h))];
 }

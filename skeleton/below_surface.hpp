@@ -26,6 +26,10 @@ class BelowSurface {
   /// vertex begin and end at the same point.
   [[nodiscard]] std::vector<Point> step(int from, int to) const;
 
+  /// Once round a vertex from where its steps begin: the first point and every other one below a
+  /// triangle, those between below edges.
+  [[nodiscard]] std::vector<Point> around(int vertex) const;
+
  private:
   struct Place {
     Point inwards = Point::Zero();

@@ -172,9 +172,45 @@ class Keeper {
     return top + share * (Point(balls_.centres.row(vertex)) - top);
   }
 
+  bool leaves(const std::vector<Point>& way) const {
+    const auto hidden = [&](const Point& p, const Point& q) { return !sees(p, q); };
+    return std::adjacent_find(way.begin(), way.end(), hidden) != way.end();
+  }
+
+  /// From below a vertex to where its steps begin, by the first of its triangles whose corner there
+  /// is seen, and from that one round the vertex. Empty if none is.
+  std::vector<Point> way_down(int vertex) {
+    const Point top = surface_.positions.row(vertex);
+    const Point start = under(vertex);
+    const auto around = below().around(vertex);
+    for (std::size_t k = 0; k < around.size(); k += 2) {
+      const double share = (start - top).norm() / (around[k] - top).norm();
+      const Point corner = top + std::min(share, 1.0) * (around[k] - top);
+      if (!sees(start, corner) || !sees(corner, around[k])) continue;
+      std::vector<Point> way{start, corner};
+      for (std::size_t i = k + 1; i-- > 0;) way.push_back(around[i]);
+      return way;
+    }
+    return {};
+  }
+
   /// From one ball to that of a neighbour: to the surface, along below it, and up again. Empty
   /// where the surface meets itself and that leads outside.
   std::vector<Point> way_below(int from, int to) {
+    std::vector<Point> way = short_way_below(from, to);
+    if (!way.empty()) return way;
+    way = way_down(from);
+    auto up = way_down(to);
+    if (way.empty() || up.empty()) return {};
+    std::reverse(up.begin(), up.end());
+    const auto step = below().step(from, to);
+    way.insert(way.end(), step.begin() + 1, step.end());
+    way.insert(way.end(), up.begin() + 1, up.end());
+    return leaves(way) ? std::vector<Point>{} : way;
+  }
+
+  /// The same where what is below the vertices is seen from them.
+  std::vector<Point> short_way_below(int from, int to) {
     std::vector<Point> way = below().step(from, to);
     // One-rings need not be seen as a whole from below their vertex.
     const auto from_first = [&](const Point& q) { return sees(under(from), q); };
@@ -184,9 +220,7 @@ class Keeper {
     if (way.empty()) return {};
     way.insert(way.begin(), under(from));
     way.push_back(under(to));
-    const auto leaves = [&](const Point& p, const Point& q) { return !sees(p, q); };
-    if (std::adjacent_find(way.begin(), way.end(), leaves) != way.end()) return {};
-    return way;
+    return leaves(way) ? std::vector<Point>{} : way;
   }
 
   /// The vertices of a chain of balls. The ball that holds an end best may not be seen from it;

@@ -264,7 +264,14 @@ RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
   RepairedSurface result;
   const Joined joined =
       joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
-  const auto wrapped = wrap_solid(joined.surface, options.wrap_opening, monitor);
+  std::optional<WrappedSolid> wrapped;
+  if (options.wrap_opening > 0) {
+    wrapped = wrap_solid(joined.surface, options.wrap_opening, monitor);
+  } else {  // a wide one may have webs between limbs where a narrow one has none
+    for (std::size_t i = 0; i < wrap_openings.size() && !wrapped; ++i) {
+      wrapped = wrap_solid(joined.surface, wrap_openings[i], monitor);
+    }
+  }
   if (!wrapped) {
     throw Error(Fault::input, file +
                                   ": found nothing that a wrap encloses more of than its own "

@@ -54,5 +54,24 @@ TEST(BelowSurface, StepsJoin) {
   }
 }
 
+TEST(BelowSurface, RoundAVertexLiesInsideAndBeginsWhereItsStepsDo) {
+  for (const auto& [name, surface] : surfaces()) {
+    SCOPED_TRACE(name);
+    const SurfaceTree tree(surface);
+    const BelowSurface below(surface);
+    for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 5) {
+      const int vertex = surface.triangles(t, 0);
+      const auto around = below.around(vertex);
+      const auto valence = (surface.triangles.array() == vertex).count();
+      EXPECT_EQ(around.size(), 2 * static_cast<std::size_t>(valence) - 1);
+      EXPECT_EQ(around.front(), below.step(vertex, surface.triangles(t, 1)).front());
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        EXPECT_GT(tree.inscribed_radius(around[i]), 0);
+        EXPECT_TRUE(i == 0 || !crosses(tree, around[i - 1], around[i]));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::below_surface_laws

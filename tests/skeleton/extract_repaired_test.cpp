@@ -105,11 +105,12 @@ TEST(ExtractRepaired, WrapsNoComponentThatIsCertified) {
 }
 
 TEST(ExtractRepaired, KitsThatAreWrappedAsAWholeHaveTheirCurveInside) {
-  const std::filesystem::path folder = std::filesystem::path(CURVESKEL_SHARED_MESHES) / "defects";
+  const std::filesystem::path folder = CURVESKEL_SHARED_MESHES;
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes at " << folder;
   RepairOptions options;
   options.wrap = Wrapping::all;
-  for (const char* file : {"soup-spider-ascii.stl", "messy-office-chair.obj"}) {
+  for (const char* file : {"defects/soup-spider-ascii.stl", "defects/messy-office-chair.obj",
+                           "rigs/quaternius-horse-1k.ply"}) {
     SCOPED_TRACE(file);
     const RepairedSurface repaired = repair(read_polygons(folder / file, {}), options, {});
     const Certificate found = extract_repaired(repaired, options, {}, {}).extraction.certificate;
