@@ -87,14 +87,15 @@ struct Sliced {
   EdgeIndex index;
   std::vector<double> value;  ///< of each vertex
   std::vector<int> group;     ///< of each vertex
-  double width = 0;           ///< between two levels, where they are finest
+  double first_width = 0;     ///< between two levels, where they are coarsest
+  double width = 0;           ///< where they are finest
 
   [[nodiscard]] double step(std::size_t edge) const {
     return std::abs(value[at(index.edges[edge][0])] - value[at(index.edges[edge][1])]);
   }
   /// Levels lie at half the first width and whole multiples of `width` from there, so that those of
   /// one width are among those of half of it.
-  [[nodiscard]] long slice(double at_value, double first_width) const {
+  [[nodiscard]] long slice(double at_value) const {
     return std::lround(std::floor((at_value - 0.5 * first_width) / width));
   }
 };
@@ -143,8 +144,7 @@ void append_split(const Sliced& sliced, Eigen::Index t, const std::array<int, 3>
 /// before, so the vertices grow with the range of the values over `width`, not with its square. New
 /// values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in one
 /// vertex never comes apart otherwise.
-bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width,
-                 double first_width) {
+bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) {
   const Eigen::Index old_vertices = sliced.surface.positions.rows();
   std::vector<int> middle_of(sliced.index.edges.size(), -1);
   std::vector<std::size_t> steep;
@@ -164,8 +164,7 @@ bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width,
     positions.row(m) = 0.5 * (positions.row(a) + positions.row(b));
     const double value = 0.5 * (sliced.value[at(a)] + sliced.value[at(b)]) +
                          0.2 * width * scattered(static_cast<std::uint64_t>(m));
-    const bool with_a =
-        sliced.slice(value, first_width) == sliced.slice(sliced.value[at(a)], first_width);
+    const bool with_a = sliced.slice(value) == sliced.slice(sliced.value[at(a)]);
     sliced.value.push_back(value);
     sliced.group.push_back(sliced.group[at(with_a ? a : b)]);
   }
@@ -187,25 +186,26 @@ bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width,
 }
 
 /// The groups after those that are wanted were cut along the levels of `sliced.width`.
-VertexGraph cut(const Sliced& sliced, const std::vector<bool>& wanted, double first_width) {
+VertexGraph cut(const Sliced& sliced, const std::vector<bool>& wanted) {
   std::vector<Cell> cell(sliced.value.size());
   for (std::size_t v = 0; v < cell.size(); ++v) {
     const int group = sliced.group[v];
-    cell[v] = {group, wanted[at(group)] ? sliced.slice(sliced.value[v], first_width) : 0};
+    cell[v] = {group, wanted[at(group)] ? sliced.slice(sliced.value[v]) : 0};
   }
   return graph_of_groups(sliced.surface, components_of_cells(sliced.index, cell));
 }
 
 /// One group, at values that grow from 0 at one end to the other.
 Sliced uncut(const Surface& surface) {
-  Sliced result{surface, index_edges(surface.triangles), {}, {}, 0};
+  Sliced result{surface, index_edges(surface.triangles), {}, {}, 0, 0};
   const auto from_any = edge_distances(surface, result.index, 0);
   const auto end = std::max_element(from_any.begin(), from_any.end()) - from_any.begin();
   result.value = edge_distances(surface, result.index, static_cast<int>(end));
   result.group.assign(result.value.size(), 0);
   for (std::size_t e = 0; e < result.index.edges.size(); ++e) {
-    result.width = std::max(result.width, result.step(e) * 1.0001);
+    result.first_width = std::max(result.first_width, result.step(e) * 1.0001);
   }
+  result.width = result.first_width;
   return result;
 }
 
@@ -234,18 +234,17 @@ std::vector<int> genus_of_groups(const Surface& surface, const VertexGraph& grap
 
 BandGraph band_graph(const Surface& surface, const Monitor& monitor) {
   Sliced sliced = uncut(surface);
-  const double first_width = sliced.width;
   std::vector<bool> wanted{true};
   for (int halvings = 0; halvings <= most_halvings; ++halvings) {
     monitor.report("surgery", halvings / (most_halvings + 1.0));
-    const double width = std::ldexp(first_width, -halvings);
+    const double width = std::ldexp(sliced.first_width, -halvings);
     while (sliced.surface.positions.rows() <= most_band_vertices &&
-           split_steep(sliced, wanted, width, first_width)) {
+           split_steep(sliced, wanted, width)) {
       monitor.report("surgery", halvings / (most_halvings + 1.0));
     }
     if (sliced.surface.positions.rows() > most_band_vertices) break;
     sliced.width = width;
-    VertexGraph graph = cut(sliced, wanted, first_width);
+    VertexGraph graph = cut(sliced, wanted);
     const auto genus = genus_of_groups(sliced.surface, graph);
     if (std::all_of(genus.begin(), genus.end(), [](int g) { return g == 0; })) {
       return {std::move(sliced.surface),

@@ -112,6 +112,7 @@ std::optional<RepairedExtraction> best_from_wraps(const RepairedSurface& repaire
   silent.note = nullptr;
   const auto failing =
       failing_components(repaired.surface, failed.skeleton, options.certificate, silent);
+  if (failing.empty()) return std::nullopt;  // what fails is between them
   if (as_repaired.wrap_opening > 0) {
     return extracted_from_wraps(repaired, failing, as_repaired.wrap_opening, options, silent);
   }
