@@ -218,23 +218,31 @@ void space_and_centre(Network& network, const Setting& setting) {
   centre(network, setting);
 }
 
-/// All stays as it is where the change makes nothing, or something to which no way inside is found.
+/// Whether something changed: all stays as it is where the change makes nothing, or something to
+/// which no way inside is found.
 template <typename Change>
-void change_and_centre(Network& network, const Setting& setting, const Change& change) {
+bool change_and_centre(Network& network, const Setting& setting, const Change& change) {
   Network changed = network;
-  if (change(changed) == 0 || stay_inside(changed, setting) > 0) return;
+  if (change(changed) == 0 || stay_inside(changed, setting) > 0) return false;
   network = std::move(changed);
   space_and_centre(network, setting);
   prune_spurs(network, setting.tree, 1);
+  return true;
+}
+
+void shape_tips(Network& network, const Setting& setting) {
+  shape_tips(network, setting.tree, setting.options.tip_reach, setting.options.tip_gap);
+  lengthen_short_leaves(network, setting.tree);
 }
 
 /// What the surgery has led astray, left out or left short.
 void correct(Network& network, const Setting& in) {
   constexpr double least_slenderness = 1;  // that of a half-ball
   const double limit = std::max(least_slenderness, slenderness_limit(in.options.detail));
-  change_and_centre(network, in, [&in](Network& changed) {
+  const bool rerouted = change_and_centre(network, in, [&in](Network& changed) {
     return take_wider_ways(changed, in.surface, in.balls, in.graph, in.tree);
   });
+  if (rerouted) shape_tips(network, in);  // they were shaped as the old ways arrived
   change_and_centre(network, in, [&in, limit](Network& changed) {
     return grow_branches(changed, in.surface, in.tree, in.balls, in.graph, limit);
   });
@@ -272,8 +280,7 @@ Network lay_out(const Setting& setting, const Monitor& monitor) {
   do {
     space_and_centre(network, setting);
     straighten(network, setting);
-    shape_tips(network, tree, options.tip_reach, options.tip_gap);
-    lengthen_short_leaves(network, tree);
+    shape_tips(network, setting);
     monitor.report("embed", 0.4);
   } while (prune_spurs(network, tree, 1));
   correct(network, setting);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "skeleton/cross_section.hpp"
@@ -13,23 +14,34 @@ namespace {
 constexpr double least_tip_radius = 1.0 / 1000;
 constexpr int most_steps = 64;
 
-/// The direction in which the line arrives at its point i.
-Point heading(const std::vector<Point>& line, std::size_t i) {
-  return (line[i] - line[i - std::min<std::size_t>(i, 3)]).normalized();
+/// The direction in which the line arrives at its point i, from three points before it, or from
+/// outside its inscribed ball: within, the limb has no direction.
+Point heading(const std::vector<Point>& line, std::size_t i, double radius) {
+  std::size_t from = i - std::min<std::size_t>(i, 3);
+  while (from > 0 && (line[i] - line[from]).norm() < radius) --from;
+  return (line[i] - line[from]).normalized();
 }
 
-/// Cuts the strand where the surface straight ahead and all the rest of the strand lie within
-/// `reach` inscribed radii: what bends into a corner of a blunt end goes.
+/// By more than some 45 degrees.
+bool turns_away(const Point& step, const Point& heading) {
+  return step.normalized().dot(heading) < 0.7;
+}
+
+/// Cuts the strand where all the rest of it and the surface straight ahead lie within `reach`
+/// inscribed radii, or where the rest lies within the ball and turns away: what bends into a corner
+/// of a blunt end goes.
 void retract(Network& network, Strand& strand, const SurfaceTree& tree, double reach) {
   const auto line = network.polyline(strand);
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const double near = reach * tree.inscribed_radius(line[i]);
-    const auto rest = line.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::any_of(rest, line.end(),
-                    [&](const Point& p) { return (p - line[i]).norm() > near; })) {
-      continue;
-    }
-    if (tree.ray(line[i], heading(line, i), near).triangle < 0) continue;
+    const double radius = tree.inscribed_radius(line[i]);
+    const auto rest_within = [&](double distance) {
+      return std::none_of(line.begin() + static_cast<std::ptrdiff_t>(i), line.end(),
+                          [&](const Point& p) { return (p - line[i]).norm() > distance; });
+    };
+    if (!rest_within(reach * radius)) continue;
+    const Point ahead = heading(line, i, radius);
+    const bool curls = turns_away(line.back() - line[i], ahead) && rest_within(radius);
+    if (!curls && tree.ray(line[i], ahead, reach * radius).triangle < 0) continue;
     network.hubs[at(strand.to)].position = line[i];
     strand.points.resize(i - 1);
     return;
@@ -37,16 +49,21 @@ void retract(Network& network, Strand& strand, const SurfaceTree& tree, double r
 }
 
 /// Steps straight ahead, recentred each time, until the surface ahead is near. A step that turns
-/// away or widens has left the end that it should reach.
+/// away has left the end that it should reach; steps that end farther from the surface ahead, in
+/// inscribed radii, than one before them lead into a corner and are taken back.
 void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap) {
   auto line = network.polyline(strand);
-  const Point first_heading = heading(line, line.size() - 1);
+  constexpr double tolerance = 1.05;
   double radius = tree.inscribed_radius(line.back());
-  const double widest = 1.1 * radius;
+  const Point first_heading = heading(line, line.size() - 1, radius);
+  double nearest = std::numeric_limits<double>::infinity();  // in inscribed radii
+  std::size_t kept = line.size();
   for (int step = 0; step < most_steps && radius >= least_tip_radius; ++step) {
     const Point& tip = line.back();
-    const Point direction = heading(line, line.size() - 1);
+    const Point direction = heading(line, line.size() - 1, radius);
     const double left = tree.ray(tip, direction).distance;
+    if (left <= tolerance * nearest * radius) kept = line.size();
+    nearest = std::min(nearest, left / radius);
     if (left <= gap * radius || !std::isfinite(left)) break;
     const Point guess = tip + std::min(0.5 * radius, left - radius) * direction;
     const double guess_radius = tree.inscribed_radius(guess);
@@ -56,10 +73,11 @@ void grow(Network& network, Strand& strand, const SurfaceTree& tree, double gap)
       next = guess;
       radius = guess_radius;
     }
-    if (radius < least_tip_radius || radius > widest) break;
-    if ((next - tip).normalized().dot(first_heading) < 0.7) break;
+    if (radius < least_tip_radius) break;
+    if (turns_away(next - tip, first_heading)) break;
     line.push_back(next);
   }
+  line.resize(kept);
   network.hubs[at(strand.to)].position = line.back();
   strand.points.assign(line.begin() + 1, line.end() - 1);
 }
@@ -91,9 +109,10 @@ void lengthen_short_leaves(Network& network, const SurfaceTree& tree) {
     const double junction_radius = tree.inscribed_radius(line.front());
     const double missing = margin * junction_radius - network.length(strand);
     if (missing <= 0 || network.length(strand) < 0.25 * junction_radius) continue;
-    const Point tip = line.back() + missing * heading(line, line.size() - 1);
+    const Point ahead = heading(line, line.size() - 1, tree.inscribed_radius(line.back()));
+    const Point tip = line.back() + missing * ahead;
     if (tree.inscribed_radius(tip) < narrowest * junction_radius) continue;
-    if (tree.ray(line.back(), heading(line, line.size() - 1), missing).triangle >= 0) continue;
+    if (tree.ray(line.back(), ahead, missing).triangle >= 0) continue;
     strand.points.push_back(line.back());
     network.hubs[at(strand.to)].position = tip;
   }

@@ -1,0 +1,74 @@
+// Branches end where a person would end them: ahead, in the middle, and not in a corner.
+#include "skeleton/tips.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "surface/tree.hpp"
+
+namespace curveskel::tips_laws {
+namespace {
+
+constexpr double reach = 1.5;
+constexpr double gap = 1.15;
+
+/// One strand along these points, the end of interest last.
+Network strand_along(const std::vector<Point>& line) {
+  Network network;
+  network.hubs = {{line.front(), {0}}, {line.back(), {0}}};
+  network.strands.push_back({0, 1, {line.begin() + 1, line.end() - 1}, {0}});
+  for (Hub& hub : network.hubs) hub.strands = {0};
+  return network;
+}
+
+std::vector<Point> along_x(double from, double to, double step) {
+  std::vector<Point> line;
+  for (double x = from; x < to; x += step) line.emplace_back(x, 0, 0);
+  return line;
+}
+
+/// A neck of radius 0.5 that a head of radius 2 about x = 4 sits on.
+shapes::Shape head_on_neck() {
+  const auto radius = [](double t) {
+    const double x = 12 * t - 6;
+    return x > 2.1 ? std::sqrt(std::max(0.05, 4 - (x - 4) * (x - 4))) : 0.5;
+  };
+  return shapes::tube("head", shapes::straight(12), radius, 48);
+}
+
+TEST(Tips, GoOnFromTheNeckIntoTheHead) {
+  const SurfaceTree tree(head_on_neck().surface);
+  for (const double end : {0.5, 1.0, 1.5, 2.0, 2.5}) {
+    Network network = strand_along(along_x(-5, end, 0.2));
+    shape_tips(network, tree, reach, gap);
+    const Point tip = network.hubs[1].position;
+    EXPECT_GT(tree.inscribed_radius(tip), 1.5) << "from " << end;
+    EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.1) << "from " << end;
+  }
+}
+
+/// Whatever way the last of it went within the ball at the end of a blunt limb.
+TEST(Tips, ThatCurlIntoACornerAreStraightened) {
+  const SurfaceTree tree(
+      shapes::tube("limb", shapes::straight(12), shapes::constant(1), 48).surface);
+  for (const double angle : {0.0, 60.0, 90.0, 120.0}) {
+    const double turn = angle * std::numbers::pi / 180;
+    auto line = along_x(-4, 4.41, 0.2);
+    for (int k = 1; k <= 4; ++k) {
+      line.emplace_back(4.4 + 0.2 * k * std::cos(turn), 0.2 * k * std::sin(turn), 0);
+    }
+    Network network = strand_along(line);
+    shape_tips(network, tree, reach, gap);
+    const Point tip = network.hubs[1].position;
+    EXPECT_GT(tip.x(), 4.7) << angle << " degrees";
+    EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.15) << angle << " degrees";
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::tips_laws
