@@ -67,6 +67,22 @@ TEST(Damaged, AnOpenTubesSkeletonReachesItsOpenings) {
   }
 }
 
+TEST(Damaged, AShortOpenTubesSkeletonIsItsAxis) {
+  for (const int sides : {32, 64}) {
+    for (const double length : {0.8, 1.0, 1.2, 1.6}) {  // in diameters
+      SCOPED_TRACE(testing::Message() << sides << " sides, length " << length);
+      const auto tube = shapes::tube("tube", shapes::straight(8), shapes::constant(1), sides);
+      const auto soup =
+          part_of(tube.surface, [=](const auto& p) { return std::abs(p.x()) < length; });
+      const Extraction found = extracted(soup);
+      EXPECT_EQ(found.certificate.tips, 2);
+      EXPECT_LT(found.skeleton.nodes.rightCols(2).rowwise().norm().maxCoeff(), 0.03);
+      EXPECT_NEAR(found.skeleton.nodes.col(0).maxCoeff(), length, 0.1);
+      EXPECT_NEAR(found.skeleton.nodes.col(0).minCoeff(), -length, 0.1);
+    }
+  }
+}
+
 TEST(Damaged, EveryArmOfAnOpenStarReachesItsOpening) {
   const auto star = shapes::tube_union("star", shapes::star(4, 3, 0.3));
   const auto soup = part_of(star.surface, [](const auto& p) { return p.norm() < 2.5; });

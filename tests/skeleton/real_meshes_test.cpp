@@ -21,9 +21,11 @@
 #include "surface/coarsen.hpp"
 #include "surface/measures.hpp"
 #include "surface/read.hpp"
+#include "surface/repair.hpp"
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
 #include "tests/skeleton/shortfalls.hpp"
+#include "tests/soups.hpp"
 
 namespace curveskel::real_meshes_laws {
 namespace {
@@ -251,6 +253,44 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
     across = across.maxCoeff() + across.minCoeff() - across.array();
     const double diagonal = bounding_box_diagonal(surface.positions);
     EXPECT_LT(hausdorff_distance(curve, mirrored, diagonal / 400), 0.01 * diagonal) << name;
+  }
+}
+
+// No branch led to the waist, so one leg turned back to it and left its own opening alone.
+TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
+  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
+  PolygonSoup figure = read_polygons(meshes / "humanoid-10k.ply", {});
+  const auto heights = figure.positions.col(1);
+  const double least = heights.minCoeff();
+  const double height = heights.maxCoeff() - least;
+  const auto aside = figure.positions.col(2);
+  const double half_width = (aside.maxCoeff() - aside.minCoeff()) / 2;
+  const double middle = (aside.maxCoeff() + aside.minCoeff()) / 2;
+  for (const double thighs : {0.15, 0.25, 0.32}) {
+    SCOPED_TRACE(thighs);
+    PolygonSoup shorts;
+    shorts.positions = figure.positions;
+    shorts.offsets = {0};
+    for (std::size_t f = 0; f + 1 < figure.offsets.size(); ++f) {
+      const std::vector<std::int32_t> corners(figure.corners.begin() + figure.offsets[f],
+                                              figure.corners.begin() + figure.offsets[f + 1]);
+      const double place = (figure.positions(corners, 1).mean() - least) / height;
+      const double off = std::abs(figure.positions(corners, 2).mean() - middle) / half_width;
+      if (place > thighs && place < 0.55 && off < 0.5) append(shorts, corners);
+    }
+    const RepairedSurface repaired = repair(shorts, {}, {});
+    ASSERT_EQ(repaired.openings.size(), 3U);
+    ExtractOptions options;
+    options.openings = repaired.openings;
+    const Extraction found = extract(repaired.surface, options, {});
+    EXPECT_EQ(found.certificate.tips, 3);
+    EXPECT_EQ(found.certificate.spurs, 0);
+    for (const auto& opening : repaired.openings) {
+      const Eigen::RowVector3d rim =
+          repaired.surface.positions(opening, Eigen::all).colwise().mean();
+      const auto away = (found.skeleton.nodes.rowwise() - rim).rowwise().norm();
+      EXPECT_LT(away.minCoeff(), 0.02 * height);
+    }
   }
 }
 
