@@ -125,7 +125,7 @@ class Keeper {
       std::size_t next = i + 1;
       std::vector<Point> between;
       const auto keeps_handle = [&] {
-        if (!on_cycle || between.empty()) return true;
+        if (!on_cycle || (between.empty() && next == i + 1)) return true;
         const auto first = line.begin() + static_cast<std::ptrdiff_t>(i);
         between.insert(between.begin(), line[i]);
         between.push_back(line[next]);

@@ -156,7 +156,7 @@ class Reaching {
       if (taken_[l] || !is_within_its_ball(limb)) continue;
       std::vector<std::size_t> near;
       for (std::size_t o = 0; o < rims_.size(); ++o) {
-        if (!reached_[o] && is_near(widest(limb), rims_[o], least_width)) near.push_back(o);
+        if (!reached_[o] && is_near(widest(limb), rims_[o], usual_width)) near.push_back(o);
       }
       if (near.size() != 2) continue;
       straighten(l, near[0], near[1]);
@@ -204,7 +204,7 @@ class Reaching {
       if (k > 0) walked += (skeleton_.nodes.row(limb[k]) - skeleton_.nodes.row(limb[k - 1])).norm();
       if (k > 0 && k + 1 == limb.size()) break;
       if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.mean_radius)) break;
-      if (faces(limb, k, rim) && is_near(limb[k], rim, least_width)) return static_cast<int>(k);
+      if (faces(limb, k, rim) && is_near(limb[k], rim, usual_width)) return static_cast<int>(k);
     }
     return -1;
   }
@@ -258,7 +258,7 @@ class Reaching {
     }
   }
 
-  static constexpr double least_width = 0.5;  // of an opening, in radii of the ball before it
+  static constexpr double usual_width = 0.5;  // of an opening, in radii of the ball before it
 
   CurveSkeleton& skeleton_;
   const SurfaceTree& tree_;

@@ -15,6 +15,7 @@
 #include "surface/element_index.hpp"
 #include "surface/half_edges.hpp"
 #include "surface/join_soup.hpp"
+#include "surface/loose_parts.hpp"
 #include "surface/measures.hpp"
 #include "surface/nearest_vertex.hpp"
 #include "surface/orient.hpp"
@@ -176,13 +177,19 @@ class VertexMap {
     }
   }
 
-  void add_wrapped(const Surface& sheets, const Surface& wrapped, std::int32_t first_vertex) {
-    const SurfaceTree tree(wrapped);
+  /// What lies outside the wrap and farther from it than it spans is none of it.
+  void add_wrapped(const Surface& sheets, const WrappedSolid& wrapped, std::int32_t first_vertex) {
+    const double farthest = (wrapped.opening + wrapped.offset) * extent_of_faces(sheets);
+    const SurfaceTree tree(wrapped.surface);
     for (const std::int32_t v : sheets.triangles.reshaped()) {
       if (of_joined_[at(v)] >= 0) continue;
-      of_joined_[at(v)] = first_vertex + nearest_vertex(wrapped, tree, sheets.positions.row(v));
+      const Eigen::Vector3d p = sheets.positions.row(v);
+      if (tree.nearest(p).distance > farthest && tree.inscribed_radius(p) <= 0) continue;
+      of_joined_[at(v)] = first_vertex + nearest_vertex(wrapped.surface, tree, p.transpose());
     }
   }
+
+  [[nodiscard]] bool has(std::int32_t joined) const { return of_joined_[at(joined)] >= 0; }
 
   [[nodiscard]] Eigen::VectorXi of_file() const {
     Eigen::VectorXi result(static_cast<Eigen::Index>(of_joined_.size()));
@@ -258,18 +265,50 @@ Joined joined_faces(const PolygonSoup& soup, const RepairOptions& options, const
   return joined;
 }
 
+/// The faces of the parts that are wanted; vertices stay.
+Surface faces_of(const Surface& surface, const LooseParts& parts, const std::vector<char>& wanted) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t f = 0; f < parts.part_of_face.size(); ++f) {
+    if (wanted[at(parts.part_of_face[f])]) rows.push_back(static_cast<Eigen::Index>(f));
+  }
+  return {surface.positions, surface.triangles(rows, Eigen::all)};
+}
+
+/// Without specks: one far away would set the scale of the wrap.
+Surface what_to_wrap(const Surface& joined, const RepairOptions& options, Repairs& repairs) {
+  const LooseParts parts = loose_parts(joined);
+  const double largest = *std::max_element(parts.areas.begin(), parts.areas.end());
+  std::vector<char> wanted;
+  for (const double one : parts.areas) wanted.push_back(one >= options.least_area * largest);
+  repairs.specks_dropped = std::count(wanted.begin(), wanted.end(), char{0});
+  return repairs.specks_dropped == 0 ? joined : faces_of(joined, parts, wanted);
+}
+
+/// Parts of which no vertex is in the map: the wrap has left them out.
+std::int64_t parts_left_out(const Surface& given, const VertexMap& map) {
+  const LooseParts parts = loose_parts(given);
+  std::vector<char> seen(parts.areas.size(), 0);
+  for (Eigen::Index f = 0; f < given.triangles.rows(); ++f) {
+    for (const std::int32_t v : given.triangles.row(f)) {
+      if (map.has(v)) seen[at(parts.part_of_face[at(f)])] = 1;
+    }
+  }
+  return std::count(seen.begin(), seen.end(), char{0});
+}
+
 RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
                          const Monitor& monitor) {
   const std::string file = soup.file.empty() ? "surface" : soup.file.string();
   RepairedSurface result;
   const Joined joined =
       joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
+  const Surface given = what_to_wrap(joined.surface, options, result.repairs);
   std::optional<WrappedSolid> wrapped;
   if (options.wrap_opening > 0) {
-    wrapped = wrap_solid(joined.surface, options.wrap_opening, monitor);
+    wrapped = wrap_solid(given, options.wrap_opening, monitor);
   } else {  // a wide one may have webs between limbs where a narrow one has none
     for (std::size_t i = 0; i < wrap_openings.size() && !wrapped; ++i) {
-      wrapped = wrap_solid(joined.surface, wrap_openings[i], monitor);
+      wrapped = wrap_solid(given, wrap_openings[i], monitor);
     }
   }
   if (!wrapped) {
@@ -278,11 +317,12 @@ RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
                                   "thickness; try a wider --wrap-opening, or give the surface "
                                   "thickness (Blender: the Solidify modifier)");
   }
-  result.repairs.faces_wrapped = joined.surface.triangles.rows();
+  result.repairs.faces_wrapped = given.triangles.rows();
   result.repairs.wrapped_as_asked = true;
   note_wrap(result.repairs, *wrapped);
   VertexMap vertex_map(joined);
-  vertex_map.add_wrapped(joined.surface, wrapped->surface, 0);
+  vertex_map.add_wrapped(given, *wrapped, 0);
+  result.repairs.sheets_dropped = parts_left_out(given, vertex_map);
   result.surface = wrapped->surface;
   result.vertex_of_input = vertex_map.of_file();
   return result;
@@ -317,8 +357,9 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   if (wrapped) {
     result.repairs.faces_wrapped = sheets.surface.triangles.rows();
     note_wrap(result.repairs, *wrapped);
-    vertex_map.add_wrapped(sheets.surface, wrapped->surface,
+    vertex_map.add_wrapped(sheets.surface, *wrapped,
                            static_cast<std::int32_t>(result.surface.positions.rows()));
+    result.repairs.sheets_dropped = parts_left_out(sheets.surface, vertex_map);
     append_surface(result.surface, wrapped->surface);
   } else {
     if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
@@ -334,7 +375,7 @@ void leave_out(RepairedSurface& result, const SelectionRules& rules) {
   const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
   result.repairs.copies_dropped = count(Fate::copy);
   result.repairs.crumbs_dropped = count(Fate::crumb);
-  result.repairs.specks_dropped = count(Fate::speck);
+  result.repairs.specks_dropped += count(Fate::speck);
   result.repairs.not_chosen = count(Fate::not_chosen);
   if (count(Fate::kept) == counted.components()) return;
   const Positions positions = result.surface.positions;

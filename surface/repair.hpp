@@ -58,12 +58,12 @@ struct Repairs {
   std::int64_t specks_dropped = 0;      ///< components below the least area
   std::int64_t sheets_dropped = 0;      ///< components that enclose nothing
   std::int64_t not_chosen = 0;          ///< components beyond the number wanted
-  std::int64_t faces_wrapped = 0;       ///< given faces that a wrap stands for
+  std::int64_t faces_wrapped = 0;       ///< that a wrap stands for
   bool wrapped_as_asked = false;        ///< see Wrapping::all
   std::int64_t components_wrapped = 0;  ///< whose certificate failed, see `extract_repaired`
   double wrap_opening = 0;              ///< gaps up to this are spanned, of D
   double wrap_distance = 0;       ///< greatest distance from the wrap to the faces given, of D
-  double wrap_mean_distance = 0;  ///< mean over the wrap's vertices, of D
+  double wrap_mean_distance = 0;  ///< mean over the wrap's area, of D
   std::vector<std::string> lines;
 };
 

@@ -1,5 +1,6 @@
 #include "surface/wrap_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -13,6 +14,8 @@
 
 namespace curveskel {
 namespace {
+
+constexpr double offset_of_wraps = 1.0 / 3000;  // of the extent
 
 /// The components of a wrap that hold more than the wrap's own thickness on both sides of a sheet;
 /// none if the wrap has two sides for most of what it wraps.
@@ -32,13 +35,26 @@ Surface solid_components(const Surface& wrapped, double offset, double given_are
 }
 
 WrappedSolid measured(Surface surface, double opening, const Surface& faces, double extent) {
-  WrappedSolid result{std::move(surface), opening, 0, 0};
+  WrappedSolid result{std::move(surface), opening, offset_of_wraps, 0, 0};
   const SurfaceTree tree(faces);
-  for (const auto& p : result.surface.positions.rowwise()) {
+  const auto away = [&](const Eigen::RowVector3d& p) {
     const double distance = tree.nearest(p.transpose()).distance / extent;
-    result.mean_distance += distance / double(result.surface.positions.rows());
     result.distance = std::max(result.distance, distance);
+    return distance;
+  };
+  const Surface& wrap = result.surface;
+  for (const auto& p : wrap.positions.rowwise()) away(p);
+  double whole = 0;
+  double sum = 0;
+  for (const auto& t : wrap.triangles.rowwise()) {
+    const Eigen::RowVector3d a = wrap.positions.row(t(0));
+    const Eigen::RowVector3d b = wrap.positions.row(t(1));
+    const Eigen::RowVector3d c = wrap.positions.row(t(2));
+    const double weight = (b - a).cross(c - a).norm();
+    sum += weight * away((a + b + c) / 3);
+    whole += weight;
   }
+  if (whole > 0) result.mean_distance = sum / whole;
   return result;
 }
 
@@ -47,7 +63,7 @@ WrappedSolid measured(Surface surface, double opening, const Surface& faces, dou
 std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
                                        const Monitor& monitor) {
   const double extent = extent_of_faces(faces);
-  const double offset = extent / 3000;
+  const double offset = offset_of_wraps * extent;
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
   const auto solid_at = [&](double share) {

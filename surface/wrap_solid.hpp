@@ -13,8 +13,9 @@ namespace curveskel {
 struct WrappedSolid {
   Surface surface;
   double opening = 0;        ///< the widest gap that the wrap spans
-  double distance = 0;       ///< the greatest distance of its vertices to the faces
-  double mean_distance = 0;  ///< over its vertices
+  double offset = 0;         ///< how far it stays away where it spans nothing
+  double distance = 0;       ///< the greatest to the faces, of its vertices and triangles' middles
+  double mean_distance = 0;  ///< of its triangles' middles, by area
 };
 
 /// From narrow to wide, of the extent. The narrower, the more is seen of the surface, and the less

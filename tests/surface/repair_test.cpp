@@ -348,6 +348,42 @@ TEST(Repairing, AWrapSpansGapsThatAreNarrowerThanItsOpening) {
   EXPECT_EQ(one.repairs.wrap_opening, 3 * gap);
 }
 
+TEST(Repairing, ASpeckFarAwayDoesNotSetTheScaleOfAWrap) {
+  const auto ball = shapes::ellipsoid({1, 1, 1}, 4);
+  const auto speck = shapes::translated(shapes::ellipsoid({0.003, 0.003, 0.003}, 1), {500, 0, 0});
+  const auto soup = soup_of(shapes::together("pair", {ball, speck}).surface);
+  const RepairedSurface result = wrapped_whole(soup);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_NEAR(volume(result.surface), volume(ball.surface), 0.05 * volume(ball.surface));
+  EXPECT_EQ(result.repairs.specks_dropped, 1);
+  EXPECT_EQ(result.vertex_of_input[soup.positions.rows() - 1], -1);
+}
+
+TEST(Repairing, WhatAWrapLeavesOutIsCountedAndMovesNothing) {
+  const auto ball = shapes::ellipsoid({1, 1, 1}, 4);
+  const auto soup = soup_of(ball.surface);
+  PolygonSoup with_sheet = soup;
+  const auto first = static_cast<std::int32_t>(soup.positions.rows());
+  with_sheet.positions.conservativeResize(first + 4, 3);
+  with_sheet.positions.bottomRows(4) = Positions{{4, -1, -1}, {4, 1, -1}, {4, 1, 1}, {4, -1, 1}};
+  append(with_sheet, {first, first + 1, first + 2});
+  append(with_sheet, {first, first + 2, first + 3});
+  const RepairedSurface result = wrapped_whole(with_sheet);
+  EXPECT_EQ(result.repairs.sheets_dropped, 1);
+  for (int v = 0; v < 4; ++v) EXPECT_EQ(result.vertex_of_input[first + v], -1);
+  EXPECT_GE(result.vertex_of_input[0], 0);
+}
+
+TEST(Repairing, TheDistanceOfAWrapIsThatOfWhatItSpans) {
+  const auto ball = shapes::ellipsoid({1, 1, 1}, 4);
+  const auto pair = shapes::together("pair", {ball, shapes::translated(ball, {2.05, 0, 0})});
+  const double diagonal = bounding_box_diagonal(pair.surface.positions);
+  const RepairedSurface result = wrapped_whole(soup_of(pair.surface), 0.2);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_GT(result.repairs.wrap_distance * diagonal, 0.05);  // the tent between the two
+  EXPECT_LT(result.repairs.wrap_mean_distance, result.repairs.wrap_distance / 2);
+}
+
 TEST(Repairing, RefusesToWrapWhatHasNoInside) {
   const auto sheet = with_polygons(soup_of(shapes::box({1, 1, 1}, 4).surface),
                                    [](std::size_t p) { return p < 2; });
