@@ -12,6 +12,7 @@
 #include "surface/element_index.hpp"
 #include "surface/error.hpp"
 #include "surface/measures.hpp"
+#include "surface/single_precision.hpp"
 
 namespace curveskel {
 namespace {
@@ -48,23 +49,6 @@ std::string base64_of(const std::string& bytes) {
 /// Names of files need not be UTF-8, but JSON is.
 std::string text_of(const Json& file, int indent) {
   return file.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-void require_single_precision(const Positions& positions) {
-  if (positions.cast<float>().allFinite()) return;
-  throw Error(Fault::output,
-              "a coordinate beyond single precision, which is all that glTF has; scale the "
-              "surface down");
-}
-
-void require_digits(const Positions& positions) {
-  constexpr double most = 1e-4;  // of the diagonal
-  const double lost = (positions - positions.cast<float>().cast<double>()).cwiseAbs().maxCoeff();
-  if (lost <= most * bounding_box_diagonal(positions)) return;
-  throw Error(Fault::output,
-              "coordinates so far from the origin that single precision, which is all that glTF "
-              "has, moves vertices by " +
-                  std::to_string(lost) + "; move the surface to the origin");
 }
 
 /// A glTF file that grows accessor by accessor.
@@ -281,9 +265,8 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                    std::to_string(most_joints) +
                                    "; choose fewer components or longer bones");
   }
-  require_single_precision(surface.positions);
-  require_single_precision(rig.joints);
-  require_digits(surface.positions);
+  require_single_precision(surface.positions, "glTF");
+  require_single_range(rig.joints, "glTF");
   GltfWriter writer;
   writer.file["asset"] = {{"version", "2.0"}, {"generator", provenance}};
   writer.file["scene"] = 0;

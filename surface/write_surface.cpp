@@ -9,6 +9,7 @@
 
 #include "surface/decimal.hpp"
 #include "surface/error.hpp"
+#include "surface/single_precision.hpp"
 
 namespace curveskel {
 namespace {
@@ -89,6 +90,7 @@ std::string format_ply(const Surface& surface, std::string_view provenance) {
 std::string format_stl(const Surface& surface, std::string_view provenance) {
   constexpr std::size_t header_bytes = 80;
   constexpr std::size_t bytes_per_face = 50;
+  require_single_precision(surface.positions, "STL", "write obj, off or ply instead, or ");
   // A header that begins with "solid" would announce the text variant.
   std::string bytes = "binary STL " + std::string(provenance);
   bytes.resize(header_bytes, ' ');
@@ -125,10 +127,9 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
     case SurfaceFormat::glb:
       break;
   }
-  throw Error(Fault::output, "found the surface format " +
-                                 std::string(name_of(surface_formats, format)) +
-                                 ", which is only read, needed obj, off, ply or stl; "
-                                 "choose one of these");
+  throw Error(Fault::output,
+              "found the surface format " + std::string(name_of(surface_formats, format)) +
+                  ", which is only read, needed one of: " + names_in(written_surface_formats));
 }
 
 }  // namespace curveskel

@@ -128,6 +128,19 @@ class Fair(CommandLineTest):
         self.refused(4, "fair", TORUS, "-o", "x.ply", "--method", "opencl-interop", says=says,
                      cwd=self.folder)
 
+    def test_stl_is_refused_where_single_precision_loses_the_shape(self):
+        lines = Y.read_text().splitlines()
+        counts = next(i for i, line in enumerate(lines) if line[:1].isdigit())
+        vertices = int(lines[counts].split()[0])
+        places = [i for i in range(counts + 1, len(lines)) if lines[i].strip()][:vertices]
+        for i in places:
+            lines[i] = " ".join(str(float(x) + 1e7) for x in lines[i].split())
+        (self.folder / "far.off").write_text("\n".join(lines) + "\n")
+        self.refused(6, "fair", "far.off", "-o", "x.stl", cwd=self.folder,
+                     says=["single precision", "STL", "obj, off or ply", "to the origin"])
+        self.run_ok("fair", "far.off", "-o", "x.ply", cwd=self.folder)
+        self.run_ok("fair", Y, "-o", "x.stl", cwd=self.folder)
+
     def test_a_missing_device_is_named(self):
         result = run("fair", TORUS, "-o", "x.ply", "--method", "opencl", cwd=self.folder)
         if result.code != 0:

@@ -162,6 +162,21 @@ TEST_F(WriteFile, StlHoldsEveryTriangleInSinglePrecision) {
   }
 }
 
+TEST_F(WriteFile, StlIsRefusedWhereSinglePrecisionMovesVertices) {
+  Surface surface = bipyramid();
+  surface.positions(2, 2) = 0;
+  EXPECT_NO_THROW((void)format_surface(surface, SurfaceFormat::stl));
+  for (const double far : {1e6, 1e39}) {
+    Surface moved = surface;
+    moved.positions.array() += far;
+    EXPECT_THROW((void)format_surface(moved, SurfaceFormat::stl), Error);
+    EXPECT_NO_THROW((void)format_surface(moved, SurfaceFormat::ply));
+    moved.positions = moved.positions.cast<float>().cast<double>();  // as an STL file is read
+    EXPECT_EQ(moved.positions.allFinite(), far < 1e38);
+    if (far < 1e38) EXPECT_NO_THROW((void)format_surface(moved, SurfaceFormat::stl));
+  }
+}
+
 TEST_F(WriteFile, SurfaceFormatsThatAreOnlyReadSaySo) {
   EXPECT_THROW((void)format_surface(bipyramid(), SurfaceFormat::glb), Error);
   EXPECT_THROW((void)format_surface(bipyramid(), SurfaceFormat::gltf), Error);
