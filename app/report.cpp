@@ -2,7 +2,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 namespace curveskel {
 namespace {
@@ -173,6 +175,12 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"certificate", to_json(record.extraction.certificate)}};
 }
 
+/// How many were allowed, however they were asked for.
+unsigned threads_of(const ExtractOptions& options) {
+  return options.threads > 0 ? static_cast<unsigned>(options.threads)
+                             : std::max(1U, std::thread::hardware_concurrency());
+}
+
 /// File names need not be UTF-8; what is not is replaced rather than refused.
 std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -189,15 +197,13 @@ std::string result_json(const ExtractionRecord& record) {
 std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
   Json json = to_json(record, true);
   Json times = Json::array();
-  double seconds = 0;
   for (const StageTime& time : run.times) {
     times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
-    seconds += time.seconds;
   }
   json["outputs"] = run.outputs;
-  json["threads"] = record.options.threads;
+  json["threads"] = threads_of(record.options);
   json["times"] = std::move(times);
-  json["seconds"] = seconds;
+  json["seconds"] = run.seconds;
   json["peak_memory_bytes"] = peak_memory_bytes();
   return text_of(json, 2) + "\n";
 }

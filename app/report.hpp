@@ -26,6 +26,7 @@ struct ExtractionRecord {
 /// What depends on the run and not on input and options.
 struct RunRecord {
   std::vector<StageTime> times;
+  double seconds = 0;  ///< by the clock, so far
   std::vector<std::string> outputs;
 };
 

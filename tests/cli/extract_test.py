@@ -3,7 +3,9 @@
 import json
 import os
 import pty
+import re
 import subprocess
+import time
 import unittest
 
 from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, default_signals, start, write_torus
@@ -66,6 +68,24 @@ class VertexMap(CommandLineTest):
 
 
 class Report(CommandLineTest):
+    def test_seconds_are_those_of_the_clock_and_threads_those_used(self):
+        for threads in (0, 1, 3):
+            began = time.monotonic()
+            text = self.run_ok("extract", LINKED_RINGS, "-o", "x.obj", "--report", "r.json",
+                               "--threads", threads, cwd=self.folder).out.decode()
+            taken = time.monotonic() - began
+            report = json.loads((self.folder / "r.json").read_text())
+            said = float(re.search(r"^([0-9.]+) s \(summed over components: read", text,
+                                   re.MULTILINE).group(1))
+            self.assertLessEqual(report["seconds"], taken)
+            self.assertLessEqual(said, taken + 0.01)
+            self.assertGreaterEqual(said, report["seconds"] - 0.01)
+            self.assertEqual(report["threads"], threads or report["threads"])
+            self.assertGreater(report["threads"], 0)
+            if threads == 1:
+                stages = sum(stage["seconds"] for stage in report["times"])
+                self.assertLessEqual(stages, report["seconds"])
+
     def test_says_what_was_done(self):
         self.run_ok("extract", LINKED_RINGS, "-o", "rings.obj", "--report", "report.json",
                     "--flow", "paper", "--detail", "0.25", cwd=self.folder)
@@ -81,7 +101,7 @@ class Report(CommandLineTest):
         self.assertEqual(report["certificate"]["components"], 2)
         self.assertEqual(report["certificate"]["cycle_rank"], 2)
         self.assertTrue(report["certificate"]["topology_correct"])
-        self.assertEqual([time["stage"] for time in report["times"]][:2], ["read", "repair"])
+        self.assertEqual([stage["stage"] for stage in report["times"]][:2], ["read", "repair"])
         self.assertGreater(report["peak_memory_bytes"], 1000000)
         self.assertEqual(report["outputs"], ["rings.obj"])
 
