@@ -34,9 +34,17 @@ int exit_code(Fault fault) {
   return ExitCode::internal;
 }
 
+/// What there is to do, by the verb's own options, where the surface is too much for it.
+std::string remedy_of(const CLI::App& parser) {
+  const bool has_resolution = parser.get_option_no_throw("--resolution") != nullptr;
+  return has_resolution ? "choose a coarser --resolution, or decimate the surface first"
+                        : "decimate the surface first";
+}
+
 /// Runs the verb; every exception ends here.
 int run(const Verb& verb, Terminal& terminal) {
-  Interruption interruption;
+  const std::string remedy = remedy_of(*verb.parser);
+  Interruption interruption(remedy);
   Session session{terminal, interruption};
   try {
     return verb.run(session);
@@ -47,17 +55,10 @@ int run(const Verb& verb, Terminal& terminal) {
     terminal.error(error.what());
     return ExitCode::usage;
   } catch (const Cancelled&) {
-    if (interruption.reached_limit() > 0) {
-      terminal.error(
-          fmt::format("the time limit of {:g} s was reached, nothing was written; allow "
-                      "more, or a coarser --resolution",
-                      interruption.reached_limit()));
-      return ExitCode::solver;
-    }
-    terminal.error("interrupted");
-    return interruption.exit_code();
+    terminal.error(interruption.message());
+    return interruption.reached_limit() > 0 ? ExitCode::solver : interruption.exit_code();
   } catch (const std::bad_alloc&) {
-    terminal.error("out of memory; use a smaller surface or a coarser --resolution");
+    terminal.error("out of memory; " + remedy);
     return ExitCode::solver;
   } catch (const std::exception& error) {
     terminal.error(fmt::format("a defect of the program: {}", error.what()));

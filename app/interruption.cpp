@@ -1,13 +1,14 @@
 #include "app/interruption.hpp"
 
+#include <fmt/core.h>
 #include <semaphore.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <initializer_list>
+#include <utility>
 
 #include "app/command_line.hpp"
 #include "surface/error.hpp"
@@ -38,7 +39,7 @@ void handle(int signal) {
 
 }  // namespace
 
-Interruption::Interruption() {
+Interruption::Interruption(std::string remedy) : remedy_(std::move(remedy)) {
   sem_init(&arrived, 0, 0);
   last_signal = 0;
   // A reader that closes its end of the pipe is an error of the write, not the end of the process.
@@ -64,6 +65,19 @@ Interruption::~Interruption() {
 
 int Interruption::exit_code() const { return 128 + (last_signal != 0 ? last_signal : SIGINT); }
 
+std::string Interruption::message() const {
+  const double limit = reached_limit_;
+  if (limit <= 0) return "interrupted";
+  return fmt::format("the time limit of {:g} s was reached, {} was written; allow more, or {}",
+                     limit, wrote_ ? "not everything" : "nothing", remedy_);
+}
+
+std::unique_lock<std::mutex> Interruption::hold() {
+  std::unique_lock lock(writing_);
+  wrote_ = true;
+  return lock;
+}
+
 void Interruption::check() const {
   if (stop_.stop_requested()) throw Cancelled();
 }
@@ -73,7 +87,7 @@ void Interruption::watch(const std::stop_token& finished) {
   }
   if (finished.stop_requested()) return;
   stop_.request_stop();
-  end_process_soon(finished, "\ncurveskel: interrupted\n", exit_code());
+  end_process_soon(finished, exit_code());
 }
 
 void Interruption::limit(double seconds) {
@@ -86,20 +100,20 @@ void Interruption::limit(double seconds) {
     if (finished.stop_requested()) return;
     reached_limit_ = seconds;
     stop_.request_stop();
-    end_process_soon(finished, "\ncurveskel: the time limit was reached\n", ExitCode::solver);
+    end_process_soon(finished, ExitCode::solver);
   });
 }
 
 /// Unless the stage obeys first.
-void Interruption::end_process_soon(const std::stop_token& finished, const char* message,
-                                    int exit_code) {
+void Interruption::end_process_soon(const std::stop_token& finished, int exit_code) {
   {
     std::unique_lock lock(mutex_);
     ended_.wait_for(lock, finished, 800ms, [] { return false; });
   }
   if (finished.stop_requested()) return;
-  [[maybe_unused]] const auto writing = hold();  // NOLINT(clang-analyzer-deadcode.DeadStores)
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  const std::unique_lock writing(writing_);
+  const std::string line = "\ncurveskel: " + message() + "\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
   _exit(exit_code);
 }
 

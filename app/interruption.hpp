@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 namespace curveskel {
@@ -14,7 +15,8 @@ namespace curveskel {
 /// time.
 class Interruption {
  public:
-  Interruption();
+  /// `remedy` is what to do, besides allowing more, where a time limit is reached.
+  explicit Interruption(std::string remedy);
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
@@ -28,18 +30,22 @@ class Interruption {
   [[nodiscard]] double reached_limit() const { return reached_limit_; }
   /// Throws Cancelled if a stop was requested.
   void check() const;
+  /// What to say of it: that it was interrupted, or which limit was reached, and what to do.
+  [[nodiscard]] std::string message() const;
   /// While held, the process does not end halfway through a file.
-  [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(writing_); }
+  [[nodiscard]] std::unique_lock<std::mutex> hold();
 
  private:
   void watch(const std::stop_token& finished);
-  void end_process_soon(const std::stop_token& finished, const char* message, int exit_code);
+  void end_process_soon(const std::stop_token& finished, int exit_code);
 
+  std::string remedy_;
   std::stop_source stop_;
   std::mutex writing_;
   std::mutex mutex_;
   std::condition_variable_any ended_;
   std::atomic<double> reached_limit_ = 0;
+  std::atomic<bool> wrote_ = false;
   std::jthread watcher_;
   std::jthread timer_;
 };

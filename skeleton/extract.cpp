@@ -117,7 +117,10 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
                         const Monitor& monitor, SurfaceStages* kept) {
   Extraction result;
   require_memory(least_memory_bytes(surface, options), available_memory_bytes(), "the extraction",
-                 Fault::input, "choose a coarser --resolution or decimate the surface first");
+                 Fault::input,
+                 options.resolution > 0
+                     ? "decimate the surface first"
+                     : "choose a coarser --resolution or decimate the surface first");
   SurfaceStages passing;
   SurfaceStages& stages = kept != nullptr ? *kept : passing;
   std::vector<std::string> taken;

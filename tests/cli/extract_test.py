@@ -179,7 +179,26 @@ class TimeLimit(CommandLineTest):
     def test_ends_the_run_and_leaves_nothing(self):
         mesh = write_torus(self.folder / "torus.ply", 1500, 400)
         self.refused(5, "extract", mesh, "-o", "x.obj", "--resolution", "full", "--time-limit",
-                     "0.5", says=["the time limit"], cwd=self.folder)
+                     "0.5", cwd=self.folder, says=["the time limit of 0.5 s was reached, nothing was "
+                                                   "written", "a coarser --resolution"])
+
+    def test_advises_only_what_the_verb_has(self):
+        mesh = write_torus(self.folder / "torus.ply", 1500, 400)
+        (self.folder / "x.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")
+        for arguments in (("rig", mesh, "-o", "x.glb"), ("contract", mesh, "-o", "x.ply"),
+                          ("fair", mesh, "-o", "x.ply", "--iterations", "1000"),
+                          ("evaluate", mesh, "x.obj")):
+            self.refused(5, *arguments, "--time-limit", "0.3", cwd=self.folder,
+                         says=["the time limit of 0.3 s was reached, nothing was written; allow "
+                               "more, or decimate the surface first\n"])
+
+    def test_says_the_same_where_a_stage_does_not_obey(self):
+        # At first CGAL does not look up for seconds, on most machines.
+        for limit in ("0.5", "1"):
+            self.refused(5, "rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-opening",
+                         "0.001", "--time-limit", limit, cwd=self.folder,
+                         says=[f"the time limit of {limit} s was reached, nothing was written; "
+                               "allow more, or decimate the surface first\n"])
 
     def test_does_not_matter_when_it_is_not_reached(self):
         self.run_ok("extract", Y, "-o", "x.obj", "--time-limit", "300", cwd=self.folder)
