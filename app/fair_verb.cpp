@@ -75,7 +75,7 @@ std::string moved(const Positions& from, const Positions& to) {
 
 int run_fair(const FairArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
-  const SurfaceFormat format = format_of(arguments.output, surface_formats);
+  const SurfaceFormat format = format_of(arguments.output, written_surface_formats);
   check_outputs({arguments.output}, arguments.mesh);
 
   session.interruption.limit(arguments.time_limit_seconds);
@@ -107,8 +107,9 @@ Verb add_fair(CLI::App& program) {
       ->required()
       ->type_name("");
   parser
-      ->add_option("-o,--output", arguments->output,
-                   "the faired surface, its format by the extension: obj, off, ply or stl")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "the faired surface, its format by the extension: " + names_in(written_surface_formats))
       ->required()
       ->type_name("OUT");
   add_choice(*parser, "--method", options.method, fair_methods, "how the flow is computed");

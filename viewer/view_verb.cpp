@@ -9,6 +9,7 @@
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
 #include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
 #include "viewer/screenshot.hpp"
 #include "viewer/view_options.hpp"
 #include "viewer/window.hpp"
@@ -17,6 +18,10 @@ namespace curveskel::viewer {
 namespace {
 
 constexpr int largest_picture = 16384;
+
+constexpr NameTable<SkeletonFormat, 1> picture_formats{{
+    {SkeletonFormat::png, "png", "Portable Network Graphics"},
+}};
 
 std::string set_size(ViewOptions& options, const std::string& text) {
   const auto cross = text.find('x');
@@ -101,6 +106,7 @@ int run_view(ViewOptions options, Session& session) {
   if (options.two_sides && options.screenshot.empty()) {
     throw UsageError("--two-sides is for --screenshot");
   }
+  if (!options.screenshot.empty()) (void)format_of(options.screenshot, picture_formats);
   if (!pictures) return run_window(options, session);
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
   write_pictures(options, session.monitor());

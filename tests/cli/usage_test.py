@@ -49,6 +49,10 @@ class WrongArguments(CommandLineTest):
         for output in ("x.xyz", "x", ".obj"):
             self.refused(USAGE, "extract", TORUS, "-o", output, says=formats, cwd=self.folder)
         self.refused(USAGE, "extract", TORUS, "-o", "-", "--format", "xyz", says=formats)
+        for output in ("x.glb", "x.gltf", "x.xyz", "x"):
+            self.refused(USAGE, "fair", "no.off", "-o", output, says=["obj, off, ply, stl"],
+                         cwd=self.folder)
+            self.refused(USAGE, "contract", "no.off", "-o", output, says=["ply"], cwd=self.folder)
         self.refused(USAGE, "extract", TORUS, "-o", "-", says=["--format"] + formats)
 
     def test_numbers_out_of_range_name_the_range(self):

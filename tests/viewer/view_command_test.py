@@ -286,7 +286,9 @@ class Refused(ViewTest):
     def test_places_that_cannot_be_written_to(self):
         file = self.folder / "file"
         file.write_text("kept")
-        for out in (self.folder / "missing" / "out.png", self.folder):
+        taken = self.folder / "folder.png"
+        taken.mkdir()
+        for out in (self.folder / "missing" / "out.png", taken):
             self.refused(OUTPUT, "view", Y, "--no-run", "--size", "16x10", "--screenshot", out,
                          says=[str(out)])
         for out in (file, file / "below", "/proc/none"):
@@ -295,7 +297,15 @@ class Refused(ViewTest):
         self.assertEqual(file.read_text(), "kept")
 
     def test_a_disk_that_is_full(self):
-        self.refused(OUTPUT, "view", Y, "--no-run", "--size", "16x10", "--screenshot", "/dev/full")
+        full = self.folder / "full.png"
+        full.symlink_to("/dev/full")
+        self.refused(OUTPUT, "view", Y, "--no-run", "--size", "16x10", "--screenshot", full)
+
+    def test_pictures_that_are_no_png(self):
+        for out in ("x.jpg", "x.svg", "x"):
+            self.refused(USAGE, "view", "missing.off", "--screenshot", out, says=[out, "png"],
+                         cwd=self.folder)
+        self.picture(Y, "--no-run", name="picture.PNG")
 
 
 if __name__ == "__main__":
