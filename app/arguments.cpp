@@ -25,6 +25,11 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
   add_number(
       parser, "--wrap-opening", options.wrap_opening, 0.0, 0.5,
       "gaps up to this are spanned by a wrap, of the diagonal of what is wrapped; 0 = chosen");
+  parser.parse_complete_callback([&options] {
+    if (options.wrap == Wrapping::never && options.wrap_opening > 0) {
+      throw CLI::ValidationError("--wrap-opening", "needs a wrap, so not --wrap never");
+    }
+  });
 }
 
 void add_time_limit(CLI::App& parser, double& seconds) {

@@ -71,6 +71,12 @@ class WrongArguments(CommandLineTest):
                      cwd=self.folder)
         self.refused(USAGE, "extract", TORUS, "-o", "x.json", "--report", "x.json",
                      says=["twice"], cwd=self.folder)
+        for arguments in (("extract", TORUS, "-o", "x.obj"), ("rig", TORUS, "-o", "x.glb"),
+                          ("contract", TORUS, "-o", "x.ply"), ("evaluate", TORUS, "x.obj")):
+            self.refused(USAGE, *arguments, "--wrap-opening", "0.01", "--wrap", "never",
+                         says=["--wrap-opening", "--wrap never"], cwd=self.folder)
+        self.run_ok("extract", TORUS, "-o", "x.obj", "--wrap", "never", "--wrap-opening", "0",
+                    cwd=self.folder)
 
     def test_never_overwrite_the_input(self):
         mesh = self.folder / "mesh.ply"
