@@ -8,7 +8,6 @@
 #include "rig/rooted_tree.hpp"
 #include "surface/element_index.hpp"
 #include "surface/error.hpp"
-#include "surface/measures.hpp"
 
 namespace curveskel {
 namespace {
@@ -41,8 +40,7 @@ class JointPlacer {
     for (std::size_t component = 0; component < tree_.roots.size(); ++component) {
       part_ = component == 0 ? "" : "part" + std::to_string(component + 1) + "_";
       limbs_ = 0;
-      place_component(tree_.roots[component]);
-      if (component < most_anchors) anchor(tree_.roots[component]);
+      place_component(tree_.roots[component], tree_.above[component]);
     }
     const auto count = static_cast<Eigen::Index>(points_.size());
     joints_.positions.resize(count, 3);
@@ -55,18 +53,6 @@ class JointPlacer {
   }
 
  private:
-  static constexpr std::size_t most_anchors = 64;  // components that others may hang from
-
-  /// Nodes outside have none; a bone needs some length to be measured in.
-  static Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
-    const double diagonal = bounding_box_diagonal(skeleton.nodes);
-    const bool has_radii = skeleton.radii.size() > 0 && skeleton.radii.maxCoeff() > 0;
-    if (!has_radii) {
-      return Eigen::VectorXd::Constant(skeleton.nodes.rows(), diagonal > 0 ? diagonal / 50 : 1);
-    }
-    return skeleton.radii.cwiseMax(0.01 * skeleton.radii.maxCoeff());
-  }
-
   int add(const Eigen::RowVector3d& point, int parent, std::string name) {
     points_.push_back(point);
     parents_.push_back(parent);
@@ -74,32 +60,9 @@ class JointPlacer {
     return static_cast<int>(points_.size()) - 1;
   }
 
-  /// The joint that moves what is nearest, of the components before.
-  [[nodiscard]] int joint_near(int node) const {
-    int nearest = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (const int other : anchors_) {
-      const double distance =
-          (skeleton_.nodes.row(other) - skeleton_.nodes.row(node)).squaredNorm();
-      if (distance < least) {
-        least = distance;
-        nearest = other;
-      }
-    }
-    return nearest < 0 ? -1 : joints_.joint_of_node[nearest];
-  }
-
-  void anchor(int root) {
-    std::vector<int> nodes{root};
-    for (std::size_t next = 0; next < nodes.size(); ++next) {
-      const std::vector<int>& children = tree_.children[at(nodes[next])];
-      nodes.insert(nodes.end(), children.begin(), children.end());
-    }
-    anchors_.insert(anchors_.end(), nodes.begin(), nodes.end());
-  }
-
-  void place_component(int root) {
-    joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), joint_near(root), part_ + "root");
+  void place_component(int root, int above) {
+    const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
+    joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), parent, part_ + "root");
     std::vector<int> open{root};  // upper ends of limbs yet to be placed
     while (!open.empty()) {
       const int upper = open.back();
@@ -266,7 +229,6 @@ class JointPlacer {
   int limbs_ = 0;
   std::vector<Eigen::RowVector3d> points_;
   std::vector<int> parents_;
-  std::vector<int> anchors_;  // nodes of the components before
   Joints joints_;
 };
 

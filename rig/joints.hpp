@@ -32,8 +32,9 @@ struct Joints {
 /// ways from the root meet. Along a limb the joints minimise, over all choices (dynamic
 /// programming), the sum over bones of 1 + (length / (bone_length r))^2 + (deviation / (bend r))^2,
 /// lengths measured in the radius r where they are, deviation the largest distance of the curve
-/// from the bone. Smaller components hang from the nearest joint of those before them, components
-/// in the order of length times radius, that of a wanted root first, so that there is one root.
+/// from the bone. Components hang from each other where they overlap or are nearest, in a tree from
+/// the heaviest (length times radius) or that of a wanted root, so that there is one root; each is
+/// rooted where it hangs.
 /// Throws Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred
 /// times as much where there are many junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options);

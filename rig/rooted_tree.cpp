@@ -7,7 +7,9 @@
 #include <queue>
 #include <utility>
 
+#include "rig/hanging.hpp"
 #include "surface/element_index.hpp"
+#include "surface/measures.hpp"
 
 namespace curveskel {
 namespace {
@@ -31,15 +33,21 @@ class Rooting {
   }
 
   RootedTree grow(int wanted) {
-    std::vector<std::pair<double, std::vector<int>>> components = find_components();
-    const auto has_wanted = [wanted](const auto& component) {
-      return std::binary_search(component.second.begin(), component.second.end(), wanted);
+    std::vector<std::vector<int>> components = find_components();
+    const auto has_wanted = [wanted](const std::vector<int>& nodes) {
+      return std::binary_search(nodes.begin(), nodes.end(), wanted);
     };
     std::stable_partition(components.begin(), components.end(), has_wanted);
-    for (const auto& component : components) {
-      const std::vector<int>& nodes = component.second;
-      const int root = has_wanted(component) ? wanted : root_of(nodes);
+    std::vector<Hinge> hinges;
+    if (!components.empty()) {
+      hinges = hang_components(skeleton_, usable_radii(skeleton_), components);
+      hinges.front().node = has_wanted(components.front()) ? wanted : root_of(components.front());
+    }
+    for (const std::size_t component : outwards(components, hinges)) {
+      const std::vector<int>& nodes = components[component];
+      const int root = hinges[component].node;
       tree_.roots.push_back(root);
+      tree_.above.push_back(hinges[component].above);
       walk(root, cut_at(nodes, root));
       for (const int node : nodes) {
         if (tree_.parent[at(node)] >= 0) tree_.children[at(tree_.parent[at(node)])].push_back(node);
@@ -59,7 +67,7 @@ class Rooting {
 
   /// The heaviest first, of those as heavy (but for rounding) the one with the first node; nodes
   /// ascending.
-  std::vector<std::pair<double, std::vector<int>>> find_components() const {
+  [[nodiscard]] std::vector<std::vector<int>> find_components() const {
     std::vector<std::pair<double, std::vector<int>>> components;
     std::vector<bool> seen(neighbours_.size());
     for (std::size_t first = 0; first < seen.size(); ++first) {
@@ -86,7 +94,29 @@ class Rooting {
     }
     std::stable_sort(components.begin(), components.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    return components;
+    std::vector<std::vector<int>> only_nodes;
+    for (auto& component : components) only_nodes.push_back(std::move(component.second));
+    return only_nodes;
+  }
+
+  /// Each after the one that it hangs from.
+  [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<std::vector<int>>& components,
+                                                  const std::vector<Hinge>& hinges) const {
+    std::vector<std::size_t> component_of(neighbours_.size());
+    for (std::size_t component = 0; component < components.size(); ++component) {
+      for (const int node : components[component]) component_of[at(node)] = component;
+    }
+    std::vector<std::vector<std::size_t>> below(components.size());
+    for (std::size_t component = 1; component < components.size(); ++component) {
+      below[component_of[at(hinges[component].above)]].push_back(component);
+    }
+    std::vector<std::size_t> order;
+    if (!components.empty()) order.push_back(0);
+    for (std::size_t next = 0; next < order.size(); ++next) {
+      const std::vector<std::size_t>& hanging = below[order[next]];
+      order.insert(order.end(), hanging.begin(), hanging.end());
+    }
+    return order;
   }
 
   [[nodiscard]] int root_of(const std::vector<int>& nodes) {
@@ -196,6 +226,13 @@ class Rooting {
 };
 
 }  // namespace
+
+Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
+  const bool has_radii = skeleton.radii.size() > 0 && skeleton.radii.maxCoeff() > 0;
+  if (has_radii) return skeleton.radii.cwiseMax(0.01 * skeleton.radii.maxCoeff());
+  const double diagonal = bounding_box_diagonal(skeleton.nodes);
+  return Eigen::VectorXd::Constant(skeleton.nodes.rows(), diagonal > 0 ? diagonal / 50 : 1);
+}
 
 RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted) {
   return Rooting(skeleton).grow(wanted);

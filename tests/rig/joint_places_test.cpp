@@ -224,23 +224,11 @@ TEST(JointPlaces, GoRoundARingInOneChain) {
   }
 }
 
-/// Both curves in one skeleton, no edge between them.
-CurveSkeleton both_of(const CurveSkeleton& one, const CurveSkeleton& other) {
-  CurveSkeleton both;
-  both.nodes.resize(one.nodes.rows() + other.nodes.rows(), 3);
-  both.nodes << one.nodes, other.nodes;
-  both.radii.resize(both.nodes.rows());
-  both.radii << one.radii, other.radii;
-  both.edges.resize(one.edges.rows() + other.edges.rows(), 2);
-  both.edges << one.edges, other.edges.array() + static_cast<int>(one.nodes.rows());
-  return both;
-}
-
 TEST(JointPlaces, HangSmallerComponentsFromTheJointOfTheNearestNode) {
   const CurveSkeleton large = chain_through({{0, 0, 0}, {40, 0, 0}}, 1, 1);
   const CurveSkeleton small = chain_through({{26, 4, 0}, {26, 12, 0}}, 0.7, 1);
   const CurveSkeleton least = chain_through({{29, 10, 0}, {33, 10, 0}}, 0.3, 1);
-  const CurveSkeleton all = both_of(least, both_of(large, small));  // heavier ones may come later
+  const CurveSkeleton all = curves_together({least, large, small});  // heavier ones may come later
   const Joints joints = place_joints(all, {});
   const auto joint_named = [&](const std::string& name) {
     const auto place = std::find(joints.names.begin(), joints.names.end(), name);

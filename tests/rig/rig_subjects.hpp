@@ -82,6 +82,22 @@ inline CurveSkeleton chain_through(const std::vector<Eigen::RowVector3d>& corner
   return chain;
 }
 
+/// All curves in one skeleton, no edges between them.
+inline CurveSkeleton curves_together(const std::vector<CurveSkeleton>& curves) {
+  CurveSkeleton all;
+  for (const CurveSkeleton& curve : curves) {
+    const Eigen::Index nodes = all.nodes.rows();
+    const Eigen::Index edges = all.edges.rows();
+    all.nodes.conservativeResize(nodes + curve.nodes.rows(), 3);
+    all.nodes.bottomRows(curve.nodes.rows()) = curve.nodes;
+    all.radii.conservativeResize(all.nodes.rows());
+    all.radii.tail(curve.nodes.rows()) = curve.radii;
+    all.edges.conservativeResize(edges + curve.edges.rows(), 2);
+    all.edges.bottomRows(curve.edges.rows()) = curve.edges.array() + static_cast<int>(nodes);
+  }
+  return all;
+}
+
 inline double distance_to_segment(const Eigen::RowVector3d& point, const Eigen::RowVector3d& from,
                                   const Eigen::RowVector3d& to) {
   const Eigen::RowVector3d way = to - from;
