@@ -95,6 +95,7 @@ class Rooting {
     std::stable_sort(components.begin(), components.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::vector<int>> only_nodes;
+    only_nodes.reserve(components.size());
     for (auto& component : components) only_nodes.push_back(std::move(component.second));
     return only_nodes;
   }
