@@ -173,7 +173,9 @@ TEST_F(WriteFile, StlIsRefusedWhereSinglePrecisionMovesVertices) {
     EXPECT_NO_THROW((void)format_surface(moved, SurfaceFormat::ply));
     moved.positions = moved.positions.cast<float>().cast<double>();  // as an STL file is read
     EXPECT_EQ(moved.positions.allFinite(), far < 1e38);
-    if (far < 1e38) EXPECT_NO_THROW((void)format_surface(moved, SurfaceFormat::stl));
+    if (far < 1e38) {
+      EXPECT_NO_THROW((void)format_surface(moved, SurfaceFormat::stl));
+    }
   }
 }
 
