@@ -20,6 +20,7 @@
 #include "skeleton/certificate.hpp"
 #include "skeleton/curve_skeleton.hpp"
 #include "skeleton/edit.hpp"
+#include "skeleton/evaluate_repaired.hpp"
 #include "skeleton/extract.hpp"
 #include "skeleton/extract_repaired.hpp"
 #include "skeleton/extraction_cache.hpp"

@@ -35,28 +35,4 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
   return text;
 }
 
-std::string failures(const Certificate& c, const CertificateOptions& options) {
-  std::string text;
-  const auto add = [&text](const std::string& failure) {
-    text += (text.empty() ? "" : "; ") + failure;
-  };
-  if (c.components != c.components_of_surface) {
-    add(fmt::format("the skeleton has {} components, the surface {}", c.components,
-                    c.components_of_surface));
-  }
-  if (c.cycle_rank != c.genus) {
-    add(fmt::format("the skeleton has {} independent cycles, the surface genus {}", c.cycle_rank,
-                    c.genus));
-  } else if (c.homology_rank != c.genus) {
-    add(fmt::format(
-        "of the skeleton's {} cycles only {} go round handles of the surface independently",
-        c.cycle_rank, c.homology_rank));
-  }
-  if (!c.inside_enough) {
-    add(fmt::format("{:.3f} % of the length is inside, needed {:.1f} %", 100 * c.inside_fraction,
-                    100 * options.inside_needed));
-  }
-  return text;
-}
-
 }  // namespace curveskel

@@ -11,8 +11,4 @@ namespace curveskel {
 [[nodiscard]] std::string certificate_table(const Certificate& certificate,
                                             const CertificateOptions& options);
 
-/// What the certificate finds wrong, in one line; empty if nothing is.
-[[nodiscard]] std::string failures(const Certificate& certificate,
-                                   const CertificateOptions& options);
-
 }  // namespace curveskel

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
@@ -12,6 +13,7 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "skeleton/certificate.hpp"
+#include "skeleton/evaluate_repaired.hpp"
 #include "skeleton/skeleton_files.hpp"
 #include "surface/measures.hpp"
 #include "surface/read.hpp"
@@ -43,12 +45,16 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();
   const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
-  const Surface surface = repair(read_polygons(arguments.mesh, monitor), arguments.repair, monitor,
-                                 arguments.options.threads)
-                              .surface;
+  RepairedSurface repaired = repair(read_polygons(arguments.mesh, monitor), arguments.repair,
+                                    monitor, arguments.options.threads);
   Evaluation evaluation;
   evaluation.options = arguments.options;
-  evaluation.certificate = evaluate(surface, skeleton, arguments.options, monitor);
+  RepairedEvaluation found =
+      evaluate_repaired(repaired, arguments.repair, skeleton, arguments.options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Surface& surface = repaired.surface;
+  evaluation.repairs = repaired.repairs;
+  evaluation.certificate = found.certificate;
   const Certificate& certificate = evaluation.certificate;
   if (!arguments.against.empty()) {
     const double diagonal = bounding_box_diagonal(surface.positions);
@@ -82,7 +88,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
     }
     session.terminal.result(text);
   }
-  if (!arguments.strict || (certificate.topology_correct() && certificate.inside_enough)) {
+  if (!arguments.strict || certificate.holds()) {
     return ExitCode::done;
   }
   session.terminal.error("the certificate failed: " + failures(certificate, arguments.options));

@@ -213,6 +213,7 @@ std::string evaluation_json(const std::string& surface_file, const std::string& 
   Json json = {{"program", program_and_version()},
                {"surface", surface_file},
                {"skeleton", skeleton_file},
+               {"repairs", to_json(evaluation.repairs)},
                {"parameters", to_json(evaluation.options)},
                {"certificate", to_json(evaluation.certificate)}};
   if (!evaluation.against.empty()) {

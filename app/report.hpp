@@ -40,6 +40,7 @@ struct RunRecord {
 struct Evaluation {
   Certificate certificate;
   CertificateOptions options;
+  Repairs repairs;                ///< of the surface, before
   std::string against;            ///< the other skeleton's file, empty = none
   double hausdorff_distance = 0;  ///< to that one, of the surface's D
   double mean_distance = 0;       ///< the same in the mean

@@ -26,6 +26,7 @@ set(CURVESKEL_PUBLIC_HEADERS
   skeleton/curve_skeleton.hpp
   skeleton/edit.hpp
   skeleton/embed.hpp
+  skeleton/evaluate_repaired.hpp
   skeleton/extract.hpp
   skeleton/extract_repaired.hpp
   skeleton/extraction_cache.hpp

@@ -45,6 +45,7 @@ struct Certificate {
     return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
   }
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
+  [[nodiscard]] bool holds() const { return topology_correct() && inside_enough; }
 };
 
 /// Precondition: a clean surface (see Surface). The skeleton may be anyone's: radii and vertex map
@@ -54,6 +55,10 @@ struct Certificate {
 /// Throws Error(Fault::input) if a node's position is no finite number.
 [[nodiscard]] Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
                                    const CertificateOptions& options, const Monitor& monitor);
+
+/// What does not hold, in one line; empty if nothing.
+[[nodiscard]] std::string failures(const Certificate& certificate,
+                                   const CertificateOptions& options);
 
 /// What a certificate compares a skeleton with.
 struct CertifiedSurface {

@@ -45,8 +45,11 @@ class Cover {
   bool between(const Point& p, double p_radius, const Point& q, double q_radius, int depth,
                std::vector<Point>& inserted) const {
     const double length = (q - p).norm();
-    if (p_radius > 0 && q_radius > 0 && length <= p_radius + q_radius) return true;
-    if (depth == deepest || p_radius <= 0 || q_radius <= 0) return false;
+    const bool both_inside = p_radius > 0 && q_radius > 0;
+    if (both_inside && length <= p_radius + q_radius) return true;
+    // In a sheet balls would be as many as it is wide in its thicknesses.
+    if (both_inside && length <= least_spacing && !crosses(tree_, p, q)) return true;
+    if (depth == deepest || !both_inside) return false;
     Point middle = 0.5 * (p + q);
     double radius = tree_.inscribed_radius(middle);
     if (radius < least_radius) {

@@ -14,8 +14,6 @@
 namespace curveskel {
 namespace {
 
-constexpr double least_spacing = 1.0 / 400;
-
 /// The polyline's points at equal steps of arc length, ends left out.
 std::vector<Point> evenly(const std::vector<Point>& line, int inner) {
   std::vector<double> arc{0};
@@ -258,7 +256,7 @@ void thin_out(Network& network, const SurfaceTree& tree, double most_spacing) {
       const double gap = (line[i + 1] - line[last]).norm();
       const bool enough = kept.size() + (line.size() - 2 - i) >= least;
       if (enough && gap <= std::clamp(0.5 * radius[i], least_spacing, most_spacing) &&
-          gap <= radius[last] + radius[i + 1]) {
+          (gap <= radius[last] + radius[i + 1] || !crosses(tree, line[last], line[i + 1]))) {
         continue;
       }
       kept.push_back(line[i]);

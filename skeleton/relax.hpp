@@ -10,6 +10,9 @@
 
 namespace curveskel {
 
+/// Of D: points need not lie nearer together, however thin what they run through.
+inline constexpr double least_spacing = 1.0 / 400;
+
 /// The inscribed radius at each point, negative outside.
 [[nodiscard]] std::vector<double> radii_at(const SurfaceTree& tree,
                                            const std::vector<Point>& points);
@@ -40,7 +43,8 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
 void centre_junctions(Network& network, const SurfaceTree& tree);
 
 /// Drops inner points that crowd (nearer than half an inscribed radius and than `most_spacing`)
-/// where the balls of their neighbours overlap without them.
+/// where the balls of their neighbours overlap without them, or the line between these neighbours
+/// meets no surface.
 void thin_out(Network& network, const SurfaceTree& tree, double most_spacing);
 
 /// Takes the chord wherever the strand goes a detour within its own ball: between two points that

@@ -60,29 +60,27 @@ void note(Repairs& repairs, const WrappedSolid& wrapped, double share_of_diagona
 
 }  // namespace
 
-std::optional<RepairedSurface> wrap_components(const RepairedSurface& repaired,
-                                               const std::vector<int>& components, double opening,
-                                               const Monitor& monitor) {
+RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<ComponentWrap>& wraps,
+                           const Monitor& monitor) {
   const double diagonal = bounding_box_diagonal(repaired.surface.positions);
   const Topology counted = topology(repaired.surface);
   const auto parts = split_components(repaired.surface, counted);
-  std::vector<bool> wanted(parts.size(), false);
-  for (const int component : components) wanted[at(component)] = true;
+  std::vector<const WrappedSolid*> wrap_of(parts.size(), nullptr);
+  for (const ComponentWrap& one : wraps) wrap_of[at(one.component)] = &one.wrap;
   RepairedSurface result = repaired;
   std::vector<std::int32_t> number(at(repaired.surface.positions.rows()), -1);
   Assembly assembly;
   std::int64_t faces = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const auto& [surface, in_whole] = parts[c];
-    if (!wanted[c]) {
+    const WrappedSolid* const wrapped = wrap_of[c];
+    if (wrapped == nullptr) {
       const std::int32_t first = assembly.add(surface);
       for (std::size_t v = 0; v < in_whole.size(); ++v) {
         number[at(in_whole[v])] = first + static_cast<std::int32_t>(v);
       }
       continue;
     }
-    const auto wrapped = wrap_solid(surface, opening, monitor);
-    if (!wrapped) return std::nullopt;
     note(result.repairs, *wrapped, bounding_box_diagonal(surface.positions) / diagonal);
     faces += surface.triangles.rows();
     const std::int32_t first = assembly.add(wrapped->surface);
@@ -92,8 +90,9 @@ std::optional<RepairedSurface> wrap_components(const RepairedSurface& repaired,
           first + nearest_vertex(wrapped->surface, tree, surface.positions.row(std::int64_t(v)));
     }
   }
-  std::erase_if(result.openings,
-                [&](const auto& hole) { return wanted[at(counted.component_of_vertex[hole[0]])]; });
+  std::erase_if(result.openings, [&](const auto& hole) {
+    return wrap_of[at(counted.component_of_vertex[hole[0]])] != nullptr;
+  });
   for (auto& hole : result.openings) {
     for (std::int32_t& v : hole) v = number[at(v)];
   }

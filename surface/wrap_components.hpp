@@ -2,22 +2,25 @@
 // or through their limbs.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "surface/monitor.hpp"
 #include "surface/repair.hpp"
+#include "surface/wrap_solid.hpp"
 
 namespace curveskel {
 
-/// The surface with wraps in the place of these components (by their numbers in `topology`), each
-/// wrapped on its own (see `wrap_solid`; `opening` of the component's own extent). A wrapped vertex
-/// has the nearest one of its wrap; openings that were closed there are openings no more. Counted
-/// and said in `repairs`. Nothing if one of the wraps encloses no more than its own thickness.
-/// Throws Cancelled on a stop.
-[[nodiscard]] std::optional<RepairedSurface> wrap_components(const RepairedSurface& repaired,
-                                                             const std::vector<int>& components,
-                                                             double opening,
-                                                             const Monitor& monitor);
+/// A component, by its number in `topology`, and the wrap that stands for it.
+struct ComponentWrap {
+  int component = 0;
+  WrappedSolid wrap;  ///< lengths over the component's own extent
+};
+
+/// The surface with the wraps in the place of their components. A wrapped vertex has the nearest
+/// one of its wrap; openings that were closed there are openings no more. Counted and said in
+/// `repairs`. Precondition: each component at most once.
+[[nodiscard]] RepairedSurface with_wraps(const RepairedSurface& repaired,
+                                         const std::vector<ComponentWrap>& wraps,
+                                         const Monitor& monitor);
 
 }  // namespace curveskel

@@ -34,10 +34,7 @@ std::vector<Shape> ragged_graphs() {
 
 RepairedSurface as_given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }
 
-bool holds(const RepairedExtraction& found) {
-  return found.extraction.certificate.topology_correct() &&
-         found.extraction.certificate.inside_enough;
-}
+bool holds(const RepairedExtraction& found) { return found.extraction.certificate.holds(); }
 
 TEST(ExtractRepaired, LeavesAloneWhatIsCertified) {
   for (const Shape& shape : {shapes::torus(3, 1, 32), shapes::linked_rings(3, 0.5, 32)}) {
@@ -55,8 +52,7 @@ void expect_wrapped(const Shape& shape) {
   SCOPED_TRACE(shape.name);
   const RepairedSurface repaired = as_given(shape);
   const Extraction alone = extract(repaired.surface, {}, {});
-  ASSERT_FALSE(alone.certificate.topology_correct() && alone.certificate.inside_enough)
-      << "no test of wrapping: raise the noise";
+  ASSERT_FALSE(alone.certificate.holds()) << "no test of wrapping: raise the noise";
   std::vector<std::string> notes;
   Monitor monitor;
   monitor.note = [&](std::string_view line) { notes.emplace_back(line); };
@@ -102,6 +98,44 @@ TEST(ExtractRepaired, WrapsNoComponentThatIsCertified) {
   const Topology counted = topology(found.wrapped->surface);
   EXPECT_EQ(counted.components(), 3);
   EXPECT_EQ(counted.genus, (std::vector<int>{0, 0, 1}));
+}
+
+/// Two sides that cross each other everywhere, and hold no more than that.
+Shape sheet() {
+  Shape flat = shapes::ellipsoid({1, 1, 1}, 4);
+  flat.name = "sheet";
+  flat.surface.positions.col(2) *= 1e-9;
+  return shapes::noisy(flat, 1e-5, 1);
+}
+
+TEST(ExtractRepaired, WrapsWhatItCanWhereSomethingElseCannotBeHelped) {
+  const Shape shape = shapes::together("two", {sheet(), shapes::translated(ragged(), {0, 0, 4})});
+  const RepairedSurface repaired = as_given(shape);
+  ASSERT_FALSE(holds(extract_repaired(as_given(sheet()), {}, {}, {}))) << "no test: thicker noise";
+  std::vector<std::string> notes;
+  Monitor monitor;
+  monitor.note = [&](std::string_view line) { notes.emplace_back(line); };
+  const RepairedExtraction found = extract_repaired(repaired, {}, {}, monitor);
+  EXPECT_FALSE(holds(found));
+  ASSERT_TRUE(found.wrapped);
+  EXPECT_EQ(found.wrapped->repairs.components_wrapped, 1);
+  EXPECT_EQ(found.wrapped->repairs.faces_wrapped, ragged().surface.triangles.rows());
+  EXPECT_NE(notes.back().find("1 of the 2 components"), std::string::npos) << notes.back();
+  EXPECT_NE(notes.back().find("% of the length is inside"), std::string::npos) << notes.back();
+}
+
+/// However many of their thicknesses they are wide.
+TEST(ExtractRepaired, SheetsHaveNoMoreNodesThanOthers) {
+  for (const double thickness : {1e-3, 1e-4, 1e-5}) {
+    SCOPED_TRACE(thickness);
+    Shape flat = shapes::tube_union("y", shapes::star(3, 2, 0.2));
+    flat.surface.positions.col(2) *= thickness;
+    for (const double noise : {0.0, 0.1}) {
+      const Shape shape = shapes::noisy(flat, noise * thickness, 1);
+      const Extraction found = extract(as_given(shape).surface, {}, {});
+      EXPECT_LT(found.skeleton.nodes.rows(), 500 * found.certificate.length + 100);
+    }
+  }
 }
 
 TEST(ExtractRepaired, KitsThatAreWrappedAsAWholeHaveTheirCurveInside) {

@@ -1,0 +1,13 @@
+// Whether a surface passes through itself.
+#pragma once
+
+#include "surface/surface.hpp"
+
+namespace curveskel {
+
+/// Whether two triangles that share no vertex meet, or two neighbours overlap: then the surface has
+/// no inside that all its handles and limbs bound. Exact. O(#F log #F + pairs that come near).
+/// Precondition: closed oriented 2-manifold.
+[[nodiscard]] bool crosses_itself(const Surface& surface);
+
+}  // namespace curveskel

@@ -1,0 +1,89 @@
+// Laws of the certificate against surfaces that cross themselves: what was extracted from a wrap is
+// held against one, and nothing that can be judged as it is gets wrapped.
+#include "skeleton/evaluate_repaired.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "meshes/shapes.hpp"
+#include "skeleton/extract.hpp"
+#include "skeleton/extract_repaired.hpp"
+#include "skeleton/failing_components.hpp"
+#include "surface/crosses_itself.hpp"
+#include "surface/topology.hpp"
+#include "tests/soups.hpp"
+
+namespace curveskel::evaluate_repaired_laws {
+namespace {
+
+using shapes::Shape;
+
+/// A limb whose vertices were moved by nearly its radius.
+Shape turned_inside_out() {
+  const Shape tube = shapes::tube("limb", shapes::straight(4), shapes::constant(0.06), 12);
+  return shapes::noisy(tube, 0.045, 1);
+}
+
+RepairedSurface given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }
+
+TEST(EvaluateRepaired, AgreesWithTheExtractionFromAWrap) {
+  const Shape ball = shapes::translated(shapes::ellipsoid({1, 1, 2}, 4), {0, 0, 6});
+  for (const Shape& shape :
+       {turned_inside_out(), shapes::together("two", {ball, turned_inside_out()})}) {
+    SCOPED_TRACE(shape.name);
+    const RepairedSurface repaired = given(shape);
+    const RepairedExtraction made = extract_repaired(repaired, {}, {}, {});
+    ASSERT_TRUE(made.wrapped && made.extraction.certificate.holds());
+    EXPECT_FALSE(evaluate(repaired.surface, made.extraction.skeleton, {}, {}).holds());
+    const RepairedEvaluation found =
+        evaluate_repaired(repaired, {}, made.extraction.skeleton, {}, {});
+    ASSERT_TRUE(found.wrapped);
+    EXPECT_TRUE(found.certificate.holds());
+    EXPECT_EQ(found.wrapped->repairs.components_wrapped, 1);
+    RepairOptions never;
+    never.wrap = Wrapping::never;
+    const RepairedEvaluation as_it_is =
+        evaluate_repaired(repaired, never, made.extraction.skeleton, {}, {});
+    EXPECT_FALSE(as_it_is.wrapped);
+    EXPECT_FALSE(as_it_is.certificate.holds());
+  }
+}
+
+TEST(EvaluateRepaired, FindsNoWrapToExcuseAWrongSkeleton) {
+  // A wide enough wrap of this ring is a disc, and a tree would do for it.
+  const Shape ring = shapes::torus(1, 0.9, 32);
+  const RepairedSurface repaired = given(ring);
+  CurveSkeleton tree = extract(repaired.surface, {}, {}).skeleton;
+  tree.edges.conservativeResize(tree.edges.rows() - 1, Eigen::NoChange);
+  const RepairedEvaluation found = evaluate_repaired(repaired, {}, tree, {}, {});
+  EXPECT_FALSE(found.wrapped);
+  EXPECT_FALSE(found.certificate.topology_correct());
+}
+
+TEST(EvaluateRepaired, GivesPiecesToTheSmallestThatHoldsThem) {
+  const Shape within = shapes::ellipsoid({0.2, 0.2, 0.4}, 3);
+  const Shape around = shapes::ellipsoid({1, 1, 2}, 4);
+  const Shape beside = shapes::translated(shapes::torus(1, 0.3, 24), {4, 0, 0});
+  const Shape all = shapes::together("three", {around, within, beside});
+  const Topology counted = topology(all.surface);
+  const CurveSkeleton skeleton = extract(all.surface, {}, {}).skeleton;
+  const auto by_map = component_by_map(skeleton, counted);
+  EXPECT_EQ(component_by_place(skeleton, split_components(all.surface, counted)), by_map);
+  EXPECT_EQ(std::vector<int>(by_map).front(), 0);
+  EXPECT_EQ(by_map.back(), 2);
+}
+
+TEST(CrossesItself, IsWhatNoiseOrAnotherPartDoesAndNothingElse) {
+  for (const auto& entry : shapes::catalogue()) {
+    const Shape shape = entry.make();
+    EXPECT_FALSE(crosses_itself(shape.surface)) << shape.name;
+  }
+  EXPECT_TRUE(crosses_itself(turned_inside_out().surface));
+  const Shape ball = shapes::ellipsoid({1, 1, 2}, 3);
+  const Shape other = shapes::translated(ball, {0.7, 0, 0});
+  EXPECT_TRUE(crosses_itself(shapes::together("two", {ball, other}).surface));
+}
+
+}  // namespace
+}  // namespace curveskel::evaluate_repaired_laws
