@@ -39,9 +39,10 @@ Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& opening)
   return rim;
 }
 
-bool way_is_inside(const SurfaceTree& tree, const Eigen::Vector3d& from,
-                   const Eigen::Vector3d& to) {
-  constexpr int samples = 8;
+bool way_is_inside(const SurfaceTree& tree, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                   double most_step) {
+  constexpr int fewest = 8;
+  const int samples = std::max(fewest, static_cast<int>(std::ceil((to - from).norm() / most_step)));
   for (int i = 1; i <= samples; ++i) {
     if (tree.inscribed_radius(from + (to - from) * i / samples) <= 0) return false;
   }
@@ -123,7 +124,8 @@ class Reaching {
     const Eigen::Vector3d p = skeleton_.nodes.row(node);
     const double distance = (rim.middle - p).norm();
     return distance <= nearness * std::max(radius, rim.mean_radius) &&
-           rim.mean_radius >= least_width * radius && way_is_inside(tree_, p, end_of(rim, p));
+           rim.mean_radius >= least_width * radius &&
+           way_is_inside(tree_, p, end_of(rim, p), below_);
   }
 
   /// The limb arrives at its node k from outside the ball there; within, it has no direction.

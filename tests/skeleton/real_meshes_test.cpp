@@ -294,6 +294,34 @@ TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
   }
 }
 
+// The way to an opening left the body between the places that were asked about.
+TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirOpenings) {
+  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
+  PolygonSoup figure = read_polygons(meshes / "humanoid-10k.ply", {});
+  Eigen::Index axis = 0;
+  const Eigen::RowVector3d low = figure.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = figure.positions.colwise().maxCoeff();
+  (high - low).maxCoeff(&axis);
+  const double middle = (low[axis] + high[axis]) / 2;
+  PolygonSoup halves;
+  halves.positions = figure.positions;
+  halves.offsets = {0};
+  for (std::size_t f = 0; f + 1 < figure.offsets.size(); ++f) {
+    const std::vector<std::int32_t> corners(figure.corners.begin() + figure.offsets[f],
+                                            figure.corners.begin() + figure.offsets[f + 1]);
+    const Eigen::VectorXd places = figure.positions(corners, axis);
+    if (places.minCoeff() > middle || places.maxCoeff() < middle) append(halves, corners);
+  }
+  const RepairedSurface repaired = repair(halves, {}, {});
+  ASSERT_EQ(repaired.openings.size(), 6U);
+  ExtractOptions options;
+  options.openings = repaired.openings;
+  const Certificate found = extract(repaired.surface, options, {}).certificate;
+  EXPECT_TRUE(found.topology_correct());
+  EXPECT_EQ(found.inside_fraction, 1);
+  EXPECT_EQ(found.spurs, 0);
+}
+
 TEST(RealMeshes, AreThere) {
   if (!std::filesystem::exists(meshes / "INDEX.csv"))
     GTEST_SKIP() << "no shared meshes at " << meshes << ": nothing of the real kind was tested";

@@ -1,4 +1,4 @@
-// Small closed surfaces, spoiled as the bytes say, through clean, extract and make_rig: either an
+// Small surfaces, spoiled as the bytes say, through repair, extract and make_rig: either an
 // error that says why, or a skeleton of the right topology and a rig that moves every vertex.
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "rig/make_rig.hpp"
 #include "skeleton/extract.hpp"
-#include "surface/clean.hpp"
+#include "surface/repair.hpp"
 
 namespace {
 
@@ -87,7 +87,7 @@ struct Draft {
   }
 
   void spoil(Bytes& bytes) {
-    switch (bytes.below(9)) {
+    switch (bytes.below(10)) {
       case 0:
         vertices[at(vertex(bytes))] = {bytes.coordinate(), bytes.coordinate(), bytes.coordinate()};
         break;
@@ -118,6 +118,10 @@ struct Draft {
         break;
       case 8:
         for (Eigen::Vector3d& p : vertices) p.z() *= bytes.next() / 255.0;
+        break;
+      case 9:
+        face(bytes) = faces.back();
+        if (faces.size() > 1) faces.pop_back();
         break;
     }
   }
@@ -193,12 +197,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.least_resolution = 100;
   options.certificate.threads = 1;
   try {
-    const CleanSurface cleaned = clean(spoiled({data, size}), {}, 1);
-    const Extraction found = extract(cleaned.surface, options, {});
-    check(cleaned.surface, found);
+    RepairOptions as_it_is;
+    as_it_is.wrap = Wrapping::never;  // a wrap takes seconds and is no smaller for small surfaces
+    const RepairedSurface repaired = repair(spoiled({data, size}), as_it_is, {}, 1);
+    options.openings = repaired.openings;
+    const Extraction found = extract(repaired.surface, options, {});
+    check(repaired.surface, found);
     RigOptions rig;
     rig.skin.threads = 1;
-    check(cleaned.surface, make_rig(cleaned.surface, found.skeleton, rig, {}));
+    check(repaired.surface, make_rig(repaired.surface, found.skeleton, rig, {}));
   } catch (const Error&) {
     return 0;  // says why
   }
