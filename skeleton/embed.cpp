@@ -198,9 +198,10 @@ void centre(Network& network, const Setting& setting) {
 
 /// Once it is settled which strands there are: where junctions lie decides what is a spur.
 void centre_at_last(Network& network, const Setting& setting) {
+  constexpr int times_spaced = 4;  // kinks draw points together and then hold them
   RelaxOptions centring;
   centring.keep = setting.options.keep_radius;
-  centring.rounds = setting.options.relax_rounds;
+  centring.rounds = setting.options.relax_rounds / times_spaced;
   centring.meet = true;
   centring.keep_junction = 1;
   const auto hosts = hosts_of_vertices(network, setting.surface, setting.balls, setting.graph);
@@ -209,12 +210,16 @@ void centre_at_last(Network& network, const Setting& setting) {
     return std::any_of(corners.begin(), corners.end(),
                        [&](int vertex) { return hosts[at(vertex)].strand == strand; });
   };
-  relax(network, setting.tree, centring, setting.keeper, setting.threads);
+  for (int spaced = 0; spaced < times_spaced; ++spaced) {
+    keep_handles(network, setting,
+                 [&] { space_by_radius(network, setting.tree, setting.spacing); });
+    relax(network, setting.tree, centring, setting.keeper, setting.threads);
+  }
 }
 
 void space_and_centre(Network& network, const Setting& setting) {
   straighten(network, setting);
-  keep_handles(network, setting, [&] { resample(network, setting.tree, setting.spacing); });
+  keep_handles(network, setting, [&] { space_evenly(network, setting.tree, setting.spacing); });
   centre(network, setting);
 }
 

@@ -141,10 +141,12 @@ class Keeper {
       if (!is_covered(line[i], line[next], between) || !keeps_handle()) {
         // From the last point that is inside to the next one.
         while (next + 1 < line.size() && radii[next] < least_radius) ++next;
+        const int uncovered_before = uncovered_;
         between = detour(strand, line[i], line[next]);
         if (!keeps_handle()) {
           next = i + 1;
           between.clear();
+          uncovered_ = uncovered_before;
           if (crosses(tree_, line[i], line[next])) ++uncovered_;
         }
       }

@@ -14,23 +14,31 @@
 namespace curveskel {
 namespace {
 
-/// The polyline's points at equal steps of arc length, ends left out.
-std::vector<Point> evenly(const std::vector<Point>& line, int inner) {
-  std::vector<double> arc{0};
+/// Points along a polyline, half of the radius there apart, ends left out; `radii` per vertex.
+std::vector<Point> spaced(const std::vector<Point>& line, const std::vector<double>& radii,
+                          double most_spacing, int fewest) {
+  std::vector<double> steps{0};  // from the beginning
+  steps.reserve(line.size());
   for (std::size_t i = 1; i < line.size(); ++i) {
-    arc.push_back(arc.back() + (line[i] - line[i - 1]).norm());
+    const double spacing =
+        std::clamp(0.25 * (radii[i - 1] + radii[i]), least_spacing, most_spacing);
+    steps.push_back(steps.back() + (line[i] - line[i - 1]).norm() / spacing);
   }
+  const int inner = std::max(fewest, static_cast<int>(std::lround(steps.back())) - 1);
   std::vector<Point> points;
+  points.reserve(at(inner));
   std::size_t i = 1;
   for (int k = 1; k <= inner; ++k) {
-    const double s = arc.back() * k / (inner + 1);
-    while (i + 1 < line.size() && arc[i] < s) ++i;
-    const double step = arc[i] - arc[i - 1];
-    const double t = step > 0 ? (s - arc[i - 1]) / step : 0;
+    const double place = steps.back() * k / (inner + 1);
+    while (i + 1 < line.size() && steps[i] < place) ++i;
+    const double length = steps[i] - steps[i - 1];
+    const double t = length > 0 ? (place - steps[i - 1]) / length : 0;
     points.push_back(line[i - 1] + t * (line[i] - line[i - 1]));
   }
   return points;
 }
+
+int fewest_points(const Strand& strand) { return strand.from == strand.to ? 3 : 1; }
 
 }  // namespace
 
@@ -41,18 +49,23 @@ std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& 
   return radii;
 }
 
-void resample(Network& network, const SurfaceTree& tree, double most_spacing) {
+void space_evenly(Network& network, const SurfaceTree& tree, double most_spacing) {
   for (Strand& strand : network.strands) {
     if (!strand.alive) continue;
     const auto line = network.polyline(strand);
     auto radii = radii_at(tree, line);
-    std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
-                     radii.end());
-    const double spacing = std::clamp(0.5 * radii[radii.size() / 2], least_spacing, most_spacing);
-    const int closed = strand.from == strand.to ? 3 : 1;
-    const int inner =
-        std::max(closed, static_cast<int>(std::lround(network.length(strand) / spacing)) - 1);
-    strand.points = evenly(line, inner);
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    radii.assign(line.size(), *middle);
+    strand.points = spaced(line, radii, most_spacing, fewest_points(strand));
+  }
+}
+
+void space_by_radius(Network& network, const SurfaceTree& tree, double most_spacing) {
+  for (Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    const auto line = network.polyline(strand);
+    strand.points = spaced(line, radii_at(tree, line), most_spacing, fewest_points(strand));
   }
 }
 

@@ -17,9 +17,13 @@ inline constexpr double least_spacing = 1.0 / 400;
 [[nodiscard]] std::vector<double> radii_at(const SurfaceTree& tree,
                                            const std::vector<Point>& points);
 
-/// Places the inner points of each strand evenly, about half an inscribed radius apart, but at most
-/// `most_spacing`. Lengths relative to D = 1.
-void resample(Network& network, const SurfaceTree& tree, double most_spacing);
+/// Places the inner points of each strand evenly, half of its median inscribed radius apart, but at
+/// most `most_spacing`. Lengths relative to D = 1.
+void space_evenly(Network& network, const SurfaceTree& tree, double most_spacing);
+
+/// The same with half of the inscribed radius that each place has: points that crowd in a wide one
+/// take many rounds to become smooth, as each follows its neighbours.
+void space_by_radius(Network& network, const SurfaceTree& tree, double most_spacing);
 
 struct RelaxOptions {
   int rounds = 4;

@@ -34,8 +34,6 @@ constexpr std::array known{
     // It goes on into the wings, in which no curve is central: docs/quality.md has both where both
     // run, .23 and .23.
     Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.1765},
-    // Thin sheets with 24 holes, all of which it goes round.
-    Shortfall{"cad-129110-5k.obj", "centredness behind CGAL's", 0.01},
     // Its legs go on to the heels; .098 and .103 where both run.
     Shortfall{"diplodocus-24k.ply", "centredness behind CGAL's", 0.006},
     // Behind by a hair.
