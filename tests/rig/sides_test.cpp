@@ -113,6 +113,57 @@ TEST(Sides, AreNotWhereThereIsNoMirrorImage) {
   }
 }
 
+void insert(Rig& rig, int index, const Eigen::RowVector3d& place, int parent, const char* name) {
+  const Eigen::Index after = rig.joints.rows() - index;
+  const Positions joints = rig.joints;
+  const Eigen::VectorXi parents =
+      rig.parents.unaryExpr([index](int joint) { return joint >= index ? joint + 1 : joint; });
+  rig.joints.resize(joints.rows() + 1, 3);
+  rig.joints << joints.topRows(index), place, joints.bottomRows(after);
+  rig.parents.resize(parents.size() + 1);
+  rig.parents << parents.head(index), parent, parents.tail(after);
+  rig.names.insert(rig.names.begin() + index, name);
+}
+
+int count_ending(const Rig& rig, const std::string& ending) {
+  return static_cast<int>(
+      std::count_if(rig.names.begin(), rig.names.end(),
+                    [&](const std::string& name) { return name.ends_with(ending); }));
+}
+
+TEST(Sides, AreThoseOfTheFigureWhereverItsRootIs) {
+  for (const int axis : {0, 1, 2}) {
+    for (const double off : {-3.0, -1.5, 0.4, 2.0}) {
+      SCOPED_TRACE(axis + 10 * off);
+      Rig rig = two_sided(axis, 4, true);
+      const Eigen::RowVector3d below = rig.joints.row(0) - Eigen::RowVector3d::Unit((axis + 1) % 3);
+      insert(rig, 0, below + off * Eigen::RowVector3d::Unit(axis), -1, "root");
+      rig.parents[1] = 0;
+      name_sides(rig);
+      EXPECT_EQ(count_ending(rig, ".L"), 16);
+      EXPECT_EQ(count_ending(rig, ".R"), 16);
+      for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+        const double aside = rig.joints(static_cast<Eigen::Index>(joint), axis) - 7;
+        const bool is_left = rig.names[joint].ends_with(".L");
+        EXPECT_EQ(is_left, joint > 5 && aside > 0) << rig.names[joint];
+      }
+    }
+  }
+}
+
+/// One leg hangs from the trunk, the other from a part beside it that has no counterpart.
+TEST(Sides, OfLimbsThatHangDifferentlyAreNamed) {
+  Rig rig = two_sided(0, 2, true);
+  const Eigen::RowVector3d beside = rig.joints.row(0) + Eigen::RowVector3d(1.5, 0, -2);
+  const int leg = 5;
+  insert(rig, leg, beside, rig.parents[leg], "washer");
+  rig.parents[leg + 1] = leg;
+  insert(rig, static_cast<int>(rig.joints.rows()), beside, leg, "screw");
+  name_sides(rig);
+  EXPECT_EQ(count_ending(rig, ".L"), 8);
+  EXPECT_EQ(count_ending(rig, ".R"), 8);
+}
+
 TEST(Sides, OfOneJointAreNone) {
   Rig rig = two_sided(0, 0, true);
   rig.joints.conservativeResize(1, 3);
