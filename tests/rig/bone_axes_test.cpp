@@ -64,12 +64,50 @@ TEST(BoneAxes, PointToTheOnlyChildAndAtTipsStraightOn) {
   }
 }
 
-TEST(BoneAxes, OfSeveralChildrenPointToTheOneThatMostHangFrom) {
-  Rig rig = any_rig(1, 6);
-  rig.joints << 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, -1, 0, 0, 0, 1, 1;
-  rig.parents << -1, 0, 0, 2, 0, 3;
-  const Eigen::Vector3d bone = bone_axes(rig)[0] * Eigen::Vector3d::UnitY();
-  EXPECT_LT((bone - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+Rig rig_of(const std::vector<Eigen::RowVector3d>& joints, const std::vector<int>& parents,
+           const std::vector<std::string>& names) {
+  Rig rig;
+  rig.joints.resize(static_cast<Eigen::Index>(joints.size()), 3);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    rig.joints.row(static_cast<Eigen::Index>(k)) = joints[k];
+  }
+  rig.parents = Eigen::Map<const Eigen::VectorXi>(parents.data(), rig.joints.rows());
+  rig.names = names;
+  return rig;
+}
+
+Eigen::Vector3d bone_of(const Rig& rig, int joint) {
+  return bone_axes(rig)[at(joint)] * Eigen::Vector3d::UnitY();
+}
+
+TEST(BoneAxes, OfARootPointToTheLongestLimb) {
+  const Rig rig = rig_of({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 2}, {-1, 0, 0}}, {-1, 0, 0, 2, 0},
+                         {"a", "b", "c", "d", "e"});
+  EXPECT_LT((bone_of(rig, 0) - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+}
+
+/// A palm with a thumb and three fingers, all as long; then a heel behind a long foot.
+TEST(BoneAxes, OfSeveralChildrenPointToTheStraightestOrMuchLonger) {
+  const Rig hand =
+      rig_of({{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {.5, 1.8, 0}, {0, 2, 0}, {-.5, 1.8, 0}},
+             {-1, 0, 1, 1, 1, 1}, {"arm", "palm", "thumb", "index", "middle", "little"});
+  EXPECT_LT((bone_of(hand, 1) - Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  const Rig foot = rig_of({{0, 4, 0}, {0, 1, 0}, {0, .7, -.4}, {0, .6, .8}, {0, .5, 2}},
+                          {-1, 0, 1, 1, 3}, {"shin", "ankle", "heel", "foot", "toes"});
+  EXPECT_GT(bone_of(foot, 1).z(), 0.5);
+}
+
+/// The neck is one short bone; each arm is longer, and one has more joints than the other.
+TEST(BoneAxes, OfJointsInTheMirrorPlaneStayInIt) {
+  const Rig chest = rig_of({{0, 0, 0}, {0, 2, 0}, {3, 2, 0}, {6, 2, 0}, {-6, 2, 0}, {0, 2.5, 0.5}},
+                           {-1, 0, 1, 2, 1, 1}, {"hip", "chest", "a.L", "b.L", "a.R", "neck"});
+  EXPECT_LT((bone_of(chest, 1) - Eigen::Vector3d(0, 1, 1).normalized()).norm(), 1e-12);
+  const Rig ears = rig_of({{0, 0, 0}, {0, 2, 0}, {1, 3, 0}, {1, 4, 0}, {-1, 3, 0}},
+                          {-1, 0, 1, 2, 1}, {"neck", "head", "ear.L", "tip.L", "ear.R"});
+  EXPECT_LT((bone_of(ears, 1) - Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  const Rig cross = rig_of({{0, 0, 0}, {0, 2, 0}, {3, 2, 0.1}, {-3, 2, 0.1}}, {-1, 0, 1, 1},
+                           {"spine", "chest", "arm.L", "arm.R"});
+  EXPECT_LT((bone_of(cross, 1) - Eigen::Vector3d::UnitY()).norm(), 1e-12) << "straight on";
 }
 
 TEST(BoneAxes, OfLimbsThatMirrorEachOtherAreMirrored) {
