@@ -34,7 +34,7 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
 
 void add_time_limit(CLI::App& parser, double& seconds) {
   add_number(parser, "--time-limit", seconds, 0.0, 1e9,
-             "seconds, then it ends with exit 5 and writes nothing; 0 = none");
+             "seconds, then it ends with exit 5 and writes nothing more; 0 = none");
 }
 
 }  // namespace curveskel

@@ -229,12 +229,15 @@ Verb add_extract(CLI::App& program) {
             if (text == "full") {
               options.resolution = 0;
             } else if (!CLI::detail::lexical_cast(text, options.resolution) ||
-                       options.resolution < 1) {
-              throw CLI::ValidationError("--resolution",
-                                         "needs a number of vertices or full, not " + text);
+                       options.resolution < options.least_resolution) {
+              throw CLI::ValidationError(
+                  "--resolution", fmt::format("needs full or a number of vertices from {} up, as "
+                                              "many as a component has at least, not {}",
+                                              options.least_resolution, text));
             }
           },
-          "working vertices")
+          fmt::format("working vertices of the whole surface, from {} up",
+                      options.least_resolution))
       ->type_name("N|full")
       ->default_str(std::to_string(options.resolution));
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,

@@ -67,14 +67,17 @@ int Interruption::exit_code() const { return 128 + (last_signal != 0 ? last_sign
 
 std::string Interruption::message() const {
   const double limit = reached_limit_;
-  if (limit <= 0) return "interrupted";
-  return fmt::format("the time limit of {:g} s was reached, {} was written; allow more, or {}",
-                     limit, wrote_ ? "not everything" : "nothing", remedy_);
+  const int files = files_;
+  const std::string before =
+      fmt::format("{} file{} written", files, files == 1 ? " was" : "s were");
+  if (limit <= 0) return files == 0 ? "interrupted" : "interrupted; " + before + " before";
+  return fmt::format("the time limit of {:g} s was reached, {}; allow more, or {}", limit,
+                     files == 0 ? "nothing was written" : before + " before", remedy_);
 }
 
 std::unique_lock<std::mutex> Interruption::hold() {
   std::unique_lock lock(writing_);
-  wrote_ = true;
+  ++files_;
   return lock;
 }
 

@@ -30,9 +30,10 @@ class Interruption {
   [[nodiscard]] double reached_limit() const { return reached_limit_; }
   /// Throws Cancelled if a stop was requested.
   void check() const;
-  /// What to say of it: that it was interrupted, or which limit was reached, and what to do.
+  /// What to say of it: that it was interrupted, or which limit was reached, and what to do; and
+  /// how many files were written before.
   [[nodiscard]] std::string message() const;
-  /// While held, the process does not end halfway through a file.
+  /// While held, the process does not end halfway through a file. To be held once for each.
   [[nodiscard]] std::unique_lock<std::mutex> hold();
 
  private:
@@ -45,7 +46,7 @@ class Interruption {
   std::mutex mutex_;
   std::condition_variable_any ended_;
   std::atomic<double> reached_limit_ = 0;
-  std::atomic<bool> wrote_ = false;
+  std::atomic<int> files_ = 0;  // written, or being written
   std::jthread watcher_;
   std::jthread timer_;
 };

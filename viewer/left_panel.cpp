@@ -69,10 +69,11 @@ void parameters(Workbench& bench) {
       slide("fairing", options.fair.iterations, 0, 0, 50,
             "Iterations of smoothing before anything else. For noisy scans: about ten times the "
             "noise in % of the diagonal; 0 = none.");
-  changed |= slide("vertices", options.resolution, standard.resolution, 500, 60000,
-                   "How many vertices the surface is coarsened to before it is contracted. More = "
-                   "finer and slower.",
-                   ImGuiSliderFlags_Logarithmic);
+  changed |=
+      slide("vertices", options.resolution, standard.resolution, options.least_resolution, 60000,
+            "How many vertices the surface is coarsened to before it is contracted. More = "
+            "finer and slower.",
+            ImGuiSliderFlags_Logarithmic);
   changed |= slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
                    "How small a branch may be and stay: 0 = only the main limbs, 1 = every bump "
                    "that makes one.");

@@ -13,7 +13,6 @@
 #include "app/output_files.hpp"
 #include "skeleton/view.hpp"
 #include "surface/error.hpp"
-#include "surface/write_file.hpp"
 #include "viewer/headless.hpp"
 #include "viewer/png.hpp"
 #include "viewer/rigging.hpp"
@@ -76,7 +75,8 @@ void go_to(Scene& scene, const StageWish& wish) {
 }
 
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
-                     const Monitor& monitor) {
+                     Session& session) {
+  const Monitor monitor = session.monitor();
   make_folder(options.turntable);
   // Fitted to the widest view, so that the shape does not breathe as it turns; with its mirror
   // image, so that the middle of the box is the middle of the picture.
@@ -98,8 +98,9 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
     monitor.report("turntable", static_cast<double>(frame) / options.frames);
     char name[32];
     std::snprintf(name, sizeof name, "%04d.png", frame);
-    write_file(options.turntable / name,
-               screenshot(scene, renderer, options.width, options.height));
+    write_outputs({{(options.turntable / name).string(),
+                    screenshot(scene, renderer, options.width, options.height)}},
+                  session);
     orbit(scene.camera, 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
   }
 }
@@ -223,7 +224,8 @@ void place_camera(Scene& scene, const ViewOptions& options) {
   scene.camera.distance /= options.camera.zoom;
 }
 
-void write_pictures(const ViewOptions& options, const Monitor& monitor) {
+void write_pictures(const ViewOptions& options, Session& session) {
+  const Monitor monitor = session.monitor();
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
   if (options.stage.stage != "rig") look_at_rig(scene, options.joint);
@@ -254,9 +256,10 @@ void write_pictures(const ViewOptions& options, const Monitor& monitor) {
       throw Error(Fault::input, "--two-sides needs a surface, which a skeleton alone has not");
     }
     const auto draw = options.two_sides ? screenshot_of_two_sides : screenshot;
-    write_file(options.screenshot, draw(scene, renderer, options.width, options.height));
+    write_outputs({{options.screenshot, draw(scene, renderer, options.width, options.height)}},
+                  session);
   }
-  if (!options.turntable.empty()) write_turntable(scene, renderer, options, monitor);
+  if (!options.turntable.empty()) write_turntable(scene, renderer, options, session);
 }
 
 }  // namespace curveskel::viewer

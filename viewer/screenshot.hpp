@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "surface/monitor.hpp"
+#include "app/verbs.hpp"
 #include "viewer/scene.hpp"
 #include "viewer/view_options.hpp"
 
@@ -22,7 +22,8 @@ namespace curveskel::viewer {
 void place_camera(Scene& scene, const ViewOptions& options);
 
 /// Opens the files, runs the pipeline up to the stage wished for, and writes the pictures.
-/// Throws Error for files, stages that never come, and where there is no OpenGL.
-void write_pictures(const ViewOptions& options, const Monitor& monitor);
+/// Throws Error for files, stages that never come, and where there is no OpenGL; Cancelled on a
+/// stop, pictures that were written before stay.
+void write_pictures(const ViewOptions& options, Session& session);
 
 }  // namespace curveskel::viewer

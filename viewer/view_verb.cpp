@@ -109,7 +109,7 @@ int run_view(ViewOptions options, Session& session) {
   if (!options.screenshot.empty()) (void)format_of(options.screenshot, picture_formats);
   if (!pictures) return run_window(options, session);
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
-  write_pictures(options, session.monitor());
+  write_pictures(options, session);
   session.terminal.end_progress();
   return ExitCode::done;
 }

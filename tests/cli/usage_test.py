@@ -58,6 +58,8 @@ class WrongArguments(CommandLineTest):
     def test_numbers_out_of_range_name_the_range(self):
         for option, value, word in (("--detail", "1.5", "from 0 to 1"), ("--detail", "x", "x"),
                                     ("--resolution", "0", "full"), ("--resolution", "few", "full"),
+                                    ("--resolution", "3", "from 1500 up"),
+                                    ("--resolution", "1499", "from 1500 up"),
                                     ("--threads", "-1", "from 0"), ("--fair", "2.5", "2.5")):
             self.refused(USAGE, "extract", TORUS, "-o", "x.obj", option, value,
                          says=[option, word], cwd=self.folder)

@@ -2,8 +2,10 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import numpy
@@ -11,7 +13,7 @@ from PIL import Image
 
 SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
 sys.path.insert(0, str(SOURCE / "tests" / "cli"))
-from program import LINKED_RINGS, TORUS, Y, CommandLineTest, run  # noqa: E402
+from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, run, start  # noqa: E402
 
 USAGE, INPUT, OUTPUT = 2, 3, 6
 SHEET = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"
@@ -229,6 +231,24 @@ class Turntable(ViewTest):
             for border in (one[0], one[-1], one[:, 0], one[:, -1]):
                 self.assertEqual(border[..., 3].max(), 0, f"frame {i}")
             self.assert_differ(one, found[i - 1])
+
+    def test_that_is_stopped_says_what_it_wrote(self):
+        for signal_or_limit in (True, False):
+            folder = self.folder / f"stopped-{signal_or_limit}"
+            limit = () if signal_or_limit else ("--time-limit", 4)
+            process = start("view", Y, "--no-run", "--turntable", folder, "--frames", 10000,
+                            "--size", "640x400", *limit)
+            while signal_or_limit and not (folder / "0001.png").exists():
+                self.assertIsNone(process.poll())
+                time.sleep(0.01)
+            if signal_or_limit:
+                process.send_signal(signal.SIGINT)
+            result = Result(process)
+            count = len(list(folder.iterdir())) if folder.exists() else 0
+            self.assertEqual(result.code, 130 if signal_or_limit else 5)
+            if count > 0:
+                self.assertIn(f"{count} file{'s were' if count > 1 else ' was'} written before",
+                              result.err)
 
     def test_begins_like_the_screenshot(self):
         # One frame is nothing but the screenshot about the middle of the shape's box.
