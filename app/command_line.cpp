@@ -36,9 +36,12 @@ int exit_code(Fault fault) {
 
 /// What there is to do, by the verb's own options, where the surface is too much for it.
 std::string remedy_of(const CLI::App& parser) {
+  std::string remedy;
+  const CLI::Option* const opening = parser.get_option_no_throw("--wrap-opening");
+  if (opening != nullptr && opening->count() > 0) remedy = "choose a wider --wrap-opening, or ";
   const bool has_resolution = parser.get_option_no_throw("--resolution") != nullptr;
-  return has_resolution ? "choose a coarser --resolution, or decimate the surface first"
-                        : "decimate the surface first";
+  if (has_resolution) remedy += "choose a coarser --resolution, or ";
+  return remedy + "decimate the surface first";
 }
 
 /// Runs the verb; every exception ends here.

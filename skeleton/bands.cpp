@@ -260,7 +260,8 @@ BandGraph band_graph(const Surface& surface, const Monitor& monitor) {
               "no partition without handles was found with " +
                   std::to_string(sliced.surface.positions.rows()) +
                   " vertices; the surface has handles far smaller than its edges: raise "
-                  "--resolution or repair the surface");
+                  "--resolution, repair the surface or, if it was wrapped, choose a wider "
+                  "--wrap-opening");
 }
 
 }  // namespace curveskel

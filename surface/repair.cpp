@@ -23,6 +23,7 @@
 #include "surface/topology.hpp"
 #include "surface/tree.hpp"
 #include "surface/weld.hpp"
+#include "surface/wrap.hpp"
 #include "surface/wrap_solid.hpp"
 
 namespace curveskel {
@@ -307,7 +308,9 @@ RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
   if (options.wrap_opening > 0) {
     wrapped = wrap_solid(given, options.wrap_opening, monitor);
   } else {  // a wide one may have webs between limbs where a narrow one has none
+    const double narrowest = narrowest_opening(given) / extent_of_faces(given);
     for (std::size_t i = 0; i < wrap_openings.size() && !wrapped; ++i) {
+      if (wrap_openings[i] < narrowest && i + 1 < wrap_openings.size()) continue;
       wrapped = wrap_solid(given, wrap_openings[i], monitor);
     }
   }

@@ -4,10 +4,17 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "surface/element_index.hpp"
+#include "surface/error.hpp"
+#include "surface/join_soup.hpp"
 #include "surface/measures.hpp"
 #include "surface/memory.hpp"
 
@@ -17,29 +24,75 @@ namespace {
 using WrapKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using WrapMesh = CGAL::Surface_mesh<WrapKernel::Point_3>;
 
-/// Lets a stop out of CGAL's loop.
-struct StoppableWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
-  explicit StoppableWrapping(const Monitor& given) : monitor(&given) {}
+/// By the area: on sheets there are more, which have two sides.
+double expected_vertices(const Surface& triangles, double opening) {
+  return area(triangles) / (opening * opening);
+}
+
+/// Lets a stop out of CGAL's loop, and how far it is into the monitor. CGAL copies it.
+struct WatchedWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+  WatchedWrapping(const Monitor& given, double expected) : monitor(&given), expected_(expected) {}
 
   template <typename Wrapper, typename Gate>
   void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
     constexpr int facets_between_checks = 256;
-    if (++facets % facets_between_checks == 0) monitor->report("wrap", 0.5);
+    if (++facets_ % facets_between_checks == 0) monitor->report("wrap", fraction());
+  }
+
+  template <typename Wrapper, typename Vertex>
+  void after_Steiner_point_insertion(const Wrapper& /*wrapper*/, Vertex /*vertex*/) {
+    ++vertices_;
   }
 
   const Monitor* monitor;
-  int facets = 0;
+
+ private:
+  /// Slower towards the end, as it is not known.
+  [[nodiscard]] double fraction() const { return 1 - std::exp(-2 * vertices_ / expected_); }
+
+  double expected_;
+  double vertices_ = 0;
+  int facets_ = 0;
 };
+
+/// Rounded up to two digits, to be typed.
+std::string share_at_least(double share) {
+  std::array<char, 32> text{};
+  const double step = std::pow(10, std::floor(std::log10(share)) - 1);
+  std::snprintf(text.data(), text.size(), "%.2g", std::ceil(share / step) * step);
+  return text.data();
+}
+
+void require_room(const Surface& triangles, double opening) {
+  const double narrowest = narrowest_opening(triangles);
+  if (opening >= narrowest) return;
+  const double extent = extent_of_faces(triangles);
+  std::array<char, 160> found{};
+  std::snprintf(found.data(), found.size(),
+                "a wrap that spans gaps up to %.2g D would have about %.1e vertices; ",
+                opening / extent, expected_vertices(triangles, opening));
+  throw Error(Fault::input,
+              found.data() + (narrowest < extent
+                                  ? "needed is --wrap-opening " +
+                                        share_at_least(narrowest / extent) + " or wider"
+                                  : std::string("there is no memory for any; decimate the surface "
+                                                "first")));
+}
 
 }  // namespace
 
+double narrowest_opening(const Surface& triangles) {
+  constexpr double most_vertices = 1e6;
+  // As measured: the hierarchy over the faces, and a triangulation with the wrap's vertices.
+  const double for_faces = 600.0 * double(triangles.triangles.rows());
+  const double fitting = (available_memory_bytes() - for_faces) / 3500;
+  if (!(fitting > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(area(triangles) / std::min(most_vertices, fitting));
+}
+
 Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor& monitor) {
+  require_room(triangles, options.opening);
   monitor.report("wrap", 0);
-  // As measured: the hierarchy over the faces, and a triangulation with that many vertices.
-  const double expected_vertices = area(triangles) / (options.opening * options.opening);
-  require_memory(600.0 * double(triangles.triangles.rows()) + 3500 * expected_vertices,
-                 available_memory_bytes(), "wrapping", Fault::input,
-                 "choose a wider --wrap-opening or decimate the surface first");
   std::vector<WrapKernel::Point_3> points;
   points.reserve(at(triangles.positions.rows()));
   for (const auto& p : triangles.positions.rowwise()) points.emplace_back(p.x(), p.y(), p.z());
@@ -49,7 +102,7 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor
     faces.push_back({at(t(0)), at(t(1)), at(t(2))});
 
   WrapMesh mesh;
-  StoppableWrapping visitor(monitor);
+  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.opening));
   CGAL::alpha_wrap_3(points, faces, options.opening, options.offset, mesh,
                      CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
 

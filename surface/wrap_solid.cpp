@@ -75,6 +75,7 @@ std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
   if (solid.triangles.rows() == 0) return std::nullopt;
   for (const double narrower : wrap_openings) {
     if (opening > 0 || narrower == widest) break;
+    if (narrower * extent < narrowest_opening(faces)) continue;
     Surface closer = solid_at(narrower);
     if (closer.triangles.rows() > 0) return measured(std::move(closer), narrower, faces, extent);
   }

@@ -168,6 +168,10 @@ class Repair(CommandLineTest):
         self.refused(2, "extract", LINKED_RINGS, "-o", "x.obj", "--wrap", "some",
                      says=["never, needed, all"], cwd=self.folder)
 
+    def test_an_opening_that_is_too_narrow_is_refused_with_one_that_is_not(self):
+        self.refused(3, "extract", TORUS, "-o", "x.obj", "--wrap", "all", "--wrap-opening", "1e-5",
+                     says=["1e-05", "vertices", "needed is --wrap-opening 0.00"], cwd=self.folder)
+
     def test_a_sheet_is_refused(self):
         sheet = self.folder / "sheet.off"
         sheet.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
@@ -198,7 +202,8 @@ class TimeLimit(CommandLineTest):
             self.refused(5, "rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-opening",
                          "0.001", "--time-limit", limit, cwd=self.folder,
                          says=[f"the time limit of {limit} s was reached, nothing was written; "
-                               "allow more, or decimate the surface first\n"])
+                               "allow more, or choose a wider --wrap-opening, or decimate the "
+                               "surface first\n"])
 
     def test_does_not_matter_when_it_is_not_reached(self):
         self.run_ok("extract", Y, "-o", "x.obj", "--time-limit", "300", cwd=self.folder)

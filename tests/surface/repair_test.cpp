@@ -4,17 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
 #include "surface/close_surface.hpp"
+#include "surface/wrap.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::repair_laws {
@@ -396,14 +400,38 @@ TEST(Repairing, RefusesToWrapWhatHasNoInside) {
   }
 }
 
-TEST(Repairing, RefusesAWrapThatDoesNotFitIntoMemory) {
+TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestOpening) {
+  const Surface torus = shapes::torus(3, 1, 24).surface;
+  const double diagonal = bounding_box_diagonal(torus.positions);
+  double named = 0;
   try {
-    (void)wrapped_whole(soup_of(shapes::torus(3, 1, 24).surface), 1e-6);
+    (void)wrapped_whole(soup_of(torus), 1e-6);
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::input);
-    expect_said(error.what(), {"wrapping", "MB", "--wrap-opening"});
+    expect_said(error.what(), {"vertices", "1e-06"});
+    const std::string option = "--wrap-opening ";
+    const std::string message = error.what();
+    named = std::stod(message.substr(message.find(option) + option.size()));
   }
+  std::stop_source stop;
+  stop.request_stop();
+  Monitor monitor;
+  monitor.stop = stop.get_token();
+  EXPECT_THROW((void)wrap(torus, {named * diagonal, 0.001}, monitor), Cancelled) << "begins";
+  EXPECT_THROW((void)wrap(torus, {0.9 * named * diagonal, 0.001}, monitor), Error);
+}
+
+TEST(Repairing, AWrapSaysHowFarItIs) {
+  const Surface torus = shapes::torus(3, 1, 24).surface;
+  std::vector<double> fractions;
+  Monitor monitor;
+  monitor.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };
+  (void)wrap(torus, {0.1, 0.01}, monitor);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1);
+  const auto is_between = [](double fraction) { return fraction > 0.1 && fraction < 0.9; };
+  EXPECT_GT(std::count_if(fractions.begin(), fractions.end(), is_between), 5);
 }
 
 TEST(Repairing, WrapsNothingIfItMayNot) {
