@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "surface/close_surface.hpp"
@@ -297,8 +298,8 @@ std::int64_t parts_left_out(const Surface& given, const VertexMap& map) {
   return std::count(seen.begin(), seen.end(), char{0});
 }
 
-RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
-                         const Monitor& monitor) {
+std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOptions& options,
+                                        const Monitor& monitor) {
   const std::string file = soup.file.empty() ? "surface" : soup.file.string();
   RepairedSurface result;
   const Joined joined =
@@ -314,12 +315,7 @@ RepairedSurface wrap_all(const PolygonSoup& soup, const RepairOptions& options,
       wrapped = wrap_solid(given, wrap_openings[i], monitor);
     }
   }
-  if (!wrapped) {
-    throw Error(Fault::input, file +
-                                  ": found nothing that a wrap encloses more of than its own "
-                                  "thickness; try a wider --wrap-opening, or give the surface "
-                                  "thickness (Blender: the Solidify modifier)");
-  }
+  if (!wrapped) return std::nullopt;
   result.repairs.faces_wrapped = given.triangles.rows();
   result.repairs.wrapped_as_asked = true;
   note_wrap(result.repairs, *wrapped);
@@ -426,18 +422,39 @@ Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
   return {std::move(rebuilt), false, true};
 }
 
-Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options,
-                     const Monitor& monitor) {
-  RepairedSurface wrapped = wrap_all(soup, options, monitor);
-  describe_changes(wrapped.changes, monitor);
-  return {std::move(wrapped), false, false};
+/// Said of what no wrap encloses anything of: whether there is another way.
+std::string instead_of_wrap(const PolygonSoup& soup, RepairOptions options, const Monitor& monitor,
+                            int threads) {
+  options.wrap = Wrapping::never;
+  Monitor silent;
+  silent.stop = monitor.stop;
+  try {
+    (void)clean_or_rebuilt(soup, options, silent, threads);
+    return "leave --wrap all out: with its holes closed it has an inside";
+  } catch (const Error&) {
+    return "give the surface thickness (Blender: the Solidify modifier)";
+  }
+}
+
+Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options, const Monitor& monitor,
+                     int threads) {
+  std::optional<RepairedSurface> wrapped = wrap_all(soup, options, monitor);
+  if (!wrapped) {
+    throw Error(Fault::input,
+                (soup.file.empty() ? "surface" : soup.file.string()) +
+                    ": found nothing that a wrap encloses more of than its own thickness; try a "
+                    "wider --wrap-opening, or " +
+                    instead_of_wrap(soup, options, monitor, threads));
+  }
+  describe_changes(wrapped->changes, monitor);
+  return {std::move(*wrapped), false, false};
 }
 
 }  // namespace
 
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
-  Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor)
+  Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor, threads)
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;
   if (!mended.has_one_component) {

@@ -169,11 +169,14 @@ INSTANTIATE_TEST_SUITE_P(Shapes, AnyShape,
 
 // ---- Damage of a kind ---------------------------------------------------------------------------
 
-TEST(Repairing, ATubeOpenAtBothEnds) {
+PolygonSoup open_tube() {
   const shapes::Shape tube = shapes::tube("tube", shapes::straight(6), shapes::constant(0.5), 24);
-  PolygonSoup soup = soup_of(tube.surface);
-  soup = with_polygons(soup, [&](std::size_t p) { return std::abs(centre(soup, p).x()) < 2.5; });
-  const RepairedSurface result = repair(soup, {}, {});
+  const PolygonSoup soup = soup_of(tube.surface);
+  return with_polygons(soup, [&](std::size_t p) { return std::abs(centre(soup, p).x()) < 2.5; });
+}
+
+TEST(Repairing, ATubeOpenAtBothEnds) {
+  const RepairedSurface result = repair(open_tube(), {}, {});
   expect_closed_outward_manifold(result.surface);
   EXPECT_EQ(genus_of(result.surface), 0);
   EXPECT_EQ(result.repairs.holes_closed, 2);
@@ -396,7 +399,17 @@ TEST(Repairing, RefusesToWrapWhatHasNoInside) {
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::input);
-    expect_said(error.what(), {"--wrap-opening"});
+    expect_said(error.what(), {"--wrap-opening", "Solidify"});
+  }
+}
+
+TEST(Repairing, WhatNoWrapEnclosesButHasAnInsideIsToBeRepairedWithout) {
+  try {
+    (void)wrapped_whole(open_tube(), 0.04);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    expect_said(error.what(), {"leave --wrap all out"});
   }
 }
 
