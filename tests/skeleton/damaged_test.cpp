@@ -114,7 +114,7 @@ TEST(Damaged, NoiseAsThickAsTheLimbsIsSmoothedAway) {
   fine.resolution = 6;
   const auto star = shapes::tube_union("star", shapes::star(5, 3, 0.3), fine);
   const double noise = 0.01 * bounding_box_diagonal(star.surface.positions);
-  for (const std::uint64_t seed : {4, 14, 18}) {
+  for (const std::uint64_t seed : {12, 14, 18}) {
     SCOPED_TRACE(seed);
     const auto noisy = shapes::noisy(star, noise, seed);
     const Extraction found = extract(noisy.surface, {}, {});
