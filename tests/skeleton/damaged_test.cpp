@@ -2,17 +2,25 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "meshes/shapes.hpp"
 #include "skeleton/extract.hpp"
 #include "surface/repair.hpp"
+#include "tests/skeleton/shortfalls.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::damaged_laws {
 namespace {
+
+constexpr std::array known{
+    // Fairing alone brought it inside until points were spaced by their radius.
+    Shortfall{"noisy star 4", "outside", 0.002},
+};
 
 /// The shape's faces whose middle fulfils the predicate.
 template <typename Predicate>
@@ -114,11 +122,12 @@ TEST(Damaged, NoiseAsThickAsTheLimbsIsSmoothedAway) {
   fine.resolution = 6;
   const auto star = shapes::tube_union("star", shapes::star(5, 3, 0.3), fine);
   const double noise = 0.01 * bounding_box_diagonal(star.surface.positions);
-  for (const std::uint64_t seed : {12, 14, 18}) {
+  for (const std::uint64_t seed : {4, 12, 14, 18}) {
     SCOPED_TRACE(seed);
     const auto noisy = shapes::noisy(star, noise, seed);
     const Extraction found = extract(noisy.surface, {}, {});
-    EXPECT_TRUE(found.certificate.inside_enough) << found.certificate.inside_fraction;
+    expect_at_most(known, "noisy star " + std::to_string(seed), "outside",
+                   1 - found.certificate.inside_fraction, 0.001);
     EXPECT_EQ(found.certificate.tips, 5);
     ExtractOptions as_it_is;
     as_it_is.fair_if_outside = false;
