@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include "surface/element_index.hpp"
+#include "surface/hole_triangulation.hpp"
 
 namespace curveskel {
 namespace {
@@ -140,6 +142,41 @@ class StopAtSteps : public pmp::Hole_filling::Default_visitor {
   const std::stop_token* stop_;
 };
 
+bool passes_a_vertex_twice(const HalfEdgeMesh& mesh, const std::vector<MeshHalfEdge>& border) {
+  std::vector<MeshVertex> passed;
+  passed.reserve(border.size());
+  for (const MeshHalfEdge h : border) passed.push_back(mesh.source(h));
+  std::sort(passed.begin(), passed.end());
+  return std::adjacent_find(passed.begin(), passed.end()) != passed.end();
+}
+
+/// Adds the triangles that `triangulate_hole` chooses; none where it finds none.
+std::vector<MeshFace> add_delaunay_faces(HalfEdgeMesh& mesh,
+                                         const std::vector<MeshHalfEdge>& border,
+                                         const Monitor& monitor) {
+  std::vector<MeshFace> faces;
+  if (passes_a_vertex_twice(mesh, border)) return faces;
+  const auto count = static_cast<Eigen::Index>(border.size());
+  Positions corners(count, 3);
+  Positions beyond(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const MeshHalfEdge h = border[at(i)];
+    const auto& corner = mesh.point(mesh.source(h));
+    const auto& third = mesh.point(mesh.target(mesh.next(mesh.opposite(h))));
+    corners.row(i) << corner.x(), corner.y(), corner.z();
+    beyond.row(i) << third.x(), third.y(), third.z();
+  }
+  const auto vertex = [&](std::int32_t i) { return mesh.source(border[at(i)]); };
+  const auto joined = [&](std::int32_t i, std::int32_t k) {
+    return mesh.halfedge(vertex(i), vertex(k)) != HalfEdgeMesh::null_halfedge();
+  };
+  for (const auto& [i, j, k] : triangulate_hole(corners, beyond, joined, monitor.stop)) {
+    const MeshFace added = mesh.add_face(vertex(i), vertex(j), vertex(k));
+    if (added != HalfEdgeMesh::null_face()) faces.push_back(added);
+  }
+  return faces;
+}
+
 /// Returns whether rings came first.
 bool fill(ClosingMesh& closing, MeshHalfEdge at_hole, const Monitor& monitor) {
   HalfEdgeMesh& mesh = closing.mesh;
@@ -149,12 +186,19 @@ bool fill(ClosingMesh& closing, MeshHalfEdge at_hole, const Monitor& monitor) {
     at_hole = add_ring(mesh, at_hole);
     border = border_of(mesh, at_hole);
   }
-  std::vector<MeshFace> faces;
-  std::vector<MeshVertex> vertices;
-  pmp::triangulate_and_refine_hole(
-      mesh, at_hole, std::back_inserter(faces), std::back_inserter(vertices),
-      CGAL::parameters::use_delaunay_triangulation(true).visitor(StopAtSteps(monitor.stop)));
-  if (faces.empty()) fan(mesh, border);
+  std::vector<MeshFace> faces = add_delaunay_faces(mesh, border, monitor);
+  if (faces.empty()) {
+    pmp::triangulate_hole(
+        mesh, at_hole, std::back_inserter(faces),
+        CGAL::parameters::use_delaunay_triangulation(false).visitor(StopAtSteps(monitor.stop)));
+  }
+  if (faces.empty()) {
+    fan(mesh, border);
+    return narrowed;
+  }
+  std::vector<MeshFace> refined;
+  std::vector<MeshVertex> added;
+  pmp::refine(mesh, faces, std::back_inserter(refined), std::back_inserter(added));
   return narrowed;
 }
 
