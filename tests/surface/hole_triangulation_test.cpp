@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
@@ -28,7 +29,7 @@ Rim regular_rim(int count) {
   Rim rim{Positions(count, 3), Positions(count, 3)};
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()));
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * EIGEN_PI * i / count;
+    const double angle = 2 * std::numbers::pi * i / count;
     const Eigen::Vector3d corner(std::cos(angle), std::sin(angle), 0);
     rim.corners.row(i) = (turn * corner).transpose();
     rim.beyond.row(i) = (turn * (corner - Eigen::Vector3d(0, 0, 0.3))).transpose();
@@ -107,7 +108,7 @@ TEST(HoleTriangulation, FillsTheBorderEdgeByEdge) {
 TEST(HoleTriangulation, OfAPlanePolygonCoversItOnce) {
   for (int count = 3; count <= 60; ++count) {
     const Rim rim = regular_rim(count);
-    const double expected = 0.5 * count * std::sin(2 * EIGEN_PI / count);
+    const double expected = 0.5 * count * std::sin(2 * std::numbers::pi / count);
     EXPECT_NEAR(area(filled(rim), rim.corners), expected, 1e-12) << count;
   }
 }
