@@ -20,6 +20,8 @@ using HoleTriangle = std::array<std::int32_t, 3>;
 /// meshes"). Of several as good as one another, as on a regular polygon, the corners' numbers
 /// choose, so that the result depends on nothing but the arguments. Where the Delaunay
 /// tetrahedralization lacks an edge of the border, all triangles upon that edge are candidates.
+/// CGAL's triangulate_hole searches the same triangles in the order of their cells' addresses, and
+/// so fills such a polygon in one way or another.
 ///
 /// @param corners n x 3, in the order of the border
 /// @param beyond n x 3: row i is the third corner of the face beyond the edge from corner i to the

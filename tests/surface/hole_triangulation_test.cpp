@@ -125,7 +125,7 @@ TEST(HoleTriangulation, IsTheSameWhereverMemoryLies) {
   }
 }
 
-TEST(HoleTriangulation, TurnsWithWhereTheBorderBeginsButCostsTheSame) {
+TEST(HoleTriangulation, FromAnotherCornerOnIsAboutAsLarge) {
   for (int count = 5; count <= 30; ++count) {
     const Rim rim = uneven_rim(count, 100 + static_cast<std::uint32_t>(count));
     const double whole = area(filled(rim), rim.corners);
@@ -154,7 +154,7 @@ TEST(HoleTriangulation, LeavesAloneWhatIsJoinedOutsideTheHole) {
   }
 }
 
-TEST(HoleTriangulation, OfNothingInAPlaneIsNone) {
+TEST(HoleTriangulation, OfCornersOnALineIsNone) {
   Rim rim = regular_rim(6);
   for (int i = 0; i < 6; ++i) rim.corners.row(i) << i, 0, 0;
   EXPECT_TRUE(filled(rim).empty());
