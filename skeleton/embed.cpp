@@ -203,6 +203,7 @@ void centre_at_last(Network& network, const Setting& setting) {
   centring.keep = setting.options.keep_radius;
   centring.rounds = setting.options.relax_rounds / times_spaced;
   centring.meet = true;
+  centring.tips = true;
   centring.keep_junction = 1;
   const auto hosts = hosts_of_vertices(network, setting.surface, setting.balls, setting.graph);
   centring.is_own = [&](int triangle, int strand) {

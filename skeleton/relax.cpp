@@ -8,6 +8,7 @@
 
 #include "skeleton/axes.hpp"
 #include "skeleton/cross_section.hpp"
+#include "skeleton/tips.hpp"
 #include "surface/element_index.hpp"
 #include "surface/parallel.hpp"
 
@@ -211,6 +212,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
   for (const Hub& hub : network.hubs) {
     hub_radius.push_back(hub.alive ? tree.inscribed_radius(hub.position) : 0);
   }
+  const auto headings = options.tips ? tip_headings(network, tree) : std::vector<TipHeading>{};
   std::vector<Rest> rest(network.strands.size());
   std::vector<std::size_t> longest_first;  // so that no core ends up with a long one alone
   for (std::size_t s = 0; s < network.strands.size(); ++s) {
@@ -234,6 +236,7 @@ void relax(Network& network, const SurfaceTree& tree, const RelaxOptions& option
       }
     });
     if (!options.covered) relax_hubs(network, tree, hub_radius, options);
+    centre_tips(network, tree, headings);
     for (const int s : keeper.restore_points(before, network, tree)) rest[at(s)] = {};
   }
 }

@@ -31,6 +31,7 @@ struct RelaxOptions {
   double keep_junction = 0.95;  ///< the same for junctions, which belong in the thickest place
   bool meet = false;            ///< junctions go to where the axes of their strands meet
   double smoothing = 0.5;       ///< share of the neighbours' middle in a point's new place
+  bool tips = false;            ///< tips go to the centre of the section there (centre_tips)
   bool covered = false;         ///< keep the balls of neighbouring points overlapping; hubs stay
   /// Whether a triangle of the tree belongs to a strand. If given, flat limbs are centred from one
   /// edge to the other. Called from all threads.

@@ -118,4 +118,37 @@ void lengthen_short_leaves(Network& network, const SurfaceTree& tree) {
   }
 }
 
+std::vector<TipHeading> tip_headings(const Network& network, const SurfaceTree& tree) {
+  constexpr double least_way = 1.0 / 25;
+  std::vector<TipHeading> headings;
+  for (const Strand& strand : network.strands) {
+    if (!strand.alive) continue;
+    auto line = network.polyline(strand);
+    for (const int hub : {strand.from, strand.to}) {
+      if (network.degree(hub) == 1) {
+        const double radius = tree.inscribed_radius(line.front());
+        const auto before = [&](double way) {
+          const auto leaves = [&](const Point& p) { return (line.front() - p).norm() >= way; };
+          return *std::find_if(line.begin(), line.end() - 1, leaves);
+        };
+        const Point way = before(radius) - before(std::max(3 * radius, least_way));
+        headings.push_back({hub, way.normalized(), radius});
+      }
+      std::reverse(line.begin(), line.end());
+    }
+  }
+  return headings;
+}
+
+void centre_tips(Network& network, const SurfaceTree& tree,
+                 const std::vector<TipHeading>& headings) {
+  constexpr double keep = 0.95;
+  for (const auto& [hub, direction, first_radius] : headings) {
+    Point& tip = network.hubs[at(hub)].position;
+    const double radius = tree.inscribed_radius(tip);
+    const Point candidate = 0.5 * (tip + cross_section_centre(tree, tip, direction, radius));
+    if (tree.inscribed_radius(candidate) >= keep * first_radius) tip = candidate;
+  }
+}
+
 }  // namespace curveskel

@@ -1,6 +1,8 @@
 // Branches that reach to the ends of what they stand for.
 #pragma once
 
+#include <vector>
+
 #include "skeleton/network.hpp"
 #include "surface/tree.hpp"
 
@@ -14,5 +16,22 @@ void shape_tips(Network& network, const SurfaceTree& tree, double reach, double 
 /// Prolongs leaf strands that end inside the inscribed ball of their junction to just beyond it, if
 /// there is room: their tip must keep 0.4 of the junction's radius.
 void lengthen_short_leaves(Network& network, const SurfaceTree& tree);
+
+/// A tip and the way it looks, as a unit vector.
+struct TipHeading {
+  int hub = -1;
+  Point direction = Point::Zero();
+  double radius = 0;  ///< inscribed, when the heading was taken
+};
+
+/// Where each tip looks: along the chord of the curve from three of its inscribed radii before it,
+/// but at least D/25 (D = 1), to one. Nearer the curve may bend into a corner, and a tip that
+/// looked where its own moves lead would drift.
+[[nodiscard]] std::vector<TipHeading> tip_headings(const Network& network, const SurfaceTree& tree);
+
+/// Moves each tip half-way to the centre of the cross-section there normal to its heading, if it
+/// keeps 0.95 of the inscribed radius that it had.
+void centre_tips(Network& network, const SurfaceTree& tree,
+                 const std::vector<TipHeading>& headings);
 
 }  // namespace curveskel

@@ -70,5 +70,49 @@ TEST(Tips, ThatCurlIntoACornerAreStraightened) {
   }
 }
 
+/// A limb of half-width 1 in y and `thickness` in z, along x from -6 to 6.
+Surface limb(double thickness) {
+  Surface limb = shapes::tube("limb", shapes::straight(12), shapes::constant(1), 48).surface;
+  limb.positions.col(2) *= thickness;
+  return limb;
+}
+
+// The last of the curve leads to the tip, so it says nothing about where the limb goes.
+TEST(Tips, InACornerMoveIntoTheMiddle) {
+  for (const double thickness : {1.0, 0.7}) {
+    const SurfaceTree tree(limb(thickness));
+    for (const double off : {-0.5, 0.2, 0.4}) {
+      auto line = along_x(-4, 4.21, 0.2);
+      for (int k = 1; k <= 5; ++k) line.emplace_back(4.2 + 0.2 * k, 0.2 * k * off, 0);
+      Network network = strand_along(line);
+      const auto headings = tip_headings(network, tree);
+      ASSERT_EQ(headings.size(), 2U);
+      const double least = 0.95 * tree.inscribed_radius(network.hubs[1].position);
+      for (int round = 0; round < 30; ++round) {
+        centre_tips(network, tree, headings);
+        ASSERT_GE(tree.inscribed_radius(network.hubs[1].position), least);
+      }
+      const Point tip = network.hubs[1].position;
+      EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.05) << off << ", thickness " << thickness;
+      EXPECT_GT(tip.x(), 5) << off << ", thickness " << thickness;
+    }
+  }
+}
+
+// Of a curve without junctions both ends are tips; of a ring none is.
+TEST(Tips, LookOutward) {
+  const SurfaceTree tree(limb(1));
+  const Network stick = strand_along(along_x(-5, 5.01, 0.2));
+  for (const TipHeading& tip : tip_headings(stick, tree)) {
+    const Point position = stick.hubs[static_cast<std::size_t>(tip.hub)].position;
+    EXPECT_NEAR(tip.direction.x(), position.x() < 0 ? -1 : 1, 1e-12);
+    EXPECT_EQ(tip.radius, tree.inscribed_radius(position));
+  }
+  Network ring;
+  ring.hubs = {{Point(1, 0, 0), {0, 0}}};
+  ring.strands.push_back({0, 0, {Point(0, 0.5, 0), Point(-1, 0, 0)}, {0}});
+  EXPECT_TRUE(tip_headings(ring, tree).empty());
+}
+
 }  // namespace
 }  // namespace curveskel::tips_laws
