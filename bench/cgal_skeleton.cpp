@@ -60,10 +60,7 @@ void append(const Skeletonization::Skeleton& part, CurveSkeleton& whole,
   }
 }
 
-}  // namespace
-
-CurveSkeleton cgal_skeleton(const std::filesystem::path& file) {
-  Mesh mesh = read_mesh(file);
+CurveSkeleton skeleton_of(const Mesh& mesh) {
   if (!CGAL::is_closed(mesh)) throw std::runtime_error("CGAL reads no closed surface");
   std::vector<Mesh> components;
   processing::split_connected_components(mesh, components);
@@ -85,5 +82,13 @@ CurveSkeleton cgal_skeleton(const std::filesystem::path& file) {
   }
   return whole;
 }
+
+}  // namespace
+
+CurveSkeleton cgal_skeleton(const std::filesystem::path& file) {
+  return skeleton_of(read_mesh(file));
+}
+
+CurveSkeleton cgal_skeleton(const Surface& surface) { return skeleton_of(mesh_of(surface)); }
 
 }  // namespace curveskel::bench

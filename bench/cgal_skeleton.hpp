@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "skeleton/curve_skeleton.hpp"
+#include "surface/surface.hpp"
 
 namespace curveskel::bench {
 
@@ -11,5 +12,8 @@ namespace curveskel::bench {
 /// PLY) and by this project's otherwise, triangulates, turns it outward, and skeletonizes each
 /// component with CGAL's defaults. One thread. Throws std::exception where CGAL or reading fails.
 [[nodiscard]] CurveSkeleton cgal_skeleton(const std::filesystem::path& file);
+
+/// The same of a clean surface.
+[[nodiscard]] CurveSkeleton cgal_skeleton(const Surface& surface);
 
 }  // namespace curveskel::bench

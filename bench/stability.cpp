@@ -12,8 +12,10 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/cgal_skeleton.hpp"
 #include "skeleton/certificate.hpp"
 #include "skeleton/extract_repaired.hpp"
 #include "surface/coarsen.hpp"
@@ -79,29 +81,55 @@ struct Tally {
   int all = 0;
 };
 
-std::string cell(const Extraction& base, const Surface& changed, double diagonal, Tally& tally) {
-  RepairedSurface whole{changed, {}, {}, {}, {}};
-  whole.vertex_of_input.setLinSpaced(changed.positions.rows(), 0,
-                                     static_cast<int>(changed.positions.rows()) - 1);
-  const Extraction found = extract_repaired(whole, {}, {}, {}).extraction;
-  const double spacing = diagonal / 400;
-  const double distance = hausdorff_distance(base.skeleton, found.skeleton, spacing) / diagonal;
-  const double mean = mean_distance(base.skeleton, found.skeleton, spacing) / diagonal;
-  const Certificate& a = base.certificate;
-  const Certificate& b = found.certificate;
-  const bool same = a.tips == b.tips && a.junctions == b.junctions;
+enum class Program { curveskel, cgal };
+
+CurveSkeleton skeleton_of(const Surface& surface, Program program) {
+  if (program == Program::cgal) return cgal_skeleton(surface);
+  RepairedSurface whole{surface, {}, {}, {}, {}};
+  whole.vertex_of_input.setLinSpaced(surface.positions.rows(), 0,
+                                     static_cast<int>(surface.positions.rows()) - 1);
+  return extract_repaired(whole, {}, {}, {}).extraction.skeleton;
+}
+
+std::pair<int, int> tips_and_junctions(const CurveSkeleton& skeleton) {
+  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()));
+  for (const int node : skeleton.edges.reshaped()) ++degree[static_cast<std::size_t>(node)];
+  std::pair<int, int> found;
+  for (const int edges : degree) {
+    found.first += edges == 1 ? 1 : 0;
+    found.second += edges > 2 ? 1 : 0;
+  }
+  return found;
+}
+
+std::string cell(const CurveSkeleton& base, const Surface& changed, double diagonal,
+                 Program program, Tally& tally) {
   ++tally.all;
-  tally.same_graph += same ? 1 : 0;
+  CurveSkeleton found;
+  try {
+    found = skeleton_of(changed, program);
+  } catch (const std::exception&) {
+    return " none | |";
+  }
+  const double spacing = diagonal / 400;
+  const double distance = hausdorff_distance(base, found, spacing) / diagonal;
+  const double mean = mean_distance(base, found, spacing) / diagonal;
+  const auto graph = tips_and_junctions(found);
+  tally.same_graph += graph == tips_and_junctions(base) ? 1 : 0;
   tally.near += distance < 0.01 ? 1 : 0;
   tally.near_in_the_mean += mean < 0.01 ? 1 : 0;
-  return fmt::format(" {}, {} | {:.4f}, {:.1f} |", b.tips, b.junctions, distance, 1000 * mean);
+  return fmt::format(" {}, {} | {:.4f}, {:.1f} |", graph.first, graph.second, distance,
+                     1000 * mean);
 }
 
 int run(int argc, char** argv) {
   CLI::App app("How much a skeleton changes when its surface changes a little");
   std::vector<std::filesystem::path> files;
   app.add_option("files", files, "surfaces")->required();
+  bool of_cgal = false;
+  app.add_flag("--cgal", of_cgal, "CGAL's mean curvature flow skeletons instead");
   CLI11_PARSE(app, argc, argv);
+  const Program program = of_cgal ? Program::cgal : Program::curveskel;
   std::cout << "| surface | tips, junctions | noise 0.2 % D | off by / D, mean / 0.001 D | half "
                "the vertices | off "
                "by | a quarter | off by | Loop subdivision | off by |\n"
@@ -110,13 +138,13 @@ int run(int argc, char** argv) {
   for (const auto& file : files) {
     const Surface surface = repair(read_polygons(file, {}), {}, {}).surface;
     const double diagonal = bounding_box_diagonal(surface.positions);
-    const Extraction base = extract(surface, {}, {});
-    std::string row = fmt::format("| {} | {}, {} |", file.stem().string(), base.certificate.tips,
-                                  base.certificate.junctions);
-    row += cell(base, with_noise(surface, 0.002 * diagonal), diagonal, tally);
-    row += cell(base, decimated(surface, 2), diagonal, tally);
-    row += cell(base, decimated(surface, 4), diagonal, tally);
-    row += cell(base, loop_subdivided(surface), diagonal, tally);
+    const CurveSkeleton base = skeleton_of(surface, program);
+    const auto [tips, junctions] = tips_and_junctions(base);
+    std::string row = fmt::format("| {} | {}, {} |", file.stem().string(), tips, junctions);
+    row += cell(base, with_noise(surface, 0.002 * diagonal), diagonal, program, tally);
+    row += cell(base, decimated(surface, 2), diagonal, program, tally);
+    row += cell(base, decimated(surface, 4), diagonal, program, tally);
+    row += cell(base, loop_subdivided(surface), diagonal, program, tally);
     std::cout << row << "\n" << std::flush;
   }
   std::cout << fmt::format(
