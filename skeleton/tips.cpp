@@ -28,20 +28,27 @@ bool turns_away(const Point& step, const Point& heading) {
 }
 
 /// Cuts the strand where all the rest of it and the surface straight ahead lie within `reach`
-/// inscribed radii, or where the rest lies within the ball and turns away: what bends into a corner
-/// of a blunt end goes.
+/// inscribed radii, or where the rest turns away and lies within the ball or not far beyond it in a
+/// narrow corner: what bends into a corner of a blunt end goes.
 void retract(Network& network, Strand& strand, const SurfaceTree& tree, double reach) {
+  constexpr double corner_reach = 1.75;
+  constexpr double narrow = 0.3;
   const auto line = network.polyline(strand);
+  const double tip_radius = tree.inscribed_radius(line.back());
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     const double radius = tree.inscribed_radius(line[i]);
     const auto rest_within = [&](double distance) {
       return std::none_of(line.begin() + static_cast<std::ptrdiff_t>(i), line.end(),
                           [&](const Point& p) { return (p - line[i]).norm() > distance; });
     };
-    if (!rest_within(reach * radius)) continue;
+    const double curl_reach = tip_radius < narrow * radius ? corner_reach : 1;
+    if (!rest_within(std::max(reach, curl_reach) * radius)) continue;
     const Point ahead = heading(line, i, radius);
-    const bool curls = turns_away(line.back() - line[i], ahead) && rest_within(radius);
-    if (!curls && tree.ray(line[i], ahead, reach * radius).triangle < 0) continue;
+    const bool curls = turns_away(line.back() - line[i], ahead) && rest_within(curl_reach * radius);
+    const auto is_blunt = [&] {
+      return rest_within(reach * radius) && tree.ray(line[i], ahead, reach * radius).triangle >= 0;
+    };
+    if (!curls && !is_blunt()) continue;
     network.hubs[at(strand.to)].position = line[i];
     strand.points.resize(i - 1);
     return;

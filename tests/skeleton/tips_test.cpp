@@ -70,6 +70,23 @@ TEST(Tips, ThatCurlIntoACornerAreStraightened) {
   }
 }
 
+// Its ball narrows so evenly on the way into the corner that no place sees the rest as blunt.
+TEST(Tips, InTheCornerOfAWideEndComeBack) {
+  Surface wide = shapes::tube("limb", shapes::straight(12), shapes::constant(1), 48).surface;
+  wide.positions.col(1) *= 1.5;
+  const SurfaceTree tree(wide);
+  auto line = along_x(-4, 4.91, 0.2);
+  const Point bend(4.9, 0, 0);
+  for (int k = 0; k <= 8; ++k) line.push_back(bend + 0.21 * k * Point(0.6, 0.8, 0));
+  ASSERT_GT((line.back() - bend).norm(), reach * tree.inscribed_radius(bend));
+  ASSERT_GT(tree.inscribed_radius(line.back()), 0);
+  Network network = strand_along(line);
+  shape_tips(network, tree, reach, gap);
+  const Point tip = network.hubs[1].position;
+  EXPECT_GT(tip.x(), 4.7);
+  EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.3);
+}
+
 /// A limb of half-width 1 in y and `thickness` in z, along x from -6 to 6.
 Surface limb(double thickness) {
   Surface limb = shapes::tube("limb", shapes::straight(12), shapes::constant(1), 48).surface;
