@@ -81,13 +81,12 @@ class Restoration {
   double target_;
 };
 
-[[noreturn]] void fail(std::size_t component, double found, double target, VolumeRule rule) {
-  char text[160];
+[[noreturn]] void fail(const std::string& what, double found, double target, VolumeRule rule) {
+  char text[120];
   std::snprintf(text, sizeof text,
-                "component %zu was faired to the volume %.3g, from which %s cannot restore %.3g",
-                component, found, std::string(name_of(volume_rules, rule)).c_str(), target);
-  throw Error(Fault::solver,
-              std::string(text) + "; take fewer iterations, or keep the volume as it is");
+                " was faired to the volume %.3g, from which %s cannot restore %.3g", found,
+                std::string(name_of(volume_rules, rule)).c_str(), target);
+  throw Error(Fault::solver, what + text + "; take fewer iterations, or keep the volume as it is");
 }
 
 }  // namespace
@@ -112,7 +111,9 @@ void restore_volume(Surface& surface, const Positions& before, const std::vector
     // The second step takes away what rounding left of the first.
     for (int step = 0; step < 3 && !restoration.done(); ++step) {
       const bool moved = rule == VolumeRule::offset ? restoration.offset() : restoration.scale();
-      if (!moved) fail(i, found, target, rule);
+      if (!moved)
+        fail(components.size() == 1 ? "the surface" : "component " + std::to_string(i), found,
+             target, rule);
     }
     for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
       surface.positions.row(vertex_in_whole[v]) =

@@ -121,7 +121,7 @@ void BallChains::search(int source, int target, const std::vector<int>& groups) 
     if (v == target) break;
     if (so_far > cost_[at(v)]) continue;
     for (const int next : neighbours_[at(v)]) {
-      if (!may_pass(next)) continue;
+      if (!may_pass(next) || is_avoided(v, next)) continue;
       const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
       const double narrow = std::min(balls_.radii[v], balls_.radii[next]);
       const double total = so_far + step / narrow;
@@ -144,6 +144,13 @@ void BallChains::forget() {
 
 bool BallChains::may_pass(int v) const {
   return allowed_[at(graph_.group_of_vertex[v])] != 0 && balls_.radii[v] > least_radius;
+}
+
+void BallChains::avoid(int one, int other) { avoided_.push_back(std::minmax(one, other)); }
+
+bool BallChains::is_avoided(int one, int other) const {
+  const std::pair<int, int> step = std::minmax(one, other);
+  return std::find(avoided_.begin(), avoided_.end(), step) != avoided_.end();
 }
 
 double BallChains::distance(const Point& p, int v) const {

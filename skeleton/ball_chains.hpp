@@ -1,6 +1,7 @@
 // Ways through a surface from inscribed ball to inscribed ball.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "skeleton/circles.hpp"
@@ -44,6 +45,10 @@ class BallChains {
   /// The vertices of a cheapest chain from one to another, both included; empty if there is no way.
   [[nodiscard]] std::vector<int> way(int from, int to, const std::vector<int>& groups);
 
+  /// No chain takes the step between these two neighbours any more, until all are allowed again.
+  void avoid(int one, int other);
+  void allow_all() { avoided_.clear(); }
+
   /// The vertex of the given groups whose ball's centre is nearest to p; -1 if they have no balls.
   [[nodiscard]] int nearest_vertex(const Point& p, const std::vector<int>& groups);
   /// The ball centre nearest to p of the vertices of the given groups; p if they have none.
@@ -54,6 +59,7 @@ class BallChains {
   void search(int source, int target, const std::vector<int>& groups);
   void forget();
   [[nodiscard]] bool may_pass(int v) const;
+  [[nodiscard]] bool is_avoided(int one, int other) const;
   [[nodiscard]] double distance(const Point& p, int v) const;
   [[nodiscard]] int holder_of(const Point& p, const std::vector<int>& groups) const;
   template <typename Value>
@@ -63,7 +69,8 @@ class BallChains {
   const InscribedBalls& balls_;
   const VertexGraph& graph_;
   std::vector<std::vector<int>> neighbours_;
-  std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
+  std::vector<std::vector<int>> vertices_;    // of each group, those with a ball
+  std::vector<std::pair<int, int>> avoided_;  // lesser vertex first; few
   // What one search leaves for the next to clear.
   std::vector<char> allowed_;  // per group
   std::vector<double> cost_;

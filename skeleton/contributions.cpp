@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <thread>
 
 #include "skeleton/contribution.hpp"
@@ -31,6 +32,19 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
   return size;
 }
 
+/// As they come, or the smallest first: what is too thin to be faired is mostly small, and shows
+/// before the time for the others is spent.
+std::vector<std::size_t> order_of(const Topology& counted, bool smallest_first) {
+  std::vector<std::size_t> order(counted.genus.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (smallest_first) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return counted.vertices[a] < counted.vertices[b];
+    });
+  }
+  return order;
+}
+
 }  // namespace
 
 std::vector<Contribution> contributions_of(const Parts& whole, const ExtractOptions& options,
@@ -53,7 +67,7 @@ std::vector<Contribution> contributions_of(const Parts& whole, const ExtractOpti
   const bool on_host = options.contraction.solver == Solver::automatic ||
                        options.contraction.solver == Solver::cholesky;
   const bool may_share = on_host && !options.fairing && !monitor.frame && !monitor.curve;
-  for (std::size_t c = 0; c < all.size(); ++c) {
+  for (const std::size_t c : order_of(counted, options.fairing && !monitor.frame)) {
     const WorkingSize size = part_of(c).size;
     if (may_share && std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
       side_by_side.push_back(c);

@@ -244,32 +244,53 @@ class Keeper {
     return vertices;
   }
 
+  struct Detour {
+    std::vector<Point> points;
+    int uncovered = 0;
+    std::vector<std::pair<int, int>> hidden;  ///< steps between two balls
+  };
+
   /// From ball to ball, but just below the surface where no way between two of them is found.
-  std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
-    const auto vertices = balls_between(p, q, groups_along(network_, strand, graph_));
-    if (vertices.empty()) {
-      ++uncovered_;
-      return {};
-    }
+  Detour detour_by(const std::vector<int>& vertices, const Point& p, const Point& q) {
+    Detour made;
     std::vector<Point> chain{p};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Point centre = balls_.centres.row(vertices[i]);
       if (i > 0 && !sees(chain.back(), centre)) {
         const auto step = way_below(vertices[i - 1], vertices[i]);
+        if (step.empty()) made.hidden.emplace_back(vertices[i - 1], vertices[i]);
         chain.insert(chain.end(), step.begin(), step.end());
       }
       chain.push_back(centre);
     }
     chain.push_back(q);
     chain = shortcut(chain, tree_);
-    std::vector<Point> points;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      if (i > 0) points.push_back(chain[i]);
+      if (i > 0) made.points.push_back(chain[i]);
       std::vector<Point> between;
-      if (!is_covered(chain[i], chain[i + 1], between)) ++uncovered_;
-      points.insert(points.end(), between.begin(), between.end());
+      if (!is_covered(chain[i], chain[i + 1], between)) ++made.uncovered;
+      made.points.insert(made.points.end(), between.begin(), between.end());
     }
-    return points;
+    return made;
+  }
+
+  /// Where the surface meets itself, round the steps that lead outside.
+  std::vector<Point> detour(const Strand& strand, const Point& p, const Point& q) {
+    const auto groups = groups_along(network_, strand, graph_);
+    std::optional<Detour> best;
+    while (true) {
+      const auto vertices = balls_between(p, q, groups);
+      if (vertices.empty()) break;
+      Detour made = detour_by(vertices, p, q);
+      for (const auto& [one, other] : made.hidden) chains_.avoid(one, other);
+      const bool is_last = made.uncovered == 0 || made.hidden.empty() || more_tries_ == 0;
+      if (!best || made.uncovered < best->uncovered) best = std::move(made);
+      if (is_last) break;
+      --more_tries_;
+    }
+    chains_.allow_all();
+    uncovered_ += best ? best->uncovered : 1;
+    return best ? std::move(best->points) : std::vector<Point>{};
   }
 
   /// Made when first asked for, as there is mostly another way.
@@ -287,6 +308,7 @@ class Keeper {
   std::optional<BelowSurface> below_;
   BallChains chains_;
   int uncovered_ = 0;
+  int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere
 };
 
 }  // namespace

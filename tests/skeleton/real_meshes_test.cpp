@@ -32,8 +32,8 @@ namespace {
 
 constexpr std::array known{
     // It goes on into the wings, in which no curve is central: docs/quality.md has both where both
-    // run, .23 and .23.
-    Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.1765},
+    // run, .21 and .23.
+    Shortfall{"twirl-5k.off", "centredness behind CGAL's", 0.13},
     // Its legs go on to the heels; .098 and .103 where both run.
     Shortfall{"diplodocus-24k.ply", "centredness behind CGAL's", 0.006},
     // Behind by a hair.
@@ -234,6 +234,17 @@ TEST(RealMeshes, StayInsideHoweverFewTheirVertices) {
           << name << ", 1 / " << share << " of the vertices: " << made.certificate.inside_fraction;
     }
   }
+}
+
+// This neuron's surface meets itself: some steps from one ball to the next lead outside, and where
+// the cheapest chain took one of them, 0.2 % of the curve was.
+TEST(RealMeshes, StayInsideWhereTheyMeetThemselves) {
+  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
+  const auto file = meshes / "neuron-722817260-18k.ply";
+  const Extraction found = extract(repair(read_polygons(file, {}), {}, {}).surface, {}, {});
+  EXPECT_GE(found.certificate.inside_fraction, 0.99999);
+  EXPECT_TRUE(found.certificate.topology_correct());
+  EXPECT_FALSE(found.faired_again);
 }
 
 // The tip in a blunt muzzle was in one of its corners, 0.1 D off, and the way into a head went
