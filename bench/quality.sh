@@ -2,7 +2,7 @@
 # usage: bench/quality.sh BUILD_DIR
 # Makes docs/quality.md and its pictures anew: this program beside CGAL's mean curvature flow
 # skeletonization on every closed surface of ../shared/meshes, and what small changes do to the
-# skeletons, and CGAL's. Seven minutes on an idle machine.
+# skeletons, and CGAL's. Six minutes on an idle machine.
 set -euo pipefail
 build=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -12,11 +12,11 @@
 #include <numbers>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench/cgal_skeleton.hpp"
 #include "skeleton/certificate.hpp"
+#include "skeleton/curve_skeleton.hpp"
 #include "skeleton/extract_repaired.hpp"
 #include "surface/coarsen.hpp"
 #include "surface/measures.hpp"
@@ -91,17 +91,6 @@ CurveSkeleton skeleton_of(const Surface& surface, Program program) {
   return extract_repaired(whole, {}, {}, {}).extraction.skeleton;
 }
 
-std::pair<int, int> tips_and_junctions(const CurveSkeleton& skeleton) {
-  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()));
-  for (const int node : skeleton.edges.reshaped()) ++degree[static_cast<std::size_t>(node)];
-  std::pair<int, int> found;
-  for (const int edges : degree) {
-    found.first += edges == 1 ? 1 : 0;
-    found.second += edges > 2 ? 1 : 0;
-  }
-  return found;
-}
-
 std::string cell(const CurveSkeleton& base, const Surface& changed, double diagonal,
                  Program program, Tally& tally) {
   ++tally.all;
@@ -114,12 +103,12 @@ std::string cell(const CurveSkeleton& base, const Surface& changed, double diago
   const double spacing = diagonal / 400;
   const double distance = hausdorff_distance(base, found, spacing) / diagonal;
   const double mean = mean_distance(base, found, spacing) / diagonal;
-  const auto graph = tips_and_junctions(found);
-  tally.same_graph += graph == tips_and_junctions(base) ? 1 : 0;
+  const GraphTopology was = graph_topology(base);
+  const GraphTopology is = graph_topology(found);
+  tally.same_graph += is.tips == was.tips && is.junctions == was.junctions ? 1 : 0;
   tally.near += distance < 0.01 ? 1 : 0;
   tally.near_in_the_mean += mean < 0.01 ? 1 : 0;
-  return fmt::format(" {}, {} | {:.4f}, {:.1f} |", graph.first, graph.second, distance,
-                     1000 * mean);
+  return fmt::format(" {}, {} | {:.4f}, {:.1f} |", is.tips, is.junctions, distance, 1000 * mean);
 }
 
 int run(int argc, char** argv) {
@@ -139,8 +128,9 @@ int run(int argc, char** argv) {
     const Surface surface = repair(read_polygons(file, {}), {}, {}).surface;
     const double diagonal = bounding_box_diagonal(surface.positions);
     const CurveSkeleton base = skeleton_of(surface, program);
-    const auto [tips, junctions] = tips_and_junctions(base);
-    std::string row = fmt::format("| {} | {}, {} |", file.stem().string(), tips, junctions);
+    const GraphTopology graph = graph_topology(base);
+    std::string row =
+        fmt::format("| {} | {}, {} |", file.stem().string(), graph.tips, graph.junctions);
     row += cell(base, with_noise(surface, 0.002 * diagonal), diagonal, program, tally);
     row += cell(base, decimated(surface, 2), diagonal, program, tally);
     row += cell(base, decimated(surface, 4), diagonal, program, tally);

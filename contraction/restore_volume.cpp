@@ -111,9 +111,9 @@ void restore_volume(Surface& surface, const Positions& before, const std::vector
     // The second step takes away what rounding left of the first.
     for (int step = 0; step < 3 && !restoration.done(); ++step) {
       const bool moved = rule == VolumeRule::offset ? restoration.offset() : restoration.scale();
-      if (!moved)
-        fail(components.size() == 1 ? "the surface" : "component " + std::to_string(i), found,
-             target, rule);
+      if (moved) continue;
+      fail(components.size() == 1 ? "the surface" : "component " + std::to_string(i), found, target,
+           rule);
     }
     for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
       surface.positions.row(vertex_in_whole[v]) =

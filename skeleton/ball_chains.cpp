@@ -146,11 +146,10 @@ bool BallChains::may_pass(int v) const {
   return allowed_[at(graph_.group_of_vertex[v])] != 0 && balls_.radii[v] > least_radius;
 }
 
-void BallChains::avoid(int one, int other) { avoided_.push_back(std::minmax(one, other)); }
+void BallChains::avoid(int one, int other) { avoided_.insert(std::minmax(one, other)); }
 
 bool BallChains::is_avoided(int one, int other) const {
-  const std::pair<int, int> step = std::minmax(one, other);
-  return std::find(avoided_.begin(), avoided_.end(), step) != avoided_.end();
+  return !avoided_.empty() && avoided_.contains(std::minmax(one, other));
 }
 
 double BallChains::distance(const Point& p, int v) const {

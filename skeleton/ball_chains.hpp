@@ -1,6 +1,7 @@
 // Ways through a surface from inscribed ball to inscribed ball.
 #pragma once
 
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -69,8 +70,8 @@ class BallChains {
   const InscribedBalls& balls_;
   const VertexGraph& graph_;
   std::vector<std::vector<int>> neighbours_;
-  std::vector<std::vector<int>> vertices_;    // of each group, those with a ball
-  std::vector<std::pair<int, int>> avoided_;  // lesser vertex first; few
+  std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
+  std::set<std::pair<int, int>> avoided_;   // lesser vertex first
   // What one search leaves for the next to clear.
   std::vector<char> allowed_;  // per group
   std::vector<double> cost_;
