@@ -1,4 +1,4 @@
-// How verbs declare arguments, so that all of them behave alike.
+// Arguments of verbs, declared so that all verbs behave homologous.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -6,8 +6,8 @@
 #include <CLI/Formatter.hpp>
 #include <string>
 
-#include "surface/names.hpp"
-#include "surface/repair.hpp"
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/repair.hpp>
 
 namespace curveskel {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "skeleton/certificate.hpp"
+#include <curveskel/certificate.hpp>
 
 namespace curveskel {
 

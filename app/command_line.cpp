@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/error.hpp>
 #include "app/arguments.hpp"
 #include "app/report.hpp"
-#include "app/verbs.hpp"
-#include "surface/error.hpp"
+#include "app/verbs/verbs.hpp"
 
 namespace curveskel {
 namespace {
@@ -34,7 +34,7 @@ int exit_code(Fault fault) {
   return ExitCode::internal;
 }
 
-/// What there is to do, by the verb's own options, where the surface is too much for it.
+/// A remedy, by the verb's own options, for a surface that is too much for the verb.
 std::string remedy_of(const CLI::App& parser) {
   std::string remedy;
   const CLI::Option* const opening = parser.get_option_no_throw("--wrap-opening");
@@ -85,7 +85,7 @@ std::string verbs_of(const CLI::App& program) {
   return names;
 }
 
-/// What was wrong with the arguments, and what would be right.
+/// The fault in the arguments, and the right form.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   if (chosen.empty()) {

@@ -1,10 +1,10 @@
-// The command line: verbs, exit codes, and what a person sees when something is wrong.
+// The command line: verbs, exit codes, and messages about faults.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "app/verbs.hpp"
+#include "app/verbs/verbs.hpp"
 
 namespace curveskel {
 

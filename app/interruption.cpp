@@ -10,15 +10,15 @@
 #include <initializer_list>
 #include <utility>
 
+#include <curveskel/error.hpp>
 #include "app/command_line.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel {
 namespace {
 
 using namespace std::chrono_literals;
 
-// A signal handler reaches nothing but what is static.
+// A signal handler reaches static data only.
 sem_t arrived;
 volatile std::sig_atomic_t last_signal = 0;
 

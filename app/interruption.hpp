@@ -15,7 +15,7 @@ namespace curveskel {
 /// time.
 class Interruption {
  public:
-  /// `remedy` is what to do, besides allowing more, where a time limit is reached.
+  /// `remedy` is advice beside allowing more time, if a time limit is reached.
   explicit Interruption(std::string remedy);
   ~Interruption();
   Interruption(const Interruption&) = delete;
@@ -30,8 +30,8 @@ class Interruption {
   [[nodiscard]] double reached_limit() const { return reached_limit_; }
   /// Throws Cancelled if a stop was requested.
   void check() const;
-  /// What to say of it: that it was interrupted, or which limit was reached, and what to do; and
-  /// how many files were written before.
+  /// The message: interrupted, or the limit that was reached, with a remedy and the number of files
+  /// written before.
   [[nodiscard]] std::string message() const;
   /// While held, the process does not end halfway through a file. To be held once for each.
   [[nodiscard]] std::unique_lock<std::mutex> hold();

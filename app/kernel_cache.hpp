@@ -1,4 +1,4 @@
-// Where compiled OpenCL kernels are kept between runs.
+// The folder where compiled OpenCL kernels are kept between runs.
 #pragma once
 
 #include <filesystem>

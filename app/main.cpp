@@ -1,6 +1,6 @@
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
-#include "app/verbs.hpp"
+#include "app/verbs/verbs.hpp"
 
 int main(int argc, char** argv) {
   using namespace curveskel;

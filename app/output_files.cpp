@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "surface/error.hpp"
-#include "surface/write_file.hpp"
+#include <curveskel/error.hpp>
+#include <curveskel/write_file.hpp>
 
 namespace curveskel {
 

@@ -1,4 +1,4 @@
-// Where results go: files by name, or standard output.
+// Output of results: files by name, or standard output.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/verbs.hpp"
-#include "skeleton/skeleton_files.hpp"
+#include <curveskel/skeleton_files.hpp>
+#include "app/verbs/verbs.hpp"
 
 namespace curveskel {
 

@@ -175,13 +175,13 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"certificate", to_json(record.extraction.certificate)}};
 }
 
-/// How many were allowed, however they were asked for.
+/// The number of threads that were allowed.
 unsigned threads_of(const ExtractOptions& options) {
   return options.threads > 0 ? static_cast<unsigned>(options.threads)
                              : std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// File names need not be UTF-8; what is not is replaced rather than refused.
+/// File names need not be UTF-8; other bytes are replaced rather than refused.
 std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }

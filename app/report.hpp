@@ -4,26 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/extract.hpp"
-#include "surface/read.hpp"
-#include "surface/repair.hpp"
+#include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
 
 namespace curveskel {
 
 /// "curveskel 0.1.0".
 [[nodiscard]] std::string program_and_version();
 
-/// What one extraction was, for its reports.
+/// The values of one extraction that its reports show.
 struct ExtractionRecord {
   const PolygonSoup& soup;
   const RepairedSurface& repaired;
   const RepairOptions& repair_options;
   const ExtractOptions& options;
   const Extraction& extraction;
-  const std::vector<std::string>& notes;  ///< what the stages said on the way
+  const std::vector<std::string>& notes;  ///< notes of the stages on the way
 };
 
-/// What depends on the run and not on input and options.
+/// Values that depend on the run and not on input and options.
 struct RunRecord {
   std::vector<StageTime> times;
   double seconds = 0;  ///< by the clock, so far
@@ -36,7 +36,7 @@ struct RunRecord {
 /// The same and the run: times, threads, peak memory, outputs. Ends with a newline.
 [[nodiscard]] std::string report_json(const ExtractionRecord& record, const RunRecord& run);
 
-/// What `evaluate` found out about a skeleton file.
+/// The findings of `evaluate` about a skeleton file.
 struct Evaluation {
   Certificate certificate;
   CertificateOptions options;

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 namespace {

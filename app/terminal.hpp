@@ -1,4 +1,4 @@
-// What a person sees: results, progress, notes and warnings.
+// Text for a person: results, progress, notes and warnings.
 #pragma once
 
 #include <chrono>

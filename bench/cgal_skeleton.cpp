@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "surface/clean.hpp"
-#include "surface/read.hpp"
+#include <curveskel/clean.hpp>
+#include <curveskel/read.hpp>
 
 namespace curveskel::bench {
 namespace {

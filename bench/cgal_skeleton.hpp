@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "skeleton/curve_skeleton.hpp"
-#include "surface/surface.hpp"
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
 
 namespace curveskel::bench {
 

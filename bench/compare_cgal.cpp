@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/skeleton_files.hpp>
 #include "bench/cgal_skeleton.hpp"
-#include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
-#include "skeleton/picture.hpp"
-#include "skeleton/skeleton_files.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
-#include "surface/repair.hpp"
+#include "skeleton/picture/picture.hpp"
 
 namespace curveskel::bench {
 namespace {

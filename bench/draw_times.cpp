@@ -1,4 +1,4 @@
-// How long a picture takes, by what is in it: milliseconds, the median of some, as CSV.
+// The time of a picture, by its content: milliseconds, the median of some, as CSV.
 // usage: draw_times MESH [WIDTH HEIGHT]
 #include <epoxy/gl.h>
 #include <fmt/core.h>
@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/document.hpp"
-#include "viewer/headless.hpp"
-#include "viewer/renderer.hpp"
-#include "viewer/scene.hpp"
+#include "viewer/headless/headless.hpp"
+#include "viewer/model/document.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/render/scene.hpp"
 
 namespace {
 

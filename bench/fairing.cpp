@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "contraction/device.hpp"
-#include "contraction/local_flow.hpp"
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/read.hpp>
+#include "contraction/fairing/local_flow.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/clean.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
 
 namespace curveskel::bench {
 namespace {

@@ -1,4 +1,4 @@
-// The negative result of the paper: what is left of a surface's volume after each iteration of the
+// The negative result of the paper: the volume left of a surface after each iteration of the
 // local flow (K = 1, 2, 3) and of the global one, as a table and as an SVG; then times per
 // iteration.
 #include <fmt/core.h>
@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "contraction/contract.hpp"
-#include "contraction/device.hpp"
-#include "contraction/fair.hpp"
-#include "surface/clean.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/contract.hpp>
+#include <curveskel/fair.hpp>
+#include <curveskel/read.hpp>
 
 namespace curveskel::bench {
 namespace {
@@ -138,7 +138,7 @@ double processor_seconds_of(const Surface& surface, const FairOptions& options) 
   return processor_seconds() - start;
 }
 
-// The difference between 1 and `iterations` + 1, so that what is done once does not count; the
+// The difference between 1 and `iterations` + 1, so that work done once does not count; the
 // least of five.
 double milliseconds_per_iteration(const Surface& surface, FairOptions options, int iterations) {
   options.volume = VolumeRule::keep;

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "contraction/fair.hpp"
-#include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/clean.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/fair.hpp>
+#include <curveskel/read.hpp>
 
 namespace curveskel::bench {
 namespace {
@@ -68,7 +68,7 @@ Skeleton skeleton_of(const Surface& surface, int iterations) {
   return {std::move(extraction.skeleton), extraction.certificate.tips};
 }
 
-/// What one number of iterations comes to, over the draws.
+/// The result of one number of iterations, over the draws.
 struct Tally {
   double normal_error = 0;  // degrees
   double hausdorff = 0;     // / D

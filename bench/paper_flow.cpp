@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
 
 namespace curveskel::bench {
 

@@ -1,8 +1,8 @@
 // The paper's global flow with nothing added: fixed connectivity, no step control, no collapses.
 #pragma once
 
-#include "contraction/laplacian.hpp"
-#include "surface/surface.hpp"
+#include <curveskel/advanced/laplacian.hpp>
+#include <curveskel/surface.hpp>
 
 namespace curveskel::bench {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/measures.hpp"
 
 namespace {
 

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/advanced/least_squares.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
 #include "bench/paper_flow.hpp"
-#include "contraction/least_squares.hpp"
-#include "contraction/spectrum.hpp"
-#include "surface/clean.hpp"
-#include "surface/coarsen.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
+#include "contraction/solvers/study/spectrum.hpp"
 
 namespace curveskel::bench {
 namespace {

@@ -1,4 +1,4 @@
-// What noise, decimation and subdivision do to a skeleton: they should not matter.
+// The effect of noise, decimation and subdivision on a skeleton: it should be small.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
 #include "bench/cgal_skeleton.hpp"
-#include "skeleton/certificate.hpp"
-#include "skeleton/curve_skeleton.hpp"
-#include "skeleton/extract_repaired.hpp"
-#include "surface/coarsen.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
-#include "surface/repair.hpp"
 
 namespace curveskel::bench {
 namespace {

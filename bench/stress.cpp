@@ -1,4 +1,4 @@
-// How long the largest surfaces take and how much memory: one body of millions of faces, one of
+// The time and the memory of the largest surfaces: one body of millions of faces, one of
 // many handles, and surfaces of very many small components.
 // usage: stress [--faces N] [--handles N] [--components N] [--equal N]
 #include <sys/resource.h>
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/repair.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/repair.hpp"
 
 namespace {
 

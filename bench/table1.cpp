@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/least_squares.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/fair.hpp>
 #include "bench/log_plot.hpp"
 #include "bench/paper_flow.hpp"
-#include "contraction/fair.hpp"
-#include "contraction/least_squares.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::bench {
 namespace {
@@ -85,7 +85,7 @@ double time_fairing(const Surface& surface, FairOptions options, int iterations)
   return seconds_now() - start;
 }
 
-/// What a run costs beside its iterations varies by more than 30 of them take on a device: so many
+/// The cost of a run beside its iterations varies by more than 30 of them take on a device: so many
 /// that they stand out.
 double iteration_seconds(const Surface& surface, const FairOptions& options, double once) {
   constexpr double plenty = 0.3;
@@ -140,7 +140,7 @@ std::vector<Method> methods() {
   return all;
 }
 
-/// The row of one method; what would take longer than `most_seconds` is predicted.
+/// The row of one method; a cell that would take longer than `most_seconds` is predicted.
 std::vector<Cell> run_row(const Method& method, double most_seconds) {
   std::vector<Cell> row;
   for (const int size : sizes) {

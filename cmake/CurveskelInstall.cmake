@@ -1,48 +1,66 @@
 # What a user of the library gets: public headers, the CMake package, the program and a .deb of all.
 # Third-party headers never appear in these (std and Eigen only); tests/checks holds them to it.
+set(CURVESKEL_PUBLIC_BASE
+  include/curveskel/advanced/names.hpp
+  include/curveskel/error.hpp
+  include/curveskel/monitor.hpp
+  include/curveskel/write_file.hpp
+)
+set(CURVESKEL_PUBLIC_SURFACE
+  include/curveskel/advanced/coarsen.hpp
+  include/curveskel/advanced/inscribed_balls.hpp
+  include/curveskel/advanced/measures.hpp
+  include/curveskel/advanced/tree.hpp
+  include/curveskel/clean.hpp
+  include/curveskel/read.hpp
+  include/curveskel/repair.hpp
+  include/curveskel/surface.hpp
+  include/curveskel/topology.hpp
+  include/curveskel/write_surface.hpp
+)
+set(CURVESKEL_PUBLIC_CONTRACTION
+  include/curveskel/advanced/device.hpp
+  include/curveskel/advanced/laplacian.hpp
+  include/curveskel/advanced/least_squares.hpp
+  include/curveskel/contract.hpp
+  include/curveskel/fair.hpp
+)
+set(CURVESKEL_PUBLIC_SKELETON
+  include/curveskel/advanced/embed.hpp
+  include/curveskel/advanced/extraction_cache.hpp
+  include/curveskel/advanced/surface_partition.hpp
+  include/curveskel/advanced/surgery.hpp
+  include/curveskel/certificate.hpp
+  include/curveskel/curve_skeleton.hpp
+  include/curveskel/edit.hpp
+  include/curveskel/evaluate_repaired.hpp
+  include/curveskel/extract.hpp
+  include/curveskel/extract_repaired.hpp
+  include/curveskel/findings.hpp
+  include/curveskel/skeleton_files.hpp
+  include/curveskel/view.hpp
+)
+set(CURVESKEL_PUBLIC_RIG
+  include/curveskel/advanced/joints.hpp
+  include/curveskel/advanced/skin_weights.hpp
+  include/curveskel/make_rig.hpp
+  include/curveskel/read_rig.hpp
+  include/curveskel/rig.hpp
+  include/curveskel/rig_files.hpp
+)
+set(CURVESKEL_PUBLIC_APP
+  include/curveskel.hpp
+)
 set(CURVESKEL_PUBLIC_HEADERS
-  curveskel.hpp
-  surface/clean.hpp
-  surface/coarsen.hpp
-  surface/error.hpp
-  surface/inscribed_balls.hpp
-  surface/measures.hpp
-  surface/monitor.hpp
-  surface/names.hpp
-  surface/read.hpp
-  surface/repair.hpp
-  surface/surface.hpp
-  surface/topology.hpp
-  surface/tree.hpp
-  surface/write_file.hpp
-  surface/write_surface.hpp
-  contraction/contract.hpp
-  contraction/device.hpp
-  contraction/fair.hpp
-  contraction/laplacian.hpp
-  contraction/least_squares.hpp
-  skeleton/certificate.hpp
-  skeleton/circles.hpp
-  skeleton/curve_skeleton.hpp
-  skeleton/edit.hpp
-  skeleton/embed.hpp
-  skeleton/evaluate_repaired.hpp
-  skeleton/extract.hpp
-  skeleton/extract_repaired.hpp
-  skeleton/extraction_cache.hpp
-  skeleton/findings.hpp
-  skeleton/skeleton_files.hpp
-  skeleton/surgery.hpp
-  skeleton/view.hpp
-  rig/joints.hpp
-  rig/make_rig.hpp
-  rig/read_rig.hpp
-  rig/rig.hpp
-  rig/rig_files.hpp
-  rig/skin_weights.hpp
+  ${CURVESKEL_PUBLIC_BASE}
+  ${CURVESKEL_PUBLIC_SURFACE}
+  ${CURVESKEL_PUBLIC_CONTRACTION}
+  ${CURVESKEL_PUBLIC_SKELETON}
+  ${CURVESKEL_PUBLIC_RIG}
+  ${CURVESKEL_PUBLIC_APP}
 )
 target_sources(curveskel PUBLIC FILE_SET HEADERS
-  BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${CURVESKEL_PUBLIC_HEADERS})
+  BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${CURVESKEL_PUBLIC_HEADERS})
 
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/curveskel)
@@ -51,7 +69,7 @@ configure_package_config_file(cmake/curveskelConfig.cmake.in curveskelConfig.cma
 write_basic_package_version_file(curveskelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
 install(TARGETS curveskel EXPORT curveskelTargets
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/curveskel)
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT curveskelTargets NAMESPACE curveskel:: DESTINATION ${package_dir})
 install(FILES
   ${PROJECT_BINARY_DIR}/curveskelConfig.cmake ${PROJECT_BINARY_DIR}/curveskelConfigVersion.cmake

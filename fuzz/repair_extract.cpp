@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "rig/make_rig.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/repair.hpp"
+#include <curveskel/extract.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/repair.hpp>
 
 namespace {
 

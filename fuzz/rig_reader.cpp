@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "rig/rig_formats.hpp"
-#include "surface/error.hpp"
-#include "surface/formats.hpp"
+#include <curveskel/error.hpp>
+#include "rig/io/rig_formats.hpp"
+#include "surface/read/formats.hpp"
 
 namespace {
 

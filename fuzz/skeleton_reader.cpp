@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "skeleton/raw_graph.hpp"
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
+#include "skeleton/io/raw_graph.hpp"
 
 namespace {
 

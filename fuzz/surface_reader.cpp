@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "surface/error.hpp"
-#include "surface/formats.hpp"
-#include "surface/gunzip.hpp"
+#include <curveskel/error.hpp>
+#include "surface/read/formats.hpp"
+#include "surface/read/gunzip.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Conjugate gradients for three right-hand sides at once, and Chebyshev's iteration to precondition
 // it. Vectors hold a double4 per row, the last component 0; matrices are symmetric, in compressed
-// rows. One work-item per row, except in `dots`. docs/method.md, "Solvers".
+// rows. One work-item per row, except in `dots`. docs/study/solvers.md.
 
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 

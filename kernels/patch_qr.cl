@@ -1,5 +1,5 @@
 // One iteration of the local flow, one work-item per patch: Householder QR of [mu L; I] with three
-// right-hand sides (docs/method.md, "Local flow").
+// right-hand sides (docs/study/fairing.md, "The QR").
 //
 // REAL   float or double: positions and arithmetic
 // SLOTS  a multiple of 8: patches of up to SLOTS - 1 vertices, in private memory;

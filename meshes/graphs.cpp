@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
+#include <curveskel/error.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::shapes {
 namespace {
@@ -66,7 +66,7 @@ double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& 
   return least;
 }
 
-// Whether a straight edge i-j would stay well apart from all that is there.
+// True if a straight edge i-j would stay well apart from all edges that are there.
 bool has_room(const GraphBuilder& graph, int i, int j, double clearance) {
   const auto at = [&](int k) { return graph.nodes[static_cast<std::size_t>(k)]; };
   const Vector3d direction = (at(j) - at(i)).normalized();

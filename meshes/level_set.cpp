@@ -58,7 +58,7 @@ class Lattice {
 
   bool inside(int i) const { return (*this)[i].value < 0; }
 
-  /// Whether the surface passes through any tetrahedron that touches the cube's centre.
+  /// True if the surface passes through any tetrahedron that touches the cube's centre.
   bool crossed(const Cell& cube) {
     const Cell middle = centre(cube);
     const bool side = inside(point(middle));

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "surface/surface.hpp"
+#include <curveskel/surface.hpp>
 
 namespace curveskel::shapes {
 

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "skeleton/curve_skeleton.hpp"
-#include "surface/surface.hpp"
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
 
 namespace curveskel::shapes {
 
-/// A surface and what its skeleton must be. Lengths in model units; deterministic on one machine.
+/// A surface and its known skeleton. Lengths in model units; deterministic on one machine.
 struct Shape {
   std::string name;
   Surface surface;

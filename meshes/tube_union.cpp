@@ -6,9 +6,9 @@
 #include <numeric>
 #include <string>
 
+#include <curveskel/error.hpp>
 #include "meshes/level_set.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::shapes {
 namespace {
@@ -76,7 +76,7 @@ double distance_to_tube(const CurveSkeleton& graph, int edge, const Vector3d& p)
   return (p - a - t * along).norm() - (1 - t) * graph.radii[i] - t * graph.radii[j];
 }
 
-// A few edges of one branch and a ball round their tubes, to pass over what is far.
+// A few edges of one branch and a ball round their tubes, to pass over distant ones.
 struct Stretch {
   std::vector<int> edges;
   Vector3d centre;

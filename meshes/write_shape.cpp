@@ -4,8 +4,8 @@
 #include <string>
 #include <system_error>
 
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::shapes {
 namespace {

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "surface/clean.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/topology.hpp>
 
 namespace curveskel {
 

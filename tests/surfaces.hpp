@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/clean.hpp>
+#include <curveskel/read.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/clean.hpp"
-#include "surface/read.hpp"
 
 namespace curveskel {
 

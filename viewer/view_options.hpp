@@ -1,13 +1,13 @@
-// What the command line of the viewer can say.
+// Options of the viewer's command line.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "viewer/camera.hpp"
-#include "viewer/look.hpp"
-#include "viewer/run.hpp"
+#include "viewer/model/run.hpp"
+#include "viewer/render/camera.hpp"
+#include "viewer/render/look.hpp"
 
 namespace curveskel::viewer {
 

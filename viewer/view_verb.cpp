@@ -1,4 +1,4 @@
-// curveskel-view: what `curveskel view` runs.
+// curveskel-view, the program behind `curveskel view`.
 #include "viewer/view_verb.hpp"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include "app/command_line.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
-#include "viewer/screenshot.hpp"
+#include "viewer/headless/screenshot.hpp"
 #include "viewer/view_options.hpp"
-#include "viewer/window.hpp"
+#include "viewer/window/window.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 constexpr int largest_picture = 16384;
 
 constexpr NameTable<SkeletonFormat, 1> picture_formats{{
-    {SkeletonFormat::png, "png", "Portable Network Graphics"},
+    {SkeletonFormat::png, "png", "Portable SkeletonGraph Graphics"},
 }};
 
 std::string set_size(ViewOptions& options, const std::string& text) {
@@ -68,7 +68,7 @@ std::string set_stage(ViewOptions& options, const std::string& text) {
   return {};
 }
 
-/// An option whose text `set` understands; what it says is what is wrong.
+/// An option whose text `set` understands; its answer names the fault.
 template <typename Set>
 CLI::Option* add_text(CLI::App& parser, ViewOptions& options, const std::string& flag,
                       const std::string& type, const std::string& meaning, const Set& set) {

@@ -1,7 +1,7 @@
 // The viewer's only verb.
 #pragma once
 
-#include "app/verbs.hpp"
+#include "app/verbs/verbs.hpp"
 
 namespace curveskel::viewer {
 

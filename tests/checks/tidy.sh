@@ -51,7 +51,7 @@ PYTHON
 # ViennaCL and CGAL, in whose headers it finds things.
 tidy() {
   local checks=()
-  [[ $1 == */build/tidy/tests/* || $1 == */build/tidy/bench/* || $1 == */contraction/viennacl/* ||
+  [[ $1 == */build/tidy/tests/* || $1 == */build/tidy/bench/* || $1 == */contraction/solvers/viennacl/* ||
     $1 == */surface_alone.cxx ]] &&
     checks=(--checks=-clang-analyzer-\*)
   clang-tidy-14 -quiet -p build/tidy "${checks[@]}" "$1" 2>/dev/null

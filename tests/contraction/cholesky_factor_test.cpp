@@ -1,5 +1,5 @@
 // Laws of the Cholesky factor, over Laplacians with areas on their diagonal.
-#include "contraction/cholesky_factor.hpp"
+#include "contraction/solvers/cholesky_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "contraction/laplacian.hpp"
+#include <curveskel/advanced/laplacian.hpp>
+#include <curveskel/error.hpp>
+#include "base/indices.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/element_index.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::cholesky_factor_laws {
 namespace {
@@ -102,7 +102,7 @@ TEST(CholeskyFactor, GivesEachOfTwoThreadsTheSameBytes) {
   const std::vector<Eigen::MatrixXd> there = beside.get();
   for (const auto* found : {&here, &there}) {
     for (const Eigen::MatrixXd& x : *found) {
-      EXPECT_EQ(std::memcmp(x.data(), here[0].data(), at(x.size()) * sizeof(double)), 0);
+      EXPECT_EQ(std::memcmp(x.data(), here[0].data(), idx(x.size()) * sizeof(double)), 0);
     }
   }
 }

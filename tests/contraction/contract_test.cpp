@@ -1,5 +1,5 @@
 // Laws of the contraction, for both flows, over the catalogue and over real surfaces.
-#include "contraction/contract.hpp"
+#include <curveskel/contract.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/clean.hpp"
-#include "surface/coarsen.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
-#include "surface/topology.hpp"
-#include "surface/tree.hpp"
 
 namespace curveskel::contract_laws {
 namespace {

@@ -1,12 +1,12 @@
-#include "contraction/device.hpp"
+#include <curveskel/advanced/device.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "contraction/fair.hpp"
-#include "contraction/opencl.hpp"
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
+#include <curveskel/fair.hpp>
+#include "contraction/device/opencl.hpp"
 
 namespace curveskel::device_laws {
 namespace {

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <set>
 
-#include "contraction/contract.hpp"
-#include "contraction/local_flow.hpp"
-#include "contraction/patch_solution.hpp"
-#include "surface/clean.hpp"
-#include "surface/error.hpp"
-#include "surface/read.hpp"
+#include <curveskel/clean.hpp>
+#include <curveskel/contract.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include "contraction/fairing/local_flow.hpp"
+#include "contraction/fairing/patch_solution.hpp"
 #include "tests/contraction/faired.hpp"
 
 namespace curveskel::fair_rings_laws {

@@ -1,5 +1,5 @@
 // Laws of the local flow, over shapes with and without noise.
-#include "contraction/fair.hpp"
+#include <curveskel/fair.hpp>
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <stop_token>
 
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
 #include "tests/contraction/faired.hpp"
 
 namespace curveskel::fair_laws {

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "contraction/device.hpp"
-#include "contraction/fair.hpp"
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/fair.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/measures.hpp"
 
 namespace curveskel {
 

@@ -1,4 +1,4 @@
-#include "contraction/gl_context.hpp"
+#include "contraction/device/gl_context.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
 
 namespace curveskel::gl_context_laws {
 namespace {

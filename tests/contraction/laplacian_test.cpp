@@ -1,5 +1,5 @@
 // Laws of the Laplacians, over every shape of the catalogue and over what contraction makes of it.
-#include "contraction/laplacian.hpp"
+#include <curveskel/advanced/laplacian.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
 
 namespace curveskel::laplacian_laws {
 namespace {

@@ -1,5 +1,5 @@
 // Laws that every back end obeys: one answer for one problem, an honest residual, no wrong answer.
-#include "contraction/least_squares.hpp"
+#include <curveskel/advanced/least_squares.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "contraction/device.hpp"
-#include "contraction/householder_panel.hpp"
-#include "contraction/spectrum.hpp"
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/error.hpp>
+#include "contraction/solvers/study/householder_panel.hpp"
+#include "contraction/solvers/study/spectrum.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/error.hpp"
 
 namespace curveskel::least_squares_laws {
 namespace {

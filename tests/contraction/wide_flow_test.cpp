@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <set>
 
-#include "contraction/device.hpp"
-#include "contraction/fair.hpp"
-#include "contraction/wide_slices.hpp"
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/fair.hpp>
+#include "contraction/fairing/wide_slices.hpp"
 #include "meshes/shapes.hpp"
 #include "tests/contraction/faired.hpp"
 

@@ -15,7 +15,7 @@
 #include <set>
 #include <utility>
 
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
 
 namespace curveskel::shapes::shapes_laws {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "skeleton/skeleton_files.hpp"
+#include <curveskel/skeleton_files.hpp>
 #include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "skeleton/skeleton_files.hpp"
-#include "surface/write_file.hpp"
+#include <curveskel/skeleton_files.hpp>
+#include <curveskel/write_file.hpp>
 #include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {

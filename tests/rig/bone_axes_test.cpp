@@ -1,13 +1,13 @@
 // Bones lie along their limbs.
-#include "rig/bone_axes.hpp"
+#include "rig/joints/bone_axes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "base/indices.hpp"
 #include "meshes/random.hpp"
-#include "surface/element_index.hpp"
 
 namespace curveskel::bone_axes_laws {
 namespace {
@@ -20,7 +20,7 @@ Rig any_rig(std::uint64_t seed, int joints) {
   rig.parents.resize(joints);
   for (int joint = 0; joint < joints; ++joint) {
     for (int axis = 0; axis < 3; ++axis) rig.joints(joint, axis) = random.uniform(-1, 1);
-    rig.parents[joint] = joint == 0 ? -1 : static_cast<int>(random.index(at(joint)));
+    rig.parents[joint] = joint == 0 ? -1 : static_cast<int>(random.index(idx(joint)));
     if (joint > 0 && random.uniform(0, 1) < 0.1) {
       rig.joints.row(joint) = rig.joints.row(rig.parents[joint]);
     }
@@ -48,12 +48,12 @@ TEST(BoneAxes, PointToTheOnlyChildAndAtTipsStraightOn) {
     const auto axes = bone_axes(rig);
     ASSERT_EQ(axes.size(), 30U);
     for (int joint = 0; joint < 30; ++joint) {
-      const Eigen::Quaterniond& turned = axes[at(joint)];
+      const Eigen::Quaterniond& turned = axes[idx(joint)];
       EXPECT_NEAR(turned.norm(), 1, 1e-12);
       const Eigen::Vector3d bone = turned * Eigen::Vector3d::UnitY();
       const auto children = children_of(rig, joint);
       if (children.empty() && joint > 0) {
-        EXPECT_LT(turned.angularDistance(axes[at(rig.parents[joint])]), 1e-7);
+        EXPECT_LT(turned.angularDistance(axes[idx(rig.parents[joint])]), 1e-7);
       }
       if (children.size() != 1) continue;
       const Eigen::Vector3d wanted = way(rig, joint, children[0]);
@@ -77,7 +77,7 @@ Rig rig_of(const std::vector<Eigen::RowVector3d>& joints, const std::vector<int>
 }
 
 Eigen::Vector3d bone_of(const Rig& rig, int joint) {
-  return bone_axes(rig)[at(joint)] * Eigen::Vector3d::UnitY();
+  return bone_axes(rig)[idx(joint)] * Eigen::Vector3d::UnitY();
 }
 
 TEST(BoneAxes, OfARootPointToTheLongestLimb) {

@@ -1,5 +1,5 @@
 // Laws of what components hang from, and where: as a person would hang the parts of a figure.
-#include "rig/hanging.hpp"
+#include "rig/joints/hanging.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "rig/joints.hpp"
-#include "surface/element_index.hpp"
+#include <curveskel/advanced/joints.hpp>
+#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::hanging_laws {
@@ -56,8 +56,8 @@ void expect_hung(const std::vector<Part>& parts) {
   for (std::size_t k = 1; k < parts.size(); ++k) {
     SCOPED_TRACE(parts[k].name);
     ASSERT_GE(hinges[k].above, 0);
-    EXPECT_EQ(parts[at(all.component_of[at(hinges[k].above)])].name, parts[k].above);
-    ASSERT_EQ(all.component_of[at(hinges[k].node)], static_cast<int>(k));
+    EXPECT_EQ(parts[idx(all.component_of[idx(hinges[k].above)])].name, parts[k].above);
+    ASSERT_EQ(all.component_of[idx(hinges[k].node)], static_cast<int>(k));
     EXPECT_LT((all.skeleton.nodes.row(hinges[k].node) - parts[k].root).norm(), 1e-9);
   }
 }
@@ -191,7 +191,7 @@ TEST(Hanging, TurnsRoundWithAWantedRoot) {
       hang_components(all.skeleton, all.skeleton.radii, all.components);
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const std::string& name = parts[k].name;
-    const std::string& found = parts[at(all.component_of[at(hinges[k].above)])].name;
+    const std::string& found = parts[idx(all.component_of[idx(hinges[k].above)])].name;
     EXPECT_TRUE(above[name] == found || above[found] == name) << name << ' ' << found;
   }
 }
@@ -222,12 +222,12 @@ TEST(Hanging, PlacesJointsOfAFigureWhereItsPartsMeet) {
   const Joints joints = place_joints(all.skeleton, {});
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const int root = joints.joint_of_node[all.components[k].front()];
-    EXPECT_TRUE(joints.names[at(root)].ends_with("_root")) << joints.names[at(root)];
+    EXPECT_TRUE(joints.names[idx(root)].ends_with("_root")) << joints.names[idx(root)];
     EXPECT_LT((joints.positions.row(root) - parts[k].root).norm(), 1e-9) << parts[k].name;
     const int above = joints.parents[root];
     bool is_of_above = false;
     for (std::size_t node = 0; node < all.component_of.size(); ++node) {
-      const std::string& name = parts[at(all.component_of[node])].name;
+      const std::string& name = parts[idx(all.component_of[node])].name;
       is_of_above |=
           name == parts[k].above && joints.joint_of_node[static_cast<int>(node)] == above;
     }

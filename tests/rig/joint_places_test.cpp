@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rig/joints.hpp"
-#include "surface/element_index.hpp"
+#include <curveskel/advanced/joints.hpp>
+#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::joint_places_laws {
@@ -150,7 +150,7 @@ TEST(JointPlaces, LetEachArmOfAStarTurnWhereItLeavesTheBall) {
         EXPECT_GE(way, ball * (1 - 1e-9));
         EXPECT_LE(way, ball * (1.001 + sample));
       }
-      EXPECT_EQ(firsts.size(), at(arms));
+      EXPECT_EQ(firsts.size(), idx(arms));
     }
   }
 }

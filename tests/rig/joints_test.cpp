@@ -1,6 +1,6 @@
 // Laws of joints over the curves of many shapes: a tree of them lies on the curve, moves all of it.
 // Where exactly they are is known for chains, corners, stars and rings: see joint_places_test.
-#include "rig/joints.hpp"
+#include <curveskel/advanced/joints.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "rig/rooted_tree.hpp"
-#include "surface/element_index.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include "base/indices.hpp"
+#include "rig/joints/rooted_tree.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::joints_laws {
@@ -86,7 +86,7 @@ TEST(Joints, HaveNamesOfTheirOwn) {
   for (const PlacedCase& one : placed_cases()) {
     SCOPED_TRACE(one.name);
     const Joints joints = place_joints(one.skeleton, one.options);
-    ASSERT_EQ(joints.names.size(), at(joints.positions.rows()));
+    ASSERT_EQ(joints.names.size(), idx(joints.positions.rows()));
     const std::set<std::string> different(joints.names.begin(), joints.names.end());
     EXPECT_EQ(different.size(), joints.names.size());
     EXPECT_FALSE(different.contains(""));
@@ -109,7 +109,7 @@ TEST(Joints, LieOnTheCurve) {
 std::vector<Eigen::RowVector3d> way_to_root(const CurveSkeleton& skeleton, const RootedTree& tree,
                                             int node) {
   std::vector<Eigen::RowVector3d> way;
-  for (; node >= 0; node = tree.parent[at(node)]) way.emplace_back(skeleton.nodes.row(node));
+  for (; node >= 0; node = tree.parent[idx(node)]) way.emplace_back(skeleton.nodes.row(node));
   return way;
 }
 
@@ -160,14 +160,14 @@ TEST(Joints, EndAtTipsThatMoveNothing) {
     }
     std::size_t ends = 0;
     for (int joint = 0; joint < joints.positions.rows(); ++joint) {
-      if (!ends_with_end(joints.names[at(joint)])) continue;
+      if (!ends_with_end(joints.names[idx(joint)])) continue;
       ++ends;
       EXPECT_EQ((joints.parents.array() == joint).count(), 0);
       EXPECT_EQ((joints.joint_of_node.array() == joint).count(), 0);
       const auto is_here = [&](const Eigen::RowVector3d& leaf) {
         return (leaf - joints.positions.row(joint)).norm() <= tolerance;
       };
-      EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(), is_here)) << joints.names[at(joint)];
+      EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(), is_here)) << joints.names[idx(joint)];
     }
     EXPECT_EQ(ends, leaves.size());
   }

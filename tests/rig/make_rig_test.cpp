@@ -1,14 +1,14 @@
 // Laws of rigs where the skeleton or the surface says less than all: vertices without a node, and
 // vertices of the file that the repair left out.
-#include "rig/make_rig.hpp"
+#include <curveskel/make_rig.hpp>
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "surface/element_index.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::make_rig_laws {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/rig.hpp>
 #include "meshes/shapes.hpp"
-#include "rig/rig.hpp"
 
 namespace curveskel {
 

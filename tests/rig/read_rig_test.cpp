@@ -1,5 +1,5 @@
 // Laws of reading rigs: the joints and weights of a bar that is known, however the file says them.
-#include "rig/read_rig.hpp"
+#include <curveskel/read_rig.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/rig/rigged_bar.hpp"
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "rig/rig_files.hpp"
-#include "surface/element_index.hpp"
+#include <curveskel/rig_files.hpp>
+#include "base/indices.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/encodings.hpp"
 
@@ -40,11 +40,11 @@ Chunks written_chunks(const Surface& surface, const Rig& rig) {
 
 /// `width` single-precision numbers a row.
 Eigen::MatrixXf floats_of(const Chunks& chunks, int accessor, Eigen::Index width) {
-  const Json& named = chunks.json["accessors"][at(accessor)];
+  const Json& named = chunks.json["accessors"][idx(accessor)];
   const Json& view = chunks.json["bufferViews"][named["bufferView"].get<std::size_t>()];
   Eigen::MatrixXf rows(width, named["count"].get<Eigen::Index>());
   EXPECT_EQ(named["componentType"], 5126);
-  EXPECT_EQ(view["byteLength"].get<std::size_t>(), at(rows.size()) * sizeof(float));
+  EXPECT_EQ(view["byteLength"].get<std::size_t>(), idx(rows.size()) * sizeof(float));
   const std::string bytes = chunks.numbers.substr(view["byteOffset"].get<std::size_t>(),
                                                   view["byteLength"].get<std::size_t>());
   std::memcpy(rows.data(), bytes.data(), bytes.size());
@@ -91,7 +91,7 @@ TEST(WrittenGlb, PutsEachJointWhereItIsInTwoWays) {
     const Rig rig = random_rig(surface.positions.rows(), one.joints, one.name);
     const Chunks chunks = written_chunks(surface, rig);
     const Json& skin = chunks.json["skins"][0];
-    ASSERT_EQ(skin["joints"].size(), at(one.joints));
+    ASSERT_EQ(skin["joints"].size(), idx(one.joints));
     const Eigen::MatrixXf binds = floats_of(chunks, skin["inverseBindMatrices"], 16);
     std::map<int, int> above;
     for (std::size_t node = 0; node < chunks.json["nodes"].size(); ++node) {
@@ -101,9 +101,9 @@ TEST(WrittenGlb, PutsEachJointWhereItIsInTwoWays) {
     }
     for (int joint = 0; joint < one.joints; ++joint) {
       Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-      for (int node = skin["joints"][at(joint)]; above.contains(node); node = above.at(node)) {
-        const Json& shift = chunks.json["nodes"][at(node)]["translation"];
-        const Json& turn = chunks.json["nodes"][at(node)]["rotation"];
+      for (int node = skin["joints"][idx(joint)]; above.contains(node); node = above.at(node)) {
+        const Json& shift = chunks.json["nodes"][idx(node)]["translation"];
+        const Json& turn = chunks.json["nodes"][idx(node)]["rotation"];
         const Eigen::Quaterniond rotation(turn[3], turn[0], turn[1], turn[2]);
         EXPECT_NEAR(rotation.norm(), 1, 1e-12);
         frame = Eigen::Translation3d(shift[0], shift[1], shift[2]) * rotation * frame;
@@ -123,8 +123,8 @@ TEST(WrittenGlb, HasBoundsNormalsAndWeightsAsGltfWantsThem) {
   const Eigen::MatrixXf positions = floats_of(chunks, attributes["POSITION"], 3);
   const Json& bounds = chunks.json["accessors"][attributes["POSITION"].get<std::size_t>()];
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    EXPECT_EQ(bounds["min"][at(axis)].get<float>(), positions.col(axis).minCoeff());
-    EXPECT_EQ(bounds["max"][at(axis)].get<float>(), positions.col(axis).maxCoeff());
+    EXPECT_EQ(bounds["min"][idx(axis)].get<float>(), positions.col(axis).minCoeff());
+    EXPECT_EQ(bounds["max"][idx(axis)].get<float>(), positions.col(axis).maxCoeff());
   }
   const Eigen::MatrixXf normals = floats_of(chunks, attributes["NORMAL"], 3);
   EXPECT_LT((normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-6F);
@@ -136,12 +136,12 @@ TEST(WrittenGlb, HasBoundsNormalsAndWeightsAsGltfWantsThem) {
 
 TEST(WrittenGlb, HasOneNormalForVerticesInOnePlace) {
   const Surface whole = torus_surface();
-  std::vector<int> first_at(at(whole.positions.rows()), -1);
+  std::vector<int> first_at(idx(whole.positions.rows()), -1);
   Surface cut{Positions(whole.triangles.size(), 3), Triangles(whole.triangles.rows(), 3)};
   for (Eigen::Index f = 0; f < cut.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       cut.triangles(f, k) = static_cast<int>(3 * f + k);
-      int& first = first_at[at(whole.triangles(f, k))];
+      int& first = first_at[idx(whole.triangles(f, k))];
       if (first < 0) first = cut.triangles(f, k);
       cut.positions.row(3 * f + k) = whole.positions.row(whole.triangles(f, k));
     }
@@ -156,7 +156,7 @@ TEST(WrittenGlb, HasOneNormalForVerticesInOnePlace) {
   for (Eigen::Index f = 0; f < cut.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       EXPECT_LT((found.row(3 * f + k) - expected.row(whole.triangles(f, k))).norm(), 0.2F);
-      const int first = first_at[at(whole.triangles(f, k))];
+      const int first = first_at[idx(whole.triangles(f, k))];
       EXPECT_EQ(found.row(3 * f + k), found.row(first));
     }
   }

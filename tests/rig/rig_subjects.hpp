@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/rig.hpp>
 #include "meshes/shapes.hpp"
-#include "rig/rig.hpp"
-#include "skeleton/extract.hpp"
 
 namespace curveskel {
 

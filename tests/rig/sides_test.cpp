@@ -1,5 +1,5 @@
 // Left and right: names of joints that are each other's mirror images.
-#include "rig/sides.hpp"
+#include "rig/joints/sides.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Laws of skin weights: shares of one, those of a tube along it, none of what only lies near.
-#include "rig/skin_weights.hpp"
+#include <curveskel/advanced/skin_weights.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "rig/make_rig.hpp"
-#include "surface/element_index.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/make_rig.hpp>
+#include <curveskel/topology.hpp>
+#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::skin_weights_laws {
@@ -87,7 +87,7 @@ TEST(SkinWeights, KeepTheLargestShares) {
 
 bool same_bytes(const SkinWeights& a, const SkinWeights& b) {
   const auto same = [](const auto* x, const auto* y, Eigen::Index count) {
-    return std::memcmp(x, y, at(count) * sizeof *x) == 0;
+    return std::memcmp(x, y, idx(count) * sizeof *x) == 0;
   };
   return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() &&
          same(a.outerIndexPtr(), b.outerIndexPtr(), a.rows() + 1) &&
@@ -253,10 +253,10 @@ TEST(SkinWeights, OfOneComponentAreOfItsOwnJoints) {
     if (parts.components() < 2) continue;
     ++several;
     const Rig rig = make_rig(subject.surface, subject.skeleton, {{}, {.softness = 4}}, {});
-    std::vector<std::set<std::string>> movers(at(parts.components()));
+    std::vector<std::set<std::string>> movers(idx(parts.components()));
     for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
       for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-        movers[at(parts.component_of_vertex[vertex])].insert(part_of(rig.names[at(it.col())]));
+        movers[idx(parts.component_of_vertex[vertex])].insert(part_of(rig.names[idx(it.col())]));
       }
     }
     std::set<std::string> all;

@@ -1,5 +1,5 @@
 // Laws of writing rigs: what is written reads back the same, what cannot be is refused.
-#include "rig/rig_files.hpp"
+#include <curveskel/rig_files.hpp>
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "rig/read_rig.hpp"
-#include "surface/clean.hpp"
-#include "surface/element_index.hpp"
-#include "surface/error.hpp"
-#include "surface/read.hpp"
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
+#include "base/indices.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
 
@@ -53,17 +53,17 @@ void expect_same_rig(const Rig& found, const Rig& rig) {
   ASSERT_EQ(found.weights.rows(), rig.weights.rows());
   std::map<std::string, int> joint_of_name;
   for (int joint = 0; joint < found.joints.rows(); ++joint) {
-    joint_of_name[found.names[at(joint)]] = joint;
+    joint_of_name[found.names[idx(joint)]] = joint;
   }
   Eigen::MatrixXf reordered(rig.weights.rows(), rig.weights.cols());
   const Eigen::MatrixXf dense = found.weights;
   for (int joint = 0; joint < rig.joints.rows(); ++joint) {
-    ASSERT_TRUE(joint_of_name.contains(rig.names[at(joint)])) << rig.names[at(joint)];
-    const int other = joint_of_name[rig.names[at(joint)]];
+    ASSERT_TRUE(joint_of_name.contains(rig.names[idx(joint)])) << rig.names[idx(joint)];
+    const int other = joint_of_name[rig.names[idx(joint)]];
     EXPECT_LT((found.joints.row(other) - rig.joints.row(joint)).norm(), 1e-5);
     const int parent = rig.parents[joint];
     const int above = found.parents[other];
-    EXPECT_EQ(above < 0 ? "" : found.names[at(above)], parent < 0 ? "" : rig.names[at(parent)]);
+    EXPECT_EQ(above < 0 ? "" : found.names[idx(above)], parent < 0 ? "" : rig.names[idx(parent)]);
     reordered.col(joint) = dense.col(other);
   }
   EXPECT_LT((reordered - Eigen::MatrixXf(rig.weights)).cwiseAbs().maxCoeff(), 1e-6F);

@@ -1,4 +1,4 @@
-#include "skeleton/certificate.hpp"
+#include <curveskel/certificate.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/measures.hpp"
-#include "surface/tree.hpp"
 
 namespace curveskel::certificate_laws {
 namespace {

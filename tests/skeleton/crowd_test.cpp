@@ -5,11 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/repair.hpp"
-#include "surface/topology.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::crowd_laws {

@@ -1,5 +1,5 @@
 // Laws of the graph itself, over random graphs and a few with a known answer.
-#include "skeleton/curve_skeleton.hpp"
+#include <curveskel/curve_skeleton.hpp>
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/repair.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/repair.hpp"
 #include "tests/skeleton/shortfalls.hpp"
 #include "tests/soups.hpp"
 

@@ -1,5 +1,5 @@
 // Laws of corrections by hand, over the skeletons of several shapes and random sequences of edits.
-#include "skeleton/edit.hpp"
+#include <curveskel/edit.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/findings.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
-#include "skeleton/findings.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
 
 namespace curveskel::edit_laws {
 namespace {

@@ -1,17 +1,17 @@
 // Laws of the certificate against surfaces that cross themselves: what was extracted from a wrap is
 // held against one, and nothing that can be judged as it is gets wrapped.
-#include "skeleton/evaluate_repaired.hpp"
+#include <curveskel/evaluate_repaired.hpp>
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "skeleton/extract_repaired.hpp"
-#include "skeleton/failing_components.hpp"
-#include "surface/crosses_itself.hpp"
-#include "surface/topology.hpp"
+#include "skeleton/pipeline/failing_components.hpp"
+#include "surface/mesh/crosses_itself.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::evaluate_repaired_laws {

@@ -1,6 +1,6 @@
 // Laws of what is wrapped because its certificate fails: limbs that noise as thick as they are
 // turns inside out, here and there.
-#include "skeleton/extract_repaired.hpp"
+#include <curveskel/extract_repaired.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/read.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/read.hpp"
-#include "surface/topology.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::extract_repaired_laws {

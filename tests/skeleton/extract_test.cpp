@@ -1,5 +1,5 @@
 // Laws of the whole way from a surface to its skeleton, over shapes whose skeleton is known.
-#include "skeleton/extract.hpp"
+#include <curveskel/extract.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/canonical.hpp"
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
-#include "surface/tree.hpp"
+#include "surface/resample/canonical.hpp"
 #include "tests/skeleton/shortfalls.hpp"
 
 namespace curveskel::extract_laws {

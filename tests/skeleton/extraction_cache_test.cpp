@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
 
 namespace curveskel::extraction_cache_laws {
 namespace {

@@ -1,5 +1,5 @@
 // Laws of the pictures: what is drawn is where it must be, and the same for everybody.
-#include "skeleton/picture.hpp"
+#include "skeleton/picture/picture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,12 +20,12 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include <curveskel/view.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/rasterise.hpp"
-#include "skeleton/skeleton_files.hpp"
-#include "skeleton/view.hpp"
-#include "surface/error.hpp"
-#include "surface/measures.hpp"
+#include "skeleton/picture/rasterise.hpp"
 
 namespace curveskel::picture_laws {
 namespace {

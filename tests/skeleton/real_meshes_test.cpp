@@ -14,16 +14,16 @@
 #include <utility>
 #include <vector>
 
-#include "skeleton/certificate.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/canonical.hpp"
-#include "surface/clean.hpp"
-#include "surface/coarsen.hpp"
-#include "surface/measures.hpp"
-#include "surface/read.hpp"
-#include "surface/repair.hpp"
-#include "surface/topology.hpp"
-#include "surface/tree.hpp"
+#include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/topology.hpp>
+#include "surface/resample/canonical.hpp"
 #include "tests/skeleton/shortfalls.hpp"
 #include "tests/soups.hpp"
 

@@ -1,6 +1,6 @@
 // Laws of the skeleton files: what is written is read back to the last bit, and what is wrong is
 // said. tests/readers has the same with other people's readers.
-#include "skeleton/skeleton_files.hpp"
+#include <curveskel/skeleton_files.hpp>
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <tuple>
 
-#include "surface/error.hpp"
-#include "surface/write_file.hpp"
+#include <curveskel/error.hpp>
+#include <curveskel/write_file.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/skeleton/skeleton_samples.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "skeleton/curve_skeleton.hpp"
+#include <curveskel/curve_skeleton.hpp>
 
 namespace curveskel {
 

@@ -1,23 +1,23 @@
-// Laws of the cut into pieces: circles, genus, and the graph that must come out.
+// Laws of the cut into pieces: cut curves, genus, and the graph that must come out.
 
-#include "skeleton/surgery.hpp"
+#include <curveskel/advanced/surgery.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/bands.hpp"
-#include "surface/inscribed_balls.hpp"
-#include "surface/topology.hpp"
-#include "surface/tree.hpp"
+#include "skeleton/cut/level_set_graph.hpp"
 #include "tests/skeleton/dwindling_rings.hpp"
 
 namespace curveskel::surgery_laws {
 namespace {
 
-int cycle_rank(const VertexGraph& graph) {
+int cycle_rank(const PartitionGraph& graph) {
   CurveSkeleton skeleton;
   skeleton.nodes = Positions::Zero(graph.nodes(), 3);
   skeleton.edges = graph.edges;
@@ -41,7 +41,7 @@ const std::vector<shapes::Shape>& connected_shapes() {
 
 TEST(Groups, GenusOfTheWholeIsTheSurfaces) {
   for (const auto& shape : connected_shapes()) {
-    SurfaceGroups groups(shape.surface);
+    SurfacePartition groups(shape.surface);
     const int vertices = static_cast<int>(shape.surface.positions.rows());
     // Any merge order will do as long as the two share an edge; vertices 0.. are grown from 0.
     std::vector<char> taken(static_cast<std::size_t>(vertices), 0);
@@ -76,12 +76,12 @@ TEST(Groups, HalvesOfATorusMeetInTwoCircles) {
   Eigen::VectorXi half(torus.surface.positions.rows());
   for (Eigen::Index v = 0; v < half.size(); ++v)
     half[v] = static_cast<int>(torus.surface.positions(v, 0) > 0);
-  const VertexGraph graph = graph_of_groups(torus.surface, half);
+  const PartitionGraph graph = partition_graph(torus.surface, half);
   EXPECT_EQ(graph.groups, 2);
-  ASSERT_EQ(graph.circles.size(), 2U);
+  ASSERT_EQ(graph.cut_curves.size(), 2U);
   EXPECT_EQ(cycle_rank(graph), 1);
   EXPECT_EQ(genus_of_groups(torus.surface, graph), (std::vector<int>{0, 0}));
-  for (const auto& circle : graph.circles) {
+  for (const auto& circle : graph.cut_curves) {
     EXPECT_GE(circle.size(), 24U);
     for (const auto& [a, b] : circle) {
       EXPECT_NE(graph.group_of_vertex[a], graph.group_of_vertex[b]);
@@ -91,7 +91,7 @@ TEST(Groups, HalvesOfATorusMeetInTwoCircles) {
 
 TEST(Bands, CycleRankIsTheGenusOfEveryShape) {
   for (const auto& shape : connected_shapes()) {
-    const BandGraph bands = band_graph(shape.surface, {});
+    const LevelSetGraph bands = level_set_graph(shape.surface, {});
     EXPECT_EQ(cycle_rank(bands.graph), shape.genus) << shape.name;
     const auto genus = genus_of_groups(bands.surface, bands.graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups) << shape.name;
@@ -101,14 +101,14 @@ TEST(Bands, CycleRankIsTheGenusOfEveryShape) {
 TEST(Bands, HandlesFinerThanABandAreFoundBySubdividing) {
   // A torus of three by three rings: any cut by distance needs finer triangles first.
   const auto torus = shapes::torus(1, 0.6, 3);
-  EXPECT_EQ(cycle_rank(band_graph(torus.surface, {}).graph), 1);
+  EXPECT_EQ(cycle_rank(level_set_graph(torus.surface, {}).graph), 1);
 }
 
 TEST(Bands, AreAsNarrowAsNeededWhereTheyAreNeededOnly) {
   for (const double ratio : {10.0, 1e3, 1e5}) {
     SCOPED_TRACE(ratio);
     const auto shape = dwindling_rings(8, ratio);
-    const BandGraph bands = band_graph(shape.surface, {});
+    const LevelSetGraph bands = level_set_graph(shape.surface, {});
     EXPECT_EQ(cycle_rank(bands.graph), shape.genus);
     const auto genus = genus_of_groups(bands.surface, bands.graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups);

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/topology.hpp"
 #include "tests/skeleton/dwindling_rings.hpp"
 
 namespace curveskel::topology_law_laws {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/extract.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/level_set.hpp"
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "surface/topology.hpp"
 
 namespace curveskel::tunnels_laws {
 namespace {

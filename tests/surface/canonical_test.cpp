@@ -1,4 +1,4 @@
-#include "surface/canonical.hpp"
+#include "surface/resample/canonical.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <functional>
 #include <iterator>
 
+#include <curveskel/advanced/measures.hpp>
 #include "meshes/random.hpp"
-#include "surface/measures.hpp"
 #include "tests/surfaces.hpp"
 
 namespace curveskel::canonical_laws {

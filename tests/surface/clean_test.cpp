@@ -1,5 +1,5 @@
 // Laws of cleaning: what must come out, what touching parts become, what is refused.
-#include "surface/clean.hpp"
+#include <curveskel/clean.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::clean_laws {

@@ -1,4 +1,4 @@
-#include "surface/coarsen.hpp"
+#include <curveskel/advanced/coarsen.hpp>
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
 
 namespace curveskel::coarsen_laws {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/handle_loops.hpp"
+#include "surface/mesh/handle_loops.hpp"
 
 #include <gtest/gtest.h>
 

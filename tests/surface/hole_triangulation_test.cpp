@@ -1,5 +1,5 @@
 // Laws of hole triangulation: it fills the border, the same way every time.
-#include "surface/hole_triangulation.hpp"
+#include "surface/repair/hole_triangulation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/monitor.hpp"
+#include <curveskel/monitor.hpp>
 
 namespace curveskel::hole_triangulation_laws {
 namespace {

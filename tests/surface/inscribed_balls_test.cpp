@@ -1,11 +1,11 @@
-#include "surface/inscribed_balls.hpp"
+#include <curveskel/advanced/inscribed_balls.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include <curveskel/advanced/coarsen.hpp>
 #include "meshes/shapes.hpp"
-#include "surface/coarsen.hpp"
 
 namespace curveskel::inscribed_balls_laws {
 namespace {

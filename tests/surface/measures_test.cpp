@@ -1,4 +1,4 @@
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
 
 #include <gtest/gtest.h>
 

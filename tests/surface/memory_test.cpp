@@ -1,4 +1,4 @@
-#include "surface/memory.hpp"
+#include "base/memory.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "surface/clean.hpp"
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"

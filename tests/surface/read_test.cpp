@@ -1,5 +1,5 @@
 // Laws of reading: one box in every encoding, variants of the formats, real files.
-#include "surface/read.hpp"
+#include <curveskel/read.hpp>
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "surface/clean.hpp"
-#include "surface/formats.hpp"
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include "surface/read/formats.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"

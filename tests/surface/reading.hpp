@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "surface/error.hpp"
-#include "surface/read.hpp"
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
 #include "tests/surface/encodings.hpp"
 
 namespace curveskel {

@@ -1,11 +1,11 @@
-#include "surface/refine.hpp"
+#include "surface/resample/refine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
 #include "tests/surfaces.hpp"
 
 namespace curveskel::refine_laws {

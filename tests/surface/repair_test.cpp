@@ -1,5 +1,5 @@
 // Laws of repair: what was whole before the damage is whole after the repair.
-#include "surface/repair.hpp"
+#include <curveskel/repair.hpp>
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@
 
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
-#include "surface/close_surface.hpp"
-#include "surface/wrap.hpp"
+#include "surface/repair/close_surface.hpp"
+#include "surface/repair/wrap.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::repair_laws {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "surface/clean.hpp"
-#include "surface/measures.hpp"
-#include "surface/topology.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/topology.hpp>
 #include "tests/soups.hpp"
 
 namespace curveskel::shared_meshes_laws {

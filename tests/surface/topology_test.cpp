@@ -1,4 +1,4 @@
-#include "surface/topology.hpp"
+#include <curveskel/topology.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surface/tree.hpp"
+#include <curveskel/advanced/tree.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/measures.hpp"
+#include <curveskel/advanced/measures.hpp>
 
 namespace curveskel::tree_laws {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/clean.hpp"
+#include <curveskel/clean.hpp>
 #include "tests/soups.hpp"
 
 namespace curveskel::triangulate_laws {

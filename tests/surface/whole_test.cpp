@@ -1,4 +1,4 @@
-#include "surface/whole.hpp"
+#include "surface/mesh/whole.hpp"
 
 #include <gtest/gtest.h>
 

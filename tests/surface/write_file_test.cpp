@@ -1,5 +1,5 @@
 // Laws of writing: the whole file or none of it, and surfaces come back as they were.
-#include "surface/write_file.hpp"
+#include <curveskel/write_file.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,9 +13,9 @@
 #include <iterator>
 #include <string>
 
-#include "surface/error.hpp"
-#include "surface/read.hpp"
-#include "surface/write_surface.hpp"
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/write_surface.hpp>
 #include "tests/own_folder.hpp"
 
 namespace curveskel::write_file_laws {

@@ -1,5 +1,5 @@
 // Laws of the camera, held over random cameras, points and pictures.
-#include "viewer/camera.hpp"
+#include "viewer/render/camera.hpp"
 
 #include <gtest/gtest.h>
 

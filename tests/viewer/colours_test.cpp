@@ -1,5 +1,5 @@
 // Laws of the colours, by a CIELAB of the test's own.
-#include "viewer/colours.hpp"
+#include "viewer/render/colours.hpp"
 
 #include <gtest/gtest.h>
 

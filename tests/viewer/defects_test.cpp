@@ -1,4 +1,4 @@
-#include "viewer/defects.hpp"
+#include "viewer/model/defects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "meshes/shapes.hpp"
-#include "viewer/scene_colours.hpp"
+#include "viewer/render/scene_colours.hpp"
 
 namespace curveskel::viewer::defects_laws {
 namespace {

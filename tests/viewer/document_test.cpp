@@ -1,11 +1,11 @@
 // What is kept of a file is enough to have it back as it was read.
-#include "viewer/document.hpp"
+#include "viewer/model/document.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "surface/write_file.hpp"
+#include <curveskel/write_file.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 

@@ -1,12 +1,12 @@
 // The first face that a ray hits is the tree's, over all families and from everywhere.
-#include "viewer/face_blocks.hpp"
+#include "viewer/render/face_blocks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "surface/measures.hpp"
-#include "surface/tree.hpp"
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include "tests/surfaces.hpp"
 
 namespace curveskel::viewer::face_blocks_laws {

@@ -1,5 +1,5 @@
 // Laws of a rig's outline: every joint once, below what it hangs from, however deep; and its panel.
-#include "viewer/hierarchy.hpp"
+#include "viewer/model/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "tests/viewer/imgui_context.hpp"
-#include "viewer/panels.hpp"
+#include "viewer/window/panels.hpp"
 
 namespace curveskel::viewer::hierarchy_laws {
 namespace {

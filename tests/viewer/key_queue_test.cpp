@@ -1,5 +1,5 @@
 // Laws of keys that come faster than frames.
-#include "viewer/key_queue.hpp"
+#include "viewer/window/key_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Laws of how finely is drawn: machines of all speeds, whose time for a picture is a multiple of
 // what there is to draw.
-#include "viewer/pace.hpp"
+#include "viewer/software/pace.hpp"
 
 #include <gtest/gtest.h>
 

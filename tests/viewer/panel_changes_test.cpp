@@ -1,5 +1,5 @@
 // Laws of what has to be drawn again of the panels: nothing that is the same, all that is not.
-#include "viewer/panel_changes.hpp"
+#include "viewer/software/panel_changes.hpp"
 
 #include <gtest/gtest.h>
 

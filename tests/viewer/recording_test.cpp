@@ -1,5 +1,5 @@
 // Laws of the recording of a run, against a plain account of what was added.
-#include "viewer/recording.hpp"
+#include "viewer/model/recording.hpp"
 
 #include <gtest/gtest.h>
 

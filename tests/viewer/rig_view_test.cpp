@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <thread>
 
-#include "surface/error.hpp"
+#include <curveskel/error.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/rig/rigged_bar.hpp"
-#include "viewer/pick.hpp"
-#include "viewer/scene.hpp"
-#include "viewer/workbench.hpp"
+#include "viewer/render/scene.hpp"
+#include "viewer/workbench/pick.hpp"
+#include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer::rig_view_laws {
 namespace {

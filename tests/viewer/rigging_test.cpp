@@ -1,6 +1,6 @@
 // Laws of the rig at the end of the timeline. Waits are bounded by a minute, which only a hang
 // takes.
-#include "viewer/rigging.hpp"
+#include "viewer/model/rigging.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
-#include "rig/read_rig.hpp"
-#include "surface/read.hpp"
+#include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
 #include "tests/own_folder.hpp"
-#include "viewer/workbench.hpp"
+#include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer::rigging_laws {
 namespace {

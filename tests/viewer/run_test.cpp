@@ -1,6 +1,6 @@
 // Laws of a run on its own thread; also for ThreadSanitizer. Waits are bounded by a minute, which
 // only a hang takes.
-#include "viewer/run.hpp"
+#include "viewer/model/run.hpp"
 
 #include <gtest/gtest.h>
 

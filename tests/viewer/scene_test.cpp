@@ -1,6 +1,6 @@
 // Laws of what is shown: its colours agree with the skeleton, its coordinates keep their digits,
 // and it does not matter in which order it came to be.
-#include "viewer/scene.hpp"
+#include "viewer/render/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/extract.hpp"
-#include "viewer/headless.hpp"
-#include "viewer/screenshot.hpp"
+#include "viewer/headless/headless.hpp"
+#include "viewer/headless/screenshot.hpp"
 
 namespace curveskel::viewer::scene_laws {
 namespace {

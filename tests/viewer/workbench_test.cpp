@@ -1,6 +1,6 @@
 // Laws of the workbench over many documents. Waits are bounded by a minute, which only a hang
 // takes.
-#include "viewer/workbench.hpp"
+#include "viewer/workbench/workbench.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "viewer/headless.hpp"
-#include "viewer/renderer.hpp"
+#include "viewer/headless/headless.hpp"
+#include "viewer/render/renderer.hpp"
 
 namespace curveskel::viewer::workbench_laws {
 namespace {

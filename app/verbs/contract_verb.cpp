@@ -1,0 +1,174 @@
+// curveskel contract: the contracted surface, and how it got there.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/contract.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/topology.hpp>
+#include <curveskel/write_surface.hpp>
+#include "app/arguments.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs/verbs.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ContractArguments {
+  fs::path mesh;
+  std::string output;
+  fs::path frames;
+  bool quiet = false;
+  int threads = 0;
+  double time_limit_seconds = 0;
+  RepairOptions repair;
+  ContractionOptions options;
+};
+
+/// A component's surface before the first and after each iteration.
+using Frames = std::vector<Surface>;
+
+Surface together(const std::vector<const Surface*>& parts) {
+  Eigen::Index vertices = 0;
+  Eigen::Index triangles = 0;
+  for (const Surface* part : parts) {
+    vertices += part->positions.rows();
+    triangles += part->triangles.rows();
+  }
+  Surface whole{Positions(vertices, 3), Triangles(triangles, 3)};
+  vertices = triangles = 0;
+  for (const Surface* part : parts) {
+    whole.positions.middleRows(vertices, part->positions.rows()) = part->positions;
+    whole.triangles.middleRows(triangles, part->triangles.rows()) =
+        part->triangles.array() + static_cast<int>(vertices);
+    vertices += part->positions.rows();
+    triangles += part->triangles.rows();
+  }
+  return whole;
+}
+
+/// Frame k has every component after its iteration k, or its last one.
+std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const fs::path& folder,
+                                    const std::string& provenance) {
+  std::size_t count = 0;
+  for (const Frames& frames : components) count = std::max(count, frames.size());
+  std::vector<OutputFile> files;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<const Surface*> parts;
+    parts.reserve(components.size());
+    for (const Frames& frames : components)
+      parts.push_back(&frames[std::min(k, frames.size() - 1)]);
+    const Surface whole = together(parts);
+    files.push_back({(folder / fmt::format("{:04}.ply", k)).string(),
+                     format_surface(whole, SurfaceFormat::ply, provenance)});
+  }
+  return files;
+}
+
+/// The contraction of one component, in a line.
+std::string outcome(const Contraction& contraction, int component) {
+  const Step last = contraction.steps.empty() ? Step{} : contraction.steps.back();
+  return fmt::format("component {}: {} iterations, area {:.2e}, volume {:.2e}, {}\n", component,
+                     contraction.steps.size(), last.area_ratio, last.volume_ratio,
+                     std::string(name_of(stops, contraction.stop)));
+}
+
+int run_contract(const ContractArguments& arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  if (format_of(arguments.output, surface_formats) != SurfaceFormat::ply) {
+    throw UsageError(arguments.output + ": the contracted surface is written as ply");
+  }
+  check_outputs({arguments.output}, arguments.mesh);
+  if (!arguments.frames.empty()) make_folder(arguments.frames);
+
+  session.interruption.limit(arguments.time_limit_seconds);
+  Monitor monitor = session.monitor();
+  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  Positions contracted(repaired.surface.positions.rows(), 3);
+  std::vector<Frames> frames;
+  std::string text;
+  const auto components = split_components(repaired.surface, topology(repaired.surface));
+  for (const auto& [surface, vertex_in_whole] : components) {
+    frames.emplace_back();
+    if (!arguments.frames.empty()) {
+      monitor.frame = [&frames](const Frame& now) { frames.back().push_back(now.surface); };
+    }
+    Positions centres;
+    if (arguments.options.flow == Flow::medial) {
+      centres = inscribed_balls(surface, SurfaceTree(surface), arguments.threads).centres;
+    }
+    const Contraction result = contract(surface, centres, arguments.options, monitor);
+    for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
+      contracted.row(vertex_in_whole[v]) =
+          result.surface.positions.row(result.vertex_of_input[static_cast<Eigen::Index>(v)]);
+    }
+    text += outcome(result, static_cast<int>(frames.size()) - 1);
+  }
+
+  // The file's own vertices and faces, so that the two line up; dropped parts stay put.
+  Surface written{soup.positions, triangulate(soup)};
+  for (Eigen::Index v = 0; v < written.positions.rows(); ++v) {
+    const int vertex = repaired.vertex_of_input[v];
+    if (vertex >= 0) written.positions.row(v) = contracted.row(vertex);
+  }
+  const std::string provenance =
+      program_and_version() + ", " + arguments.mesh.filename().string() + ", contracted";
+  auto files = arguments.frames.empty() ? std::vector<OutputFile>()
+                                        : frame_files(frames, arguments.frames, provenance);
+  files.push_back({arguments.output, format_surface(written, SurfaceFormat::ply, provenance)});
+  write_outputs(files, session);
+
+  if (!arguments.quiet) {
+    if (files.size() > 1) {
+      text += fmt::format("wrote {} frames to {}\n", files.size() - 1, arguments.frames.string());
+    }
+    session.terminal.result(text + fmt::format("wrote {}\n", arguments.output));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_contract(CLI::App& program) {
+  const auto arguments = std::make_shared<ContractArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "contract", "Write the contracted surface: every vertex of the file where it ends up");
+  parser->add_option("MESH", arguments->mesh, "surface file: " + names_in(surface_formats))
+      ->required()
+      ->type_name("");
+  parser->add_option("-o,--output", arguments->output, "the contracted surface")
+      ->required()
+      ->type_name("OUT.ply");
+  add_choice(*parser, "--flow", arguments->options.flow, flows, "contraction flow");
+  arguments->options.program_cache = kernel_cache();
+  add_choice(*parser, "--solver", arguments->options.solver, solvers, "least-squares back end");
+  add_number(*parser, "--iterations", arguments->options.max_iterations, 1, 1000000, "at most");
+  parser
+      ->add_option("--frames", arguments->frames,
+                   "folder for one surface per iteration, 0000.ply the input; merged vertices "
+                   "are gone from these")
+      ->type_name("DIR");
+  add_number(*parser, "--threads", arguments->threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers));
+  return {parser, [arguments](Session& session) { return run_contract(*arguments, session); }};
+}
+
+}  // namespace curveskel

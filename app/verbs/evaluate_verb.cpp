@@ -1,0 +1,129 @@
+// curveskel evaluate: the certificate of any skeleton file.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/evaluate_repaired.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
+#include "app/command_line.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs/verbs.hpp"
+
+namespace curveskel {
+namespace {
+
+struct EvaluateArguments {
+  std::filesystem::path mesh;
+  std::filesystem::path skeleton;
+  std::filesystem::path against;
+  std::string json;
+  bool quiet = false;
+  bool strict = false;
+  double time_limit_seconds = 0;
+  RepairOptions repair;
+  CertificateOptions options;
+};
+
+int run_evaluate(const EvaluateArguments& arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  if (!arguments.json.empty()) {
+    check_outputs({arguments.json}, arguments.mesh);
+    check_outputs({arguments.json}, arguments.skeleton);
+  }
+  if (arguments.json == "-") session.terminal.keep_output_clean();
+
+  session.interruption.limit(arguments.time_limit_seconds);
+  const Monitor monitor = session.monitor();
+  const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
+  RepairedSurface repaired = repair(read_polygons(arguments.mesh, monitor), arguments.repair,
+                                    monitor, arguments.options.threads);
+  Evaluation evaluation;
+  evaluation.options = arguments.options;
+  RepairedEvaluation found =
+      evaluate_repaired(repaired, arguments.repair, skeleton, arguments.options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Surface& surface = repaired.surface;
+  evaluation.repairs = repaired.repairs;
+  evaluation.certificate = found.certificate;
+  const Certificate& certificate = evaluation.certificate;
+  if (!arguments.against.empty()) {
+    const double diagonal = bounding_box_diagonal(surface.positions);
+    evaluation.against = arguments.against.filename().string();
+    const CurveSkeleton other = read_skeleton(arguments.against);
+    const double spacing = arguments.options.sample_spacing * diagonal;
+    evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
+    evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
+    evaluation.common_ground =
+        common_ground(SurfaceTree(surface), diagonal, skeleton, other, arguments.options, monitor);
+  }
+
+  session.terminal.end_progress();
+  if (!arguments.json.empty()) {
+    write_outputs(
+        {{arguments.json, evaluation_json(arguments.mesh.filename().string(),
+                                          arguments.skeleton.filename().string(), evaluation)}},
+        session);
+  }
+  if (!arguments.quiet) {
+    std::string text = certificate_table(certificate, arguments.options);
+    if (!evaluation.against.empty()) {
+      text +=
+          fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
+                      evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
+      const auto& [own, other] = evaluation.common_ground;
+      text += fmt::format(
+          "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
+          "  centredness there{:>10.3f} median, the other's {:.3f}\n",
+          100 * own.share, 100 * other.share, own.centredness_median, other.centredness_median);
+    }
+    session.terminal.result(text);
+  }
+  if (!arguments.strict || certificate.holds()) {
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failures(certificate, arguments.options));
+  return ExitCode::solver;
+}
+
+}  // namespace
+
+Verb add_evaluate(CLI::App& program) {
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "evaluate", "Print the certificate of a skeleton file, this program's or another's");
+  parser->add_option("MESH", arguments->mesh, "the surface that it is the skeleton of")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("SKELETON", arguments->skeleton,
+                   "skeleton file: obj, ply, cgal, swc, vtp, graphml or json")
+      ->required()
+      ->type_name("");
+  parser->add_option("--json", arguments->json, "the certificate as JSON; - is standard output")
+      ->type_name("FILE");
+  parser
+      ->add_option("--against", arguments->against,
+                   "another skeleton file: distances to it, and which of both is more central "
+                   "where both run")
+      ->type_name("SKELETON");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("--strict", arguments->strict,
+                   "a failed certificate (topology or inside) is an error, exit 5");
+  add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  return {parser, [arguments](Session& session) { return run_evaluate(*arguments, session); }};
+}
+
+}  // namespace curveskel

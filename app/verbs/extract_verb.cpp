@@ -1,0 +1,261 @@
+// curveskel extract: a surface file in, its curve skeleton out.
+#include <fmt/core.h>
+
+#include <chrono>
+#include <memory>
+
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs/verbs.hpp"
+#include "app/verbs/viewer_program.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExtractArguments {
+  fs::path mesh;
+  std::vector<std::string> outputs;
+  std::optional<SkeletonFormat> format;
+  std::string report;
+  bool quiet = false;
+  bool strict = false;
+  double time_limit_seconds = 0;
+  int fair_iterations = 0;
+  RepairOptions repair;
+  ExtractOptions options;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+template <typename Work>
+auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
+  const auto begin = Clock::now();
+  auto result = work();
+  times.push_back({stage, seconds_since(begin)});
+  return result;
+}
+
+/// From vertices of the repaired surface to those of the file.
+Eigen::VectorXi node_of_file_vertex(const RepairedSurface& repaired,
+                                    const CurveSkeleton& skeleton) {
+  return repaired.vertex_of_input.unaryExpr(
+      [&](int vertex) { return vertex < 0 ? -1 : skeleton.node_of_vertex[vertex]; });
+}
+
+std::string count_of(Eigen::Index count, const std::string& one, const std::string& many = {}) {
+  return fmt::format("{} {}", count, count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+std::string summary(const ExtractArguments& arguments, const ExtractionRecord& record) {
+  const CurveSkeleton& skeleton = record.extraction.skeleton;
+  const Certificate& certificate = record.extraction.certificate;
+  const Surface& surface = record.repaired.surface;
+  std::string text =
+      fmt::format("{}: {}, {}; {}, genus {}\n", arguments.mesh.filename().string(),
+                  count_of(surface.positions.rows(), "vertex", "vertices"),
+                  count_of(surface.triangles.rows(), "triangle"),
+                  count_of(certificate.components_of_surface, "component"), certificate.genus);
+  for (const std::string& line : record.repaired.changes.lines)
+    text += fmt::format("  changed: {}\n", line);
+  for (const std::string& line : record.repaired.repairs.lines)
+    text += fmt::format("  repaired: {}\n", line);
+  for (const std::string& line : record.notes) text += fmt::format("  {}\n", line);
+  text += fmt::format("skeleton: {}, {}\n", count_of(skeleton.nodes.rows(), "node"),
+                      count_of(skeleton.edges.rows(), "edge"));
+  return text + certificate_table(certificate, arguments.options.certificate);
+}
+
+/// Components run side by side, so that their stages may take longer than the run.
+std::string time_line(const std::vector<StageTime>& times, double seconds, bool one_component) {
+  std::string parts;
+  for (const StageTime& time : times) {
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", time.stage, time.seconds);
+  }
+  return fmt::format("{:.2f} s ({}{}); {:.0f} MB at most\n", seconds,
+                     one_component ? "" : "summed over components: ", parts,
+                     static_cast<double>(peak_memory_bytes()) / 1e6);
+}
+
+/// By the viewer where it is installed and can draw, else by the library.
+std::string picture(const ExtractionRecord& record, const SkeletonContext& context,
+                    Session& session) {
+  const CurveSkeleton& skeleton = record.extraction.skeleton;
+  std::error_code ignored;
+  if (std::filesystem::exists(viewer_program(), ignored)) {
+    const ViewerPicture drawn =
+        picture_by_viewer(record.repaired.surface, skeleton, session.interruption);
+    if (!drawn.png.empty()) return drawn.png;
+    session.terminal.note("picture drawn without OpenGL: " + drawn.reason);
+  }
+  return format_skeleton(skeleton, SkeletonFormat::png, context);
+}
+
+std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
+                                       const std::vector<SkeletonFormat>& formats,
+                                       const ExtractionRecord& record,
+                                       const CurveSkeleton& skeleton, Session& session) {
+  SkeletonContext context;
+  context.surface = &record.repaired.surface;
+  context.provenance = program_and_version() + ", " + arguments.mesh.filename().string();
+  context.report_json = result_json(record);
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
+    files.push_back({arguments.outputs[i], formats[i] == SkeletonFormat::png
+                                               ? picture(record, context, session)
+                                               : format_skeleton(skeleton, formats[i], context)});
+  }
+  return files;
+}
+
+int run_extract(ExtractArguments arguments, Session& session) {
+  const auto begin = Clock::now();
+  if (arguments.quiet) session.terminal.be_quiet();
+  const auto formats = formats_of(arguments.outputs, arguments.format);
+  std::vector<std::string> names = arguments.outputs;
+  if (!arguments.report.empty()) names.push_back(arguments.report);
+  check_outputs(names, arguments.mesh);
+  const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
+  if (to_output) session.terminal.keep_output_clean();
+  arguments.options.fairing = arguments.fair_iterations > 0;
+  arguments.options.fair.iterations = arguments.fair_iterations;
+  arguments.options.fair.threads = arguments.options.threads;
+  arguments.options.certificate.threads = arguments.options.threads;
+
+  session.interruption.limit(arguments.time_limit_seconds);
+
+  std::vector<std::string> notes;
+  Monitor monitor = session.monitor();
+  monitor.note = nullptr;  // the summary has these
+  std::vector<StageTime> times;
+  const PolygonSoup soup =
+      timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
+  RepairedSurface repaired = timed(times, "repair", [&] {
+    return repair(soup, arguments.repair, monitor, arguments.options.threads);
+  });
+  monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
+  RepairedExtraction found =
+      extract_repaired(repaired, arguments.repair, arguments.options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Extraction& extraction = found.extraction;
+  times.insert(times.end(), extraction.times.begin(), extraction.times.end());
+
+  CurveSkeleton skeleton = extraction.skeleton;
+  skeleton.node_of_vertex = node_of_file_vertex(repaired, extraction.skeleton);
+  const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
+                                extraction, notes};
+  auto files = timed(times, "write",
+                     [&] { return format_outputs(arguments, formats, record, skeleton, session); });
+  if (!arguments.report.empty()) {
+    files.push_back(
+        {arguments.report, report_json(record, {times, seconds_since(begin), arguments.outputs})});
+  }
+  write_outputs(files, session);
+
+  if (!arguments.quiet) {
+    std::string text = summary(arguments, record);
+    for (const OutputFile& file : files) {
+      if (file.name != "-") text += fmt::format("wrote {}\n", file.name);
+    }
+    session.terminal.result(
+        text + time_line(times, seconds_since(begin), extraction.components.size() == 1));
+  }
+  const std::string failed = failures(extraction.certificate, arguments.options.certificate);
+  const bool inside_needed = arguments.strict && !extraction.certificate.inside_enough;
+  if (extraction.certificate.topology_correct() && !inside_needed) {
+    if (!failed.empty()) session.terminal.warn(failed);
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failed);
+  return ExitCode::solver;
+}
+
+}  // namespace
+
+Verb add_extract(CLI::App& program) {
+  const auto arguments = std::make_shared<ExtractArguments>();
+  CLI::App* parser =
+      program.add_subcommand("extract", "Extract the curve skeleton of a surface file");
+  ExtractOptions& options = arguments->options;
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->outputs,
+                   "skeleton file, its format by the extension; may be given several times; - is "
+                   "standard output")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  parser
+      ->add_option_function<std::string>(
+          "--format",
+          [arguments](const std::string& name) {
+            arguments->format = choice_of(skeleton_formats, name);
+            if (!arguments->format) {
+              throw CLI::ValidationError("--format",
+                                         name + " is none of: " + names_in(skeleton_formats));
+            }
+          },
+          "format of standard output")
+      ->type_name("NAME");
+  parser
+      ->add_option("--report", arguments->report, "what was changed, decided and measured, as JSON")
+      ->type_name("FILE.json");
+  add_choice(*parser, "--flow", options.contraction.flow, flows, "contraction flow");
+  options.contraction.program_cache = kernel_cache();
+  options.fair.program_cache = kernel_cache();
+  add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
+  parser
+      ->add_option_function<std::string>(
+          "--resolution",
+          [&options](const std::string& text) {
+            if (text == "full") {
+              options.resolution = 0;
+            } else if (!CLI::detail::lexical_cast(text, options.resolution) ||
+                       options.resolution < options.least_resolution) {
+              throw CLI::ValidationError(
+                  "--resolution", fmt::format("needs full or a number of vertices from {} up, as "
+                                              "many as a component has at least, not {}",
+                                              options.least_resolution, text));
+            }
+          },
+          fmt::format("working vertices of the whole surface, from {} up",
+                      options.least_resolution))
+      ->type_name("N|full")
+      ->default_str(std::to_string(options.resolution));
+  add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay");
+  add_number(
+      *parser, "--fair", arguments->fair_iterations, 0, 1000000,
+      "iterations of fairing before the contraction, for noisy surfaces: about ten times the "
+      "noise in % of the diagonal");
+  add_number(*parser, "--threads", options.threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("--strict", arguments->strict,
+                   "a skeleton that leaves the surface is an error, too (exit 5), not a warning");
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers) +
+                 meanings("Formats", skeleton_formats));
+  return {parser, [arguments](Session& session) { return run_extract(*arguments, session); }};
+}
+
+}  // namespace curveskel

@@ -1,0 +1,134 @@
+// curveskel fair: the surface smoothed, its connectivity and volume kept.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/fair.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/write_surface.hpp>
+#include "app/arguments.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs/verbs.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr NameTable<bool, 2> precisions{{
+    {false, "single", "on the device"},
+    {true, "double", "on the device; cpu and host always compute in double"},
+}};
+
+struct FairArguments {
+  fs::path mesh;
+  std::string output;
+  bool quiet = false;
+  double time_limit_seconds = 0;
+  FairOptions options;
+};
+
+/// A closed surface is faired as one, seams or not. Any other is faired as it is
+/// in the file: its boundaries and seams stay where they are.
+std::optional<CleanSurface> cleaned_if_closed(const PolygonSoup& soup, const Monitor& monitor,
+                                              int threads) {
+  try {
+    return clean(soup, monitor, threads);
+  } catch (const Error& error) {
+    monitor.say(std::string(error.what()) + " - faired as it is, with its boundaries held");
+    return std::nullopt;
+  }
+}
+
+/// The file's own vertices and faces, moved.
+Surface faired(const PolygonSoup& soup, const FairOptions& options, const Monitor& monitor) {
+  Surface surface{soup.positions, triangulate(soup)};
+  const auto cleaned = cleaned_if_closed(soup, monitor, options.threads);
+  if (!cleaned) return fair(surface, options, monitor);
+  const Surface smooth = fair(cleaned->surface, options, monitor);
+  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+    const int vertex = cleaned->vertex_of_input[v];
+    if (vertex >= 0) surface.positions.row(v) = smooth.positions.row(vertex);
+  }
+  return surface;
+}
+
+/// The largest motion of a vertex, over the bounding box's diagonal.
+std::string moved(const Positions& from, const Positions& to) {
+  const Eigen::VectorXd distances = (to - from).rowwise().norm();
+  const double diagonal = bounding_box_diagonal(from);
+  if (!(diagonal > 0)) return {};
+  const double mean = std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size()));
+  return fmt::format("moved {:.2e} D root mean square, {:.2e} D at most\n", mean / diagonal,
+                     distances.maxCoeff() / diagonal);
+}
+
+int run_fair(const FairArguments& arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  const SurfaceFormat format = format_of(arguments.output, written_surface_formats);
+  check_outputs({arguments.output}, arguments.mesh);
+
+  session.interruption.limit(arguments.time_limit_seconds);
+  const Monitor monitor = session.monitor();
+  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const Surface result = faired(soup, arguments.options, monitor);
+  const std::string provenance =
+      program_and_version() + ", " + arguments.mesh.filename().string() + ", faired";
+  write_outputs({{arguments.output, format_surface(result, format, provenance)}}, session);
+
+  if (!arguments.quiet) {
+    session.terminal.result(
+        fmt::format("{} iterations by {}: ", arguments.options.iterations,
+                    name_of(fair_methods, choose_fair_method(arguments.options.method))) +
+        moved(soup.positions, result.positions) + fmt::format("wrote {}\n", arguments.output));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_fair(CLI::App& program) {
+  const auto arguments = std::make_shared<FairArguments>();
+  FairOptions& options = arguments->options;
+  options.program_cache = kernel_cache();
+  CLI::App* parser = program.add_subcommand(
+      "fair", "Smooth a noisy surface by local Laplacian flow, its volume kept");
+  parser->add_option("MESH", arguments->mesh, "surface file: " + names_in(surface_formats))
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option(
+          "-o,--output", arguments->output,
+          "the faired surface, its format by the extension: " + names_in(written_surface_formats))
+      ->required()
+      ->type_name("OUT");
+  add_choice(*parser, "--method", options.method, fair_methods, "how the flow is computed");
+  add_number(*parser, "--iterations", options.iterations, 0, 1000000, "of the flow");
+  add_number(*parser, "--smoothing", options.smoothing, 0.0, 1e6,
+             "mu = W_L / W_H of each patch: 0.5 to 2 takes noise away");
+  add_number(*parser, "--rings", options.rings, 1, 1000000,
+             "K: a vertex's patch has the vertices within K edges");
+  add_choice(*parser, "--local-solver", options.local_solver, local_solvers,
+             "how the centre of a patch is found");
+  add_choice(*parser, "--volume", options.volume, volume_rules, "what becomes of the volume");
+  add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
+  add_number(*parser, "--threads", options.threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +
+                 meanings("Volume", volume_rules) + meanings("Precision", precisions));
+  return {parser, [arguments](Session& session) { return run_fair(*arguments, session); }};
+}
+
+}  // namespace curveskel

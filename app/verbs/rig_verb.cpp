@@ -1,0 +1,178 @@
+// curveskel rig: a surface file in, the same surface with joints and skin weights out.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/rig_files.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/output_files.hpp"
+#include "app/report.hpp"
+#include "app/verbs/verbs.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RigArguments {
+  fs::path mesh;
+  std::vector<std::string> outputs;
+  std::string skeleton;  ///< empty = extract it
+  bool quiet = false;
+  double time_limit_seconds = 0;
+  int fair_iterations = 0;
+  int threads = 0;
+  RepairOptions repair;
+  ExtractOptions extract;
+  RigOptions rig;
+};
+
+/// A skeleton of this surface is not mostly elsewhere.
+void require_nodes_nearby(const CurveSkeleton& skeleton, const Surface& surface,
+                          const RigArguments& arguments) {
+  const Eigen::RowVector3d low = surface.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = surface.positions.colwise().maxCoeff();
+  Eigen::Index within = 0;
+  for (const auto& node : skeleton.nodes.rowwise()) {
+    within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
+  }
+  if (2 * within >= skeleton.nodes.rows()) return;
+  throw Error(Fault::input,
+              fmt::format("{}: {} of {} nodes lie within the box of {}; needed is a skeleton of "
+                          "this surface, in its coordinates",
+                          arguments.skeleton, within, skeleton.nodes.rows(),
+                          arguments.mesh.filename().string()));
+}
+
+/// Read or extracted; what its certificate lacks is said. Where only a wrap would do, this is what
+/// `repaired` becomes.
+CurveSkeleton skeleton_for(const RigArguments& arguments, RepairedSurface& repaired,
+                           const Monitor& monitor, Session& session) {
+  if (!arguments.skeleton.empty()) {
+    const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
+    require_nodes_nearby(skeleton, repaired.surface, arguments);
+    try {
+      return skeleton_of_repaired(skeleton, repaired.vertex_of_input,
+                                  repaired.surface.positions.rows());
+    } catch (const Error& error) {
+      throw Error(error.fault(), arguments.skeleton + ": " + error.what());
+    }
+  }
+  ExtractOptions options = arguments.extract;
+  options.threads = options.fair.threads = options.certificate.threads = arguments.threads;
+  options.fairing = arguments.fair_iterations > 0;
+  options.fair.iterations = arguments.fair_iterations;
+  RepairedExtraction found = extract_repaired(repaired, arguments.repair, options, monitor);
+  if (found.wrapped) repaired = std::move(*found.wrapped);
+  const Extraction& extraction = found.extraction;
+  const std::string failed = failures(extraction.certificate, options.certificate);
+  if (!failed.empty()) session.terminal.warn(failed);
+  return extraction.skeleton;
+}
+
+std::ptrdiff_t count_tips(const Rig& rig) {
+  return std::count_if(rig.names.begin(), rig.names.end(), [](const std::string& name) {
+    return name.find("_end") != std::string::npos;
+  });
+}
+
+int run_rig(RigArguments arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  std::vector<RigFormat> formats;
+  for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
+  check_outputs(arguments.outputs, arguments.mesh);
+  session.interruption.limit(arguments.time_limit_seconds);
+  arguments.rig.skin.threads = arguments.threads;
+
+  const auto begin = std::chrono::steady_clock::now();
+  const Monitor monitor = session.monitor();
+  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
+  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
+                               repaired.surface, repaired.vertex_of_input, soup.positions);
+  std::vector<OutputFile> files;
+  const Surface given{soup.positions, triangulate(soup)};
+  fs::path name = arguments.mesh.stem();
+  if (arguments.mesh.extension() == ".gz") name = name.stem();
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
+    files.push_back({arguments.outputs[i],
+                     format_rig(given, rig, formats[i], name.string(), program_and_version())});
+  }
+  write_outputs(files, session);
+  if (arguments.quiet) return ExitCode::done;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  std::string text =
+      fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
+                  arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
+                  count_tips(rig));
+  for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
+  session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_rig(CLI::App& program) {
+  const auto arguments = std::make_shared<RigArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "rig", "Give a surface joints and skin weights, as glTF that Blender opens");
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->outputs,
+                   "rig file, its format by the extension; may be given several times")
+      ->required()
+      ->type_name("OUT.glb")
+      ->allow_extra_args(false);
+  CLI::Option* skeleton =
+      parser
+          ->add_option(
+              "--skeleton", arguments->skeleton,
+              "rig this one (of extract or view, corrected by hand, or of another program) "
+              "instead of extracting one")
+          ->type_name("FILE");
+  JointOptions& joints = arguments->rig.joints;
+  add_number(
+      *parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
+      "node of the skeleton, counted from 0 as in its JSON file, that all hangs from; -1 = chosen");
+  add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
+             "of straight limbs, in their radius: smaller gives more joints");
+  add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
+             "how gently the skin goes over from one joint to the next, in radii");
+  add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay")
+      ->excludes(skeleton);
+  add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
+             "iterations of fairing before the contraction, for noisy surfaces")
+      ->excludes(skeleton);
+  arguments->extract.contraction.program_cache = kernel_cache();
+  arguments->extract.fair.program_cache = kernel_cache();
+  add_number(*parser, "--threads", arguments->threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  parser->footer(meanings("Formats", rig_formats));
+  return {parser, [arguments](Session& session) { return run_rig(*arguments, session); }};
+}
+
+}  // namespace curveskel

@@ -1,0 +1,43 @@
+// The whole library in one include: a triangle surface in, its curve skeleton out.
+//
+//   using namespace curveskel;
+//   const RepairedSurface repaired = repair(read_polygons("model.obj", {}), {}, {});
+//   const RepairedExtraction found = extract_repaired(repaired, {}, ExtractOptions{}, Monitor{});
+//   found.extraction.skeleton.nodes;   // #N by 3
+#pragma once
+
+#include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/advanced/device.hpp>
+#include <curveskel/advanced/extraction_cache.hpp>
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/joints.hpp>
+#include <curveskel/advanced/laplacian.hpp>
+#include <curveskel/advanced/least_squares.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/advanced/skin_weights.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/contract.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/edit.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/evaluate_repaired.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/fair.hpp>
+#include <curveskel/findings.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/rig.hpp>
+#include <curveskel/rig_files.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include <curveskel/surface.hpp>
+#include <curveskel/topology.hpp>
+#include <curveskel/view.hpp>
+#include <curveskel/write_file.hpp>
+#include <curveskel/write_surface.hpp>

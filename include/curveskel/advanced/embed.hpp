@@ -1,0 +1,45 @@
+// Embedding: nodes that are central, inside and smooth; no spurs.
+#pragma once
+
+#include <functional>
+
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct EmbedOptions {
+  double detail = 0.5;    ///< 0..1: how blunt a branch may be and stay; 1 keeps nearly all
+  double merge = 1;       ///< junctions nearer than this x the inscribed radius become one
+  double straight = 0.5;  ///< of a junction's inscribed radius: branches run straight within it
+  double straight_at_last = 0.9;  ///< the same, once everything has found its place
+  int first_rounds = 3;           ///< of centring and smoothing before tips and spurs are judged
+  int relax_rounds = 80;          ///< of centring and smoothing, junctions where axes meet
+  int smooth_rounds = 8;          ///< the same, within balls known to be inside
+  double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
+  double tip_reach = 1.5;         ///< leaves ending within this x the local radius are cut back
+  double tip_gap = 1.15;  ///< tips grow until the surface ends within this x the local radius
+
+  [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
+};
+
+/// The prominence below which `detail` prunes a branch: 3 at 0, 1.15 at 0.5, 0 at 1.
+[[nodiscard]] double prominence_limit(double detail);
+
+/// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
+/// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge
+/// inside the surface of `finer`, prunes spurs there and smooths once more.
+/// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
+/// surface itself, `finer` gives a tree over the one that it was coarsened from, or `tree`. It is
+/// called once, half-way, so that the tree may grow till then. Radii are the distances to its
+/// surface. Most of the time is spent in rays against `tree`: a coarse surface pays.
+[[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
+                                  const std::function<const SurfaceTree&()>& finer,
+                                  const InscribedBalls& balls, const PartitionGraph& graph,
+                                  const EmbedOptions& options, int threads, const Monitor& monitor);
+
+}  // namespace curveskel

@@ -1,0 +1,42 @@
+// Joints on a curve skeleton, and their hierarchy.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct JointOptions {
+  int root = -1;           ///< a node of the skeleton; -1 = chosen, see `place_joints`
+  double bone_length = 6;  ///< that a straight limb is cut into, of the radius along it; > 0
+  double bend = 0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; > 0
+};
+
+/// A forest of joints.
+struct Joints {
+  Positions positions;             ///< j x 3, in model units
+  Eigen::VectorXi parents;         ///< j, each before its children; -1 = a root
+  std::vector<std::string> names;  ///< j, no two homologous
+  Eigen::VectorXi joint_of_node;   ///< #N of the skeleton: the joint that moves it
+};
+
+/// Joints at the junctions, where a limb leaves the inscribed ball of its junction, along limbs,
+/// and at tips (these, named ".._end", move nothing: they say how long the last bone is).
+///
+/// The root is the junction with the least sum of ways to the whole curve, each piece weighted by
+/// length times radius; without junctions the end with the larger ball. A cycle is cut where the
+/// ways from the root meet. Along a limb the joints minimise, over all choices (dynamic
+/// programming), the sum over bones of 1 + (length / (bone_length r))^2 + (deviation / (bend r))^2,
+/// lengths measured in the radius r where they are, deviation the largest distance of the curve
+/// from the bone. Components hang from each other where they overlap or are nearest, in a tree from
+/// the heaviest (length times radius) or that of a wanted root, so that there is one root; each is
+/// rooted where it hangs.
+/// Throws Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred
+/// times as much where there are many junctions.
+[[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options);
+
+}  // namespace curveskel

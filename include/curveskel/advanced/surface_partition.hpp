@@ -1,0 +1,89 @@
+// Groups of vertices and the cut curves along which they meet.
+//
+// Cut a closed oriented surface of genus g into connected pieces that meet along disjoint cut
+// curves only. With one node per piece and one edge per cut curve, the graph's cycle rank is g
+// minus the sum of the pieces' genera: pieces of genus 0 give exactly g.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+/// Each triangle's edges: edge_of_corner(t, k) is the edge opposite to corner k of triangle t.
+struct EdgeIndex {
+  Triangles edge_of_corner;               ///< #F by 3
+  std::vector<std::array<int, 2>> edges;  ///< ends, the smaller vertex first; sorted
+};
+
+/// O(#F log #F).
+[[nodiscard]] EdgeIndex index_edges(const Triangles& triangles);
+
+/// A partition of the vertices into connected groups, at first one group per vertex. A group's
+/// piece of surface is the union of its vertices' dual cells; a piece's boundary runs through the
+/// triangles that have corners inside and outside of it. Precondition: closed oriented 2-manifold.
+class SurfacePartition {
+ public:
+  explicit SurfacePartition(const Surface& surface);
+
+  [[nodiscard]] int group_of(int vertex) const { return group_of_vertex_[vertex]; }
+
+  /// True if some triangle has corners in both groups and in a third one.
+  [[nodiscard]] bool share_triple(int a, int b) const;
+
+  /// The groups that share a three-group triangle with `group`, ascending.
+  [[nodiscard]] std::vector<int> triple_neighbours(int group) const;
+
+  /// Number of triangles whose corners lie in three groups; 0 = pieces meet along cut curves only.
+  [[nodiscard]] int triples() const;
+
+  /// Genus (2 - chi - cut curves) / 2 of the piece that merging would make; 0 = a sphere with
+  /// holes. Once positive it stays so for every larger piece. O(size of the two boundaries).
+  [[nodiscard]] int genus_of_union(int a, int b);
+
+  /// Moves the vertices of `from` to `into`. O(size of the two boundaries and of `from`).
+  void merge(int from, int into);
+
+ private:
+  [[nodiscard]] std::array<int, 3> groups_at(int triangle) const;
+  [[nodiscard]] std::vector<int> touching(int a, int b) const;
+  [[nodiscard]] int euler_of_union(int a, int b, const std::vector<int>& touching) const;
+  [[nodiscard]] int circles_of_union(int a, int b, const std::vector<int>& touching);
+  int root(int edge);
+
+  Triangles triangles_;
+  EdgeIndex index_;
+  std::vector<int> group_of_vertex_;
+  std::vector<std::vector<int>> members_;
+  std::vector<std::vector<int>> boundary_;  // per group, ascending: triangles it shares with others
+  std::vector<int> euler_;                  // per group
+  std::vector<int> parent_;                 // union-find over edges, reset after each use
+};
+
+/// A graph whose first nodes are groups of the vertices of a surface, followed by one node for each
+/// cut curve along which two groups meet: groups that meet along several cut curves keep one path
+/// each.
+struct PartitionGraph {
+  int groups = 0;
+  Eigen::VectorXi group_of_vertex;  ///< #V, node index in 0 .. groups - 1
+  /// Per cut curve, its node being groups + c: the surface's edges that cross it, in order around
+  /// it, as (vertex, vertex).
+  std::vector<std::vector<std::array<int, 2>>> cut_curves;
+  Edges edges;  ///< #E by 2, each from a group to a cut curve
+  [[nodiscard]] int nodes() const { return groups + static_cast<int>(cut_curves.size()); }
+};
+
+/// Places of the graph's nodes (#N by 3): each in the middle of the positions (#V by 3) of its
+/// group, or of the vertices of the edges that cross its cut curve.
+[[nodiscard]] Positions middles_of_groups(const PartitionGraph& graph, const Positions& positions);
+
+/// Groups are renumbered by their smallest vertex, cut curves by their smallest crossing edge.
+/// Precondition: no triangle of the surface has corners in three groups. O(#F log #F).
+[[nodiscard]] PartitionGraph partition_graph(const Surface& surface,
+                                             const Eigen::VectorXi& group_of_vertex);
+
+}  // namespace curveskel

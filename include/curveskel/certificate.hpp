@@ -1,0 +1,102 @@
+// Numbers that say how good a skeleton is, whoever made it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct CertificateOptions {
+  double sample_spacing = 1.0 / 400;  ///< along the edges, in units of D
+  double inside_needed = 0.999;       ///< share of the length
+  int rays = 32;                      ///< in the plane normal to the curve, for centredness
+  int threads = 0;                    ///< 0 = one per core
+
+  [[nodiscard]] bool operator==(const CertificateOptions&) const = default;
+};
+
+/// D = the surface's bounding-box diagonal. docs/method.md has the definitions.
+struct Certificate {
+  int components = 0;
+  int components_of_surface = 0;
+  int cycle_rank = 0;
+  int genus = 0;                  ///< summed over the surface's components
+  int homology_rank = 0;          ///< cycles that are independent inside the surface: equal to the
+                                  ///< genus where each handle has its own
+  double length = 0;              ///< of all edges / D
+  double inside_fraction = 0;     ///< share of the samples inside the surface
+  double deepest_exit = 0;        ///< largest distance of an outside sample to the surface / D
+  double centredness_median = 0;  ///< coefficient of variation of the ray lengths; 0 = centred,
+                                  ///< infinity = outside
+  double centredness_p90 = 0;     ///< 90th percentile of the same
+  double coverage = 0;            ///< share of surface vertices within 1.5 local radii of the curve
+  double reach = 0;               ///< 95th percentile of the distance from surface vertices to the
+                                  ///< nearest inscribed ball of the curve / D
+  int tips = 0;
+  int junctions = 0;
+  int spurs = 0;       ///< leaf branches shorter than the inscribed radius at their junction
+  double turning = 0;  ///< total turning in radians at scale D/100, per D of length
+  [[nodiscard]] bool topology_correct() const {
+    return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
+  }
+  bool inside_enough = false;  ///< inside_fraction >= inside_needed
+  [[nodiscard]] bool holds() const { return topology_correct() && inside_enough; }
+};
+
+/// Precondition: a clean surface (see Surface). The skeleton may be anyone's: radii and vertex map
+/// are not used, and how finely it is divided into edges hardly matters. Coverage and reach are
+/// taken over every k-th vertex such that at most 20,000 remain. Deterministic; O(#F log #F) for
+/// the tree and a few microseconds per sample and ray.
+/// Throws Error(Fault::input) if a node's position is no finite number.
+[[nodiscard]] Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
+                                   const CertificateOptions& options, const Monitor& monitor);
+
+/// The conditions that fail, in one line; empty if none.
+[[nodiscard]] std::string failures(const Certificate& certificate,
+                                   const CertificateOptions& options);
+
+/// The surface that a certificate compares a skeleton with.
+struct CertifiedSurface {
+  const Surface& surface;
+  const SurfaceTree& tree;
+  double diagonal;  ///< D
+  int components;
+  int genus;  ///< sum over the components
+};
+
+/// The same for a surface of which all this is known.
+[[nodiscard]] Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
+                                   const CertificateOptions& options, const Monitor& monitor);
+
+/// One-sided distances in both directions, sampled every `spacing` (model units); the larger one.
+[[nodiscard]] double hausdorff_distance(const CurveSkeleton& a, const CurveSkeleton& b,
+                                        double spacing);
+
+/// The mean over the length of one of the distance to the other, averaged over both directions:
+/// one branch more or less counts by its length. Infinite if one of them is
+/// empty.
+[[nodiscard]] double mean_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing);
+
+/// Two skeletons of one surface where both run: the one that also goes where no curve can be
+/// centred, into a sheet, is not behind for that.
+struct CommonGround {
+  struct Side {
+    double share = 0;               ///< of its length that lies on common ground
+    double centredness_median = 0;  ///< there; infinite if there is no such place
+  };
+  Side a;
+  Side b;
+};
+
+/// A sample is on common ground if the other's curve passes it within its inscribed radius, or D /
+/// 100 where that is more. Precondition and errors as of `evaluate`; `diagonal` is D.
+[[nodiscard]] CommonGround common_ground(const SurfaceTree& tree, double diagonal,
+                                         const CurveSkeleton& a, const CurveSkeleton& b,
+                                         const CertificateOptions& options, const Monitor& monitor);
+
+}  // namespace curveskel

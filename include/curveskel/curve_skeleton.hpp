@@ -1,0 +1,51 @@
+// The result: a graph of nodes with radii.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+/// #E by 2 node indices; i < j in each row, rows sorted, no row twice.
+using Edges = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+struct CurveSkeleton {
+  Positions nodes;                 ///< #N by 3, in model units
+  Edges edges;                     ///< #E by 2
+  Eigen::VectorXd radii;           ///< #N distances to the surface (0 for a node outside), or empty
+  Eigen::VectorXi node_of_vertex;  ///< #V of the surface: the node that each vertex collapsed to
+                                   ///< (-1 = the vertex is on no component), or empty
+};
+
+/// A maximal chain of edges whose inner nodes have degree 2; first == last for a closed chain.
+struct Branch {
+  std::vector<int> nodes;  ///< in order along the branch, ends included
+};
+
+/// Every edge lies in exactly one branch; a cycle without a junction is one closed branch that
+/// starts at its lowest node; a node without an edge is in none. A branch starts at its lower end,
+/// towards the lower neighbour if it is closed; branches are sorted by their first two nodes.
+/// Precondition: `edges` are as described at Edges. O(#N + #E log #E).
+[[nodiscard]] std::vector<Branch> branches(const CurveSkeleton& skeleton);
+
+/// The row of `edges` between two nodes, -1 if there is none. O(log #E).
+[[nodiscard]] int edge_between(const CurveSkeleton& skeleton, int a, int b);
+
+struct GraphTopology {
+  int components = 0;
+  int cycle_rank = 0;  ///< #E - #N + components
+  int tips = 0;        ///< nodes of degree 1
+  int junctions = 0;   ///< nodes of degree >= 3
+};
+
+/// Of each node, numbered by the lowest node in each. O(#N + #E log #N).
+[[nodiscard]] std::vector<int> component_of_node(const CurveSkeleton& skeleton);
+
+/// Nodes without an edge count as components. Precondition: edge rows index into `nodes`.
+/// O(#N + #E log #N).
+[[nodiscard]] GraphTopology graph_topology(const CurveSkeleton& skeleton);
+
+}  // namespace curveskel

@@ -1,0 +1,88 @@
+// The whole way from a clean surface to its certified curve skeleton.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/embed.hpp>
+#include <curveskel/advanced/extraction_cache.hpp>
+#include <curveskel/advanced/surgery.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/contract.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/fair.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct ExtractOptions {
+  /// Working vertices for the whole surface, but 32 for each handle of a component; 0 = all.
+  int resolution = 8000;
+  /// Working vertices for each component; fewer are refined. Of more than 133 components each is
+  /// sure of fewer, 200,000 over their number, but none is coarsened to fewer than 200 or left at
+  /// fewer than 100.
+  int least_resolution = 1500;
+  int threads = 0;       ///< 0 = one per core; the result does not depend on it
+  bool fairing = false;  ///< clean the input by `fair` first
+  /// Vertices round each hole that was closed (RepairedSurface::openings): where a tip faces one,
+  /// the curve goes on to it, see `reach_rims`.
+  std::vector<std::vector<std::int32_t>> openings;
+  FairOptions fair;
+  /// If the certificate finds too much outside: extract once more with thirty iterations of
+  /// fairing, and keep the better one.
+  bool fair_if_outside = true;
+  /// If the topology is wrong, a component was coarsened and there are 50,000 vertices at most:
+  /// extract once more with all of them, and keep the better one.
+  bool all_vertices_if_failed = true;
+  ContractionOptions contraction;
+  SurgeryOptions surgery;
+  EmbedOptions embed;
+  CertificateOptions certificate;
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// The record of one component.
+struct ComponentRecord {
+  int vertices = 0;          ///< of the surface passed in
+  int working_vertices = 0;  ///< after coarsening or refining
+  int genus = 0;
+  int attempts = 1;    ///< contractions until the surgery succeeded, each gentler than the last
+  bool bands = false;  ///< the surgery gave up, see level_set_graph
+  std::vector<Step> steps;
+  Stop stop = Stop::iterations;
+};
+
+struct Extraction {
+  CurveSkeleton skeleton;  ///< node_of_vertex indexes the vertices of the surface passed in
+  std::vector<ComponentRecord> components;  ///< in the order of `topology`
+  Certificate certificate;
+  std::vector<StageTime> times;  ///< in the order of the stages, summed over the components; only
+                                 ///< of those that ran
+  std::vector<std::string> reused;  ///< stages all of which came from the ExtractionCache, in order
+  bool faired_again = false;        ///< see ExtractOptions::fair_if_outside
+  bool all_vertices_again = false;  ///< see ExtractOptions::all_vertices_if_failed
+};
+
+/// normalise -> fair -> coarsen -> balls -> contract -> surgery -> embed -> certify, by component.
+/// Precondition: a clean surface (see Surface). The certificate of a single component is taken
+/// against its canonical form in the model's frame, which may differ from the surface by
+/// `canonical_step` / 2 of D per coordinate; that of several against the surface itself.
+/// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
+[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
+                                 const Monitor& monitor);
+
+/// The same result, byte for byte (but for the seconds that steps took), in less time: stages whose
+/// input and options are those of the last run that reached them are taken from `cache`. `threads`
+/// and `program_cache` make no difference. A surface of other content empties the cache first; to
+/// see that takes one pass over the arrays. Of a run that threw, Cancelled or an error, the cache
+/// has the stages that came to their end. A stage that is reused shows no frames and no progress.
+[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
+                                 const Monitor& monitor, ExtractionCache& cache);
+
+}  // namespace curveskel

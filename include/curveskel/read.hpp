@@ -1,0 +1,43 @@
+// Surface files in: polygons as the file has them, nothing repaired yet.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+enum class SurfaceFormat { obj, off, ply, stl, gltf, glb };
+
+inline constexpr NameTable<SurfaceFormat, 6> surface_formats{{
+    {SurfaceFormat::obj, "obj", "Wavefront OBJ"},
+    {SurfaceFormat::off, "off", "Object File Format (OFF, COFF, NOFF, ...)"},
+    {SurfaceFormat::ply, "ply", "Stanford PLY, ASCII or binary"},
+    {SurfaceFormat::stl, "stl", "Stereolithography, ASCII or binary"},
+    {SurfaceFormat::gltf, "gltf", "glTF 2.0, JSON with buffers beside it"},
+    {SurfaceFormat::glb, "glb", "glTF 2.0, one binary file"},
+}};
+
+/// Polygons as read. Polygon p has the corners corners[offsets[p]] .. corners[offsets[p + 1] - 1].
+struct PolygonSoup {
+  Positions positions;                ///< #V by 3, the vertices of the file in the file's order
+  std::vector<std::int32_t> corners;  ///< vertex indices, all within [0, #V)
+  std::vector<std::int64_t> offsets;  ///< #P + 1 entries, the first 0
+  SurfaceFormat format = SurfaceFormat::obj;
+  std::filesystem::path file;  ///< where it comes from, for messages; may be empty
+};
+
+/// The triangles as polygons, of no file.
+[[nodiscard]] PolygonSoup soup_of(const Surface& surface);
+
+/// Reads any supported file, gzipped or not (".ply.gz"); the format follows from the content where
+/// that is unambiguous and from the extension otherwise.
+/// Throws Error(Fault::input) naming the file and, for text, the line. Time and memory linear in
+/// the file's size; a header's counts are checked against it before anything is allocated.
+[[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& monitor);
+
+}  // namespace curveskel

@@ -1,0 +1,24 @@
+// Surface files, out.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <curveskel/read.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+/// Those of `surface_formats` that can be written.
+inline constexpr NameTable<SurfaceFormat, 4> written_surface_formats{
+    {surface_formats[0], surface_formats[1], surface_formats[2], surface_formats[3]}};
+
+/// The bytes of an OBJ, OFF, PLY (binary, little-endian, double) or STL (binary, float) file; give
+/// them to `write_file`. Reading all but STL gives the same doubles and the same order back.
+/// `provenance` becomes a comment: one line, no newline, may be empty.
+/// Throws Error(Fault::output) for formats that are only read, and for STL where single precision
+/// would move a vertex by more than 1e-4 of the bounding box's diagonal. O(#V + #F).
+[[nodiscard]] std::string format_surface(const Surface& surface, SurfaceFormat format,
+                                         std::string_view provenance = {});
+
+}  // namespace curveskel

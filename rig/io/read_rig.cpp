@@ -1,0 +1,204 @@
+#include <curveskel/read_rig.hpp>
+
+#include <tiny_gltf.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rig/io/rig_formats.hpp"
+#include "surface/read/formats.hpp"
+#include "surface/read/gltf_scene.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::string_view rig_remedy = "export the rig again";
+
+/// The joints of all skins that move something.
+class JointReader {
+ public:
+  JointReader(const FileBytes& file, const tinygltf::Model& model, const GltfScene& scene)
+      : file_(file), model_(model), scene_(scene) {
+    for (const GltfSkinned& part : scene.skinned) {
+      if (!joints_of_skin_.contains(part.skin)) add_skin(part.skin);
+    }
+    sort();
+  }
+
+  /// Joint of the rig for each joint of the skin.
+  [[nodiscard]] const std::vector<int>& joints_of(int skin) const {
+    return joints_of_skin_.at(skin);
+  }
+
+  void write(Rig& rig) const {
+    const auto count = static_cast<Eigen::Index>(nodes_.size());
+    rig.joints.resize(count, 3);
+    rig.parents.resize(count);
+    rig.names.clear();
+    for (Eigen::Index joint = 0; joint < count; ++joint) {
+      const int node = nodes_[static_cast<std::size_t>(joint)];
+      rig.joints.row(joint) = rest_.at(node).transpose();
+      const int above = joint_above_.at(node);
+      rig.parents[joint] = above < 0 ? -1 : joint_of_node_.at(above);
+      rig.names.push_back(model_.nodes[static_cast<std::size_t>(node)].name);
+    }
+  }
+
+ private:
+  void add_skin(int index) {
+    const tinygltf::Skin& skin = gltf_element(file_, model_.skins, index, "skin");
+    std::optional<GltfNumbers> matrices;
+    if (skin.inverseBindMatrices >= 0) {
+      matrices = gltf_numbers(file_, model_, skin.inverseBindMatrices, 16, "inverse bind matrices");
+      if (matrices->rows() < skin.joints.size()) {
+        file_.fail(std::to_string(matrices->rows()) + " inverse bind matrices in skin " +
+                       std::to_string(index),
+                   "one for each of its " + std::to_string(skin.joints.size()) + " joints",
+                   rig_remedy);
+      }
+    }
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      const int node = skin.joints[i];
+      gltf_element(file_, model_.nodes, node, "joint");
+      if (rest_.contains(node)) continue;
+      nodes_.push_back(node);
+      rest_[node] = matrices ? rest_from(*matrices, i, node)
+                             : scene_.frames[static_cast<std::size_t>(node)].translation();
+    }
+    joints_of_skin_[index] = skin.joints;  // nodes, until `sort`
+  }
+
+  [[nodiscard]] Eigen::Vector3d rest_from(const GltfNumbers& matrices, std::size_t row,
+                                          int node) const {
+    Eigen::Matrix4d inverse_bind;
+    for (Eigen::Index k = 0; k < 16; ++k) {
+      inverse_bind(k) = matrices.at(row, static_cast<std::size_t>(k));  // both by columns
+    }
+    Eigen::Vector3d rest = inverse_bind.inverse().topRightCorner<3, 1>();
+    if (!inverse_bind.allFinite() || !rest.allFinite()) {
+      file_.fail("an inverse bind matrix of joint " + std::to_string(node) + " without an inverse",
+                 "finite, invertible matrices", rig_remedy);
+    }
+    return rest;
+  }
+
+  /// Parents first: in the order of the scene, then joints that are not in it.
+  void sort() {
+    for (const int node : scene_.nodes) {
+      const int parent = scene_.parents[static_cast<std::size_t>(node)];
+      const bool is_joint = parent < 0 || rest_.contains(parent);
+      joint_above_[node] = is_joint ? parent : joint_above_.at(parent);
+    }
+    std::vector<int> sorted;
+    for (const int node : scene_.nodes) {
+      if (rest_.contains(node)) sorted.push_back(node);
+    }
+    for (const int node : nodes_) {
+      if (joint_above_.try_emplace(node, -1).second) sorted.push_back(node);
+    }
+    nodes_ = std::move(sorted);
+    for (std::size_t joint = 0; joint < nodes_.size(); ++joint) {
+      joint_of_node_[nodes_[joint]] = static_cast<int>(joint);
+    }
+    for (auto& [skin, joints] : joints_of_skin_) {
+      for (int& joint : joints) joint = joint_of_node_.at(joint);
+    }
+  }
+
+  const FileBytes& file_;
+  const tinygltf::Model& model_;
+  const GltfScene& scene_;
+  std::vector<int> nodes_;               // of each joint
+  std::map<int, Eigen::Vector3d> rest_;  // by node
+  std::map<int, int> joint_above_;       // by node: the nearest node above that is a joint, or -1
+  std::map<int, int> joint_of_node_;
+  std::map<int, std::vector<int>> joints_of_skin_;
+};
+
+/// The weights of one primitive, as triplets with the rig's joints.
+class WeightReader {
+ public:
+  WeightReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model) {}
+
+  void add(const GltfSkinned& part, const std::vector<int>& joints) {
+    const auto& attributes = part.primitive->attributes;
+    for (int set = 0;; ++set) {
+      const auto joint_entry = attributes.find("JOINTS_" + std::to_string(set));
+      const auto weight_entry = attributes.find("WEIGHTS_" + std::to_string(set));
+      if (joint_entry == attributes.end() || weight_entry == attributes.end()) return;
+      add_set(gltf_numbers(file_, model_, joint_entry->second, 4, "joints"),
+              gltf_numbers(file_, model_, weight_entry->second, 4, "weights"), part, joints);
+    }
+  }
+
+  [[nodiscard]] SkinWeights weights(Eigen::Index vertices, Eigen::Index joints) const {
+    SkinWeights result(vertices, joints);
+    result.setFromTriplets(entries_.begin(), entries_.end());  // adds entries that are named twice
+    for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
+      float sum = 0;
+      for (SkinWeights::InnerIterator it(result, vertex); it; ++it) sum += it.value();
+      if (!(sum > 0)) continue;
+      for (SkinWeights::InnerIterator it(result, vertex); it; ++it) it.valueRef() /= sum;
+    }
+    return result;
+  }
+
+ private:
+  void add_set(const GltfNumbers& which, const GltfNumbers& share, const GltfSkinned& part,
+               const std::vector<int>& joints) {
+    const GltfNumbers points =
+        gltf_numbers(file_, model_, part.primitive->attributes.at("POSITION"), 3, "positions");
+    if (which.rows() != points.rows() || share.rows() != points.rows()) {
+      file_.fail(std::to_string(which.rows()) + " rows of joints and " +
+                     std::to_string(share.rows()) + " of weights",
+                 "one for each of the " + std::to_string(points.rows()) + " vertices", rig_remedy);
+    }
+    for (std::size_t row = 0; row < which.rows(); ++row) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double weight = share.at(row, k);
+        if (weight == 0) continue;
+        const double joint = which.at(row, k);
+        if (!(weight > 0 && weight < 1e6) || joint < 0 ||
+            !(joint < static_cast<double>(joints.size()))) {
+          file_.fail(
+              "weight " + std::to_string(weight) + " of joint " + std::to_string(joint) +
+                  " at vertex " + std::to_string(row) + " (counted from 0)",
+              "weights of at least 0 of the skin's " + std::to_string(joints.size()) + " joints",
+              rig_remedy);
+        }
+        entries_.emplace_back(static_cast<int>(part.first_vertex) + static_cast<int>(row),
+                              joints[static_cast<std::size_t>(joint)], static_cast<float>(weight));
+      }
+    }
+  }
+
+  const FileBytes& file_;
+  const tinygltf::Model& model_;
+  std::vector<Eigen::Triplet<float>> entries_;
+};
+
+}  // namespace
+
+std::optional<Rig> read_rig(const std::filesystem::path& path, const Monitor& monitor) {
+  return read_gltf_rig(read_file(path, monitor), monitor);
+}
+
+std::optional<Rig> read_gltf_rig(const FileBytes& file, const Monitor& monitor) {
+  if (!looks_like_glb(file) && !looks_like_gltf(file)) return std::nullopt;
+  const tinygltf::Model model = parse_gltf(file, monitor);
+  const GltfScene scene = read_gltf_scene(file, model, monitor);
+  if (scene.skinned.empty()) return std::nullopt;
+  const JointReader joints(file, model, scene);
+  Rig rig;
+  joints.write(rig);
+  WeightReader weights(file, model);
+  for (const GltfSkinned& part : scene.skinned) weights.add(part, joints.joints_of(part.skin));
+  rig.weights = weights.weights(scene.soup.positions.rows(), rig.joints.rows());
+  return rig;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,205 @@
+#include "rig/joints/hanging.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/indices.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Neighbouring nodes of a component.
+struct Bunch {
+  std::vector<int> nodes;
+  Eigen::AlignedBox3d box;
+  double radius = 0;  // the largest
+};
+
+struct Link {
+  double length = endless;
+  double gap = endless;  // decides where lengths are equal: the deeper, the better
+  Hinge hinge;
+
+  [[nodiscard]] bool operator<(const Link& other) const {
+    return length < other.length || (length == other.length && gap < other.gap);
+  }
+};
+
+/// No link between two balls within these boxes is shorter.
+double least_length(double apart, double radius, double other_radius) {
+  return std::max(apart - radius - other_radius, -2 * std::min(radius, other_radius));
+}
+
+class Hanging {
+ public:
+  Hanging(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii)
+      : skeleton_(skeleton), radii_(radii), neighbours_(idx(skeleton.nodes.rows())) {
+    for (const auto& edge : skeleton.edges.rowwise()) {
+      neighbours_[idx(edge[0])].push_back(edge[1]);
+      neighbours_[idx(edge[1])].push_back(edge[0]);
+    }
+    directions_.resize(skeleton.nodes.rows(), 3);
+    for (int node = 0; node < skeleton.nodes.rows(); ++node) {
+      directions_.row(node) = direction(node).transpose();
+    }
+  }
+
+  /// Prim (1957) for those that others may hang from; the rest hang from the nearest of these.
+  std::vector<Hinge> hang(const std::vector<std::vector<int>>& components) {
+    constexpr std::size_t most_above = 1000;
+    const std::size_t above = std::min(components.size(), most_above);
+    for (const auto& component : components) parts_.push_back(bunches(component));
+    links_.resize(components.size());
+    std::vector<std::size_t> open;
+    for (std::size_t part = 1; part < above; ++part) open.push_back(part);
+    std::size_t last = 0;
+    while (true) {
+      for (const std::size_t part : open) link(part, last);
+      for (std::size_t part = above; part < parts_.size(); ++part) link(part, last);
+      if (open.empty()) break;
+      const auto next = std::min_element(open.begin(), open.end(),
+                                         [this](auto a, auto b) { return links_[a] < links_[b]; });
+      last = *next;
+      open.erase(next);
+    }
+    std::vector<Hinge> hinges;
+    for (const Link& link : links_) hinges.push_back(moved_to_end(link.hinge));
+    return hinges;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d point(int node) const {
+    return skeleton_.nodes.row(node).transpose();
+  }
+  [[nodiscard]] std::size_t degree(int node) const { return neighbours_[idx(node)].size(); }
+
+  /// The next node of a chain, -1 where it ends.
+  [[nodiscard]] int beyond(int before, int node) const {
+    if (degree(node) != 2) return -1;
+    const std::vector<int>& both = neighbours_[idx(node)];
+    return both[both[0] == before ? 1 : 0];
+  }
+
+  /// About a radius along the curve.
+  [[nodiscard]] Eigen::Vector3d place_beside(int node, int neighbour) const {
+    int before = node;
+    while ((point(neighbour) - point(node)).norm() < radii_[node]) {
+      const int next = beyond(before, neighbour);
+      if (next < 0 || next == node) break;
+      before = neighbour;
+      neighbour = next;
+    }
+    return point(neighbour);
+  }
+
+  /// Of the curve, none at a junction or where it is a point.
+  [[nodiscard]] Eigen::Vector3d direction(int node) const {
+    if (degree(node) == 0 || degree(node) > 2) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d from = place_beside(node, neighbours_[idx(node)].front());
+    const Eigen::Vector3d to =
+        degree(node) == 1 ? point(node) : place_beside(node, neighbours_[idx(node)].back());
+    return (to - from).stableNormalized();
+  }
+
+  /// Along the curve, so that they are small.
+  [[nodiscard]] std::vector<Bunch> bunches(const std::vector<int>& component) {
+    constexpr std::size_t most_nodes = 32;
+    std::vector<Bunch> all;
+    seen_.resize(neighbours_.size());
+    std::vector<int> open{component.front()};
+    seen_[idx(component.front())] = true;
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      if (all.empty() || all.back().nodes.size() == most_nodes) all.emplace_back();
+      all.back().nodes.push_back(node);
+      all.back().box.extend(point(node));
+      all.back().radius = std::max(all.back().radius, radii_[node]);
+      for (const int other : neighbours_[idx(node)]) {
+        if (!seen_[idx(other)]) open.push_back(other);
+        seen_[idx(other)] = true;
+      }
+    }
+    return all;
+  }
+
+  /// True if `part` hangs better from `above` than from those before.
+  void link(std::size_t part, std::size_t above) {
+    Link& best = links_[part];
+    for (const Bunch& lower : parts_[part]) {
+      for (const Bunch& upper : parts_[above]) {
+        const double apart = lower.box.exteriorDistance(upper.box);
+        if (least_length(apart, lower.radius, upper.radius) > best.length) continue;
+        for (const int node : lower.nodes) {
+          const double way = upper.box.exteriorDistance(point(node));
+          if (least_length(way, radii_[node], upper.radius) > best.length) continue;
+          for (const int other : upper.nodes) best = std::min(best, link_between(node, other));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Link link_between(int node, int above) const {
+    const Eigen::Vector3d way = point(above) - point(node);
+    const double distance = way.norm();
+    const double smaller = std::min(radii_[node], radii_[above]);
+    const double gap = distance - radii_[node] - radii_[above];
+    return {std::max(gap, -2 * smaller) + smaller * sideways(way, distance, node, above),
+            gap,
+            {node, above}};
+  }
+
+  /// 0 where one of the curves leads to the other, 1 where they lie side by side.
+  [[nodiscard]] double sideways(const Eigen::Vector3d& way, double distance, int node,
+                                int above) const {
+    const auto along = [&](int of) {
+      const Eigen::Vector3d direction = directions_.row(of).transpose();
+      return direction.isZero() ? distance : std::abs(direction.dot(way));
+    };
+    return distance > 0 ? std::max(0.0, 1 - std::max(along(node), along(above)) / distance) : 0;
+  }
+
+  [[nodiscard]] Hinge moved_to_end(Hinge hinge) const {
+    if (hinge.node < 0 || degree(hinge.node) != 2) return hinge;
+    const int middle = hinge.node;
+    double least = endless;
+    for (const int neighbour : neighbours_[idx(middle)]) {
+      double way = 0;
+      int before = middle;
+      int node = neighbour;
+      while (node != middle) {
+        way += (point(node) - point(before)).norm();
+        const int next = beyond(before, node);
+        if (next < 0 || way > 2 * radii_[middle]) break;
+        before = node;
+        node = next;
+      }
+      const double far = way / ((degree(node) == 1 ? 2 : 1) * radii_[middle]);
+      if (degree(node) == 2 || far > 1 || far >= least) continue;
+      least = far;
+      hinge.node = node;
+    }
+    return hinge;
+  }
+
+  const CurveSkeleton& skeleton_;
+  const Eigen::VectorXd& radii_;
+  std::vector<std::vector<int>> neighbours_;
+  Eigen::MatrixX3d directions_;  // by node
+  std::vector<bool> seen_;       // by node
+  std::vector<std::vector<Bunch>> parts_;
+  std::vector<Link> links_;  // by part, to those that others hang from so far
+};
+
+}  // namespace
+
+std::vector<Hinge> hang_components(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
+                                   const std::vector<std::vector<int>>& components) {
+  return Hanging(skeleton, radii).hang(components);
+}
+
+}  // namespace curveskel

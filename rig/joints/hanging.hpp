@@ -1,0 +1,29 @@
+// The links between the components of a skeleton: one tree of them all.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+
+namespace curveskel {
+
+/// The place from which a component hangs.
+struct Hinge {
+  int node = -1;   ///< its own
+  int above = -1;  ///< of the component that it hangs from; -1 = of none
+};
+
+/// By component, none for the first: the least spanning tree of links, each between two balls of
+/// different components. A link is as long as their gap, less than nothing where they overlap, but
+/// no less than where the smaller is all inside; and longer by up to the radius of the smaller the
+/// more sideways it leads from both curves: a finger hangs from the hand in front of which it is,
+/// not from the finger beside it. Of a link the component's own end goes on to the tip of its curve
+/// within two radii, else to the junction within one.
+/// Precondition: the components are the skeleton's, by their nodes; radii by node, > 0. Nothing
+/// hangs from any but the first 1000.
+[[nodiscard]] std::vector<Hinge> hang_components(const CurveSkeleton& skeleton,
+                                                 const Eigen::VectorXd& radii,
+                                                 const std::vector<std::vector<int>>& components);
+
+}  // namespace curveskel

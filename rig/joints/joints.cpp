@@ -1,0 +1,250 @@
+#include <curveskel/advanced/joints.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <curveskel/error.hpp>
+#include "base/indices.hpp"
+#include "rig/joints/rooted_tree.hpp"
+
+namespace curveskel {
+namespace {
+
+/// A place on a limb, from its upper end on.
+struct LimbSample {
+  Eigen::Vector3d point;
+  double radius;
+  double way;      ///< from the upper end, in radii of where it is
+  std::size_t at;  ///< index of the last node up to here
+};
+
+/// A chain of nodes between two that a joint is sure of.
+struct Limb {
+  std::vector<int> nodes;  ///< upper end first
+  std::vector<LimbSample> samples;
+};
+
+class JointPlacer {
+ public:
+  JointPlacer(const CurveSkeleton& skeleton, const JointOptions& options)
+      : skeleton_(skeleton),
+        options_(options),
+        tree_(rooted_tree(skeleton, options.root)),
+        radii_(usable_radii(skeleton)) {
+    joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
+  }
+
+  Joints place() {
+    for (std::size_t component = 0; component < tree_.roots.size(); ++component) {
+      part_ = component == 0 ? "" : "part" + std::to_string(component + 1) + "_";
+      limbs_ = 0;
+      place_component(tree_.roots[component], tree_.above[component]);
+    }
+    const auto count = static_cast<Eigen::Index>(points_.size());
+    joints_.positions.resize(count, 3);
+    joints_.parents.resize(count);
+    for (Eigen::Index joint = 0; joint < count; ++joint) {
+      joints_.positions.row(joint) = points_[idx(joint)];
+      joints_.parents[joint] = parents_[idx(joint)];
+    }
+    return std::move(joints_);
+  }
+
+ private:
+  int add(const Eigen::RowVector3d& point, int parent, std::string name) {
+    points_.push_back(point);
+    parents_.push_back(parent);
+    joints_.names.push_back(std::move(name));
+    return static_cast<int>(points_.size()) - 1;
+  }
+
+  void place_component(int root, int above) {
+    const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
+    joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), parent, part_ + "root");
+    std::vector<int> open{root};  // upper ends of limbs yet to be placed
+    while (!open.empty()) {
+      const int upper = open.back();
+      open.pop_back();
+      for (const int child : tree_.children[idx(upper)]) {
+        const int lower = place_limb(limb_from(upper, child));
+        if (!tree_.children[idx(lower)].empty()) open.push_back(lower);
+      }
+    }
+  }
+
+  [[nodiscard]] Limb limb_from(int upper, int child) const {
+    Limb limb;
+    limb.nodes = {upper, child};
+    while (tree_.children[idx(limb.nodes.back())].size() == 1) {
+      limb.nodes.push_back(tree_.children[idx(limb.nodes.back())].front());
+    }
+    double length = 0;
+    for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
+      length += (point(limb.nodes[k]) - point(limb.nodes[k - 1])).norm();
+    }
+    sample(limb, length);
+    return limb;
+  }
+
+  [[nodiscard]] Eigen::Vector3d point(int node) const {
+    return skeleton_.nodes.row(node).transpose();
+  }
+
+  /// Places for joints: no nearer to each other than pays, for any density of nodes.
+  void sample(Limb& limb, double length) const {
+    constexpr double step_radii = 0.25;
+    constexpr double most_samples = 400;
+    limb.samples.push_back({point(limb.nodes[0]), radii_[limb.nodes[0]], 0, 0});
+    double way = 0;
+    double since = 0;  // the last sample
+    for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
+      const Eigen::Vector3d from = point(limb.nodes[k - 1]);
+      const Eigen::Vector3d step = point(limb.nodes[k]) - from;
+      const double from_radius = radii_[limb.nodes[k - 1]];
+      const double to_radius = radii_[limb.nodes[k]];
+      const double mean = 0.5 * (from_radius + to_radius);
+      const double finest = std::max(step_radii * mean, length / most_samples);
+      const int pieces = std::max(1, static_cast<int>(std::ceil(step.norm() / finest)));
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const double share = static_cast<double>(piece) / pieces;
+        const double radius = from_radius + share * (to_radius - from_radius);
+        way += step.norm() / pieces / radius;
+        since += step.norm() / pieces;
+        const bool is_last = piece == pieces && k + 1 == limb.nodes.size();
+        if (since < 0.5 * finest && !is_last) continue;
+        since = 0;
+        limb.samples.push_back({from + share * step, radius, way, piece == pieces ? k : k - 1});
+      }
+    }
+  }
+
+  /// The sample where the limb leaves the ball of a junction above, if enough lies beyond; else 0.
+  [[nodiscard]] std::size_t beginning(const Limb& limb) const {
+    constexpr double least_way = 0.5;  // radii
+    const int upper = limb.nodes.front();
+    const int lower = limb.nodes.back();
+    if (tree_.children[idx(upper)].size() < 2) return 0;
+    const auto within = [this](const LimbSample& sample, int node) {
+      return (sample.point - point(node)).norm() < radii_[node];
+    };
+    std::size_t first = 0;
+    while (first + 1 < limb.samples.size() && within(limb.samples[first], upper)) ++first;
+    const bool reaches_junction = !tree_.children[idx(lower)].empty();
+    const bool too_short = limb.samples.back().way - limb.samples[first].way < least_way ||
+                           (reaches_junction && within(limb.samples[first], lower));
+    return too_short ? 0 : first;
+  }
+
+  /// The sample where the limb enters a ball at its tip much larger than the limb before, as a head
+  /// is than its neck; else the last sample.
+  [[nodiscard]] std::size_t ending(const Limb& limb, std::size_t first) const {
+    constexpr double much_larger = 1.5;
+    const std::size_t last = limb.samples.size() - 1;
+    const int lower = limb.nodes.back();
+    if (!tree_.children[idx(lower)].empty()) return last;
+    std::size_t entry = last;
+    while (entry > first && (limb.samples[entry].point - point(lower)).norm() < radii_[lower]) {
+      --entry;
+    }
+    double thinnest = radii_[lower];
+    for (std::size_t k = first; k <= entry; ++k) {
+      thinnest = std::min(thinnest, limb.samples[k].radius);
+    }
+    return entry > first && radii_[lower] > much_larger * thinnest ? entry : last;
+  }
+
+  /// The cost of one bone from sample i to sample j.
+  [[nodiscard]] double cost(const Limb& limb, std::size_t i, std::size_t j) const {
+    const Eigen::Vector3d from = limb.samples[i].point;
+    const Eigen::Vector3d bone = limb.samples[j].point - from;
+    const double squared = std::max(bone.squaredNorm(), std::numeric_limits<double>::min());
+    double deviation = 0;  // in radii, squared
+    for (std::size_t k = i + 1; k < j; ++k) {
+      const Eigen::Vector3d arm = limb.samples[k].point - from;
+      const double share = std::clamp(arm.dot(bone) / squared, 0.0, 1.0);
+      const double off = (arm - share * bone).squaredNorm();
+      deviation = std::max(deviation, off / (limb.samples[k].radius * limb.samples[k].radius));
+    }
+    const double length = (limb.samples[j].way - limb.samples[i].way) / options_.bone_length;
+    return 1 + length * length + deviation / (options_.bend * options_.bend);
+  }
+
+  /// Samples where joints are, from `first` to `last`.
+  [[nodiscard]] std::vector<std::size_t> best_joints(const Limb& limb, std::size_t first,
+                                                     std::size_t last) const {
+    const double longest = 3 * options_.bone_length;  // longer ones never pay
+    const std::size_t count = last + 1;
+    std::vector<double> sum(count, std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> before(count, first);
+    sum[first] = 0;
+    for (std::size_t j = first + 1; j < count; ++j) {
+      for (std::size_t i = j; i-- > first;) {
+        if (i + 1 < j && limb.samples[j].way - limb.samples[i].way > longest) break;
+        const double with = sum[i] + cost(limb, i, j);
+        if (with < sum[j]) {
+          sum[j] = with;
+          before[j] = i;
+        }
+      }
+    }
+    std::vector<std::size_t> places{last};
+    while (places.back() > first) places.push_back(before[places.back()]);
+    std::reverse(places.begin(), places.end());
+    return places;
+  }
+
+  /// Returns the limb's lower end.
+  int place_limb(const Limb& limb) {
+    const std::string name = part_ + "limb" + std::to_string(++limbs_);
+    const int upper = joints_.joint_of_node[limb.nodes.front()];
+    const int lower = limb.nodes.back();
+    const std::size_t first = beginning(limb);
+    const std::size_t last = ending(limb, first);
+    std::vector<std::size_t> places = best_joints(limb, first, last);
+    if (last + 1 < limb.samples.size()) places.push_back(limb.samples.size() - 1);
+    if (first == 0) places.erase(places.begin());  // the upper joint is there
+    int joint = upper;
+    std::size_t node = 1;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const LimbSample& place = limb.samples[places[k]];
+      for (; node < limb.nodes.size() - 1 && node <= place.at; ++node) {
+        joints_.joint_of_node[limb.nodes[node]] = joint;
+      }
+      const bool is_tip = k + 1 == places.size() && tree_.children[idx(lower)].empty();
+      const int next =
+          add(place.point, joint, name + (is_tip ? "_end" : "_" + std::to_string(k + 1)));
+      if (k + 1 == places.size()) joints_.joint_of_node[lower] = is_tip ? joint : next;
+      joint = next;
+    }
+    return lower;
+  }
+
+  const CurveSkeleton& skeleton_;
+  const JointOptions& options_;
+  const RootedTree tree_;
+  const Eigen::VectorXd radii_;
+  std::string part_;
+  int limbs_ = 0;
+  std::vector<Eigen::RowVector3d> points_;
+  std::vector<int> parents_;
+  Joints joints_;
+};
+
+}  // namespace
+
+Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) {
+  const Eigen::Index nodes = skeleton.nodes.rows();
+  if (nodes == 0) {
+    throw Error(Fault::input, "a skeleton without nodes, needed one at least; extract it again");
+  }
+  if (options.root < -1 || options.root >= nodes) {
+    throw Error(Fault::input, "root " + std::to_string(options.root) + ", needed one of the " +
+                                  std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
+                                  "it chosen");
+  }
+  return JointPlacer(skeleton, options).place();
+}
+
+}  // namespace curveskel

@@ -1,0 +1,125 @@
+#include <curveskel/make_rig.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/error.hpp>
+#include "base/parallel.hpp"
+#include "rig/joints/sides.hpp"
+
+namespace curveskel {
+namespace {
+
+int node_of_nearest_ball(const CurveSkeleton& skeleton, const Eigen::RowVector3d& point) {
+  const bool has_radii = skeleton.radii.size() > 0;
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    const double distance =
+        (point - skeleton.nodes.row(node)).norm() - (has_radii ? skeleton.radii[node] : 0);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(node);
+    }
+  }
+  return nearest;
+}
+
+/// The skeleton with a node for every vertex.
+CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton, int threads,
+                           const Monitor& monitor) {
+  CurveSkeleton mapped = skeleton;
+  if (mapped.node_of_vertex.size() == 0) {
+    mapped.node_of_vertex.setConstant(surface.positions.rows(), -1);
+  }
+  constexpr std::size_t block = 16384;
+  const auto count = static_cast<std::size_t>(mapped.node_of_vertex.size());
+  for (std::size_t first = 0; first < count; first += block) {
+    monitor.report("joints", static_cast<double>(first) / static_cast<double>(count));
+    parallel_for(std::min(block, count - first), 512, threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t k = first + begin; k < first + end; ++k) {
+                     const auto v = static_cast<Eigen::Index>(k);
+                     int& node = mapped.node_of_vertex[v];
+                     if (node < 0) node = node_of_nearest_ball(skeleton, surface.positions.row(v));
+                   }
+                 });
+  }
+  return mapped;
+}
+
+int nearest_vertex(const SurfaceTree& tree, const Surface& surface,
+                   const Eigen::RowVector3d& point) {
+  const int triangle = tree.nearest(point.transpose()).triangle;
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int vertex : surface.triangles.row(triangle)) {
+    const double distance = (surface.positions.row(vertex) - point).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      nearest = vertex;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
+             const Monitor& monitor) {
+  monitor.report("joints", 0);
+  Joints joints = place_joints(skeleton, options.joints);
+  Rig rig;
+  const auto count = static_cast<int>(joints.parents.size());
+  rig.weights =
+      skin_weights(surface, fully_mapped(surface, skeleton, options.skin.threads, monitor),
+                   joints.joint_of_node, count, options.skin, monitor);
+  rig.joints = std::move(joints.positions);
+  rig.parents = std::move(joints.parents);
+  rig.names = std::move(joints.names);
+  name_sides(rig);
+  return rig;
+}
+
+CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton, const Eigen::VectorXi& vertex_of_input,
+                                   Eigen::Index vertices) {
+  const Eigen::VectorXi given = skeleton.node_of_vertex;
+  if (given.size() == 0) return skeleton;
+  if (given.size() != vertex_of_input.size()) {
+    throw Error(Fault::input, "the skeleton has a node for each of " +
+                                  std::to_string(given.size()) + " vertices, needed one for each " +
+                                  "of the surface's " + std::to_string(vertex_of_input.size()) +
+                                  "; extract it again, from this surface");
+  }
+  skeleton.node_of_vertex.setConstant(vertices, -1);
+  for (Eigen::Index v = 0; v < given.size(); ++v) {
+    if (vertex_of_input[v] >= 0) skeleton.node_of_vertex[vertex_of_input[v]] = given[v];
+  }
+  return skeleton;
+}
+
+Rig rig_of_given(const Rig& rig, const Surface& surface, const Eigen::VectorXi& vertex_of_input,
+                 const Positions& given) {
+  Rig result{rig.joints, rig.parents, rig.names, SkinWeights(given.rows(), rig.weights.cols())};
+  result.weights.reserve(Eigen::VectorXi::Constant(given.rows(), 4));
+  std::unique_ptr<const SurfaceTree> tree;
+  for (Eigen::Index v = 0; v < given.rows(); ++v) {
+    int vertex = vertex_of_input[v];
+    if (vertex < 0) {
+      if (!tree) tree = std::make_unique<const SurfaceTree>(surface);
+      vertex = nearest_vertex(*tree, surface, given.row(v));
+    }
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      result.weights.insert(v, it.col()) = it.value();
+    }
+  }
+  result.weights.makeCompressed();
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,243 @@
+#include "rig/joints/rooted_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include "base/indices.hpp"
+#include "rig/joints/hanging.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+class Rooting {
+ public:
+  explicit Rooting(const CurveSkeleton& skeleton)
+      : skeleton_(skeleton), neighbours_(idx(skeleton.nodes.rows())), mass_(neighbours_.size()) {
+    for (const auto& edge : skeleton.edges.rowwise()) {
+      neighbours_[idx(edge[0])].push_back(edge[1]);
+      neighbours_[idx(edge[1])].push_back(edge[0]);
+      const double half = 0.5 * length(edge[0], edge[1]);
+      mass_[idx(edge[0])] += half * radius(edge[0]);
+      mass_[idx(edge[1])] += half * radius(edge[1]);
+    }
+    tree_.parent.assign(neighbours_.size(), -1);
+    tree_.children.resize(neighbours_.size());
+    distance_.assign(neighbours_.size(), nowhere);
+  }
+
+  RootedTree grow(int wanted) {
+    std::vector<std::vector<int>> components = find_components();
+    const auto has_wanted = [wanted](const std::vector<int>& nodes) {
+      return std::binary_search(nodes.begin(), nodes.end(), wanted);
+    };
+    std::stable_partition(components.begin(), components.end(), has_wanted);
+    std::vector<Hinge> hinges;
+    if (!components.empty()) {
+      hinges = hang_components(skeleton_, usable_radii(skeleton_), components);
+      hinges.front().node = has_wanted(components.front()) ? wanted : root_of(components.front());
+    }
+    for (const std::size_t component : outwards(components, hinges)) {
+      const std::vector<int>& nodes = components[component];
+      const int root = hinges[component].node;
+      tree_.roots.push_back(root);
+      tree_.above.push_back(hinges[component].above);
+      walk(root, cut_at(nodes, root));
+      for (const int node : nodes) {
+        if (tree_.parent[idx(node)] >= 0)
+          tree_.children[idx(tree_.parent[idx(node)])].push_back(node);
+      }
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  [[nodiscard]] double length(int a, int b) const {
+    return (skeleton_.nodes.row(a) - skeleton_.nodes.row(b)).norm();
+  }
+  [[nodiscard]] double radius(int node) const {
+    return skeleton_.radii.size() > 0 ? skeleton_.radii[node] : 1;
+  }
+  [[nodiscard]] std::size_t degree(int node) const { return neighbours_[idx(node)].size(); }
+
+  /// The heaviest first, of those as heavy (but for rounding) the one with the first node; nodes
+  /// ascending.
+  [[nodiscard]] std::vector<std::vector<int>> find_components() const {
+    std::vector<std::pair<double, std::vector<int>>> components;
+    std::vector<bool> seen(neighbours_.size());
+    for (std::size_t first = 0; first < seen.size(); ++first) {
+      if (seen[first]) continue;
+      seen[first] = true;
+      std::vector<int> nodes{static_cast<int>(first)};
+      double weight = 0;
+      for (std::size_t next = 0; next < nodes.size(); ++next) {
+        weight += mass_[idx(nodes[next])];
+        for (const int other : neighbours_[idx(nodes[next])]) {
+          if (!seen[idx(other)]) nodes.push_back(other);
+          seen[idx(other)] = true;
+        }
+      }
+      std::sort(nodes.begin(), nodes.end());
+      components.emplace_back(weight, std::move(nodes));
+    }
+    double heaviest = 0;
+    for (const auto& component : components) heaviest = std::max(heaviest, component.first);
+    if (heaviest > 0) {
+      for (auto& component : components) {
+        component.first = std::round(1e6 * component.first / heaviest);
+      }
+    }
+    std::stable_sort(components.begin(), components.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::vector<int>> only_nodes;
+    only_nodes.reserve(components.size());
+    for (auto& component : components) only_nodes.push_back(std::move(component.second));
+    return only_nodes;
+  }
+
+  /// Each after the one that it hangs from.
+  [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<std::vector<int>>& components,
+                                                  const std::vector<Hinge>& hinges) const {
+    std::vector<std::size_t> component_of(neighbours_.size());
+    for (std::size_t component = 0; component < components.size(); ++component) {
+      for (const int node : components[component]) component_of[idx(node)] = component;
+    }
+    std::vector<std::vector<std::size_t>> below(components.size());
+    for (std::size_t component = 1; component < components.size(); ++component) {
+      below[component_of[idx(hinges[component].above)]].push_back(component);
+    }
+    std::vector<std::size_t> order;
+    if (!components.empty()) order.push_back(0);
+    for (std::size_t next = 0; next < order.size(); ++next) {
+      const std::vector<std::size_t>& hanging = below[order[next]];
+      order.insert(order.end(), hanging.begin(), hanging.end());
+    }
+    return order;
+  }
+
+  [[nodiscard]] int root_of(const std::vector<int>& nodes) {
+    std::vector<int> junctions;
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(junctions),
+                 [this](int node) { return degree(node) >= 3; });
+    if (junctions.empty()) return end_of(nodes);
+    keep_central(junctions, nodes);
+    int best = junctions.front();
+    double least = nowhere;
+    for (const int junction : junctions) {
+      walk(junction, {-1, -1});
+      double sum = 0;
+      for (const int node : nodes) sum += mass_[idx(node)] * distance_[idx(node)];
+      if (sum < least) {
+        least = sum;
+        best = junction;
+      }
+    }
+    return best;
+  }
+
+  /// Of very many junctions only those nearest to the centre of mass are tried.
+  void keep_central(std::vector<int>& junctions, const std::vector<int>& nodes) const {
+    constexpr std::size_t most = 64;
+    if (junctions.size() <= most) return;
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    double all = 0;
+    for (const int node : nodes) {
+      centre += mass_[idx(node)] * skeleton_.nodes.row(node);
+      all += mass_[idx(node)];
+    }
+    if (all > 0) centre /= all;
+    const auto nearer = [&](int a, int b) {
+      return (skeleton_.nodes.row(a) - centre).squaredNorm() <
+             (skeleton_.nodes.row(b) - centre).squaredNorm();
+    };
+    std::stable_sort(junctions.begin(), junctions.end(), nearer);
+    junctions.resize(most);
+  }
+
+  /// Of a chain the end with the larger ball, of a ring its thickest node.
+  [[nodiscard]] int end_of(const std::vector<int>& nodes) const {
+    const bool is_ring =
+        std::all_of(nodes.begin(), nodes.end(), [this](int node) { return degree(node) == 2; });
+    int best = -1;
+    for (const int node : nodes) {
+      const bool may_be = is_ring || degree(node) <= 1;
+      if (may_be && (best < 0 || radius(node) > radius(best))) best = node;
+    }
+    return best;
+  }
+
+  /// A ring is cut beside its root, so that it is one chain.
+  [[nodiscard]] std::pair<int, int> cut_at(const std::vector<int>& nodes, int root) const {
+    const bool is_ring =
+        std::all_of(nodes.begin(), nodes.end(), [this](int node) { return degree(node) == 2; });
+    if (!is_ring) return {-1, -1};
+    return {root, neighbours_[idx(root)].back()};
+  }
+
+  /// Dijkstra (1959), without the edge `cut`; parents and distances of the root's component.
+  void walk(int root, std::pair<int, int> cut) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    forget(root);
+    distance_[idx(root)] = 0;
+    open.emplace(0, root);
+    while (!open.empty()) {
+      const double way = open.top().first;
+      const int node = open.top().second;
+      open.pop();
+      if (way > distance_[idx(node)]) continue;
+      for (const int other : neighbours_[idx(node)]) {
+        const bool is_cut = (node == cut.first && other == cut.second) ||
+                            (node == cut.second && other == cut.first);
+        const double longer = way + length(node, other);
+        if (is_cut || !(longer < distance_[idx(other)])) continue;
+        distance_[idx(other)] = longer;
+        tree_.parent[idx(other)] = node;
+        open.emplace(longer, other);
+      }
+    }
+  }
+
+  void forget(int root) {
+    std::vector<int> nodes{root};
+    distance_[idx(root)] = -1;
+    for (std::size_t next = 0; next < nodes.size(); ++next) {
+      for (const int other : neighbours_[idx(nodes[next])]) {
+        if (distance_[idx(other)] < 0) continue;
+        distance_[idx(other)] = -1;
+        nodes.push_back(other);
+      }
+    }
+    for (const int node : nodes) {
+      distance_[idx(node)] = nowhere;
+      tree_.parent[idx(node)] = -1;
+    }
+  }
+
+  const CurveSkeleton& skeleton_;
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<double> mass_;      // by node: length times radius of the curve nearest to it
+  std::vector<double> distance_;  // by node, from the root of the last walk
+  RootedTree tree_;
+};
+
+}  // namespace
+
+Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
+  const bool has_radii = skeleton.radii.size() > 0 && skeleton.radii.maxCoeff() > 0;
+  if (has_radii) return skeleton.radii.cwiseMax(0.01 * skeleton.radii.maxCoeff());
+  const double diagonal = bounding_box_diagonal(skeleton.nodes);
+  return Eigen::VectorXd::Constant(skeleton.nodes.rows(), diagonal > 0 ? diagonal / 50 : 1);
+}
+
+RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted) {
+  return Rooting(skeleton).grow(wanted);
+}
+
+}  // namespace curveskel

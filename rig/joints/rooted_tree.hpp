@@ -1,0 +1,26 @@
+// A curve skeleton as a hierarchy: every node but the roots hangs from another.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+
+namespace curveskel {
+
+struct RootedTree {
+  std::vector<int> parent;                 ///< by node; -1 = a root
+  std::vector<std::vector<int>> children;  ///< by node, ascending
+  std::vector<int> roots;  ///< one for each component: that of `wanted` (else the heaviest), then
+                           ///< each after the one that it hangs from
+  std::vector<int> above;  ///< by root: the node that it hangs from; -1 for the first
+};
+
+/// Lengths are measured in these: nodes outside have none, a bone needs some.
+[[nodiscard]] Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton);
+
+/// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. How roots are
+/// chosen and cycles cut: see `place_joints`; the links of components: `hang_components`.
+[[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted);
+
+}  // namespace curveskel

@@ -1,0 +1,62 @@
+#include "rig/joints/sides.hpp"
+
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/measures.hpp>
+#include "base/indices.hpp"
+#include "rig/joints/mirror_images.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Both get the first one's names and a side each; joints of one alone, too.
+void name_pair(Rig& rig, const Chain& first, const Chain& second, bool first_is_left) {
+  const std::vector<std::string> names = [&] {
+    std::vector<std::string> found;
+    for (const int joint : first.joints) found.push_back(rig.names[idx(joint)]);
+    return found;
+  }();
+  for (const int joint : first.joints) rig.names[idx(joint)] += first_is_left ? ".L" : ".R";
+  for (std::size_t k = 0; k < second.joints.size(); ++k) {
+    std::string& name = rig.names[idx(second.joints[k])];
+    const bool both_last = k + 1 == second.joints.size();
+    const bool has_partner = both_last || k + 1 < names.size();
+    if (has_partner) name = both_last ? names.back() : names[k];
+    name += first_is_left ? ".R" : ".L";
+  }
+}
+
+}  // namespace
+
+void name_sides(Rig& rig) {
+  constexpr std::size_t most = 1000;  // chains
+  constexpr double near = 0.06;       // of the diagonal
+  constexpr double least = 0.125;     // of all length: by chance two fingers of a hand have 0.08
+  const std::vector<Chain> chains = chains_of(rig);
+  if (chains.size() > most) return;
+  const double tolerance = near * bounding_box_diagonal(rig.joints);
+  if (!(tolerance > 0)) return;
+  const double all =
+      std::accumulate(chains.begin(), chains.end(), 0.0,
+                      [](double sum, const Chain& chain) { return sum + chain.length; });
+  MirrorImages best;
+  int axis = 0;
+  for (int candidate = 0; candidate < 3; ++candidate) {
+    MirrorImages images = mirror_images(chains, candidate, tolerance);
+    if (images.paired < least * all || images.worth() <= best.worth() * (1 + 1e-6)) continue;
+    best = std::move(images);
+    axis = candidate;
+  }
+  for (std::size_t chain = 0; chain < best.of.size(); ++chain) {
+    const int other = best.of[chain];
+    if (other <= static_cast<int>(chain)) continue;
+    const auto aside = [&](const Chain& of) { return of.path.col(axis).mean(); };
+    name_pair(rig, chains[chain], chains[idx(other)],
+              aside(chains[chain]) > aside(chains[idx(other)]));
+  }
+}
+
+}  // namespace curveskel

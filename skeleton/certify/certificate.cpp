@@ -1,0 +1,177 @@
+#include <curveskel/certificate.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
+#include "base/parallel.hpp"
+#include "skeleton/certify/centredness.hpp"
+#include "skeleton/certify/measured_curve.hpp"
+#include "skeleton/graph/sequence_tree.hpp"
+#include "skeleton/homology/homology_classes.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double turning_scale = 1.0 / 100;  // of D
+constexpr double coverage_factor = 1.5;      // of the local radius
+constexpr Eigen::Index most_vertices = 20000;
+
+void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
+  double length = 0;
+  double inside = 0;
+  for (std::size_t i = 0; i < subject.samples.size(); ++i) {
+    length += subject.samples[i].length;
+    if (subject.radius[i] > 0) {
+      inside += subject.samples[i].length;
+    } else {
+      certificate.deepest_exit =
+          std::max(certificate.deepest_exit, -subject.radius[i] / subject.diagonal);
+    }
+  }
+  certificate.inside_fraction = length > 0 ? inside / length : 0;
+}
+
+void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& monitor,
+                         Certificate& certificate) {
+  const std::vector<double> variation = ray_variations(subject, rays, monitor);
+  std::vector<std::pair<double, double>> weighted;
+  for (std::size_t i = 0; i < variation.size(); ++i) {
+    if (variation[i] >= 0) weighted.emplace_back(variation[i], subject.samples[i].length);
+  }
+  certificate.centredness_median = weighted_quantile(weighted, 0.5);
+  certificate.centredness_p90 = weighted_quantile(std::move(weighted), 0.9);
+}
+
+// The samples as balls whose radius counts `factor` times.
+SequenceTree ball_tree(const MeasuredCurve& subject, double factor) {
+  std::vector<SequenceTree::Item> items;
+  items.reserve(subject.samples.size());
+  for (std::size_t i = 0; i < subject.samples.size(); ++i) {
+    const Vector3d& p = subject.samples[i].position;
+    items.push_back({p, p, factor * std::max(0.0, subject.radius[i])});
+  }
+  return SequenceTree(std::move(items));
+}
+
+void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
+                      const Monitor& monitor, Certificate& certificate) {
+  if (subject.samples.empty()) {
+    certificate.reach = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const SequenceTree balls = ball_tree(subject, 1);
+  const SequenceTree wide_balls = ball_tree(subject, coverage_factor);
+  const auto gap = [&](std::size_t i, const Vector3d& v, double factor) {
+    return (v - subject.samples[i].position).norm() - factor * std::max(0.0, subject.radius[i]);
+  };
+  const Eigen::Index stride = (vertices.rows() + most_vertices - 1) / most_vertices;
+  const auto chosen = static_cast<std::size_t>((vertices.rows() + stride - 1) / stride);
+  std::vector<char> covered(chosen);
+  std::vector<double> uncovered(chosen);
+  monitor.report("certify", 0.7);
+  parallel_for(chosen, 256, subject.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3d v = vertices.row(static_cast<Eigen::Index>(i) * stride);
+      // Looking for the nearest ball mostly meets one that covers the vertex.
+      bool met = false;
+      uncovered[i] = std::max(0.0, balls.minimum(v, 0, [&](std::size_t sample) {
+        met = met || gap(sample, v, coverage_factor) <= 0;
+        return gap(sample, v, 1);
+      }));
+      met = met || wide_balls.minimum(v, 0, [&](std::size_t sample) {
+        return gap(sample, v, coverage_factor);
+      }) <= 0;
+      covered[i] = met ? 1 : 0;
+    }
+  });
+  const auto number = std::count(covered.begin(), covered.end(), 1);
+  certificate.coverage = static_cast<double>(number) / static_cast<double>(chosen);
+  std::vector<std::pair<double, double>> distances;
+  distances.reserve(uncovered.size());
+  for (const double distance : uncovered) distances.emplace_back(distance, 1);
+  certificate.reach = weighted_quantile(std::move(distances), 0.95) / subject.diagonal;
+}
+
+// Sum of the angles between successive chords of about `step`.
+double turning_of(const MeasuredCurve& subject, const Branch& branch, double step) {
+  const auto line = polyline(subject.skeleton, branch);
+  const double length = polyline_length(line);
+  const int chords = static_cast<int>(std::lround(length / step));
+  if (chords < 2) return 0;
+  std::vector<double> arc_lengths;
+  for (int k = 0; k <= chords; ++k) arc_lengths.push_back(length * k / chords);
+  auto points = points_along(line, arc_lengths);
+  const bool cycle =
+      branch.nodes.front() == branch.nodes.back() && !subject.is_junction(branch.nodes.front());
+  if (cycle) points.push_back(points[1]);
+  double turning = 0;
+  for (std::size_t k = 2; k < points.size(); ++k) {
+    const Vector3d a = points[k - 1] - points[k - 2];
+    const Vector3d b = points[k] - points[k - 1];
+    turning += std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return turning;
+}
+
+void measure_shape(const MeasuredCurve& subject, Certificate& certificate) {
+  double length = 0;
+  double turning = 0;
+  for (const Branch& branch : subject.branches) {
+    length += polyline_length(polyline(subject.skeleton, branch));
+    turning += turning_of(subject, branch, turning_scale * subject.diagonal);
+  }
+  certificate.length = length / subject.diagonal;
+  certificate.turning = length > 0 ? turning / certificate.length : 0;
+  certificate.spurs = static_cast<int>(spurs_of(subject).size());
+}
+
+void count(const CurveSkeleton& skeleton, Certificate& certificate) {
+  const GraphTopology graph = graph_topology(skeleton);
+  certificate.components = graph.components;
+  certificate.cycle_rank = graph.cycle_rank;
+  certificate.tips = graph.tips;
+  certificate.junctions = graph.junctions;
+}
+
+}  // namespace
+
+Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
+                     const CertificateOptions& options, const Monitor& monitor) {
+  monitor.report("certify", 0);
+  const Topology counted = topology(surface);
+  return evaluate({surface, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
+                   counted.components(), counted.total_genus()},
+                  skeleton, options, monitor);
+}
+
+Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
+                     const CertificateOptions& options, const Monitor& monitor) {
+  Certificate certificate;
+  monitor.report("certify", 0);
+  count(skeleton, certificate);
+  certificate.components_of_surface = surface.components;
+  certificate.genus = surface.genus;
+  const MeasuredCurve subject =
+      measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor);
+
+  certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
+  measure_inside(subject, certificate);
+  certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
+  measure_centredness(subject, options.rays, monitor, certificate);
+  measure_coverage(subject, surface.surface.positions, monitor, certificate);
+  measure_shape(subject, certificate);
+  monitor.report("certify", 1);
+  return certificate;
+}
+
+}  // namespace curveskel

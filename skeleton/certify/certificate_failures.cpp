@@ -1,0 +1,44 @@
+#include <sstream>
+
+#include <curveskel/certificate.hpp>
+
+namespace curveskel {
+namespace {
+
+/// "99.850 %".
+std::string percent_words(double share, int digits) {
+  std::ostringstream words;
+  words.setf(std::ios::fixed);
+  words.precision(digits);
+  words << 100 * share << " %";
+  return words.str();
+}
+
+}  // namespace
+
+std::string failures(const Certificate& certificate, const CertificateOptions& options) {
+  const Certificate& c = certificate;
+  const auto number = [](int count) { return std::to_string(count); };
+  std::string text;
+  const auto add = [&text](const std::string& failure) {
+    text += (text.empty() ? "" : "; ") + failure;
+  };
+  if (c.components != c.components_of_surface) {
+    add("the skeleton has " + number(c.components) + " components, the surface " +
+        number(c.components_of_surface));
+  }
+  if (c.cycle_rank != c.genus) {
+    add("the skeleton has " + number(c.cycle_rank) + " independent cycles, the surface genus " +
+        number(c.genus));
+  } else if (c.homology_rank != c.genus) {
+    add("of the skeleton's " + number(c.cycle_rank) + " cycles only " + number(c.homology_rank) +
+        " go round handles of the surface independently");
+  }
+  if (!c.inside_enough) {
+    add(percent_words(c.inside_fraction, 3) + " of the length is inside, needed " +
+        percent_words(options.inside_needed, 1));
+  }
+  return text;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,65 @@
+#include "skeleton/certify/measured_curve.hpp"
+
+#include <utility>
+
+#include <curveskel/error.hpp>
+
+namespace curveskel {
+namespace {
+
+constexpr double tangent_scale = 1.0 / 100;  // of D
+
+void add_samples(MeasuredCurve& curve, double spacing) {
+  curve.samples =
+      sample_branches(curve.skeleton, curve.branches, spacing, tangent_scale * curve.diagonal);
+  for (int node = 0; node < curve.skeleton.nodes.rows(); ++node) {
+    if (curve.degree[idx(node)] > 0) continue;
+    curve.lone_nodes.push_back(node);
+    curve.samples.push_back(
+        {curve.skeleton.nodes.row(node), Eigen::Vector3d::UnitZ(), spacing, -1});
+  }
+}
+
+}  // namespace
+
+MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
+                             const CurveSkeleton& skeleton, const CertificateOptions& options,
+                             const Monitor& monitor) {
+  if (!skeleton.nodes.allFinite()) {
+    throw Error(Fault::input,
+                "the skeleton has a coordinate that is no finite number; certify needs finite "
+                "node positions: repair or write the skeleton again");
+  }
+  MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}};
+  curve.diagonal = diagonal;
+  curve.threads = options.threads;
+  curve.degree.assign(idx(skeleton.nodes.rows()), 0);
+  for (const std::int32_t node : skeleton.edges.reshaped()) ++curve.degree[idx(node)];
+  curve.clearance.setZero(skeleton.nodes.rows());
+  for (int node = 0; node < skeleton.nodes.rows(); ++node) {
+    if (!curve.is_junction(node)) continue;
+    curve.clearance[node] = tree.inscribed_radius(skeleton.nodes.row(node));
+  }
+  add_samples(curve, options.sample_spacing * diagonal);
+  curve.radius.resize(curve.samples.size());
+  for_samples(curve, 0.1, 0.2, monitor, [&](std::size_t i) {
+    curve.radius[i] = tree.inscribed_radius(curve.samples[i].position);
+  });
+  return curve;
+}
+
+std::vector<int> spurs_of(const MeasuredCurve& curve) {
+  std::vector<int> spurs;
+  for (std::size_t b = 0; b < curve.branches.size(); ++b) {
+    const Branch& branch = curve.branches[b];
+    int tip = branch.nodes.front();
+    int junction = branch.nodes.back();
+    if (curve.is_junction(tip)) std::swap(tip, junction);
+    if (curve.degree[idx(tip)] != 1 || !curve.is_junction(junction)) continue;
+    const double length = polyline_length(polyline(curve.skeleton, branch));
+    if (length < curve.clearance[junction]) spurs.push_back(static_cast<int>(b));
+  }
+  return spurs;
+}
+
+}  // namespace curveskel

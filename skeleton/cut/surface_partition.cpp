@@ -1,0 +1,277 @@
+#include <curveskel/advanced/surface_partition.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+
+namespace curveskel {
+
+EdgeIndex index_edges(const Triangles& triangles) {
+  struct Side {
+    int high;
+    int slot;  // 3 * triangle + corner
+  };
+  const auto ends_of = [&](Eigen::Index t, int k) {
+    return std::minmax(triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3));
+  };
+  // In the order of their smaller ends; little is left to sort.
+  const int vertices = triangles.rows() > 0 ? triangles.maxCoeff() + 1 : 0;
+  std::vector<std::size_t> begin(static_cast<std::size_t>(vertices) + 2, 0);  // one ahead at first
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(ends_of(t, k).first) + 2];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Side> sides(begin.back());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = ends_of(t, k);
+      sides[begin[static_cast<std::size_t>(low) + 1]++] = {high, static_cast<int>(3 * t) + k};
+    }
+  }
+
+  EdgeIndex index;
+  index.edge_of_corner.resize(triangles.rows(), 3);
+  index.edges.reserve(sides.size() / 2);
+  for (int low = 0; low < vertices; ++low) {
+    const auto from = static_cast<std::ptrdiff_t>(begin[static_cast<std::size_t>(low)]);
+    const auto to = static_cast<std::ptrdiff_t>(begin[static_cast<std::size_t>(low) + 1]);
+    std::sort(sides.begin() + from, sides.begin() + to, [](const Side& a, const Side& b) {
+      return std::tie(a.high, a.slot) < std::tie(b.high, b.slot);
+    });
+    for (auto side = sides.begin() + from; side != sides.begin() + to; ++side) {
+      const std::array<int, 2> ends{low, side->high};
+      if (index.edges.empty() || index.edges.back() != ends) index.edges.push_back(ends);
+      index.edge_of_corner(side->slot / 3, side->slot % 3) =
+          static_cast<int>(index.edges.size()) - 1;
+    }
+  }
+  return index;
+}
+
+SurfacePartition::SurfacePartition(const Surface& surface)
+    : triangles_(surface.triangles), index_(index_edges(surface.triangles)) {
+  const auto vertices = static_cast<std::size_t>(surface.positions.rows());
+  group_of_vertex_.resize(vertices);
+  std::iota(group_of_vertex_.begin(), group_of_vertex_.end(), 0);
+  members_.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) members_[v] = {static_cast<int>(v)};
+  boundary_.resize(vertices);
+  for (int t = 0; t < triangles_.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) boundary_[triangles_(t, k)].push_back(t);
+  }
+  euler_.assign(vertices, 1);
+  parent_.resize(index_.edges.size());
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
+
+std::array<int, 3> SurfacePartition::groups_at(int triangle) const {
+  return {group_of_vertex_[triangles_(triangle, 0)], group_of_vertex_[triangles_(triangle, 1)],
+          group_of_vertex_[triangles_(triangle, 2)]};
+}
+
+std::vector<int> SurfacePartition::triple_neighbours(int group) const {
+  std::vector<int> around;
+  for (const int t : boundary_[group]) {
+    const auto g = groups_at(t);
+    if (g[0] == g[1] || g[1] == g[2] || g[2] == g[0]) continue;
+    for (const int other : g) {
+      if (other != group) around.push_back(other);
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
+bool SurfacePartition::share_triple(int a, int b) const {
+  const auto& shorter = boundary_[a].size() < boundary_[b].size() ? boundary_[a] : boundary_[b];
+  return std::any_of(shorter.begin(), shorter.end(), [&](int t) {
+    const auto g = groups_at(t);
+    const bool three = g[0] != g[1] && g[1] != g[2] && g[2] != g[0];
+    return three && std::find(g.begin(), g.end(), a) != g.end() &&
+           std::find(g.begin(), g.end(), b) != g.end();
+  });
+}
+
+int SurfacePartition::triples() const {
+  int count = 0;
+  for (int t = 0; t < triangles_.rows(); ++t) {
+    const auto g = groups_at(t);
+    if (g[0] != g[1] && g[1] != g[2] && g[2] != g[0]) ++count;
+  }
+  return count;
+}
+
+std::vector<int> SurfacePartition::touching(int a, int b) const {
+  std::vector<int> either;
+  either.reserve(boundary_[a].size() + boundary_[b].size());
+  std::set_union(boundary_[a].begin(), boundary_[a].end(), boundary_[b].begin(), boundary_[b].end(),
+                 std::back_inserter(either));
+  return either;
+}
+
+int SurfacePartition::euler_of_union(int a, int b, const std::vector<int>& touching) const {
+  // Triangles and edges that become interior; each such edge is seen from its two triangles.
+  int faces = 0;
+  int half_edges = 0;
+  for (const int t : touching) {
+    const auto g = groups_at(t);
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) {
+      inside = inside && (g[k] == a || g[k] == b);
+      const int p = g[(k + 1) % 3];
+      const int q = g[(k + 2) % 3];
+      if ((p == a && q == b) || (p == b && q == a)) ++half_edges;
+    }
+    if (inside) ++faces;
+  }
+  return euler_[a] + euler_[b] - half_edges / 2 + faces;
+}
+
+int SurfacePartition::root(int edge) {
+  while (parent_[edge] != edge) {
+    parent_[edge] = parent_[parent_[edge]];
+    edge = parent_[edge];
+  }
+  return edge;
+}
+
+int SurfacePartition::circles_of_union(int a, int b, const std::vector<int>& touching) {
+  // A triangle on the boundary has exactly two edges that cross it; linking them closes cut curves.
+  std::vector<int> crossing;
+  int links = 0;
+  for (const int t : touching) {
+    const auto g = groups_at(t);
+    std::array<int, 2> pair{};
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int p = g[(k + 1) % 3];
+      const int q = g[(k + 2) % 3];
+      if ((p == a || p == b) != (q == a || q == b)) {
+        if (count < 2) pair[static_cast<std::size_t>(count)] = index_.edge_of_corner(t, k);
+        ++count;
+      }
+    }
+    if (count != 2) continue;
+    crossing.insert(crossing.end(), pair.begin(), pair.end());
+    const int p = root(pair[0]);
+    const int q = root(pair[1]);
+    if (p != q) {
+      parent_[p] = q;
+      ++links;
+    }
+  }
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  for (const int edge : crossing) parent_[edge] = edge;
+  return static_cast<int>(crossing.size()) - links;
+}
+
+int SurfacePartition::genus_of_union(int a, int b) {
+  const auto around = touching(a, b);
+  return (2 - euler_of_union(a, b, around) - circles_of_union(a, b, around)) / 2;
+}
+
+void SurfacePartition::merge(int from, int into) {
+  auto around = touching(from, into);
+  euler_[into] = euler_of_union(from, into, around);
+  for (const int v : members_[from]) group_of_vertex_[v] = into;
+  members_[into].insert(members_[into].end(), members_[from].begin(), members_[from].end());
+  members_[from] = {};
+  std::erase_if(around, [&](int t) {
+    const auto g = groups_at(t);
+    return g[0] == g[1] && g[1] == g[2];
+  });
+  boundary_[into] = std::move(around);
+  boundary_[from] = {};
+}
+
+namespace {
+
+/// The triangles' crossing edges linked into cut curves: for each crossing edge its neighbours
+/// across its two triangles.
+struct LinkedCrossings {
+  std::vector<std::array<int, 2>> next;  // per edge, -1 = not crossing
+};
+
+LinkedCrossings link_crossings(const Triangles& triangles, const EdgeIndex& index,
+                               const Eigen::VectorXi& group) {
+  LinkedCrossings crossings;
+  crossings.next.assign(index.edges.size(), {-1, -1});
+  const auto attach = [&](int edge, int other) {
+    auto& next = crossings.next[static_cast<std::size_t>(edge)];
+    (next[0] < 0 ? next[0] : next[1]) = other;
+  };
+  for (int t = 0; t < triangles.rows(); ++t) {
+    std::array<int, 3> crossing{};
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int p = group[triangles(t, (k + 1) % 3)];
+      const int q = group[triangles(t, (k + 2) % 3)];
+      if (p != q) crossing[static_cast<std::size_t>(count++)] = index.edge_of_corner(t, k);
+    }
+    if (count != 2) continue;
+    attach(crossing[0], crossing[1]);
+    attach(crossing[1], crossing[0]);
+  }
+  return crossings;
+}
+
+}  // namespace
+
+PartitionGraph partition_graph(const Surface& surface, const Eigen::VectorXi& group_of_vertex) {
+  PartitionGraph graph;
+  graph.group_of_vertex.resize(group_of_vertex.size());
+  std::vector<int> number(static_cast<std::size_t>(group_of_vertex.maxCoeff()) + 1, -1);
+  for (Eigen::Index v = 0; v < group_of_vertex.size(); ++v) {
+    int& n = number[static_cast<std::size_t>(group_of_vertex[v])];
+    if (n < 0) n = graph.groups++;
+    graph.group_of_vertex[v] = n;
+  }
+
+  const EdgeIndex index = index_edges(surface.triangles);
+  const LinkedCrossings crossings = link_crossings(surface.triangles, index, graph.group_of_vertex);
+  std::vector<char> seen(index.edges.size(), 0);
+  std::vector<std::array<int, 2>> edges;
+  for (std::size_t first = 0; first < index.edges.size(); ++first) {
+    if (crossings.next[first][0] < 0 || seen[first] != 0) continue;
+    const int node = graph.groups + static_cast<int>(graph.cut_curves.size());
+    auto& circle = graph.cut_curves.emplace_back();
+    for (int edge = static_cast<int>(first); seen[static_cast<std::size_t>(edge)] == 0;) {
+      const auto e = static_cast<std::size_t>(edge);
+      seen[e] = 1;
+      circle.push_back(index.edges[e]);
+      const auto& next = crossings.next[e];
+      edge = seen[static_cast<std::size_t>(next[0])] == 0 ? next[0] : next[1];
+    }
+    for (const int end : index.edges[first]) edges.push_back({graph.group_of_vertex[end], node});
+  }
+  std::sort(edges.begin(), edges.end());
+  graph.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    graph.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
+  }
+  return graph;
+}
+
+Positions middles_of_groups(const PartitionGraph& graph, const Positions& positions) {
+  Positions middles = Positions::Zero(graph.nodes(), 3);
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(graph.nodes());
+  const auto count_in = [&](int node, int vertex) {
+    middles.row(node) += positions.row(vertex);
+    counts[node] += 1;
+  };
+  for (Eigen::Index v = 0; v < graph.group_of_vertex.size(); ++v) {
+    count_in(graph.group_of_vertex[v], static_cast<int>(v));
+  }
+  for (std::size_t c = 0; c < graph.cut_curves.size(); ++c) {
+    for (const auto& [a, b] : graph.cut_curves[c]) {
+      count_in(graph.groups + static_cast<int>(c), a);
+      count_in(graph.groups + static_cast<int>(c), b);
+    }
+  }
+  return middles.array().colwise() / counts.array();
+}
+
+}  // namespace curveskel

@@ -1,0 +1,156 @@
+// Connectivity surgery after Au, Tai, Chu, Cohen-Or and Lee, "Skeleton extraction by mesh
+// contraction", SIGGRAPH 2008, section 5, with a guard that keeps every group of genus 0.
+
+#include <curveskel/advanced/surgery.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/surface_partition.hpp>
+
+namespace curveskel {
+namespace {
+
+/// Sum of squared distances to lines through a vertex (Au et al., eq. 6): p -> (p^T A p - 2 b.p +
+/// c).
+struct LineQuadric {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double c = 0;
+
+  void add_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& unit_direction) {
+    const Eigen::Matrix3d projector =
+        Eigen::Matrix3d::Identity() - unit_direction * unit_direction.transpose();
+    const Eigen::Vector3d offset = projector * origin;
+    a += projector;
+    b += offset;
+    c += origin.dot(offset);
+  }
+  void add(const LineQuadric& other) {
+    a += other.a;
+    b += other.b;
+    c += other.c;
+  }
+  [[nodiscard]] double at(const Eigen::Vector3d& p) const {
+    return std::max(0.0, p.dot(a * p) - 2 * b.dot(p) + c);
+  }
+};
+
+/// A half-edge collapse "from -> into", valid as long as neither group has changed since.
+struct Candidate {
+  double cost;
+  int from, into;
+  int from_version, into_version;
+  // Equal costs are taken in the order of the groups, so the result does not depend on the heap.
+  [[nodiscard]] auto key() const { return std::tuple(cost, from, into); }
+  bool operator<(const Candidate& other) const { return key() > other.key(); }
+};
+
+class Surgeon {
+ public:
+  Surgeon(const Surface& surface, const SurgeryOptions& options)
+      : options_(options), groups_(surface), positions_(surface.positions) {
+    const int vertices = static_cast<int>(positions_.rows());
+    version_.assign(vertices, 0);
+    alive_.assign(vertices, true);
+    quadrics_.resize(vertices);
+    for (int v = 0; v < vertices; ++v) {
+      for (const int neighbour : neighbours(v)) {
+        const Eigen::Vector3d edge = positions_.row(neighbour) - positions_.row(v);
+        const double length = edge.norm();
+        if (length > 0) quadrics_[v].add_line(positions_.row(v), edge / length);
+      }
+    }
+    for (int v = 0; v < vertices; ++v) push_candidates_of(v, false);
+  }
+
+  void run(const Monitor& monitor) {
+    int steps = 0;
+    while (!heap_.empty()) {
+      const Candidate best = heap_.top();
+      heap_.pop();
+      if (!current(best) || !groups_.share_triple(best.from, best.into)) continue;
+      if (groups_.genus_of_union(best.from, best.into) > 0) continue;  // final: it never shrinks
+      merge(best.from, best.into);
+      if (++steps % 256 == 0) monitor.report("surgery", steps / double(positions_.rows()));
+    }
+  }
+
+  [[nodiscard]] const SurfacePartition& groups() const { return groups_; }
+
+ private:
+  [[nodiscard]] bool current(const Candidate& c) const {
+    return alive_[c.from] && alive_[c.into] && version_[c.from] == c.from_version &&
+           version_[c.into] == c.into_version;
+  }
+
+  [[nodiscard]] std::vector<int> neighbours(int group) const {
+    return groups_.triple_neighbours(group);
+  }
+
+  void push_candidates_of(int group, bool both_ways) {
+    const auto around = neighbours(group);
+    double edge_sum = 0;
+    for (const int other : around) {
+      edge_sum += (positions_.row(other) - positions_.row(group)).norm();
+    }
+    for (const int other : around) push(group, other, edge_sum);
+    if (!both_ways) return;
+    for (const int other : around) {
+      double other_sum = 0;
+      for (const int next : neighbours(other)) {
+        other_sum += (positions_.row(next) - positions_.row(other)).norm();
+      }
+      push(other, group, other_sum);
+    }
+  }
+
+  void push(int from, int into, double edge_sum_of_from) {
+    const Eigen::Vector3d target = positions_.row(into);
+    const double shape = quadrics_[from].at(target) + quadrics_[into].at(target);
+    const double sampling = (positions_.row(from) - positions_.row(into)).norm() * edge_sum_of_from;
+    heap_.push({options_.shape_weight * shape + options_.sampling_weight * sampling, from, into,
+                version_[from], version_[into]});
+  }
+
+  void merge(int from, int into) {
+    groups_.merge(from, into);
+    quadrics_[into].add(quadrics_[from]);
+    alive_[from] = false;
+    ++version_[into];
+    push_candidates_of(into, true);
+  }
+
+  const SurgeryOptions& options_;
+  SurfacePartition groups_;
+  Positions positions_;
+  std::vector<int> version_;
+  std::vector<char> alive_;
+  std::vector<LineQuadric> quadrics_;
+  std::priority_queue<Candidate> heap_;
+};
+
+}  // namespace
+
+std::optional<PartitionGraph> surgery(const Surface& surface, const Contraction& contraction,
+                                      const SurgeryOptions& options, const Monitor& monitor) {
+  Surgeon surgeon(contraction.surface, options);
+  surgeon.run(monitor);
+  if (surgeon.groups().triples() > 0) return std::nullopt;
+
+  // Collapses under the link condition keep cut curves circles, so the groups may be read off the
+  // surface before its contraction.
+  Eigen::VectorXi group_of_vertex(surface.positions.rows());
+  for (Eigen::Index v = 0; v < group_of_vertex.size(); ++v) {
+    group_of_vertex[v] = surgeon.groups().group_of(contraction.vertex_of_input[v]);
+  }
+  return partition_graph(surface, group_of_vertex);
+}
+
+}  // namespace curveskel

@@ -1,0 +1,68 @@
+#include "skeleton/embed/arc_projection.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/indices.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The place from which a vertex looks for its nearest arc.
+Point seat_of(int v, const Surface& surface, const InscribedBalls& balls) {
+  constexpr double touching = 1.2;
+  const Point vertex = surface.positions.row(v);
+  const Point ball = balls.centres.row(v);
+  return (ball - vertex).norm() <= touching * balls.radii[v] ? ball : vertex;
+}
+
+std::vector<std::vector<int>> arcs_of_groups(const SkeletonGraph& graph, int groups) {
+  std::vector<std::vector<int>> arcs(idx(groups));
+  const auto claim = [&](const std::vector<int>& nodes, int arc) {
+    for (const int node : nodes) {
+      if (node < groups) arcs[idx(node)].push_back(arc);
+    }
+  };
+  for (int s = 0; s < static_cast<int>(graph.arcs.size()); ++s) {
+    const Arc& arc = graph.arcs[idx(s)];
+    if (!arc.alive) continue;
+    claim(arc.pieces, s);
+    claim(graph.nodes[idx(arc.from)].pieces, s);
+    if (arc.to != arc.from) claim(graph.nodes[idx(arc.to)].pieces, s);
+  }
+  return arcs;
+}
+
+}  // namespace
+
+std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph, const Surface& surface,
+                                           const InscribedBalls& balls,
+                                           const PartitionGraph& partition) {
+  const auto arcs = arcs_of_groups(graph, partition.groups);
+  std::vector<std::vector<Point>> lines;
+  for (const Arc& arc : graph.arcs) {
+    lines.push_back(arc.alive ? graph.polyline(arc) : std::vector<Point>{});
+  }
+  std::vector<ArcProjection> projections(idx(surface.positions.rows()));
+  for (int v = 0; v < static_cast<int>(projections.size()); ++v) {
+    const Point from = seat_of(v, surface, balls);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int s : arcs[idx(partition.group_of_vertex[v])]) {
+      const auto& line = lines[idx(s)];
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Point along = line[i + 1] - line[i];
+        const double squared = along.squaredNorm();
+        const double share =
+            squared > 0 ? std::clamp((from - line[i]).dot(along) / squared, 0.0, 1.0) : 0;
+        const Point here = share < 1 ? Point(line[i] + share * along) : line[i + 1];
+        const double distance = (here - from).squaredNorm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        projections[idx(v)] = {s, i, here};
+      }
+    }
+  }
+  return projections;
+}
+
+}  // namespace curveskel

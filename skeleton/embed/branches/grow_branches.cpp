@@ -1,0 +1,221 @@
+#include "skeleton/embed/branches/grow_branches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/indices.hpp"
+#include "skeleton/embed/arc_projection.hpp"
+#include "skeleton/embed/branches/prominence.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr int most_passes = 8;
+constexpr std::size_t fewest_vertices = 8;
+// In inscribed radii where the branch begins.
+constexpr double least_branch = 1.5;
+constexpr double least_extension = 2;
+// At the apex: a crease is no limb, nor is the corner of a blunt end.
+constexpr double least_branch_ball = 0.12;
+constexpr double least_extension_ball = 0.25;
+constexpr double most_ball = 1.2;  // a wider one is where the arc comes from
+constexpr double least_extension_prominence = 1.5;
+/// The graph does not enter a part while its vertices' places are this much nearer to the centre.
+constexpr double within = 0.6;
+
+struct Apex {
+  int vertex = -1;
+  int node = -1;  // where the branch begins, -1 = at the vertex's projection
+  double prominence = 0;
+  Point tip = Point::Zero();
+};
+
+class Growth {
+ public:
+  Growth(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
+         const InscribedBalls& balls, const PartitionGraph& partition)
+      : graph_(graph),
+        surface_(surface),
+        tree_(tree),
+        balls_(balls),
+        partition_(partition),
+        sweep_(surface),
+        projections_(idx(surface.positions.rows())),
+        grown_(projections_.size(), 0) {}
+
+  int run(double limit) {
+    int count = 0;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      projections_ = project_on_arcs(graph_, surface_, balls_, partition_);
+      const int before = count;
+      touched_.clear();
+      for (const Apex& apex : apices(limit)) count += grow(apex) ? 1 : 0;
+      if (count == before) break;
+    }
+    return count;
+  }
+
+ private:
+  [[nodiscard]] Point place(int v) const { return surface_.positions.row(v); }
+  [[nodiscard]] double height(int v) const {
+    return (place(v) - projections_[idx(v)].place).norm();
+  }
+
+  /// The node that stands for a place of an arc: the tip whose ball holds it, or the node that is
+  /// there; -1 if there is none.
+  [[nodiscard]] int node_at(const ArcProjection& projection, double radius) const {
+    const Arc& arc = graph_.arcs[idx(projection.arc)];
+    for (const int node : {arc.from, arc.to}) {
+      const double distance = (graph_.nodes[idx(node)].position - projection.place).norm();
+      if (distance == 0 || (graph_.degree(node) == 1 && distance <= radius)) return node;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] Protrusion protrusion(const Point& base, int apex) {
+    const auto is_own = [&](int v) {
+      return (projections_[idx(v)].place - base).norm() < within * (place(v) - base).norm();
+    };
+    return sweep_(base, apex, is_own, std::numeric_limits<double>::infinity(), fewest_vertices);
+  }
+
+  /// Vertices from which no edge leads farther away from the graph.
+  [[nodiscard]] std::vector<int> farthest_around() const {
+    std::vector<char> lower(projections_.size(), 0);
+    for (const auto& t : surface_.triangles.rowwise()) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = t(k);
+        const int b = t((k + 1) % 3);
+        (height(a) < height(b) ? lower[idx(a)] : lower[idx(b)]) = 1;
+      }
+    }
+    std::vector<int> vertices;
+    for (int v = 0; v < static_cast<int>(projections_.size()); ++v) {
+      if (lower[idx(v)] == 0 && projections_[idx(v)].arc >= 0 && grown_[idx(v)] == 0) {
+        vertices.push_back(v);
+      }
+    }
+    return vertices;
+  }
+
+  /// The branch from a node, or from the vertex's projection where there is none; no vertex if
+  /// there can be none.
+  [[nodiscard]] Apex made(int v, int node, const SurfaceTree::Ball& root, const Protrusion& found,
+                          double least_prominence, double least_ball) {
+    if (found.prominence < least_prominence) return {};
+    const Point inwards = found.rim_centre - place(v);
+    const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
+    const double share = ball.radius / root.radius;
+    if (!(share > least_ball && share < most_ball)) return {};
+    return {v, node, found.prominence, tip(found, root, ball.centre)};
+  }
+
+  /// In the middle of a blunt end, rather than in the corner where the apex is.
+  [[nodiscard]] Point tip(const Protrusion& part, const SurfaceTree::Ball& root,
+                          const Point& at_apex) const {
+    constexpr double beyond = 1.1;  // of the radius where it begins: nearer by it would be a spur
+    constexpr double least = 0.2;
+    const Point outwards = part.cap_centre - part.rim_centre;
+    if (!(outwards.norm() > 0) || !tree_.inside(part.rim_centre)) return at_apex;
+    const Point direction = outwards.normalized();
+    const double reach = tree_.ray(part.rim_centre, direction).distance;
+    if (!std::isfinite(reach)) return at_apex;
+    const Point end = part.rim_centre + reach * direction;
+    const auto ball = tree_.inscribed_ball(end, -direction);
+    const double off = beyond * root.radius;
+    if (ball.radius < reach && (ball.centre - root.centre).norm() > off) return ball.centre;
+    const Point nearer_the_end = root.centre + off * (end - root.centre).normalized();
+    const bool fits = tree_.inscribed_radius(nearer_the_end) > least * root.radius;
+    return fits ? nearer_the_end : at_apex;
+  }
+
+  [[nodiscard]] Apex extension(int v, int tip) {
+    const Point& base = graph_.nodes[idx(tip)].position;
+    const SurfaceTree::Ball root{base, tree_.inscribed_radius(base)};
+    if ((place(v) - base).norm() < least_extension * root.radius) return {};
+    return made(v, tip, root, protrusion(base, v), least_extension_prominence,
+                least_extension_ball);
+  }
+
+  [[nodiscard]] Apex branch(int v, int node, double radius, double limit) {
+    const ArcProjection& projection = projections_[idx(v)];
+    Protrusion best = protrusion(projection.place, v);
+    Point base = projection.place;
+    const Arc& arc = graph_.arcs[idx(projection.arc)];
+    for (const int end : {arc.from, arc.to}) {
+      const Point& junction = graph_.nodes[idx(end)].position;
+      if (graph_.degree(end) < 3) continue;
+      if ((junction - projection.place).norm() > least_branch * radius) continue;
+      const Protrusion here = protrusion(junction, v);
+      if (here.prominence <= best.prominence) continue;
+      best = here;
+      base = junction;
+      node = end;
+    }
+    return made(v, node, {base, radius}, best, limit, least_branch_ball);
+  }
+
+  /// Those that deserve a branch, most prominent first.
+  [[nodiscard]] std::vector<Apex> apices(double limit) {
+    std::vector<Apex> found;
+    for (const int v : farthest_around()) {
+      const double radius = tree_.inscribed_radius(projections_[idx(v)].place);
+      if (height(v) < least_branch * radius) continue;
+      const int node = node_at(projections_[idx(v)], radius);
+      const bool extends = node >= 0 && graph_.degree(node) == 1;
+      const Apex apex = extends ? extension(v, node) : branch(v, node, radius, limit);
+      if (apex.vertex >= 0) found.push_back(apex);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Apex& a, const Apex& b) { return a.prominence > b.prominence; });
+    return found;
+  }
+
+  /// False if the arcs there have changed since the projections were found.
+  bool grow(const Apex& apex) {
+    const ArcProjection& projection = projections_[idx(apex.vertex)];
+    int base = apex.node;
+    std::vector<int> around{projection.arc};
+    if (base >= 0) {
+      const auto& there = graph_.nodes[idx(base)].arcs;
+      around.insert(around.end(), there.begin(), there.end());
+    }
+    const auto is_around = [&](int s) {
+      return std::find(around.begin(), around.end(), s) != around.end();
+    };
+    if (std::any_of(touched_.begin(), touched_.end(), is_around)) return false;
+    std::vector<int> groups;
+    for (std::size_t v = 0; v < projections_.size(); ++v) {
+      if (is_around(projections_[v].arc)) groups.push_back(partition_.group_of_vertex[int(v)]);
+    }
+    std::sort(groups.begin(), groups.end());
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    if (base < 0) base = graph_.split(projection.arc, projection.segment, projection.place);
+    const int tip = graph_.add_leaf(base, apex.tip, std::move(groups));
+    grown_[idx(apex.vertex)] = 1;
+    touched_.insert(touched_.end(), around.begin(), around.end());
+    touched_.push_back(graph_.nodes[idx(tip)].arcs.front());
+    return true;
+  }
+
+  SkeletonGraph& graph_;
+  const Surface& surface_;
+  const SurfaceTree& tree_;
+  const InscribedBalls& balls_;
+  const PartitionGraph& partition_;
+  ProminenceSweep sweep_;
+  std::vector<ArcProjection> projections_;  // per vertex
+  std::vector<char> grown_;                 // per vertex: it has had its branch
+  std::vector<int> touched_;                // arcs, in this pass
+};
+
+}  // namespace
+
+int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
+                  const InscribedBalls& balls, const PartitionGraph& partition, double limit) {
+  return Growth(graph, surface, tree, balls, partition).run(limit);
+}
+
+}  // namespace curveskel

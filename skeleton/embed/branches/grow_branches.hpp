@@ -1,0 +1,24 @@
+// Branches that the surgery did not make, and limbs that it left short.
+#pragma once
+
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/surface.hpp>
+#include "skeleton/embed/skeleton_graph.hpp"
+
+namespace curveskel {
+
+/// Gives a branch to each part of the surface that the graph does not enter and that sticks out:
+/// from the place of the graph nearest to the part's apex, or the junction next to that, the
+/// prominence (see ProminenceSweep) is at least `limit` and the apex 1.5 inscribed radii away.
+/// From a tip the arc goes on to the apex instead, from 1.5 and 2 inscribed radii on. The
+/// inscribed ball at the apex must have at least 0.12 of the radius where the branch begins (from
+/// a tip 0.25), or it is a crease, and less than 1.2 of it. What has fewer than 8 vertices where it
+/// is measured may be noise. It ends where the part's cap has its middle, not in the corner that
+/// the apex of a blunt end is. The new points may lie outside.
+/// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
+int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
+                  const InscribedBalls& balls, const PartitionGraph& partition, double limit);
+
+}  // namespace curveskel

@@ -1,0 +1,21 @@
+// Curves that do not squeeze past a hollow where there is more room on its other side.
+#pragma once
+
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/surface.hpp>
+#include "skeleton/embed/skeleton_graph.hpp"
+
+namespace curveskel {
+
+/// An arc that is on no cycle and passes a place half as wide as places before and behind it
+/// takes another way between two of its places, if there is one through the surface that costs a
+/// third (length in inscribed radii) and is twice as wide where it is narrowest: the neck instead
+/// of the cheek, beside a hollow mouth. At least a third of the arc's length stays. The new
+/// points may lie outside. Returns the number of ways taken. D = 1. O(n log n) where such a place
+/// is.
+int reroute_bottlenecks(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+                        const PartitionGraph& partition, const SurfaceTree& tree);
+
+}  // namespace curveskel

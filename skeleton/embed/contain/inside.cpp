@@ -1,0 +1,322 @@
+#include "skeleton/embed/contain/inside.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/indices.hpp"
+#include "skeleton/embed/contain/ball_chains.hpp"
+#include "skeleton/embed/contain/below_surface.hpp"
+#include "skeleton/embed/place/relax.hpp"
+#include "skeleton/embed/place/shorten.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr int deepest = 10;
+
+/// Inside and away from the surface, or moved there if that can be done nearby.
+Point pulled_inside(const SurfaceTree& tree, const Point& p) {
+  const double radius = tree.inscribed_radius(p);
+  if (radius >= least_radius) return p;
+  const auto nearest = tree.nearest(p);
+  Point inward = radius < 0 ? Point(nearest.point - p) : Point(p - nearest.point);
+  if (inward.norm() == 0) return p;
+  inward.normalize();
+  const auto ball = tree.inscribed_ball(nearest.point, inward);
+  if (!std::isfinite(ball.radius) || tree.inscribed_radius(ball.centre) <= radius) return p;
+  return ball.centre;
+}
+
+/// Appends the points that have to come between p and q, straight where that stays inside, bent
+/// inwards where not. False if some gap could not be covered; `inserted` is then best left unused.
+class Cover {
+ public:
+  Cover(const SurfaceTree& tree, bool may_bend) : tree_(tree), may_bend_(may_bend) {}
+
+  bool between(const Point& p, const Point& q, std::vector<Point>& inserted) const {
+    return between(p, tree_.inscribed_radius(p), q, tree_.inscribed_radius(q), 0, inserted);
+  }
+
+ private:
+  bool between(const Point& p, double p_radius, const Point& q, double q_radius, int depth,
+               std::vector<Point>& inserted) const {
+    const double length = (q - p).norm();
+    const bool both_inside = p_radius > 0 && q_radius > 0;
+    if (both_inside && length <= p_radius + q_radius) return true;
+    // In a sheet balls would be as many as it is wide in its thicknesses.
+    if (both_inside && length <= least_spacing && !crosses(tree_, p, q)) return true;
+    if (depth == deepest || !both_inside) return false;
+    Point middle = 0.5 * (p + q);
+    double radius = tree_.inscribed_radius(middle);
+    if (radius < least_radius) {
+      if (!may_bend_) return false;
+      const Point moved = pulled_inside(tree_, middle);
+      // A centre far from both ends belongs to another part of the surface.
+      if ((moved - middle).norm() > length) return false;
+      middle = moved;
+      radius = tree_.inscribed_radius(middle);
+    }
+    if (!between(p, p_radius, middle, radius, depth + 1, inserted)) return false;
+    inserted.push_back(middle);
+    return between(middle, radius, q, q_radius, depth + 1, inserted);
+  }
+
+  const SurfaceTree& tree_;
+  bool may_bend_;
+};
+
+/// Leaves out the points of a chain that a straight line inside makes needless.
+std::vector<Point> shortcut(const std::vector<Point>& chain, const SurfaceTree& tree) {
+  const Cover straight(tree, false);
+  return shortened(chain, [&](std::size_t first, std::size_t last) {
+    std::vector<Point> unused;
+    return straight.between(chain[first], chain[last], unused);
+  });
+}
+
+class Keeper {
+ public:
+  Keeper(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+         const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles)
+      : graph_(graph),
+        surface_(surface),
+        balls_(balls),
+        partition_(partition),
+        tree_(tree),
+        handles_(handles),
+        chains_(surface, balls, partition) {}
+
+  int run() {
+    for (Node& node : graph_.nodes) {
+      if (!node.alive) continue;
+      node.position = pulled_inside(tree_, node.position);
+      if (tree_.inscribed_radius(node.position) < least_radius) {
+        node.position =
+            chains_.nearest_centre(node.position, groups_among(node.pieces, partition_));
+      }
+    }
+    std::vector<char> on_cycle(graph_.arcs.size(), 0);
+    if (handles_.has_handles()) {
+      for (const int s : core(graph_)) on_cycle[idx(s)] = 1;
+    }
+    for (std::size_t s = 0; s < graph_.arcs.size(); ++s) {
+      if (graph_.arcs[s].alive) cover_arc(graph_.arcs[s], on_cycle[s] != 0);
+    }
+    return uncovered_;
+  }
+
+ private:
+  void cover_arc(Arc& arc, bool on_cycle) {
+    const auto given = graph_.polyline(arc);
+    for (std::size_t k = 1; k + 1 < given.size(); ++k) {
+      const Point moved = pulled_inside(tree_, given[k]);
+      const Point& before = k == 1 ? given.front() : arc.points[k - 2];
+      if (on_cycle && moved != given[k] &&
+          !handles_.homologous({before, given[k], given[k + 1]}, {before, moved, given[k + 1]})) {
+        continue;
+      }
+      arc.points[k - 1] = moved;
+    }
+    const auto line = graph_.polyline(arc);
+    const auto radii = radii_at(tree_, line);
+    std::vector<Point> points;
+    std::size_t i = 0;
+    while (i + 1 < line.size()) {
+      std::size_t next = i + 1;
+      std::vector<Point> between;
+      const auto keeps_handle = [&] {
+        if (!on_cycle || (between.empty() && next == i + 1)) return true;
+        const auto first = line.begin() + static_cast<std::ptrdiff_t>(i);
+        between.insert(between.begin(), line[i]);
+        between.push_back(line[next]);
+        const bool homologous = handles_.homologous(
+            {first, first + static_cast<std::ptrdiff_t>(next - i + 1)}, between);
+        between.erase(between.begin());
+        between.pop_back();
+        return homologous;
+      };
+      if (!is_covered(line[i], line[next], between) || !keeps_handle()) {
+        // From the last point that is inside to the next one.
+        while (next + 1 < line.size() && radii[next] < least_radius) ++next;
+        const int uncovered_before = uncovered_;
+        between = detour(arc, line[i], line[next]);
+        if (!keeps_handle()) {
+          next = i + 1;
+          between.clear();
+          uncovered_ = uncovered_before;
+          if (crosses(tree_, line[i], line[next])) ++uncovered_;
+        }
+      }
+      points.insert(points.end(), between.begin(), between.end());
+      if (next + 1 < line.size()) points.push_back(line[next]);
+      i = next;
+    }
+    arc.points = std::move(points);
+  }
+
+  /// True if nothing needs to come between two points, or those that have to do. No straight line
+  /// between two points inside that meets no surface leaves it, however small their balls.
+  bool is_covered(const Point& p, const Point& q, std::vector<Point>& between) const {
+    if (Cover(tree_, true).between(p, q, between)) return true;
+    between.clear();
+    return tree_.inscribed_radius(p) > 0 && tree_.inscribed_radius(q) > 0 && !crosses(tree_, p, q);
+  }
+
+  bool sees(const Point& p, const Point& q) const {
+    std::vector<Point> unused;
+    return is_covered(p, q, unused);
+  }
+
+  /// A point of the vertex' ball close to the vertex.
+  Point under(int vertex) const {
+    constexpr double share = 0.02;  // of the radius
+    const Point top = surface_.positions.row(vertex);
+    return top + share * (Point(balls_.centres.row(vertex)) - top);
+  }
+
+  bool leaves(const std::vector<Point>& way) const {
+    const auto hidden = [&](const Point& p, const Point& q) { return !sees(p, q); };
+    return std::adjacent_find(way.begin(), way.end(), hidden) != way.end();
+  }
+
+  /// From below a vertex to where its steps begin, by the first of its triangles whose corner there
+  /// is seen, and from that one round the vertex. Empty if none is.
+  std::vector<Point> way_down(int vertex) {
+    const Point top = surface_.positions.row(vertex);
+    const Point start = under(vertex);
+    const auto around = below().around(vertex);
+    for (std::size_t k = 0; k < around.size(); k += 2) {
+      const double share = (start - top).norm() / (around[k] - top).norm();
+      const Point corner = top + std::min(share, 1.0) * (around[k] - top);
+      if (!sees(start, corner) || !sees(corner, around[k])) continue;
+      std::vector<Point> way{start, corner};
+      for (std::size_t i = k + 1; i-- > 0;) way.push_back(around[i]);
+      return way;
+    }
+    return {};
+  }
+
+  /// From one ball to that of a neighbour: to the surface, along below it, and up again. Empty
+  /// where the surface meets itself and that leads outside.
+  std::vector<Point> way_below(int from, int to) {
+    std::vector<Point> way = short_way_below(from, to);
+    if (!way.empty()) return way;
+    way = way_down(from);
+    auto up = way_down(to);
+    if (way.empty() || up.empty()) return {};
+    std::reverse(up.begin(), up.end());
+    const auto step = below().step(from, to);
+    way.insert(way.end(), step.begin() + 1, step.end());
+    way.insert(way.end(), up.begin() + 1, up.end());
+    return leaves(way) ? std::vector<Point>{} : way;
+  }
+
+  /// The same, if the way below the vertices is seen from them.
+  std::vector<Point> short_way_below(int from, int to) {
+    std::vector<Point> way = below().step(from, to);
+    // One-rings need not be seen as a whole from below their vertex.
+    const auto from_first = [&](const Point& q) { return sees(under(from), q); };
+    const auto from_last = [&](const Point& q) { return sees(q, under(to)); };
+    way.erase(way.begin(), std::find_if(way.begin(), way.end(), from_first));
+    way.erase(std::find_if(way.rbegin(), way.rend(), from_last).base(), way.end());
+    if (way.empty()) return {};
+    way.insert(way.begin(), under(from));
+    way.push_back(under(to));
+    return leaves(way) ? std::vector<Point>{} : way;
+  }
+
+  /// The vertices of a chain of balls. The ball that holds an end best may not be seen from it;
+  /// the chain then goes on to the ball whose centre is nearest.
+  std::vector<int> balls_between(const Point& p, const Point& q, const std::vector<int>& groups) {
+    std::vector<int> vertices = chains_.way_between(p, q, groups);
+    if (vertices.empty()) return {};
+    if (!sees(p, balls_.centres.row(vertices.front()))) {
+      auto way = chains_.way(chains_.nearest_vertex(p, groups), vertices.front(), groups);
+      if (!way.empty()) vertices.insert(vertices.begin(), way.begin(), way.end() - 1);
+    }
+    if (!sees(balls_.centres.row(vertices.back()), q)) {
+      const auto way = chains_.way(vertices.back(), chains_.nearest_vertex(q, groups), groups);
+      if (!way.empty()) vertices.insert(vertices.end(), way.begin() + 1, way.end());
+    }
+    return vertices;
+  }
+
+  struct Detour {
+    std::vector<Point> points;
+    int uncovered = 0;
+    std::vector<std::pair<int, int>> hidden;  ///< steps between two balls
+  };
+
+  /// From ball to ball, but just below the surface where no way between two of them is found.
+  Detour detour_by(const std::vector<int>& vertices, const Point& p, const Point& q) {
+    Detour made;
+    std::vector<Point> chain{p};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Point centre = balls_.centres.row(vertices[i]);
+      if (i > 0 && !sees(chain.back(), centre)) {
+        const auto step = way_below(vertices[i - 1], vertices[i]);
+        if (step.empty()) made.hidden.emplace_back(vertices[i - 1], vertices[i]);
+        chain.insert(chain.end(), step.begin(), step.end());
+      }
+      chain.push_back(centre);
+    }
+    chain.push_back(q);
+    chain = shortcut(chain, tree_);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      if (i > 0) made.points.push_back(chain[i]);
+      std::vector<Point> between;
+      if (!is_covered(chain[i], chain[i + 1], between)) ++made.uncovered;
+      made.points.insert(made.points.end(), between.begin(), between.end());
+    }
+    return made;
+  }
+
+  /// The way between two points; round the steps that lead outside, if the surface meets itself.
+  std::vector<Point> detour(const Arc& arc, const Point& p, const Point& q) {
+    const auto groups = groups_along(graph_, arc, partition_);
+    std::optional<Detour> best;
+    while (true) {
+      const auto vertices = balls_between(p, q, groups);
+      if (vertices.empty()) break;
+      Detour made = detour_by(vertices, p, q);
+      for (const auto& [one, other] : made.hidden) chains_.avoid(one, other);
+      const bool is_last = made.uncovered == 0 || made.hidden.empty() || more_tries_ == 0;
+      if (!best || made.uncovered < best->uncovered) best = std::move(made);
+      if (is_last) break;
+      --more_tries_;
+    }
+    chains_.allow_all();
+    uncovered_ += best ? best->uncovered : 1;
+    return best ? std::move(best->points) : std::vector<Point>{};
+  }
+
+  /// Made when first asked for, as there is mostly another way.
+  const BelowSurface& below() {
+    if (!below_) below_.emplace(surface_);
+    return *below_;
+  }
+
+  SkeletonGraph& graph_;
+  const Surface& surface_;
+  const InscribedBalls& balls_;
+  const PartitionGraph& partition_;
+  const SurfaceTree& tree_;
+  HomologyGuard& handles_;
+  std::optional<BelowSurface> below_;
+  BallChains chains_;
+  int uncovered_ = 0;
+  int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere
+};
+
+}  // namespace
+
+int keep_inside(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles) {
+  return Keeper(graph, surface, balls, partition, tree, handles).run();
+}
+
+}  // namespace curveskel

@@ -1,0 +1,26 @@
+// A skeleton that never leaves its surface.
+#pragma once
+
+#include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/surface.hpp>
+#include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/homology/homology_guard.hpp"
+
+namespace curveskel {
+
+/// Moves and adds points until the inscribed balls of the ends of every edge overlap: then the
+/// whole edge lies in two balls that lie inside the surface, and no sampling is needed to know it.
+///
+/// Points outside, and midpoints of edges that are not covered, go to the centre of the inscribed
+/// ball at the nearest surface point. If that does not close the gap, the arc follows the
+/// cheapest chain of the vertices' own inscribed balls through the arc's part of the surface, or
+/// goes along just below the surface from one ball to the next. An edge whose ends are inside and
+/// that meets no triangle counts as covered, too.
+/// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
+/// edges that are still not covered. Precondition: D = 1.
+int keep_inside(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles);
+
+}  // namespace curveskel

@@ -1,0 +1,25 @@
+// The middle of a limb, seen from a point in the limb.
+#pragma once
+
+#include <functional>
+
+#include <curveskel/advanced/tree.hpp>
+#include "skeleton/embed/skeleton_graph.hpp"
+
+namespace curveskel {
+
+/// The centre of the cross-section through `point` normal to `direction`: twice the mean of the
+/// vectors along rays to the surface, which is exact to first order for a circle. 12 rays, each cut
+/// at three times the point's inscribed `radius`. The point itself if that is not positive.
+[[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
+                                         const Point& direction, double radius);
+
+/// The same where a limb is flat, from one edge of it to the other: of two opposite rays none is
+/// cut where both end on a triangle that `is_own`. What is cut lies in other limbs. No
+/// farther from the point than half its inscribed radius, as far rays may differ from one point to
+/// the next.
+[[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
+                                         const Point& direction, double radius,
+                                         const std::function<bool(int)>& is_own);
+
+}  // namespace curveskel

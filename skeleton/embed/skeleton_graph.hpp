@@ -1,0 +1,79 @@
+// The skeleton while it is being embedded: nodes joined by arcs.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+using Point = Eigen::Vector3d;
+
+/// A tip, a junction, or the one chosen point of a closed curve.
+struct Node {
+  Point position = Point::Zero();
+  std::vector<int> pieces;  ///< groups and cut curves of the partition that belong to it
+  bool alive = true;
+  std::vector<int> arcs{};  ///< the living ones that end here, ascending, each once
+};
+
+/// A curve from one node to another, or back to the same.
+struct Arc {
+  int from = -1;
+  int to = -1;
+  std::vector<Point> points;  ///< between the two nodes, in order; may be empty
+  std::vector<int> pieces;    ///< groups and cut curves of the partition that belong to it
+  bool alive = true;
+};
+
+/// Every change keeps the number of components and the cycle rank. Which arcs end at which nodes
+/// changes by the functions below only.
+struct SkeletonGraph {
+  std::vector<Node> nodes;
+  std::vector<Arc> arcs;
+
+  [[nodiscard]] int degree(int node) const;          ///< a closed arc counts twice
+  [[nodiscard]] bool is_leaf(const Arc& arc) const;  ///< exactly one end is a tip
+  [[nodiscard]] int living_arcs() const;
+  [[nodiscard]] double length(const Arc& arc) const;
+  [[nodiscard]] std::vector<Point> polyline(const Arc& arc) const;  ///< nodes included
+
+  /// Turns the arc around so that `node` is its `from`.
+  void orient_from(int arc, int node);
+  /// Removes a leaf arc and its tip; their groups go to the other node.
+  void prune(int arc);
+  /// Shrinks an arc between two different nodes to the node `into`.
+  void collapse(int arc, int into, const Point& position);
+  /// Joins the two arcs at a node of degree 2 into one; nothing to do at a closed curve's node.
+  void dissolve(int node);
+  /// Cuts an arc loose from its `to` and lets it end where a new, closed arc begins: `way`
+  /// goes on from its `from` to there, `ring` from there once round. What belongs to the arc
+  /// from piece `cut` on belongs to the closed one. The old `to` may be left with two arcs or
+  /// none.
+  void end_in_ring(int arc, std::size_t cut, std::vector<Point> way, std::vector<Point> ring);
+  /// A new node at a place on the arc's segment (counted along its polyline); both parts belong
+  /// to what the arc belonged to.
+  int split(int arc, std::size_t segment, const Point& place);
+  /// A new tip, joined to `base` by an arc without points that belongs to the given groups;
+  /// where the base was a tip, the arc there goes on to the new one and belongs to what it did.
+  int add_leaf(int base, const Point& tip, std::vector<int> groups);
+};
+
+/// positions: one per node of the partition (groups, then cut curves).
+[[nodiscard]] SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
+                                              const std::vector<Point>& positions);
+
+/// The nodes and edges of a graph, each arc with enough inner points that no edge is doubled.
+/// nodes_of_group[g] lists the nodes that a vertex of group g may belong to.
+struct EmbeddedNodes {
+  CurveSkeleton skeleton;                        ///< radii and vertex map left empty
+  std::vector<std::vector<int>> nodes_of_group;  ///< per group, ascending
+};
+[[nodiscard]] EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups);
+
+}  // namespace curveskel

@@ -1,0 +1,90 @@
+// Recognition of a file's format, and code that all formats share.
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <curveskel/skeleton_files.hpp>
+#include "skeleton/io/raw_graph.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::string_view readable = "one of obj, ply, cgal, swc, vtp, graphml, json";
+
+std::string lower_extension(std::filesystem::path path) {
+  if (path.extension() == ".gz") path = path.stem();
+  std::string text = path.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.empty() ? text : text.substr(1);
+}
+
+/// The formats that name themselves in their first lines.
+std::optional<SkeletonFormat> skeleton_format_by_content(const FileBytes& file) {
+  constexpr std::size_t first_lines = 2000;
+  std::string_view text(file.content);
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return SkeletonFormat::ply;
+  text = text.substr(0, first_lines);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin == std::string_view::npos) return std::nullopt;
+  if (text[begin] == '{') return SkeletonFormat::json;
+  if (text[begin] != '<') return std::nullopt;
+  if (text.find("<VTKFile") != std::string_view::npos) return SkeletonFormat::vtp;
+  if (text.find("graphml") != std::string_view::npos) return SkeletonFormat::graphml;
+  return std::nullopt;
+}
+
+std::optional<SkeletonFormat> skeleton_format_by_extension(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == "txt") return SkeletonFormat::cgal;  // CGAL's own is ".polylines.txt"
+  return choice_of(skeleton_formats, std::string_view(extension));
+}
+
+CurveSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
+  switch (format) {
+    case SkeletonFormat::obj:
+      return skeleton_from(read_obj_lines(file), Joining::coincident);
+    case SkeletonFormat::ply:
+      return skeleton_from(read_ply_edges(file), Joining::coincident);
+    case SkeletonFormat::cgal:
+      return skeleton_from(read_polylines(file), Joining::coincident);
+    case SkeletonFormat::swc:
+      return skeleton_from(read_swc(file), Joining::coincident);
+    case SkeletonFormat::vtp:
+      return skeleton_from(read_vtp(file), Joining::coincident);
+    case SkeletonFormat::graphml:
+      return skeleton_from(read_graphml(file), Joining::nothing);
+    case SkeletonFormat::json:
+      return skeleton_from(read_json_graph(file), Joining::nothing);
+    case SkeletonFormat::csv:
+    case SkeletonFormat::svg:
+    case SkeletonFormat::png:
+      break;
+  }
+  file.fail("the format " + std::string(name_of(skeleton_formats, format)) +
+                ", which does not hold the graph",
+            readable, "write the skeleton again in one of these");
+}
+
+}  // namespace
+
+CurveSkeleton read_skeleton(const std::filesystem::path& path) {
+  const FileBytes file = read_file(path, Monitor{});
+  std::optional<SkeletonFormat> format = skeleton_format_by_content(file);
+  if (!format) format = skeleton_format_by_extension(path);
+  if (!format) {
+    file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
+                  " and no known extension",
+              std::string("a skeleton as ") + std::string(readable), "convert it");
+  }
+  CurveSkeleton skeleton = read_as(*format, file);
+  if (skeleton.nodes.rows() == 0) {
+    file.fail("a graph without nodes", "a skeleton",
+              "check that the file holds curves, not a surface or a point cloud");
+  }
+  return skeleton;
+}
+
+}  // namespace curveskel

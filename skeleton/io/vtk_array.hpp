@@ -1,0 +1,16 @@
+// The arrays of VTK's XML files, in every way in which VTK writes them.
+#pragma once
+
+#include <vector>
+
+#include "skeleton/io/xml.hpp"
+
+namespace curveskel {
+
+/// Values of a DataArray: as text ("ascii"), base64 ("binary") or in the file's AppendedData (raw
+/// or base64); compressed with zlib or not; either byte order; integers and floating point
+/// homologous (integers past 2^53 lose digits). Throws Error(Fault::input) with the line. O(bytes).
+[[nodiscard]] std::vector<double> vtk_values(const FileBytes& file, const XmlElement& vtk_file,
+                                             const XmlElement& data_array);
+
+}  // namespace curveskel

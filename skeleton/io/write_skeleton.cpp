@@ -1,0 +1,183 @@
+// The choice of the format, and the formats that are little more than a list of points and lines.
+#include <cstdint>
+
+#include <curveskel/error.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include "base/decimal.hpp"
+#include "skeleton/io/skeleton_formats.hpp"
+#include "skeleton/picture/picture.hpp"
+
+namespace curveskel {
+namespace {
+
+const Surface& surface_in(const SkeletonContext& context, SkeletonFormat format) {
+  if (context.surface == nullptr || context.surface->positions.rows() == 0) {
+    throw Error(Fault::output, "a picture (" + std::string(name_of(skeleton_formats, format)) +
+                                   ") found no surface, needed the one that the skeleton is of; "
+                                   "pass it or choose another format");
+  }
+  return *context.surface;
+}
+
+void append_points(std::string& text, const CurveSkeleton& skeleton, const Branch& branch) {
+  append_decimal(text, branch.nodes.size());
+  for (const int node : branch.nodes) {
+    text += ' ';
+    append_decimals(text, skeleton.nodes.row(node), ' ');
+  }
+  text += '\n';
+}
+
+/// Mean along the branch of the radius interpolated between the nodes.
+double mean_radius(const CurveSkeleton& skeleton, const Branch& branch, double length) {
+  double sum = 0;
+  for (std::size_t k = 1; k < branch.nodes.size(); ++k) {
+    const int a = branch.nodes[k - 1];
+    const int b = branch.nodes[k];
+    const double weight = length > 0
+                              ? (skeleton.nodes.row(b) - skeleton.nodes.row(a)).norm() / length
+                              : 1 / static_cast<double>(branch.nodes.size() - 1);
+    sum += weight * (skeleton.radii(a) + skeleton.radii(b)) / 2;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double branch_length(const CurveSkeleton& skeleton, const Branch& branch) {
+  double length = 0;
+  for (std::size_t k = 1; k < branch.nodes.size(); ++k) {
+    length +=
+        (skeleton.nodes.row(branch.nodes[k]) - skeleton.nodes.row(branch.nodes[k - 1])).norm();
+  }
+  return length;
+}
+
+std::vector<int> isolated_nodes(const CurveSkeleton& skeleton) {
+  std::vector<bool> touched(static_cast<std::size_t>(skeleton.nodes.rows()), false);
+  for (const std::int32_t node : skeleton.edges.reshaped()) {
+    touched[static_cast<std::size_t>(node)] = true;
+  }
+  std::vector<int> isolated;
+  for (int node = 0; node < skeleton.nodes.rows(); ++node) {
+    if (!touched[static_cast<std::size_t>(node)]) isolated.push_back(node);
+  }
+  return isolated;
+}
+
+std::string obj_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
+  std::string text;
+  if (!context.provenance.empty()) text += "# " + context.provenance + "\n";
+  for (const auto& node : skeleton.nodes.rowwise()) {
+    text += "v ";
+    append_decimals(text, node, ' ');
+    text += '\n';
+  }
+  for (const auto& edge : skeleton.edges.rowwise()) {
+    text += "l ";
+    append_decimals(text, edge.array() + 1, ' ');
+    text += '\n';
+  }
+  for (const int node : isolated_nodes(skeleton)) {
+    text += "p ";
+    append_decimal(text, node + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
+  const bool has_radii = skeleton.radii.size() > 0;
+  std::string text = "ply\nformat ascii 1.0\n";
+  if (!context.provenance.empty()) text += "comment " + context.provenance + "\n";
+  text += "element vertex ";
+  append_decimal(text, skeleton.nodes.rows());
+  text += "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (has_radii) text += "property double radius\n";
+  text += "element edge ";
+  append_decimal(text, skeleton.edges.rows());
+  text += "\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    append_decimals(text, skeleton.nodes.row(node), ' ');
+    if (has_radii) {
+      text += ' ';
+      append_decimal(text, skeleton.radii(node));
+    }
+    text += '\n';
+  }
+  for (const auto& edge : skeleton.edges.rowwise()) {
+    append_decimals(text, edge, ' ');
+    text += '\n';
+  }
+  return text;
+}
+
+std::string polylines_from(const CurveSkeleton& skeleton) {
+  std::string text;
+  for (const Branch& branch : branches(skeleton)) append_points(text, skeleton, branch);
+  for (const int node : isolated_nodes(skeleton)) append_points(text, skeleton, Branch{{node}});
+  return text;
+}
+
+std::string csv_from(const CurveSkeleton& skeleton) {
+  std::string text =
+      "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius\n";
+  int id = 0;
+  for (const Branch& branch : branches(skeleton)) {
+    const int start = branch.nodes.front();
+    const int end = branch.nodes.back();
+    const double length = branch_length(skeleton, branch);
+    append_decimal(text, id++);
+    text += ',';
+    append_decimal(text, start);
+    text += ',';
+    append_decimal(text, end);
+    text += ',';
+    append_decimals(text, skeleton.nodes.row(start), ',');
+    text += ',';
+    append_decimals(text, skeleton.nodes.row(end), ',');
+    text += ',';
+    append_decimal(text, branch.nodes.size());
+    text += ',';
+    append_decimal(text, length);
+    text += ',';
+    if (skeleton.radii.size() > 0) append_decimal(text, mean_radius(skeleton, branch, length));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
+                            const SkeletonContext& context) {
+  if (context.root < -1 || context.root >= skeleton.nodes.rows()) {
+    throw Error(Fault::output, "the skeleton's root is node " + std::to_string(context.root) +
+                                   ", needed one of its " + std::to_string(skeleton.nodes.rows()) +
+                                   " nodes, or -1 for none");
+  }
+  switch (format) {
+    case SkeletonFormat::obj:
+      return obj_from(skeleton, context);
+    case SkeletonFormat::ply:
+      return ply_from(skeleton, context);
+    case SkeletonFormat::cgal:
+      return polylines_from(skeleton);
+    case SkeletonFormat::swc:
+      return swc_from(skeleton, context);
+    case SkeletonFormat::vtp:
+      return vtp_from(skeleton, context);
+    case SkeletonFormat::csv:
+      return csv_from(skeleton);
+    case SkeletonFormat::graphml:
+      return graphml_from(skeleton, context);
+    case SkeletonFormat::json:
+      return json_from(skeleton, context);
+    case SkeletonFormat::svg:
+      return svg_picture(skeleton, surface_in(context, format), PictureOptions{});
+    case SkeletonFormat::png:
+      return png_picture(skeleton, surface_in(context, format), PictureOptions{});
+  }
+  throw Error(Fault::output, "found an unknown skeleton format, needed one of " +
+                                 names_in(skeleton_formats) + "; choose one of these");
+}
+
+}  // namespace curveskel

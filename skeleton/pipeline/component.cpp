@@ -1,0 +1,225 @@
+#include "skeleton/pipeline/component.hpp"
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "surface/resample/refine.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The tree over the canonical surface. It takes as long as coarsening it; so it grows beside the
+/// stages that leave a core idle.
+class GrowingTree {
+ public:
+  GrowingTree(Shared<Canonical> canonical, ComponentStages& stages, bool keep, int threads)
+      : canonical_(std::move(canonical)), stages_(stages), keep_(keep), threads_(threads) {
+    if (stages.tree.value && stages.tree.key == std::tuple(canonical_)) tree_ = stages.tree.value;
+  }
+  void start() {
+    if (tree_ || growing_.valid()) return;
+    growing_ =
+        in_background(threads_, [surface = &canonical_->surface] { return SurfaceTree(*surface); });
+  }
+  const Shared<SurfaceTree>& get() {
+    start();
+    if (!tree_) {
+      tree_ = std::make_shared<const SurfaceTree>(growing_.get());
+      if (keep_) stages_.tree = {canonical_, tree_};
+    }
+    return tree_;
+  }
+
+ private:
+  Shared<Canonical> canonical_;
+  ComponentStages& stages_;
+  bool keep_;
+  int threads_;
+  Shared<SurfaceTree> tree_;
+  std::future<SurfaceTree> growing_;
+};
+
+/// Rounds of smoothing of the centres that the contraction is drawn to.
+constexpr int target_rounds = 2;
+
+/// One component, from its canonical form to its skeleton.
+class Pipeline {
+ public:
+  Pipeline(Shared<Canonical> canonical, const WorkingSize& size, const ExtractOptions& options,
+           const Monitor& monitor, ComponentStages& kept, StageRun& stage, GrowingTree& fine)
+      : canonical_(std::move(canonical)),
+        size_(size),
+        options_(options),
+        monitor_(monitor),
+        kept_(kept),
+        stage_(stage),
+        fine_(fine) {}
+
+  Shared<CurveSkeleton> run(ComponentRecord& record) {
+    const Shared<Surface> source = source_surface();
+    const Shared<Coarsened> working = working_surface(source);
+    record.working_vertices = static_cast<int>(working->surface.positions.rows());
+    const Shared<WorkingBalls> balls = balls_in(*source, working);
+    if (const auto graph = graph_by_contraction(working->surface, balls, record)) {
+      return embedded(working->surface, *balls, balls->balls, graph, working->vertex_of_input);
+    }
+    const Shared<Bands> bands = bands_of(*working, balls);
+    record.bands = true;
+    const Shared<PartitionGraph> graph(bands, &bands->cut.graph);
+    return embedded(bands->cut.surface, *balls, bands->balls, graph, bands->vertex_of_input);
+  }
+
+ private:
+  Shared<Surface> source_surface() {
+    if (!options_.fairing) return {canonical_, &canonical_->surface};
+    return stage_("fair", kept_.faired, {canonical_, what_counts(options_.fair)},
+                  [&] { return fair(canonical_->surface, options_.fair, monitor_); });
+  }
+
+  [[nodiscard]] CoarsenOptions coarsening() const { return {size_.most, options_.threads}; }
+
+  /// True if the halfway surface can stand in for the full one until the full tree has grown.
+  [[nodiscard]] bool has_halfway(const Surface& source) const {
+    return coarsens_in_parts(source.positions.rows(), coarsening());
+  }
+
+  Shared<Coarsened> working_surface(const Shared<Surface>& source) {
+    if (!has_halfway(*source)) fine_.start();
+    auto working = stage_("coarsen", kept_.working, {source, size_}, [&]() -> Coarsened {
+      const auto vertices = static_cast<int>(source->positions.rows());
+      if (vertices >= size_.least) return coarsen(*source, coarsening(), monitor_);
+      return {
+          refine(*source, size_.least), Eigen::VectorXi::LinSpaced(vertices, 0, vertices - 1), {}};
+    });
+    fine_.start();
+    return working;
+  }
+
+  Shared<WorkingBalls> balls_in(const Surface& source, const Shared<Coarsened>& working) {
+    const auto plant_near = [&] {
+      if (has_halfway(source)) return SurfaceTree(working->halfway);
+      if (options_.fairing) return SurfaceTree(source);
+      return fine_.get()->in_frame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), 1);
+    };
+    return stage_("balls", kept_.balls, {working}, [&] {
+      SurfaceTree rough(working->surface);
+      SurfaceTree near = plant_near();
+      InscribedBalls balls = inscribed_balls(working->surface, near, options_.threads);
+      Positions targets = smoothed_centres(
+          working->surface, balls,
+          working->surface.positions.rows() < source.positions.rows() ? target_rounds : 0);
+      return WorkingBalls{std::move(rough), std::move(near), std::move(balls), std::move(targets)};
+    });
+  }
+
+  /// Nothing when no attempt is gentle enough for the surgery.
+  Shared<PartitionGraph> graph_by_contraction(const Surface& working,
+                                              const Shared<WorkingBalls>& balls,
+                                              ComponentRecord& record) {
+    ContractionOptions contraction = options_.contraction;
+    record.attempts = 0;
+    for (ContractionAttempt& attempt : kept_.attempts) {
+      ++record.attempts;
+      const Shared<Contraction> contracted =
+          stage_("contract", attempt.contraction, {balls, what_counts(contraction)},
+                 [&] { return contract(working, balls->targets, contraction, monitor_); });
+      const auto graph = stage_("surgery", attempt.graph, {contracted, options_.surgery}, [&] {
+        auto made = surgery(working, *contracted, options_.surgery, monitor_);
+        if (made && monitor_.curve) show_curve(*made, *contracted);
+        return made;
+      });
+      record.steps = contracted->steps;
+      record.stop = contracted->stop;
+      if (*graph) return {graph, &**graph};
+      contraction.contraction_weight /= 3;
+      contraction.contraction_growth = 1 + (contraction.contraction_growth - 1) / 3;
+      contraction.collapse_length /= 2;
+    }
+    return nullptr;
+  }
+
+  /// The graph where the contraction has left its vertices.
+  void show_curve(const PartitionGraph& graph, const Contraction& contracted) const {
+    const Positions at = contracted.surface.positions(contracted.vertex_of_input, Eigen::all);
+    monitor_.curve({"surgery", 0, middles_of_groups(graph, at), graph.edges});
+  }
+
+  Shared<Bands> bands_of(const Coarsened& working, const Shared<WorkingBalls>& balls) {
+    return stage_("surgery", kept_.bands, {balls}, [&] {
+      Bands bands;
+      bands.cut = level_set_graph(working.surface, monitor_);
+      bands.vertex_of_input = bands.cut.vertex_of_input(working.vertex_of_input);
+      bands.balls = inscribed_balls(bands.cut.surface, balls->near, options_.threads);
+      return bands;
+    });
+  }
+
+  Shared<CurveSkeleton> embedded(const Surface& surface, const WorkingBalls& trees,
+                                 const InscribedBalls& balls, const Shared<PartitionGraph>& graph,
+                                 const Eigen::VectorXi& vertex_of_canonical) {
+    return stage_("embed", kept_.skeleton, {graph, options_.embed}, [&] {
+      // Most of the embedding's rays go against the working surface, which fits the cache.
+      CurveSkeleton skeleton = embed(
+          surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
+          options_.embed, options_.threads, monitor_);
+      skeleton.nodes = canonical_->to_model(skeleton.nodes);
+      skeleton.radii *= canonical_->scale;
+      const Eigen::VectorXi node_of_canonical = skeleton.node_of_vertex(vertex_of_canonical);
+      skeleton.node_of_vertex = node_of_canonical(canonical_->vertex_of_input);
+      return skeleton;
+    });
+  }
+
+  Shared<Canonical> canonical_;
+  const WorkingSize& size_;
+  const ExtractOptions& options_;
+  const Monitor& monitor_;
+  ComponentStages& kept_;
+  StageRun& stage_;
+  GrowingTree& fine_;
+};
+
+/// The same, but for frames and curves of component `number`, which come in the canonical frame and
+/// leave in the model's. Refers to both.
+Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number) {
+  Monitor within = monitor;
+  if (monitor.curve) {
+    within.curve = [&monitor, &canonical, number](const CurveFrame& curve) {
+      const Positions moved = canonical.to_model(curve.nodes);
+      monitor.curve({curve.stage, number, moved, curve.edges});
+    };
+  }
+  if (!monitor.frame) return within;
+  within.frame = [&monitor, &canonical, number](const Frame& frame) {
+    const Surface moved{canonical.to_model(frame.surface.positions), frame.surface.triangles};
+    monitor.frame({frame.stage, number, frame.iteration, frame.area_ratio, frame.volume_ratio,
+                   frame.residual, moved});
+  };
+  return within;
+}
+
+}  // namespace
+
+ComponentResult component_result(const Part& part, const ExtractOptions& options,
+                                 const Monitor& monitor, ComponentStages* kept) {
+  ComponentStages passing;
+  ComponentStages& stages = kept != nullptr ? *kept : passing;
+  ComponentResult result;
+  StageRun stage(result.times, result.reused, monitor, kept != nullptr);
+  const Surface& surface = part.component.surface;
+  result.record.vertices = static_cast<int>(surface.positions.rows());
+  result.record.genus = part.genus;
+  const Shared<Canonical> canonical = stage(
+      "normalise", stages.canonical, {}, [&] { return canonical_form(surface, options.threads); });
+  const Monitor within = in_model(monitor, *canonical, part.number);
+  GrowingTree fine(canonical, stages, stage.keeps(), options.threads);
+  result.skeleton =
+      Pipeline(canonical, part.size, options, within, stages, stage, fine).run(result.record);
+  result.tree = fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <thread>
+
+#include "base/parallel.hpp"
+#include "skeleton/pipeline/component.hpp"
+
+namespace curveskel {
+namespace {
+
+/// A component's share of the working vertices. So that no number of components makes the work grow
+/// faster than the surface, what each is sure of falls where there are many of them; less far where
+/// its own vertices have a shape to tell than where they would be made by refining.
+/// The most grows with the component's handles: with fewer vertices each, surgery cannot cut them.
+WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
+                         const Topology& whole) {
+  constexpr int sure_in_all = 200000;
+  constexpr int fewest_made = 100;  // few enough for any number, enough for the simplest of shapes
+  constexpr int fewest_left = 200;
+  constexpr int per_handle = 32;
+  WorkingSize size;
+  size.least =
+      std::min(options.least_resolution, std::max(fewest_made, sure_in_all / whole.components()));
+  size.most = std::max(size.least, vertices);
+  if (options.resolution <= 0) return size;
+  const auto all = static_cast<double>(whole.component_of_vertex.size());
+  const double share = double(options.resolution) * double(vertices) / all;
+  const int sure_to_stay = std::min(options.least_resolution, fewest_left);
+  size.most = std::max(
+      {size.least, sure_to_stay, static_cast<int>(std::lround(share)), per_handle * genus});
+  return size;
+}
+
+/// As they come, or the smallest first: a part too thin to be faired is mostly small, and shows
+/// before the time for the others is spent.
+std::vector<std::size_t> order_of(const Topology& counted, bool smallest_first) {
+  std::vector<std::size_t> order(counted.genus.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (smallest_first) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return counted.vertices[a] < counted.vertices[b];
+    });
+  }
+  return order;
+}
+
+}  // namespace
+
+std::vector<ComponentResult> component_results(const Parts& whole, const ExtractOptions& options,
+                                               const Monitor& monitor,
+                                               std::vector<ComponentStages>* kept) {
+  constexpr int small = 2000;  // working vertices that leave nothing to share out
+  const Topology& counted = whole.counted;
+  const bool several = whole.components.size() > 1;
+  if (kept != nullptr) kept->resize(whole.components.size());
+  std::vector<ComponentResult> all(whole.components.size());
+  std::vector<std::size_t> side_by_side;
+  const auto part_of = [&](std::size_t c) {
+    return Part{whole.components[c], static_cast<int>(c), counted.genus[c],
+                working_size(options, counted.vertices[c], counted.genus[c], counted)};
+  };
+  const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
+    all[c] = component_result(part_of(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr);
+    if (several) all[c].tree.reset();
+  };
+  const bool on_host = options.contraction.solver == Solver::automatic ||
+                       options.contraction.solver == Solver::cholesky;
+  const bool may_share = on_host && !options.fairing && !monitor.frame && !monitor.curve;
+  for (const std::size_t c : order_of(counted, options.fairing && !monitor.frame)) {
+    const WorkingSize size = part_of(c).size;
+    if (may_share && std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
+      side_by_side.push_back(c);
+    } else {
+      contribute(c, options, monitor);
+    }
+  }
+  ExtractOptions alone = options;
+  if (several) alone.threads = 1;
+  Monitor silent;  // callbacks are for the calling thread
+  silent.stop = monitor.stop;
+  const std::thread::id caller = std::this_thread::get_id();
+  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+    const bool here = std::this_thread::get_id() == caller;
+    contribute(side_by_side[i], alone, here ? monitor : silent);
+  });
+  return all;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,62 @@
+#include <curveskel/evaluate_repaired.hpp>
+
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
+#include "skeleton/pipeline/failing_components.hpp"
+#include "surface/mesh/crosses_itself.hpp"
+#include "surface/repair/wrap_components.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The narrowest wrap of a component for which its own skeleton holds.
+std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, double opening,
+                                             const CertificateOptions& options,
+                                             const Monitor& monitor) {
+  for (const double one : wrap_openings) {
+    try {
+      auto wrapped = wrap_solid(failing.surface, opening > 0 ? opening : one, monitor);
+      if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).holds()) {
+        return wrapped;
+      }
+    } catch (const Error&) {  // too large to be wrapped
+    }
+    if (opening > 0) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
+                                     const RepairOptions& as_repaired,
+                                     const CurveSkeleton& skeleton,
+                                     const CertificateOptions& options, const Monitor& monitor) {
+  const Surface& surface = repaired.surface;
+  const Topology counted = topology(surface);
+  const SurfaceTree tree(surface);
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  const CertifiedSurface given{surface, tree, diagonal, counted.components(),
+                               counted.total_genus()};
+  RepairedEvaluation result{evaluate(given, skeleton, options, monitor), std::nullopt};
+  if (result.certificate.holds() || as_repaired.wrap != Wrapping::needed) return result;
+
+  std::vector<ComponentWrap> wraps;
+  const auto owners = component_by_place(skeleton, split_components(surface, counted));
+  for (const FailingComponent& failing :
+       failing_components(surface, counted, skeleton, owners, options, monitor)) {
+    if (!crosses_itself(failing.surface)) continue;
+    auto wrap = wrap_that_agrees(failing, as_repaired.wrap_opening, options, monitor);
+    if (wrap) wraps.push_back({failing.number, std::move(*wrap)});
+  }
+  if (wraps.empty()) return result;
+  result.wrapped = with_wraps(repaired, wraps, monitor);
+  result.certificate = evaluate(result.wrapped->surface, skeleton, options, monitor);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,137 @@
+#include "skeleton/pipeline/failing_components.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include "base/indices.hpp"
+
+namespace curveskel {
+namespace {
+
+Eigen::AlignedBox3d box_of(const Eigen::Ref<const Positions>& points) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points.rowwise()) box.extend(Eigen::Vector3d(p.transpose()));
+  return box;
+}
+
+/// A piece of a skeleton, looking for its component.
+struct PieceAsked {
+  explicit PieceAsked(Positions given) : nodes(std::move(given)), box(box_of(nodes)) {}
+
+  void ask(const SurfaceTree& tree, int candidate, double candidate_extent) {
+    constexpr Eigen::Index most_asked = 64;
+    const Eigen::Index step = 1 + nodes.rows() / most_asked;
+    int within = 0;
+    for (Eigen::Index n = 0; n < nodes.rows(); n += step) {
+      if (tree.inside(nodes.row(n).transpose())) ++within;
+    }
+    if (within > held || (within == held && within > 0 && candidate_extent < extent)) {
+      held = within;
+      component = candidate;
+      extent = candidate_extent;
+    }
+  }
+
+  Positions nodes;
+  Eigen::AlignedBox3d box;
+  int held = 0;
+  int component = -1;
+  double extent = 0;
+};
+
+/// Of each node the component of its piece.
+std::vector<int> spread(const std::vector<int>& piece_of_node,
+                        const std::vector<int>& component_of_piece) {
+  std::vector<int> result(piece_of_node.size());
+  for (std::size_t node = 0; node < result.size(); ++node) {
+    result[node] = component_of_piece[idx(piece_of_node[node])];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> component_by_map(const CurveSkeleton& skeleton, const Topology& counted) {
+  const std::vector<int> piece = component_of_node(skeleton);
+  std::vector<int> of_piece(piece.size(), -1);
+  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const int node = skeleton.node_of_vertex[v];
+    if (node >= 0) of_piece[idx(piece[idx(node)])] = counted.component_of_vertex[v];
+  }
+  return spread(piece, of_piece);
+}
+
+std::vector<int> component_by_place(const CurveSkeleton& skeleton,
+                                    const std::vector<Component>& parts) {
+  const std::vector<int> piece = component_of_node(skeleton);
+  const int pieces = piece.empty() ? 0 : 1 + *std::max_element(piece.begin(), piece.end());
+  std::vector<std::vector<int>> nodes(idx(pieces));
+  for (std::size_t n = 0; n < piece.size(); ++n)
+    nodes[idx(piece[n])].push_back(static_cast<int>(n));
+  std::vector<PieceAsked> asked;
+  asked.reserve(nodes.size());
+  for (const auto& own : nodes) asked.emplace_back(skeleton.nodes(own, Eigen::all));
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const Eigen::AlignedBox3d box = box_of(parts[c].surface.positions);
+    std::optional<SurfaceTree> tree;
+    for (PieceAsked& one : asked) {
+      if (!box.intersects(one.box)) continue;
+      if (!tree) tree.emplace(parts[c].surface);
+      one.ask(*tree, static_cast<int>(c), box.diagonal().norm());
+    }
+  }
+  std::vector<int> of_piece;
+  of_piece.reserve(asked.size());
+  for (const PieceAsked& one : asked) of_piece.push_back(one.component);
+  return spread(piece, of_piece);
+}
+
+std::vector<CurveSkeleton> divided(const CurveSkeleton& skeleton,
+                                   const std::vector<int>& component_of_node, int components) {
+  std::vector<std::vector<int>> nodes(idx(components));
+  std::vector<std::vector<int>> edges(idx(components));
+  std::vector<std::int32_t> number(component_of_node.size(), -1);
+  for (std::size_t node = 0; node < number.size(); ++node) {
+    if (component_of_node[node] < 0) continue;
+    auto& own = nodes[idx(component_of_node[node])];
+    number[node] = static_cast<std::int32_t>(own.size());
+    own.push_back(static_cast<int>(node));
+  }
+  for (int e = 0; e < skeleton.edges.rows(); ++e) {
+    const int component = component_of_node[idx(skeleton.edges(e, 0))];
+    if (component >= 0) edges[idx(component)].push_back(e);
+  }
+  std::vector<CurveSkeleton> parts(idx(components));
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    parts[c].nodes = skeleton.nodes(nodes[c], Eigen::all);
+    parts[c].edges = skeleton.edges(edges[c], Eigen::all);
+    for (std::int32_t& node : parts[c].edges.reshaped()) node = number[idx(node)];
+    parts[c].radii.setZero(parts[c].nodes.rows());
+  }
+  return parts;
+}
+
+std::vector<FailingComponent> failing_components(const Surface& surface, const Topology& counted,
+                                                 const CurveSkeleton& skeleton,
+                                                 const std::vector<int>& component_of_node,
+                                                 const CertificateOptions& options,
+                                                 const Monitor& monitor) {
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  auto parts = split_components(surface, counted);
+  auto curves = divided(skeleton, component_of_node, counted.components());
+  std::vector<FailingComponent> failing;
+  for (int c = 0; c < counted.components(); ++c) {
+    Surface& part = parts[idx(c)].surface;
+    const int genus = counted.genus[idx(c)];
+    const CertifiedSurface own{part, SurfaceTree(part), diagonal, 1, genus};
+    if (evaluate(own, curves[idx(c)], options, monitor).holds()) continue;
+    failing.push_back({c, std::move(part), genus, std::move(curves[idx(c)])});
+  }
+  return failing;
+}
+
+}  // namespace curveskel

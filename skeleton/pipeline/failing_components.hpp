@@ -1,0 +1,41 @@
+// The components of a surface that fail their certificate.
+#pragma once
+
+#include <vector>
+
+#include <curveskel/certificate.hpp>
+#include <curveskel/topology.hpp>
+
+namespace curveskel {
+
+/// The component of the surface that each node belongs to, from the skeleton's vertex map; -1 for
+/// nodes of a piece that no vertex maps to. Precondition: the map is of this surface.
+[[nodiscard]] std::vector<int> component_by_map(const CurveSkeleton& skeleton,
+                                                const Topology& counted);
+
+/// The same without a map: the component that holds most of the piece's nodes, the smaller of two
+/// (what lies within another is inside both); -1 if none holds any. `parts` as of
+/// `split_components`.
+[[nodiscard]] std::vector<int> component_by_place(const CurveSkeleton& skeleton,
+                                                  const std::vector<Component>& parts);
+
+/// The part of a skeleton that belongs to each component of its surface, without radii and map.
+[[nodiscard]] std::vector<CurveSkeleton> divided(const CurveSkeleton& skeleton,
+                                                 const std::vector<int>& component_of_node,
+                                                 int components);
+
+/// A component whose own certificate does not hold.
+struct FailingComponent {
+  int number = 0;  ///< in `topology`
+  Surface surface;
+  int genus = 0;
+  CurveSkeleton skeleton;  ///< the part that belongs to the component
+};
+
+/// In the order of their numbers. D is the whole surface's for all.
+[[nodiscard]] std::vector<FailingComponent> failing_components(
+    const Surface& surface, const Topology& counted, const CurveSkeleton& skeleton,
+    const std::vector<int>& component_of_node, const CertificateOptions& options,
+    const Monitor& monitor);
+
+}  // namespace curveskel

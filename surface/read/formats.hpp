@@ -1,0 +1,46 @@
+// One reader per file format; `read_polygons` chooses among them.
+#pragma once
+
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+#include "surface/read/file_bytes.hpp"
+
+namespace curveskel {
+
+/// All throw Error(Fault::input) with the file, the line or element, what was found and what is
+/// needed. Corners lie within [0, #V) and positions are finite on return.
+[[nodiscard]] PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_off(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_stl(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
+
+/// The work of `read_polygons` once the file is in memory.
+[[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor);
+
+/// True if the content can only be this format.
+[[nodiscard]] bool looks_like_obj(const FileBytes& file);
+[[nodiscard]] bool looks_like_off(const FileBytes& file);
+[[nodiscard]] bool looks_like_ply(const FileBytes& file);
+[[nodiscard]] bool looks_like_stl(const FileBytes& file);
+[[nodiscard]] bool looks_like_gltf(const FileBytes& file);
+[[nodiscard]] bool looks_like_glb(const FileBytes& file);
+
+/// Appends a polygon's end; for readers that append corners one by one.
+inline void end_polygon(PolygonSoup& soup) {
+  soup.offsets.push_back(static_cast<std::int64_t>(soup.corners.size()));
+}
+
+/// Positions from x y z x y z ...
+[[nodiscard]] inline Positions positions_from(const std::vector<double>& coordinates) {
+  return Eigen::Map<const Positions>(coordinates.data(),
+                                     static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+}
+
+/// The readers report progress once per this many rows.
+inline constexpr std::int64_t rows_per_report = 1 << 16;
+
+/// Vertex indices are 32 bits wide.
+inline constexpr std::int64_t most_vertices = 2147483647;
+
+}  // namespace curveskel

@@ -1,0 +1,215 @@
+// glTF 2.0 and GLB. Every mesh that the scene shows is taken where the scene shows it, except that
+// a skinned mesh stays as modelled (its bind pose): glTF ignores the transform of its node, and its
+// joints would only pose it.
+#include "surface/read/gltf_scene.hpp"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "surface/read/formats.hpp"
+#include "surface/read/gltf_file.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::string_view gltf_remedy = "export the file again";
+
+class SceneReader {
+ public:
+  SceneReader(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor)
+      : file_(file), model_(model), monitor_(monitor), visited_(model.nodes.size(), false) {
+    scene_.soup.offsets.push_back(0);
+    scene_.frames.assign(model.nodes.size(), unmoved());
+    scene_.parents.assign(model.nodes.size(), -1);
+  }
+
+  GltfScene read() {
+    const std::vector<int> roots = root_nodes();
+    std::vector<std::pair<int, Eigen::Affine3d>> open;
+    const auto add = [&](const std::vector<int>& nodes, const Eigen::Affine3d& frame) {
+      for (std::size_t i = nodes.size(); i-- > 0;) open.emplace_back(nodes[i], frame);
+    };
+    add(roots, Eigen::Affine3d::Identity());
+    while (!open.empty()) {
+      const auto [index, parent] = open.back();
+      open.pop_back();
+      const tinygltf::Node& node = visit(index);
+      const Eigen::Affine3d frame = parent * transform(node, index);
+      scene_.nodes.push_back(index);
+      scene_.frames[static_cast<std::size_t>(index)] = frame;
+      if (node.mesh >= 0) read_mesh(node.mesh, node.skin, node.skin >= 0 ? unmoved() : frame);
+      add(node.children, frame);
+      for (const int child : node.children) {
+        gltf_element(file_, model_.nodes, child, "child node");
+        scene_.parents[static_cast<std::size_t>(child)] = index;
+      }
+    }
+    if (model_.nodes.empty()) {
+      for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
+        read_mesh(mesh, -1, unmoved());
+      }
+    }
+    scene_.soup.positions = positions_from(coordinates_);
+    return std::move(scene_);
+  }
+
+ private:
+  static Eigen::Affine3d unmoved() { return Eigen::Affine3d::Identity(); }
+
+  /// Of the default scene, else the first; of a file without scenes all nodes that are no child.
+  [[nodiscard]] std::vector<int> root_nodes() const {
+    if (!model_.scenes.empty()) {
+      return gltf_element(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+    }
+    std::vector<bool> is_child(model_.nodes.size(), false);
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        gltf_element(file_, model_.nodes, child, "child node");
+        is_child[static_cast<std::size_t>(child)] = true;
+      }
+    }
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) roots.push_back(static_cast<int>(i));
+    }
+    return roots;
+  }
+
+  const tinygltf::Node& visit(int index) {
+    const tinygltf::Node& node = gltf_element(file_, model_.nodes, index, "node");
+    if (visited_[static_cast<std::size_t>(index)]) {
+      file_.fail("node " + std::to_string(index) + " twice in the scene", "a tree of nodes",
+                 gltf_remedy);
+    }
+    visited_[static_cast<std::size_t>(index)] = true;
+    return node;
+  }
+
+  [[nodiscard]] Eigen::Affine3d transform(const tinygltf::Node& node, int index) const {
+    Eigen::Affine3d result = Eigen::Affine3d::Identity();
+    if (node.matrix.size() == 16) {
+      result.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+    } else {
+      if (node.translation.size() == 3) {
+        result.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
+      }
+      if (node.rotation.size() == 4) {
+        result.rotate(Eigen::Quaterniond(node.rotation.data()).normalized());
+      }
+      if (node.scale.size() == 3) {
+        result.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
+      }
+    }
+    if (!result.matrix().allFinite() || result.matrix().row(3) != Eigen::RowVector4d::UnitW()) {
+      file_.fail("a transform of node " + std::to_string(index) + " that is not affine",
+                 "finite numbers and a last row of 0 0 0 1", gltf_remedy);
+    }
+    return result;
+  }
+
+  void read_mesh(int index, int skin, const Eigen::Affine3d& frame) {
+    // Primitives with the same accessor share their vertices; others meet in coincident ones.
+    std::map<int, std::int64_t> first_vertex_of;
+    const bool mirrored = frame.linear().determinant() < 0;
+    for (const tinygltf::Primitive& primitive :
+         gltf_element(file_, model_.meshes, index, "mesh").primitives) {
+      const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+      if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+          mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+        continue;  // points and lines
+      }
+      const auto position = primitive.attributes.find("POSITION");
+      if (position == primitive.attributes.end()) continue;  // nothing to show, says the standard
+      const GltfNumbers points = gltf_numbers(file_, model_, position->second, 3, "positions");
+      const auto next = static_cast<std::int64_t>(coordinates_.size() / 3);
+      const auto [entry, is_new] = first_vertex_of.emplace(position->second, next);
+      if (is_new) append_positions(points, frame);
+      if (is_new && skin >= 0) scene_.skinned.push_back({&primitive, skin, next});
+      append_triangles(vertices_of(primitive, points.rows()), mode, entry->second, mirrored);
+    }
+  }
+
+  void append_positions(const GltfNumbers& points, const Eigen::Affine3d& frame) {
+    if (coordinates_.size() / 3 + points.rows() > static_cast<std::size_t>(most_vertices)) {
+      file_.fail("more than " + std::to_string(most_vertices) + " vertices", "fewer",
+                 "split or decimate the surface first");
+    }
+    for (std::size_t i = 0; i < points.rows(); ++i) {
+      if (i % rows_per_report == 0) monitor_.report("read", 0.5);
+      const Eigen::Vector3d point =
+          frame * Eigen::Vector3d(points.at(i, 0), points.at(i, 1), points.at(i, 2));
+      if (!point.allFinite()) {
+        file_.fail("NaN or infinity in position " + std::to_string(i) + " (counted from 0)",
+                   "finite numbers", gltf_remedy);
+      }
+      coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
+    }
+  }
+
+  [[nodiscard]] std::vector<std::int64_t> vertices_of(const tinygltf::Primitive& primitive,
+                                                      std::size_t points) const {
+    std::vector<std::int64_t> vertices;
+    if (primitive.indices < 0) {
+      for (std::size_t i = 0; i < points; ++i) vertices.push_back(static_cast<std::int64_t>(i));
+      return vertices;
+    }
+    const GltfNumbers indices = gltf_numbers(file_, model_, primitive.indices, 1, "indices");
+    vertices.reserve(indices.rows());
+    for (std::size_t i = 0; i < indices.rows(); ++i) {
+      const double vertex = indices.at(i, 0);
+      if (!(vertex >= 0 && vertex < static_cast<double>(points) && std::floor(vertex) == vertex)) {
+        file_.fail("vertex index " + std::to_string(vertex) + " in accessor " +
+                       std::to_string(primitive.indices),
+                   "whole numbers from 0 to " + std::to_string(points) + " - 1", gltf_remedy);
+      }
+      vertices.push_back(static_cast<std::int64_t>(vertex));
+    }
+    return vertices;
+  }
+
+  /// The corners of triangle i by mode are those of section 3.7.2.1 of the standard.
+  void append_triangles(const std::vector<std::int64_t>& vertices, int mode, std::int64_t first,
+                        bool mirrored) {
+    const bool separate = mode == TINYGLTF_MODE_TRIANGLES;
+    const std::size_t count =
+        separate ? vertices.size() / 3 : std::max<std::size_t>(vertices.size(), 2) - 2;
+    if (separate && vertices.size() % 3 != 0) {
+      file_.fail(std::to_string(vertices.size()) + " indices of triangles", "a multiple of three",
+                 gltf_remedy);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<std::size_t, 3> corner{3 * i, 3 * i + 1, 3 * i + 2};
+      if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) corner = {i, i + 1 + i % 2, i + 2 - i % 2};
+      if (mode == TINYGLTF_MODE_TRIANGLE_FAN) corner = {i + 1, i + 2, 0};
+      if (mirrored) std::swap(corner[1], corner[2]);
+      for (const std::size_t k : corner) {
+        scene_.soup.corners.push_back(static_cast<std::int32_t>(first + vertices[k]));
+      }
+      end_polygon(scene_.soup);
+    }
+  }
+
+  const FileBytes& file_;
+  const tinygltf::Model& model_;
+  const Monitor& monitor_;
+  std::vector<bool> visited_;  // per node
+  std::vector<double> coordinates_;
+  GltfScene scene_;
+};
+
+}  // namespace
+
+GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,
+                          const Monitor& monitor) {
+  return SceneReader(file, model, monitor).read();
+}
+
+}  // namespace curveskel

@@ -1,0 +1,37 @@
+// The shown part of a glTF scene, and the part of it that a skin moves.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+#include "surface/read/gltf_file.hpp"
+
+namespace tinygltf {
+struct Primitive;
+}
+
+namespace curveskel {
+
+/// Vertices first_vertex, first_vertex + 1, ... of the soup are those of this primitive.
+struct GltfSkinned {
+  const tinygltf::Primitive* primitive;
+  int skin;
+  std::int64_t first_vertex;
+};
+
+struct GltfScene {
+  PolygonSoup soup;
+  std::vector<GltfSkinned> skinned;     ///< once per skin and accessor of positions
+  std::vector<Eigen::Affine3d> frames;  ///< of each node in the scene; else the identity
+  std::vector<int> parents;             ///< of each node; -1 = none, or not in the scene
+  std::vector<int> nodes;               ///< those in the scene, each before its children
+};
+
+/// Valid as long as the model. Throws Error(Fault::input) where indices or numbers are wrong.
+[[nodiscard]] GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,
+                                        const Monitor& monitor);
+
+}  // namespace curveskel

@@ -1,0 +1,96 @@
+#include <curveskel/read.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+
+#include "surface/read/file_bytes.hpp"
+#include "surface/read/formats.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Of "cow.ply.gz" it is ply.
+std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
+  const auto extension = [&path] {
+    std::string text = path.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  if (extension() == ".gz") path = path.stem();
+  const std::string text = extension();
+  return text.empty() ? std::nullopt : choice_of(surface_formats, std::string_view(text).substr(1));
+}
+
+std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
+  if (looks_like_glb(file)) return SurfaceFormat::glb;
+  if (looks_like_ply(file)) return SurfaceFormat::ply;
+  if (looks_like_off(file)) return SurfaceFormat::off;
+  if (looks_like_gltf(file)) return SurfaceFormat::gltf;
+  if (looks_like_stl(file)) return SurfaceFormat::stl;
+  if (looks_like_obj(file)) return SurfaceFormat::obj;
+  return std::nullopt;
+}
+
+PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& monitor) {
+  switch (format) {
+    case SurfaceFormat::obj:
+      return read_obj(file, monitor);
+    case SurfaceFormat::off:
+      return read_off(file, monitor);
+    case SurfaceFormat::ply:
+      return read_ply(file, monitor);
+    case SurfaceFormat::stl:
+      return read_stl(file, monitor);
+    case SurfaceFormat::gltf:
+    case SurfaceFormat::glb:
+      return read_gltf(file, monitor);
+  }
+  file.fail("no known format", names_in(surface_formats), "convert it");
+}
+
+}  // namespace
+
+PolygonSoup soup_of(const Surface& surface) {
+  PolygonSoup soup;
+  soup.positions = surface.positions;
+  soup.corners.assign(surface.triangles.data(),
+                      surface.triangles.data() + surface.triangles.size());
+  soup.offsets.resize(static_cast<std::size_t>(surface.triangles.rows()) + 1);
+  for (std::size_t f = 0; f < soup.offsets.size(); ++f) {
+    soup.offsets[f] = static_cast<std::int64_t>(3 * f);
+  }
+  return soup;
+}
+
+PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
+  std::optional<SurfaceFormat> format = format_by_content(file);
+  if (!format) format = format_by_extension(file.path);
+  if (!format) {
+    file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
+                  " and no known extension",
+              "a surface as one of " + names_in(surface_formats), "convert it");
+  }
+  PolygonSoup soup = read_as(*format, file, monitor);
+  soup.file = file.path;
+  if (soup.offsets.size() < 2) {
+    const auto vertices = soup.positions.rows();
+    file.fail((vertices > 0 ? "a point cloud: " : "") + std::to_string(vertices) +
+                  " vertices and no faces (read as " +
+                  std::string(name_of(surface_formats, *format)) + ")",
+              "a surface with faces",
+              vertices > 0 ? "reconstruct a surface from the points first"
+                           : "check the file's content and format");
+  }
+  monitor.report("read", 1);
+  return soup;
+}
+
+PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& monitor) {
+  monitor.report("read", 0);
+  return read_content(read_file(path, monitor), monitor);
+}
+
+}  // namespace curveskel

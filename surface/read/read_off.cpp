@@ -1,0 +1,158 @@
+// Geomview's Object File Format. Prefixes of the keyword announce colours (C), normals (N) and
+// texture coordinates (ST) behind each position; they are passed over with the rest of the line.
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "surface/read/formats.hpp"
+#include "surface/read/text_cursor.hpp"
+
+namespace curveskel {
+namespace {
+
+struct OffKeyword {
+  bool four_dimensional = false;
+  bool any_dimensional = false;
+};
+
+/// [ST][C][N][4][n]OFF
+std::optional<OffKeyword> parse_keyword(std::string_view word) {
+  OffKeyword keyword;
+  const auto take = [&](std::string_view prefix) {
+    if (!word.starts_with(prefix)) return false;
+    word.remove_prefix(prefix.size());
+    return true;
+  };
+  take("ST");
+  take("C");
+  take("N");
+  keyword.four_dimensional = take("4");
+  keyword.any_dimensional = take("n");
+  if (word != "OFF") return std::nullopt;
+  return keyword;
+}
+
+struct OffCounts {
+  std::int64_t vertices = 0;
+  std::int64_t faces = 0;
+};
+
+OffCounts read_header(TextCursor& text) {
+  text.skip_space('#');
+  TextCursor start = text;
+  if (const auto keyword = parse_keyword(text.word())) {
+    text.skip_blanks();
+    if (text.accept("BINARY")) {
+      start.fail("OFF as text", "convert it, for instance to PLY, with the program that wrote it",
+                 "binary OFF");
+    }
+    text.skip_space('#');
+    const bool three = !keyword->any_dimensional || text.integer("the dimension") == 3;
+    if (keyword->four_dimensional || !three) {
+      start.fail("positions in three dimensions", "project the surface to three dimensions first");
+    }
+  } else if (start.peek() < '0' || start.peek() > '9') {  // the keyword may be missing altogether
+    start.fail("\"OFF\", or the counts of vertices and faces",
+               "check that this is an OFF file, or name it by its format");
+  } else {
+    text = start;
+  }
+
+  OffCounts counts;
+  text.skip_space('#');
+  start = text;
+  counts.vertices = text.integer("the number of vertices");
+  text.skip_space('#');
+  counts.faces = text.integer("the number of faces");
+  text.skip_line();  // the number of edges, which many writers leave out or zero
+
+  // "0 0 0\n" is the shortest vertex, "0\n" the shortest face.
+  const auto left = static_cast<std::int64_t>(text.bytes_left()) + 1;
+  if (counts.vertices < 0 || counts.faces < 0 || counts.vertices > left / 6 ||
+      counts.faces > (left - 6 * counts.vertices) / 2) {
+    start.fail("counts that fit into the " + std::to_string(left - 1) + " bytes that follow",
+               "the header is wrong or the file truncated: export or fetch it again",
+               std::to_string(counts.vertices) + " vertices and " + std::to_string(counts.faces) +
+                   " faces announced");
+  }
+  return counts;
+}
+
+void check_not_done(const TextCursor& text, std::int64_t row, std::int64_t rows,
+                    std::string_view what) {
+  if (!text.done()) return;
+  text.fail(std::to_string(rows) + " " + std::string(what),
+            "the file is truncated or its header wrong: fetch or export it again",
+            "the end of the file after " + std::to_string(row));
+}
+
+void read_vertices(TextCursor& text, PolygonSoup& soup, const Monitor& monitor) {
+  constexpr std::array<std::string_view, 3> needed{"the x coordinate of a vertex",
+                                                   "the y coordinate of a vertex",
+                                                   "the z coordinate of a vertex"};
+  for (Eigen::Index i = 0; i < soup.positions.rows(); ++i) {
+    if (i % rows_per_report == 0) monitor.report("read", text.fraction());
+    for (int k = 0; k < 3; ++k) {
+      text.skip_space('#');
+      if (k == 0) check_not_done(text, i, soup.positions.rows(), "vertices");
+      soup.positions(i, k) = text.number(needed[static_cast<std::size_t>(k)]);
+    }
+    text.skip_line();
+  }
+}
+
+void read_face(TextCursor& text, PolygonSoup& soup) {
+  const TextCursor start = text;
+  const std::int64_t corners = text.integer("the number of corners of a face");
+  if (corners < 0 || corners > static_cast<std::int64_t>(text.bytes_left() / 2) + 1) {
+    start.fail("the number of corners of a face", "correct it or export the file again");
+  }
+  for (std::int64_t k = 0; k < corners; ++k) {
+    text.expect_word_end("an integer");
+    text.skip_space('#');
+    const TextCursor corner = text;
+    const std::int64_t vertex = text.integer("a vertex index");
+    if (vertex < 0 || vertex >= soup.positions.rows()) {
+      corner.fail("a vertex index from 0 to " + std::to_string(soup.positions.rows() - 1),
+                  "OFF counts vertices from 0; export the file again");
+    }
+    soup.corners.push_back(static_cast<std::int32_t>(vertex));
+  }
+  text.expect_word_end("an integer");
+  text.skip_line();  // colours
+  end_polygon(soup);
+}
+
+}  // namespace
+
+PolygonSoup read_off(const FileBytes& file, const Monitor& monitor) {
+  PolygonSoup soup;
+  soup.format = SurfaceFormat::off;
+  TextCursor text(file);
+  const OffCounts counts = read_header(text);
+  if (counts.vertices > most_vertices) {
+    file.fail(std::to_string(counts.vertices) + " vertices",
+              "at most " + std::to_string(most_vertices), "split or decimate the surface first");
+  }
+  soup.positions.resize(counts.vertices, 3);
+  read_vertices(text, soup, monitor);
+  soup.offsets.reserve(static_cast<std::size_t>(counts.faces) + 1);
+  soup.corners.reserve(static_cast<std::size_t>(counts.faces) * 3);
+  soup.offsets.push_back(0);
+  for (std::int64_t i = 0; i < counts.faces; ++i) {
+    if (i % rows_per_report == 0) monitor.report("read", text.fraction());
+    text.skip_space('#');
+    check_not_done(text, i, counts.faces, "faces");
+    read_face(text, soup);
+  }
+  return soup;
+}
+
+bool looks_like_off(const FileBytes& file) {
+  TextCursor text(file);
+  text.skip_space('#');
+  return parse_keyword(text.word()).has_value();
+}
+
+}  // namespace curveskel

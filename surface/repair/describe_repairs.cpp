@@ -1,0 +1,68 @@
+#include "surface/repair/describe_repairs.hpp"
+
+#include <sstream>
+#include <string>
+
+#include "surface/repair/close_surface.hpp"
+
+namespace curveskel {
+namespace {
+
+std::string share_words(double share) {
+  std::ostringstream words;
+  words.precision(2);
+  words << share;
+  return words.str();
+}
+
+std::string wrap_words(const Repairs& repairs) {
+  return "the wrap spans gaps up to " + share_words(repairs.wrap_opening) + " D and lies " +
+         share_words(repairs.wrap_mean_distance) + " D from them in the mean, " +
+         share_words(repairs.wrap_distance) + " D at most";
+}
+
+void line(Repairs& repairs, const Monitor& monitor, std::int64_t count, const std::string& one,
+          const std::string& many, const std::string& what) {
+  if (count == 0) return;
+  repairs.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
+  monitor.say(repairs.lines.back());
+}
+
+}  // namespace
+
+void describe_repairs(Repairs& repairs, const Monitor& monitor) {
+  const auto said = [&](std::int64_t count, const std::string& one, const std::string& many,
+                        const std::string& what) {
+    line(repairs, monitor, count, one, many, what);
+  };
+  said(repairs.vertices_joined, "vertex", "vertices", "joined with one that nearly coincides");
+  said(repairs.vertices_copied, "copy of a vertex", "copies of vertices",
+       "made where faces met in no orientable 2-manifold");
+  said(repairs.holes_closed, "hole", "holes",
+       "closed with " + std::to_string(repairs.faces_added) + " faces and " +
+           std::to_string(repairs.vertices_added) + " vertices (the longest has " +
+           std::to_string(repairs.longest_hole) + " edges)");
+  said(repairs.holes_narrowed, "hole", "holes",
+       "of more than " + std::to_string(most_edges_without_rings) +
+           " edges narrowed by rings of triangles, each of half as many, before it was closed");
+  said(repairs.faces_wrapped, "face", "faces",
+       std::string("wrapped, as ") +
+           (repairs.wrapped_as_asked ? "asked" : "no closing of the holes gives them an inside") +
+           "; " + wrap_words(repairs));
+  said(repairs.copies_dropped, "component", "components", "left out as copies of another");
+  said(repairs.sheets_dropped, "open or flat part", "open or flat parts",
+       "left out, enclosing nothing");
+  said(repairs.crumbs_dropped, "crumb", "crumbs",
+       "left out (small pieces cut off a much larger one; their vertices follow its nearest)");
+  said(repairs.specks_dropped, "speck", "specks",
+       "left out (components with very little of the largest one's area; see --min-size)");
+  said(repairs.not_chosen, "smaller component", "smaller components", "left out as asked");
+}
+
+void describe_wrapped_components(Repairs& repairs, std::int64_t faces, const Monitor& monitor) {
+  line(repairs, monitor, repairs.components_wrapped, "component", "components",
+       "wrapped (" + std::to_string(faces) +
+           " faces), as the skeleton's certificate failed there; " + wrap_words(repairs));
+}
+
+}  // namespace curveskel

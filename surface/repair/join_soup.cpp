@@ -1,0 +1,81 @@
+#include "surface/repair/join_soup.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include "base/indices.hpp"
+#include "surface/mesh/half_edges.hpp"
+#include "surface/repair/weld.hpp"
+
+namespace curveskel {
+namespace {
+
+std::int32_t vertices_of(const Joined& joined) {
+  return static_cast<std::int32_t>(joined.surface.positions.rows());
+}
+
+void drop_repeats(Joined& joined, Changes& changes) {
+  changes.degenerate_faces_dropped += drop_degenerate_faces(joined.surface.triangles);
+  changes.duplicate_faces_dropped +=
+      drop_duplicate_faces(joined.surface.triangles, vertices_of(joined));
+}
+
+/// Returns how many vertices were merged.
+std::int64_t merge(Joined& joined, const std::vector<std::int32_t>& into) {
+  std::int64_t merged = 0;
+  for (std::size_t v = 0; v < into.size(); ++v) {
+    merged += into[v] != static_cast<std::int32_t>(v) ? 1 : 0;
+  }
+  for (std::int32_t& v : joined.merged_into) v = into[idx(v)];
+  for (std::int32_t& corner : joined.surface.triangles.reshaped<Eigen::RowMajor>()) {
+    corner = into[idx(corner)];
+  }
+  return merged;
+}
+
+std::vector<bool> on_boundary(const Joined& joined) {
+  return pair_half_edges(joined.surface.triangles, vertices_of(joined)).vertex_on_boundary;
+}
+
+/// Vertices of the file that no polygon uses.
+std::int64_t unused_vertices(const PolygonSoup& soup) {
+  std::vector<bool> used(idx(soup.positions.rows()), false);
+  for (const std::int32_t v : soup.corners) used[idx(v)] = true;
+  return std::count(used.begin(), used.end(), false);
+}
+
+}  // namespace
+
+double extent_of_faces(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const std::int32_t v : surface.triangles.reshaped()) {
+    box.extend(surface.positions.row(v).transpose());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+Joined join_soup(const PolygonSoup& soup, double distance_of_extent, Changes& changes,
+                 std::int64_t& vertices_joined) {
+  Joined joined{{soup.positions, triangulate(soup)}, {}};
+  joined.merged_into.resize(idx(joined.surface.positions.rows()));
+  std::iota(joined.merged_into.begin(), joined.merged_into.end(), 0);
+  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
+    changes.polygons_triangulated += soup.offsets[p] - soup.offsets[p - 1] > 3 ? 1 : 0;
+  }
+  changes.isolated_vertices_dropped = unused_vertices(soup);
+  drop_repeats(joined, changes);
+  const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
+  changes.vertices_merged = merge(joined, exactly);
+  drop_repeats(joined, changes);
+  const double distance = distance_of_extent * extent_of_faces(joined.surface);
+  const auto open = on_boundary(joined);
+  if (distance > 0 && std::find(open.begin(), open.end(), true) != open.end()) {
+    const auto nearly = nearby_vertices(joined.surface.positions, open, distance);
+    vertices_joined = merge(joined, nearly);
+    drop_repeats(joined, changes);
+  }
+  return joined;
+}
+
+}  // namespace curveskel

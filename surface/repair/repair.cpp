@@ -1,0 +1,469 @@
+#include <curveskel/repair.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
+#include "base/indices.hpp"
+#include "surface/mesh/half_edges.hpp"
+#include "surface/mesh/loose_parts.hpp"
+#include "surface/mesh/nearest_vertex.hpp"
+#include "surface/repair/close_surface.hpp"
+#include "surface/repair/describe_repairs.hpp"
+#include "surface/repair/join_soup.hpp"
+#include "surface/repair/orient.hpp"
+#include "surface/repair/select_components.hpp"
+#include "surface/repair/weld.hpp"
+#include "surface/repair/wrap.hpp"
+#include "surface/repair/wrap_solid.hpp"
+
+namespace curveskel {
+namespace {
+
+/// One component of the closed parts.
+struct Part {
+  double area = 0;
+  double added_area = 0;
+  double volume = 0;  // relative, see ComponentSums
+  bool is_body = false;
+  std::int64_t given_faces = 0;
+  std::int64_t faces_as_given = 0;  // same orientation as in the file
+};
+
+double face_area(const Surface& surface, Eigen::Index f) {
+  const Eigen::RowVector3d a = surface.positions.row(surface.triangles(f, 0));
+  const Eigen::RowVector3d ab = surface.positions.row(surface.triangles(f, 1)) - a;
+  const Eigen::RowVector3d ac = surface.positions.row(surface.triangles(f, 2)) - a;
+  return ab.cross(ac).norm() / 2;
+}
+
+struct JudgedParts {
+  Orientation orientation;
+  std::vector<Part> parts;
+};
+
+/// True if the face runs through its corners in the given order.
+bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index f) {
+  const auto given = joined.surface.triangles.row(closed.face_given[idx(f)]);
+  const auto position_of = [&](int corner) {
+    return closed.surface.positions.row(closed.surface.triangles(f, corner));
+  };
+  // Stitching may have put a coincident vertex in a corner's place, so positions are compared.
+  for (int turn = 0; turn < 3; ++turn) {
+    bool same = true;
+    for (int k = 0; k < 3; ++k) {
+      same = same && position_of((k + turn) % 3) == joined.surface.positions.row(given(k));
+    }
+    if (same) return true;
+  }
+  return false;
+}
+
+/// True if a surface without boundary is one-sided to such an extent that cutting it open along the
+/// conflict would leave a shape of its own.
+bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
+  constexpr double small_cut = 0.05;  // of the vertices
+  const HalfEdges half_edges = pair_half_edges(
+      joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
+  if (half_edges.first_unpaired >= 0) return false;
+  return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
+         double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
+}
+
+JudgedParts judge(const ClosedParts& closed, const Joined& joined, const RepairOptions& options,
+                  int threads) {
+  const auto vertices = static_cast<std::int32_t>(closed.surface.positions.rows());
+  JudgedParts judged;
+  judged.orientation =
+      orient(closed.surface.triangles, pair_half_edges(closed.surface.triangles, vertices));
+  judged.parts.resize(idx(judged.orientation.components));
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    Part& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
+    const double area = face_area(closed.surface, f);
+    part.area += area;
+    if (closed.face_given[idx(f)] < 0) {
+      part.added_area += area;
+    } else {
+      ++part.given_faces;
+      part.faces_as_given += runs_as_given(closed, joined, f) ? 1 : 0;
+    }
+  }
+  constexpr double least_volume = 1e-10;  // as in `clean`
+  const auto sums = component_sums(closed.surface, judged.orientation, threads);
+  for (std::size_t c = 0; c < judged.parts.size(); ++c) {
+    Part& part = judged.parts[c];
+    part.volume = sums[c].volume;
+    part.is_body = std::abs(sums[c].volume) > least_volume * sums[c].area &&
+                   part.added_area <= options.most_added_area * part.area;
+  }
+  return judged;
+}
+
+/// The bodies alone, outward; every vertex keeps its number in the closed parts.
+Triangles outward_bodies(const ClosedParts& closed, const JudgedParts& judged, Changes& changes) {
+  for (const Part& part : judged.parts) {
+    if (!part.is_body) continue;
+    const bool inward = part.volume < 0;
+    const std::int64_t as_given =
+        inward ? part.given_faces - part.faces_as_given : part.faces_as_given;
+    const std::int64_t turned = part.given_faces - as_given;
+    changes.components_turned += turned > as_given ? 1 : 0;
+    changes.faces_flipped += std::min(turned, as_given);
+  }
+  Triangles result(closed.surface.triangles.rows(), 3);
+  Eigen::Index rows = 0;
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    const Part& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
+    if (!part.is_body) continue;
+    result.row(rows) = closed.surface.triangles.row(f);
+    if (part.volume < 0) std::swap(result(rows, 1), result(rows, 2));
+    ++rows;
+  }
+  result.conservativeResize(rows, 3);
+  return result;
+}
+
+/// The given faces that enclose nothing as they are.
+struct Sheets {
+  Surface surface;  // positions as joined
+  std::int64_t components = 0;
+  double area = 0;
+};
+
+Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joined& joined) {
+  Sheets sheets{{joined.surface.positions, {}}, 0, 0};
+  for (const Part& part : judged.parts) {
+    if (part.is_body) continue;
+    ++sheets.components;
+    sheets.area += part.area - part.added_area;
+  }
+  std::vector<std::int32_t> rows;
+  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
+    if (closed.face_given[f] < 0) continue;
+    if (!judged.parts[idx(judged.orientation.component_of_face[f])].is_body) {
+      rows.push_back(closed.face_given[f]);
+    }
+  }
+  sheets.surface.triangles = joined.surface.triangles(rows, Eigen::all);
+  return sheets;
+}
+
+/// The final vertex of each vertex of the file, while the surface is put together.
+class VertexMap {
+ public:
+  explicit VertexMap(const Joined& joined)
+      : joined_(joined), of_joined_(joined.merged_into.size(), -1) {}
+
+  void add_closed(const ClosedParts& closed, const std::vector<std::int32_t>& number) {
+    std::map<std::array<double, 3>, std::int32_t> at_position;
+    for (std::size_t v = closed.vertex_given.size(); v-- > 0;) {
+      if (closed.vertex_given[v] < 0 || number[v] < 0) continue;
+      of_joined_[idx(closed.vertex_given[v])] = number[v];
+      at_position[position(closed.surface.positions.row(std::int64_t(v)))] = number[v];
+    }
+    // Stitching put one vertex in the place of several.
+    for (const std::int32_t v : joined_.surface.triangles.reshaped()) {
+      if (of_joined_[idx(v)] >= 0) continue;
+      const auto found = at_position.find(position(joined_.surface.positions.row(v)));
+      if (found != at_position.end()) of_joined_[idx(v)] = found->second;
+    }
+  }
+
+  /// A part outside the wrap and farther from the wrap than the wrap spans is none of it.
+  void add_wrapped(const Surface& sheets, const WrappedSolid& wrapped, std::int32_t first_vertex) {
+    const double farthest = (wrapped.opening + wrapped.offset) * extent_of_faces(sheets);
+    const SurfaceTree tree(wrapped.surface);
+    for (const std::int32_t v : sheets.triangles.reshaped()) {
+      if (of_joined_[idx(v)] >= 0) continue;
+      const Eigen::Vector3d p = sheets.positions.row(v);
+      if (tree.nearest(p).distance > farthest && tree.inscribed_radius(p) <= 0) continue;
+      of_joined_[idx(v)] = first_vertex + nearest_vertex(wrapped.surface, tree, p.transpose());
+    }
+  }
+
+  [[nodiscard]] bool has(std::int32_t joined) const { return of_joined_[idx(joined)] >= 0; }
+
+  [[nodiscard]] Eigen::VectorXi of_file() const {
+    Eigen::VectorXi result(static_cast<Eigen::Index>(of_joined_.size()));
+    for (std::size_t v = 0; v < of_joined_.size(); ++v) {
+      result[static_cast<Eigen::Index>(v)] = of_joined_[idx(joined_.merged_into[v])];
+    }
+    return result;
+  }
+
+ private:
+  static std::array<double, 3> position(const Eigen::RowVector3d& p) {
+    return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0.0 becomes 0.0
+  }
+  const Joined& joined_;
+  std::vector<std::int32_t> of_joined_;
+};
+
+void append_surface(Surface& surface, const Surface& more) {
+  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
+  const Eigen::Index faces = surface.triangles.rows();
+  surface.positions.conservativeResize(vertices + more.positions.rows(), 3);
+  surface.positions.bottomRows(more.positions.rows()) = more.positions;
+  surface.triangles.conservativeResize(faces + more.triangles.rows(), 3);
+  surface.triangles.bottomRows(more.triangles.rows()) = more.triangles.array() + vertices;
+}
+
+void count_holes(const ClosedParts& closed, const JudgedParts& judged,
+                 const std::vector<std::int32_t>& number, RepairedSurface& result) {
+  for (const auto& hole : closed.holes) {
+    std::vector<std::int32_t> opening;
+    opening.reserve(hole.size());
+    for (const std::int32_t v : hole) opening.push_back(number[idx(v)]);
+    if (std::find(opening.begin(), opening.end(), -1) != opening.end()) continue;
+    ++result.repairs.holes_closed;
+    result.repairs.longest_hole =
+        std::max(result.repairs.longest_hole, static_cast<std::int64_t>(opening.size()));
+    result.openings.push_back(std::move(opening));
+  }
+  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
+    const bool in_body = judged.parts[idx(judged.orientation.component_of_face[f])].is_body;
+    result.repairs.faces_added += in_body && closed.face_given[f] < 0 ? 1 : 0;
+  }
+  for (std::size_t v = 0; v < closed.vertex_given.size(); ++v) {
+    result.repairs.vertices_added += number[v] >= 0 && closed.vertex_given[v] < 0 ? 1 : 0;
+  }
+}
+
+[[noreturn]] void refuse(const PolygonSoup& soup, const Sheets& sheets) {
+  const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  std::ostringstream found;
+  found << "a surface that encloses nothing: " << sheets.surface.triangles.rows() << " faces in "
+        << sheets.components << (sheets.components == 1 ? " part" : " parts")
+        << ", flat, or so open that closing would make up about half of the surface";
+  throw Error(Fault::input, file + ": found " + found.str() +
+                                ", needed a surface with an inside; give it thickness (Blender: "
+                                "the Solidify modifier) or close it first");
+}
+
+void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
+  repairs.wrap_opening = wrapped.opening;
+  repairs.wrap_distance = wrapped.distance;
+  repairs.wrap_mean_distance = wrapped.mean_distance;
+}
+
+/// Faces as they were joined; the refusal stands where there are none, or too many to count.
+Joined joined_faces(const PolygonSoup& soup, const RepairOptions& options, const Error& refusal,
+                    RepairedSurface& result) {
+  constexpr std::int64_t most_corners = 2147483647 / 2;
+  if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
+  Joined joined =
+      join_soup(soup, options.join_distance, result.changes, result.repairs.vertices_joined);
+  if (joined.surface.triangles.rows() == 0) throw refusal;
+  return joined;
+}
+
+/// The faces of the parts that are wanted; vertices stay.
+Surface faces_of(const Surface& surface, const LooseParts& parts, const std::vector<char>& wanted) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t f = 0; f < parts.part_of_face.size(); ++f) {
+    if (wanted[idx(parts.part_of_face[f])]) rows.push_back(static_cast<Eigen::Index>(f));
+  }
+  return {surface.positions, surface.triangles(rows, Eigen::all)};
+}
+
+/// Without specks: one far away would set the scale of the wrap.
+Surface what_to_wrap(const Surface& joined, const RepairOptions& options, Repairs& repairs) {
+  const LooseParts parts = loose_parts(joined);
+  const double largest = *std::max_element(parts.areas.begin(), parts.areas.end());
+  std::vector<char> wanted;
+  for (const double one : parts.areas) wanted.push_back(one >= options.least_area * largest);
+  repairs.specks_dropped = std::count(wanted.begin(), wanted.end(), char{0});
+  return repairs.specks_dropped == 0 ? joined : faces_of(joined, parts, wanted);
+}
+
+/// Parts of which no vertex is in the map: the wrap has left them out.
+std::int64_t parts_left_out(const Surface& given, const VertexMap& map) {
+  const LooseParts parts = loose_parts(given);
+  std::vector<char> seen(parts.areas.size(), 0);
+  for (Eigen::Index f = 0; f < given.triangles.rows(); ++f) {
+    for (const std::int32_t v : given.triangles.row(f)) {
+      if (map.has(v)) seen[idx(parts.part_of_face[idx(f)])] = 1;
+    }
+  }
+  return std::count(seen.begin(), seen.end(), char{0});
+}
+
+std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOptions& options,
+                                        const Monitor& monitor) {
+  const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  RepairedSurface result;
+  const Joined joined =
+      joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
+  const Surface given = what_to_wrap(joined.surface, options, result.repairs);
+  std::optional<WrappedSolid> wrapped;
+  if (options.wrap_opening > 0) {
+    wrapped = wrap_solid(given, options.wrap_opening, monitor);
+  } else {  // a wide one may have webs between limbs where a narrow one has none
+    const double narrowest = narrowest_opening(given) / extent_of_faces(given);
+    for (std::size_t i = 0; i < wrap_openings.size() && !wrapped; ++i) {
+      if (wrap_openings[i] < narrowest && i + 1 < wrap_openings.size()) continue;
+      wrapped = wrap_solid(given, wrap_openings[i], monitor);
+    }
+  }
+  if (!wrapped) return std::nullopt;
+  result.repairs.faces_wrapped = given.triangles.rows();
+  result.repairs.wrapped_as_asked = true;
+  note_wrap(result.repairs, *wrapped);
+  VertexMap vertex_map(joined);
+  vertex_map.add_wrapped(given, *wrapped, 0);
+  result.repairs.sheets_dropped = parts_left_out(given, vertex_map);
+  result.surface = wrapped->surface;
+  result.vertex_of_input = vertex_map.of_file();
+  return result;
+}
+
+/// If `clean` refuses. The refusal stands where there are no faces, or too many to count.
+RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
+                        const Monitor& monitor, int threads) {
+  RepairedSurface result;
+  const Joined joined = joined_faces(soup, options, refusal, result);
+  const ClosedParts closed = close_surface(joined.surface, monitor);
+  result.repairs.vertices_copied = closed.vertices_copied;
+  result.repairs.holes_narrowed = closed.holes_narrowed;
+  JudgedParts judged = judge(closed, joined, options, threads);
+  if (is_one_sided(joined, closed.vertices_copied)) {
+    for (Part& part : judged.parts) part.is_body = false;
+  }
+  result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
+  const auto number = drop_unused_vertices(result.surface);
+  count_holes(closed, judged, number, result);
+  VertexMap vertex_map(joined);
+  vertex_map.add_closed(closed, number);
+
+  const Sheets sheets = sheets_of(closed, judged, joined);
+  const double all_area = area(joined.surface);
+  constexpr double negligible = 0.05;  // of the area
+  std::optional<WrappedSolid> wrapped;
+  if (options.wrap != Wrapping::never &&
+      (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0)) {
+    wrapped = wrap_solid(sheets.surface, options.wrap_opening, monitor);
+  }
+  if (wrapped) {
+    result.repairs.faces_wrapped = sheets.surface.triangles.rows();
+    note_wrap(result.repairs, *wrapped);
+    vertex_map.add_wrapped(sheets.surface, *wrapped,
+                           static_cast<std::int32_t>(result.surface.positions.rows()));
+    result.repairs.sheets_dropped = parts_left_out(sheets.surface, vertex_map);
+    append_surface(result.surface, wrapped->surface);
+  } else {
+    if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
+    result.repairs.sheets_dropped = sheets.components;
+  }
+  result.vertex_of_input = vertex_map.of_file();
+  return result;
+}
+
+void leave_out(RepairedSurface& result, const SelectionRules& rules) {
+  const Topology counted = topology(result.surface);
+  const auto fates = choose_components(result.surface, counted, rules);
+  const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
+  result.repairs.copies_dropped = count(Fate::copy);
+  result.repairs.crumbs_dropped = count(Fate::crumb);
+  result.repairs.specks_dropped += count(Fate::speck);
+  result.repairs.not_chosen = count(Fate::not_chosen);
+  if (count(Fate::kept) == counted.components()) return;
+  const Positions positions = result.surface.positions;
+  auto number = keep_components(result.surface, counted, fates);
+  if (result.repairs.crumbs_dropped > 0) {
+    const SurfaceTree tree(result.surface);
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+      if (fates[idx(counted.component_of_vertex[v])] != Fate::crumb) continue;
+      number[idx(v)] = nearest_vertex(result.surface, tree, positions.row(v));
+    }
+  }
+  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
+  std::erase_if(result.openings, [&](const auto& opening) {
+    return fates[idx(counted.component_of_vertex[opening[0]])] != Fate::kept;
+  });
+  for (auto& opening : result.openings) {
+    for (std::int32_t& v : opening) v = number[idx(v)];
+  }
+}
+
+/// Closed, before anything is left out.
+struct Mended {
+  RepairedSurface result;
+  bool has_one_component = false;
+  bool was_cut = false;  // pieces may have come off
+};
+
+Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
+                        const Monitor& monitor, int threads) {
+  std::optional<Error> refusal;
+  try {
+    CleanSurface cleaned = clean(soup, monitor, threads);
+    return {{std::move(cleaned.surface),
+             std::move(cleaned.vertex_of_input),
+             std::move(cleaned.changes),
+             {},
+             {}},
+            cleaned.components == 1,
+            false};
+  } catch (const Error& error) {
+    refusal = error;  // the fault is found again, and mended, below
+  }
+  RepairedSurface rebuilt = rebuild(soup, *refusal, options, monitor, threads);
+  describe_changes(rebuilt.changes, monitor);
+  return {std::move(rebuilt), false, true};
+}
+
+/// For a surface of which no wrap encloses anything: the other way, if there is one.
+std::string instead_of_wrap(const PolygonSoup& soup, RepairOptions options, const Monitor& monitor,
+                            int threads) {
+  options.wrap = Wrapping::never;
+  Monitor silent;
+  silent.stop = monitor.stop;
+  try {
+    (void)clean_or_rebuilt(soup, options, silent, threads);
+    return "leave --wrap all out: with its holes closed it has an inside";
+  } catch (const Error&) {
+    return "give the surface thickness (Blender: the Solidify modifier)";
+  }
+}
+
+Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options, const Monitor& monitor,
+                     int threads) {
+  std::optional<RepairedSurface> wrapped = wrap_all(soup, options, monitor);
+  if (!wrapped) {
+    throw Error(Fault::input,
+                (soup.file.empty() ? "surface" : soup.file.string()) +
+                    ": found nothing that a wrap encloses more of than its own thickness; try a "
+                    "wider --wrap-opening, or " +
+                    instead_of_wrap(soup, options, monitor, threads));
+  }
+  describe_changes(wrapped->changes, monitor);
+  return {std::move(*wrapped), false, false};
+}
+
+}  // namespace
+
+RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
+                       const Monitor& monitor, int threads) {
+  Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor, threads)
+                                                : clean_or_rebuilt(soup, options, monitor, threads);
+  RepairedSurface& result = mended.result;
+  if (!mended.has_one_component) {
+    leave_out(result,
+              {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
+  }
+  describe_repairs(result.repairs, monitor);
+  if (mended.was_cut) monitor.report("repair", 1);
+  return std::move(result);
+}
+
+}  // namespace curveskel

@@ -1,0 +1,32 @@
+// The components of a closed surface that are worth a skeleton.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <curveskel/surface.hpp>
+#include <curveskel/topology.hpp>
+
+namespace curveskel {
+
+/// Why a component stays or goes.
+enum class Fate : std::uint8_t { kept, copy, crumb, speck, not_chosen };
+
+struct SelectionRules {
+  double least_area = 0;   ///< of the largest component's; less is a speck
+  double least_crumb = 0;  ///< of the largest that it touches; less is a crumb
+  int most = 0;            ///< components, 0 = all
+};
+
+/// Marks, in this order: components that coincide with an earlier one vertex by vertex; those that
+/// touch, in a position that both have, directly or through others, a much larger one; those with
+/// little area; and all but the largest by area (the earlier one of two equals). One entry per
+/// component. O(#V log #V).
+[[nodiscard]] std::vector<Fate> choose_components(const Surface& surface, const Topology& counted,
+                                                  const SelectionRules& rules);
+
+/// Keeps the components marked so, in order. Returns the new index of each vertex, -1 = gone.
+std::vector<std::int32_t> keep_components(Surface& surface, const Topology& counted,
+                                          const std::vector<Fate>& fates);
+
+}  // namespace curveskel

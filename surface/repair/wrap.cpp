@@ -1,0 +1,131 @@
+#include "surface/repair/wrap.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include "base/indices.hpp"
+#include "base/memory.hpp"
+#include "surface/repair/join_soup.hpp"
+
+namespace curveskel {
+namespace {
+
+using WrapKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using WrapMesh = CGAL::Surface_mesh<WrapKernel::Point_3>;
+
+/// By the area: on sheets there are more, which have two sides.
+double expected_vertices(const Surface& triangles, double opening) {
+  return area(triangles) / (opening * opening);
+}
+
+/// Lets a stop out of CGAL's loop, and how far it is into the monitor. CGAL copies it.
+struct WatchedWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+  WatchedWrapping(const Monitor& given, double expected) : monitor(&given), expected_(expected) {}
+
+  template <typename Wrapper, typename Gate>
+  void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
+    constexpr int facets_between_checks = 256;
+    if (++facets_ % facets_between_checks == 0) monitor->report("wrap", fraction());
+  }
+
+  template <typename Wrapper, typename Vertex>
+  void after_Steiner_point_insertion(const Wrapper& /*wrapper*/, Vertex /*vertex*/) {
+    ++vertices_;
+  }
+
+  const Monitor* monitor;
+
+ private:
+  /// Slower towards the end, as it is not known.
+  [[nodiscard]] double fraction() const { return 1 - std::exp(-2 * vertices_ / expected_); }
+
+  double expected_;
+  double vertices_ = 0;
+  int facets_ = 0;
+};
+
+/// Rounded up to two digits, to be typed.
+std::string share_at_least(double share) {
+  std::array<char, 32> text{};
+  const double step = std::pow(10, std::floor(std::log10(share)) - 1);
+  std::snprintf(text.data(), text.size(), "%.2g", std::ceil(share / step) * step);
+  return text.data();
+}
+
+void require_room(const Surface& triangles, double opening) {
+  const double narrowest = narrowest_opening(triangles);
+  if (opening >= narrowest) return;
+  const double extent = extent_of_faces(triangles);
+  std::array<char, 160> found{};
+  std::snprintf(found.data(), found.size(),
+                "a wrap that spans gaps up to %.2g D would have about %.1e vertices; ",
+                opening / extent, expected_vertices(triangles, opening));
+  throw Error(Fault::input,
+              found.data() + (narrowest < extent
+                                  ? "needed is --wrap-opening " +
+                                        share_at_least(narrowest / extent) + " or wider"
+                                  : std::string("there is no memory for any; decimate the surface "
+                                                "first")));
+}
+
+}  // namespace
+
+double narrowest_opening(const Surface& triangles) {
+  constexpr double most_vertices = 1e6;
+  // As measured: the hierarchy over the faces, and a triangulation with the wrap's vertices.
+  const double for_faces = 600.0 * double(triangles.triangles.rows());
+  const double fitting = (available_memory_bytes() - for_faces) / 3500;
+  if (!(fitting > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(area(triangles) / std::min(most_vertices, fitting));
+}
+
+Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor& monitor) {
+  require_room(triangles, options.opening);
+  monitor.report("wrap", 0);
+  std::vector<WrapKernel::Point_3> points;
+  points.reserve(idx(triangles.positions.rows()));
+  for (const auto& p : triangles.positions.rowwise()) points.emplace_back(p.x(), p.y(), p.z());
+  std::vector<std::array<std::size_t, 3>> faces;
+  faces.reserve(idx(triangles.triangles.rows()));
+  for (const auto& t : triangles.triangles.rowwise())
+    faces.push_back({idx(t(0)), idx(t(1)), idx(t(2))});
+
+  WrapMesh mesh;
+  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.opening));
+  CGAL::alpha_wrap_3(points, faces, options.opening, options.offset, mesh,
+                     CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
+
+  Surface result;
+  result.positions.resize(mesh.number_of_vertices(), 3);
+  result.triangles.resize(mesh.number_of_faces(), 3);
+  std::vector<std::int32_t> number(mesh.num_vertices(), -1);
+  std::int32_t vertices = 0;
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    result.positions.row(vertices) << p.x(), p.y(), p.z();
+    number[v.idx()] = vertices++;
+  }
+  Eigen::Index row = 0;
+  for (const auto f : mesh.faces()) {
+    int k = 0;
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
+      result.triangles(row, k++) = number[v.idx()];
+    }
+    ++row;
+  }
+  monitor.report("wrap", 1);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,106 @@
+#include "surface/repair/wrap_components.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
+#include "base/indices.hpp"
+#include "surface/mesh/nearest_vertex.hpp"
+#include "surface/repair/describe_repairs.hpp"
+#include "surface/repair/wrap_solid.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Surfaces one after the other, in the order that they were added.
+class Assembly {
+ public:
+  /// The number of the added surface's first vertex.
+  std::int32_t add(const Surface& surface) {
+    const auto first = static_cast<std::int32_t>(vertices_);
+    vertices_ += surface.positions.rows();
+    faces_ += surface.triangles.rows();
+    parts_.push_back(surface);
+    return first;
+  }
+
+  [[nodiscard]] Surface whole() const {
+    Surface result;
+    result.positions.resize(vertices_, 3);
+    result.triangles.resize(faces_, 3);
+    Eigen::Index vertex = 0;
+    Eigen::Index face = 0;
+    for (const Surface& part : parts_) {
+      result.positions.middleRows(vertex, part.positions.rows()) = part.positions;
+      result.triangles.middleRows(face, part.triangles.rows()) =
+          part.triangles.array() + static_cast<std::int32_t>(vertex);
+      vertex += part.positions.rows();
+      face += part.triangles.rows();
+    }
+    return result;
+  }
+
+ private:
+  std::vector<Surface> parts_;
+  Eigen::Index vertices_ = 0;
+  Eigen::Index faces_ = 0;
+};
+
+/// The record's entries about wrapping, lengths in D of the whole surface.
+void note(Repairs& repairs, const WrappedSolid& wrapped, double share_of_diagonal) {
+  ++repairs.components_wrapped;
+  repairs.wrap_opening = std::max(repairs.wrap_opening, wrapped.opening * share_of_diagonal);
+  repairs.wrap_distance = std::max(repairs.wrap_distance, wrapped.distance * share_of_diagonal);
+  repairs.wrap_mean_distance =
+      std::max(repairs.wrap_mean_distance, wrapped.mean_distance * share_of_diagonal);
+}
+
+}  // namespace
+
+RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<ComponentWrap>& wraps,
+                           const Monitor& monitor) {
+  const double diagonal = bounding_box_diagonal(repaired.surface.positions);
+  const Topology counted = topology(repaired.surface);
+  const auto parts = split_components(repaired.surface, counted);
+  std::vector<const WrappedSolid*> wrap_of(parts.size(), nullptr);
+  for (const ComponentWrap& one : wraps) wrap_of[idx(one.component)] = &one.wrap;
+  RepairedSurface result = repaired;
+  std::vector<std::int32_t> number(idx(repaired.surface.positions.rows()), -1);
+  Assembly assembly;
+  std::int64_t faces = 0;
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const auto& [surface, in_whole] = parts[c];
+    const WrappedSolid* const wrapped = wrap_of[c];
+    if (wrapped == nullptr) {
+      const std::int32_t first = assembly.add(surface);
+      for (std::size_t v = 0; v < in_whole.size(); ++v) {
+        number[idx(in_whole[v])] = first + static_cast<std::int32_t>(v);
+      }
+      continue;
+    }
+    note(result.repairs, *wrapped, bounding_box_diagonal(surface.positions) / diagonal);
+    faces += surface.triangles.rows();
+    const std::int32_t first = assembly.add(wrapped->surface);
+    const SurfaceTree tree(wrapped->surface);
+    for (std::size_t v = 0; v < in_whole.size(); ++v) {
+      number[idx(in_whole[v])] =
+          first + nearest_vertex(wrapped->surface, tree, surface.positions.row(std::int64_t(v)));
+    }
+  }
+  std::erase_if(result.openings, [&](const auto& hole) {
+    return wrap_of[idx(counted.component_of_vertex[hole[0]])] != nullptr;
+  });
+  for (auto& hole : result.openings) {
+    for (std::int32_t& v : hole) v = number[idx(v)];
+  }
+  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
+  result.surface = assembly.whole();
+  result.repairs.faces_wrapped += faces;
+  describe_wrapped_components(result.repairs, faces, monitor);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,230 @@
+#include <curveskel/advanced/coarsen.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "surface/resample/collapse.hpp"
+#include "surface/spatial/morton.hpp"
+
+namespace curveskel {
+namespace {
+
+using Index = std::int32_t;
+
+constexpr const char* stage_name = "coarsen";
+constexpr std::size_t part_size = 16384;  // vertices; such a part fits the second-level cache
+constexpr std::size_t parts_leave = 2;    // times the target, before the last collapses
+constexpr std::size_t parts_pay = 8;      // times the target: surfaces at least as fine
+
+// Vertices along a Morton curve, equal cells in the given order: neighbours in space become
+// neighbours in memory, and ties are broken by place rather than by numbering.
+std::vector<Index> vertices_along_curve(const Positions& positions) {
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
+  const double cells = extent > 0 ? 2047 / extent : 0;
+  std::vector<std::uint64_t> keys(static_cast<std::size_t>(positions.rows()));
+  for (std::size_t v = 0; v < keys.size(); ++v) {
+    const Eigen::RowVector3d cell = (positions.row(static_cast<Eigen::Index>(v)) - low) * cells;
+    keys[v] = morton_key(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
+                         static_cast<std::uint64_t>(cell.z()));
+  }
+  return order_by_key(keys, 33);
+}
+
+void add_planes(Patch& patch, const std::array<Index, 3>& face) {
+  const auto& p = patch.vertices[static_cast<std::size_t>(face[0])].position;
+  const auto& q = patch.vertices[static_cast<std::size_t>(face[1])].position;
+  const auto& r = patch.vertices[static_cast<std::size_t>(face[2])].position;
+  const Eigen::Vector3d cross = (patch.scale * (q - p)).cross(patch.scale * (r - p));
+  const double twice_area = cross.norm();
+  if (!(twice_area > 0)) return;
+  const Eigen::Vector3f normal = (cross / twice_area).cast<float>();
+  for (const Index v : face) {
+    patch.vertices[static_cast<std::size_t>(v)].quadric.add_plane(
+        normal, static_cast<float>(twice_area / 2));
+  }
+}
+
+// The surface with its vertices in this order, its faces sorted by their smallest vertex.
+Patch patch_in_order(const Surface& surface, const std::vector<Index>& order,
+                     const std::vector<Index>& rank) {
+  Patch patch;
+  patch.vertices.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    patch.vertices[i].position = surface.positions.row(order[i]).transpose();
+  }
+  patch.fixed.assign(order.size(), 0);
+
+  const auto face_count = static_cast<std::size_t>(surface.triangles.rows());
+  std::vector<std::array<Index, 3>> faces(face_count);
+  std::vector<std::uint32_t> begin(order.size() + 1, 0);
+  for (std::size_t f = 0; f < face_count; ++f) {
+    std::array<Index, 3>& face = faces[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      face[k] = rank[static_cast<std::size_t>(
+          surface.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)))];
+    }
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    ++begin[static_cast<std::size_t>(face[0]) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  patch.faces.resize(face_count);
+  double length = 0;
+  for (const auto& face : faces) {
+    patch.faces[begin[static_cast<std::size_t>(face[0])]++] = face;
+    length += (patch.vertices[static_cast<std::size_t>(face[1])].position -
+               patch.vertices[static_cast<std::size_t>(face[0])].position)
+                  .norm();
+  }
+  // A power of two: exact, and the same for all numberings of one surface.
+  if (length > 0) {
+    patch.scale = std::exp2(-std::round(std::log2(length / static_cast<double>(face_count))));
+  }
+  return patch;
+}
+
+// A first stage for far too fine surfaces: stretches of the curve are collapsed each on its own,
+// the vertices between them fixed. Returns the place of each vertex after.
+std::vector<Index> coarsen_parts(Patch& whole, std::size_t target, int threads,
+                                 const Monitor& monitor) {
+  const std::size_t count = whole.vertices.size();
+  const std::size_t parts = (count + part_size - 1) / part_size;
+  const auto part_of = [](Index v) { return static_cast<std::size_t>(v) / part_size; };
+  std::vector<Patch> patches(parts);
+  std::vector<std::array<Index, 3>> between;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const auto begin = whole.vertices.begin() + static_cast<std::ptrdiff_t>(i * part_size);
+    const auto end =
+        whole.vertices.begin() + static_cast<std::ptrdiff_t>(std::min(count, (i + 1) * part_size));
+    patches[i].vertices.assign(begin, end);
+    patches[i].fixed.assign(patches[i].vertices.size(), 0);
+    patches[i].scale = whole.scale;
+  }
+  for (const auto& face : whole.faces) {
+    const std::size_t part = part_of(face[0]);
+    if (part_of(face[1]) == part && part_of(face[2]) == part) {
+      const auto base = static_cast<Index>(part * part_size);
+      patches[part].faces.push_back({face[0] - base, face[1] - base, face[2] - base});
+    } else {
+      between.push_back(face);
+      for (const Index v : face) {
+        patches[part_of(v)].fixed[static_cast<std::size_t>(v) % part_size] = 1;
+      }
+    }
+  }
+
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<std::size_t> done{0};
+  std::vector<std::vector<Index>> places(parts);
+  parallel_for(parts, 1, threads, [&](std::size_t i, std::size_t) {
+    Patch& patch = patches[i];
+    for (const auto& face : patch.faces) add_planes(patch, face);
+    const auto fixed = static_cast<std::size_t>(
+        std::count(patch.fixed.begin(), patch.fixed.end(), std::uint8_t{1}));
+    const std::size_t free = patch.vertices.size() - fixed;
+    const CollapseOptions options{static_cast<int>(fixed + free * target / count), 1};
+    places[i] = collapse_edges(patch, options, [&](std::size_t) {
+      if (monitor.stop.stop_requested()) throw Cancelled();
+    });
+    ++done;
+    if (std::this_thread::get_id() == caller) {
+      monitor.report(stage_name, 0.7 * static_cast<double>(done) / static_cast<double>(parts));
+    }
+  });
+
+  std::vector<Index> place(count);
+  whole.vertices.clear();
+  whole.faces.clear();
+  for (std::size_t i = 0; i < parts; ++i) {
+    const auto base = static_cast<Index>(whole.vertices.size());
+    for (std::size_t v = 0; v < places[i].size(); ++v) {
+      place[i * part_size + v] = base + places[i][v];
+    }
+    whole.vertices.insert(whole.vertices.end(), patches[i].vertices.begin(),
+                          patches[i].vertices.end());
+    for (const auto& face : patches[i].faces) {
+      whole.faces.push_back({face[0] + base, face[1] + base, face[2] + base});
+    }
+  }
+  whole.fixed.assign(whole.vertices.size(), 0);
+  for (const auto& face : between) {
+    whole.faces.push_back({place[static_cast<std::size_t>(face[0])],
+                           place[static_cast<std::size_t>(face[1])],
+                           place[static_cast<std::size_t>(face[2])]});
+    add_planes(whole, whole.faces.back());
+  }
+  return place;
+}
+
+Surface surface_of(const Patch& patch) {
+  Surface surface;
+  surface.positions.resize(static_cast<Eigen::Index>(patch.vertices.size()), 3);
+  for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
+    surface.positions.row(static_cast<Eigen::Index>(v)) = patch.vertices[v].position.transpose();
+  }
+  surface.triangles.resize(static_cast<Eigen::Index>(patch.faces.size()), 3);
+  for (std::size_t f = 0; f < patch.faces.size(); ++f) {
+    surface.triangles.row(static_cast<Eigen::Index>(f)) << patch.faces[f][0], patch.faces[f][1],
+        patch.faces[f][2];
+  }
+  return surface;
+}
+
+}  // namespace
+
+bool coarsens_in_parts(Eigen::Index vertices, const CoarsenOptions& options) {
+  const auto count = static_cast<std::size_t>(vertices);
+  const auto target = static_cast<std::size_t>(std::max(options.target_vertices, 0));
+  return count > parts_pay * target && count > 2 * part_size;
+}
+
+Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const Monitor& monitor) {
+  monitor.report(stage_name, 0);
+  const auto count = static_cast<std::size_t>(surface.positions.rows());
+  const auto target = static_cast<std::size_t>(std::max(options.target_vertices, 0));
+  Coarsened result;
+  if (count <= target) {
+    result.surface = surface;
+    result.vertex_of_input = Eigen::VectorXi::LinSpaced(static_cast<Eigen::Index>(count), 0,
+                                                        static_cast<int>(count) - 1);
+    monitor.report(stage_name, 1);
+    return result;
+  }
+
+  const std::vector<Index> order = vertices_along_curve(surface.positions);
+  std::vector<Index> place(count);  // first along the curve, then in the result, per input vertex
+  for (std::size_t i = 0; i < count; ++i) {
+    place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
+  }
+  Patch patch = patch_in_order(surface, order, place);
+  const auto follow = [&place](const std::vector<Index>& next) {
+    for (Index& v : place) v = next[static_cast<std::size_t>(v)];
+  };
+  if (coarsens_in_parts(surface.positions.rows(), options)) {
+    follow(coarsen_parts(patch, parts_leave * target, options.threads, monitor));
+    result.halfway = surface_of(patch);
+  } else {
+    for (const auto& face : patch.faces) add_planes(patch, face);
+  }
+  const std::size_t start = patch.vertices.size();
+  const CollapseOptions last{static_cast<int>(target), options.threads};
+  follow(collapse_edges(patch, last, [&](std::size_t left) {
+    monitor.report(stage_name, 1 - 0.3 * static_cast<double>(left - target) /
+                                       static_cast<double>(start - target));
+  }));
+
+  result.surface = surface_of(patch);
+  result.vertex_of_input =
+      Eigen::Map<const Eigen::VectorXi>(place.data(), surface.positions.rows());
+  monitor.report(stage_name, 1);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,246 @@
+#include "surface/resample/principal_frame.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "base/exact_sum.hpp"
+#include "base/parallel.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr double equal_eigenvalues = 1e-6;  // relative to their sum
+constexpr double no_skewness = 1e-6;        // third moment over its largest possible value
+constexpr double equal_sizes = 1e-7;        // relative
+
+using CornerPoints = std::array<Eigen::Vector3d, 3>;
+
+class Pose {
+ public:
+  Pose(const Surface& surface, int threads) : surface_(surface), threads_(threads) {
+    const Eigen::RowVector3d low = surface.positions.colwise().minCoeff();
+    const Eigen::RowVector3d high = surface.positions.colwise().maxCoeff();
+    middle_ = (low + (high - low) / 2).transpose();
+    const double extent = (high - low).maxCoeff();
+    // A power of two, so that scaling rounds nothing.
+    unit_ = extent > 0 ? std::exp2(-std::ceil(std::log2(extent))) : 1;
+    points_ = (surface.positions.rowwise() - middle_.transpose()) * unit_;
+    measure();
+  }
+
+  PrincipalFrame frame(std::size_t most_candidates) const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance_);
+    const Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
+    const Eigen::Vector3d values = solver.eigenvalues().reverse();
+    const double bound = equal_eigenvalues * values.sum();
+    const bool first_open = values(0) - values(1) < bound;
+    const bool last_open = values(1) - values(2) < bound;
+    std::vector<Eigen::Matrix3d> candidates;
+    // Right-handed from two neighbouring columns, the one at `column` and the next.
+    const auto add = [&](Eigen::Index column, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      Eigen::Matrix3d frame;
+      frame.col(column) = a;
+      frame.col((column + 1) % 3) = b;
+      frame.col((column + 2) % 3) = a.cross(b);
+      if (candidates.size() < most_candidates) candidates.push_back(frame);
+    };
+    if (first_open && last_open) {
+      for (const auto& a : directions_farthest_out(Eigen::Vector3d::Zero())) {
+        if (candidates.size() >= most_candidates) break;
+        for (const auto& b : directions_farthest_out(a)) add(0, a, b);
+      }
+    } else if (first_open || last_open) {
+      const Eigen::Index settled = first_open ? 2 : 0;
+      for (const double sign : signs(skewness(axes)(settled))) {
+        const Eigen::Vector3d a = sign * axes.col(settled);
+        for (const auto& b : directions_farthest_out(a)) add(settled, a, b);
+      }
+    } else {
+      // The least skew axis follows from the other two.
+      const Eigen::Vector3d skew = skewness(axes);
+      Eigen::Index weakest = 0;
+      skew.cwiseAbs().minCoeff(&weakest);
+      const Eigen::Index i = (weakest + 1) % 3;
+      const Eigen::Index j = (weakest + 2) % 3;
+      for (const double sign : signs(skew(i))) {
+        for (const double other : signs(skew(j))) add(i, sign * axes.col(i), other * axes.col(j));
+      }
+    }
+    return {middle_ + mean_ / unit_, candidates};
+  }
+
+ private:
+  static std::vector<double> signs(double skew) {
+    if (std::abs(skew) <= no_skewness) return {1, -1};
+    return {skew < 0 ? -1.0 : 1.0};
+  }
+
+  Eigen::Vector3d point(Eigen::Index vertex) const { return points_.row(vertex).transpose(); }
+
+  // Sorted by coordinates, so that no result depends on the numbering.
+  CornerPoints corners(Eigen::Index face) const {
+    CornerPoints p = {point(surface_.triangles(face, 0)), point(surface_.triangles(face, 1)),
+                      point(surface_.triangles(face, 2))};
+    const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return a.x() != b.x() ? a.x() < b.x() : a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
+    };
+    if (before(p[1], p[0])) p[0].swap(p[1]);
+    if (before(p[2], p[1])) p[1].swap(p[2]);
+    if (before(p[1], p[0])) p[0].swap(p[1]);
+    return p;
+  }
+
+  // The corners of a triangle lie anywhere in memory, and the sums leave time to bring them.
+  void fetch_ahead(std::size_t index, std::size_t end) const {
+    constexpr std::size_t ahead = 12;
+    if (index + ahead >= end) return;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index v = surface_.triangles(static_cast<Eigen::Index>(index + ahead), k);
+      __builtin_prefetch(points_.data() + 3 * v);
+    }
+  }
+
+  // Sums over the triangles of what add(index, sums) adds; exact, so how they are split is no
+  // matter.
+  template <std::size_t count, typename Add>
+  std::array<ExactSum, count> summed(const Add& add) const {
+    const auto triangles = static_cast<std::size_t>(surface_.triangles.rows());
+    const auto zero = [&]<std::size_t... each>(std::index_sequence<each...>) {
+      return std::array<ExactSum, count>{(static_cast<void>(each), ExactSum(1, 3 * triangles))...};
+    }
+    (std::make_index_sequence<count>());
+    constexpr std::size_t grain = 1 << 14;
+    std::vector<std::array<ExactSum, count>> parts((triangles + grain - 1) / grain, zero);
+    parallel_for(triangles, grain, threads_, [&](std::size_t begin, std::size_t end) {
+      auto part = zero;
+      for (std::size_t index = begin; index < end; ++index) {
+        fetch_ahead(index, end);
+        add(index, part);
+      }
+      parts[begin / grain] = part;
+    });
+    auto all = zero;
+    for (const auto& part : parts) {
+      for (std::size_t i = 0; i < count; ++i) all[i].add(part[i]);
+    }
+    return all;
+  }
+
+  // Area, centroid and covariance of the surface as a sheet of even thickness.
+  void measure() {
+    sheets_.resize(static_cast<std::size_t>(surface_.triangles.rows()));
+    const auto sums = summed<10>([&](std::size_t index, std::array<ExactSum, 10>& part_sums) {
+      const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
+      const double part = (q - p).cross(r - p).norm() / 2;
+      const Eigen::Vector3d s = p + q + r;
+      sheets_[index] = {s / 3, part};
+      part_sums[0].add(part);
+      for (std::size_t i = 0; i < 3; ++i) {
+        part_sums[1 + i].add(part / 3 * s(static_cast<Eigen::Index>(i)));
+      }
+      const double twelfth = part / 12;
+      std::size_t next = 4;
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        for (Eigen::Index j = i; j < 3; ++j) {
+          part_sums[next++].add(twelfth * (p(i) * p(j) + q(i) * q(j) + r(i) * r(j) + s(i) * s(j)));
+        }
+      }
+    });
+    const double area = sums[0].value();
+    if (!(area > 0)) return;
+    mean_ = Eigen::Vector3d(sums[1].value(), sums[2].value(), sums[3].value()) / area;
+    std::size_t next = 4;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      for (Eigen::Index j = i; j < 3; ++j) {
+        covariance_(i, j) = covariance_(j, i) = sums[next++].value() / area - mean_(i) * mean_(j);
+      }
+    }
+    points_.rowwise() -= mean_.transpose();
+  }
+
+  // Third moment along each axis over the largest that the same areas allow.
+  Eigen::Vector3d skewness(const Eigen::Matrix3d& axes) const {
+    const auto sums = summed<6>([&](std::size_t index, std::array<ExactSum, 6>& part_sums) {
+      const Sheet& sheet = sheets_[index];
+      const Eigen::Vector3d along = axes.transpose() * (sheet.centre - mean_);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double a = along(static_cast<Eigen::Index>(k));
+        const double cube = sheet.area * a * a * a / 8;  // |a| < 2
+        part_sums[k].add(cube);
+        part_sums[3 + k].add(std::abs(cube));
+      }
+    });
+    Eigen::Vector3d ratios = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double size = sums[3 + k].value();
+      if (size > 0) ratios(static_cast<Eigen::Index>(k)) = sums[k].value() / size;
+    }
+    return ratios;
+  }
+
+  // Unit vectors across `axis` (unit or zero) to the vertices farthest from it; of these, to those
+  // farthest along it, then to those with the longest edges.
+  std::vector<Eigen::Vector3d> directions_farthest_out(const Eigen::Vector3d& axis) const {
+    const auto across = [&](int vertex) -> Eigen::Vector3d {
+      const Eigen::Vector3d p = point(vertex);
+      return p - axis.dot(p) * axis;
+    };
+    std::vector<int> candidates(static_cast<std::size_t>(surface_.positions.rows()));
+    std::iota(candidates.begin(), candidates.end(), 0);
+    const auto keep_largest = [&candidates](double size, const auto& value) {
+      double largest = -std::numeric_limits<double>::infinity();
+      for (const int v : candidates) largest = std::max(largest, value(v));
+      std::erase_if(candidates, [&](int v) { return value(v) < largest - equal_sizes * size; });
+    };
+    keep_largest(1, [&](int v) { return across(v).norm(); });
+    keep_largest(1, [&](int v) { return axis.dot(point(v)); });
+    if (candidates.size() > 1) {
+      std::vector<double> edges(static_cast<std::size_t>(surface_.positions.rows()), 0);
+      for (Eigen::Index face = 0; face < surface_.triangles.rows(); ++face) {
+        for (Eigen::Index k = 0; k < 3; ++k) {
+          const int a = surface_.triangles(face, k);
+          const int b = surface_.triangles(face, (k + 1) % 3);
+          edges[static_cast<std::size_t>(a)] += (point(b) - point(a)).norm();
+        }
+      }
+      const auto length = [&](int v) { return edges[static_cast<std::size_t>(v)]; };
+      keep_largest(length(candidates.front()), length);
+    }
+    std::vector<Eigen::Vector3d> directions;
+    for (const int v : candidates) {
+      const Eigen::Vector3d out = across(v);
+      directions.push_back(out.norm() > 0 ? Eigen::Vector3d(out.normalized())
+                                          : Eigen::Vector3d(axis.unitOrthogonal()));
+    }
+    return directions;
+  }
+
+  struct Sheet {
+    Eigen::Vector3d centre;  // about the middle
+    double area;
+  };
+
+  const Surface& surface_;
+  int threads_;
+  Eigen::Vector3d middle_;
+  double unit_ = 1;
+  Positions points_;  // about the middle of the bounding box at first, then about the centroid
+  std::vector<Sheet> sheets_;
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
+};
+
+}  // namespace
+
+PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates, int threads) {
+  return Pose(surface, threads).frame(most_candidates);
+}
+
+}  // namespace curveskel

@@ -1,0 +1,26 @@
+// The place and the orientation of a surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct PrincipalFrame {
+  Eigen::Vector3d origin;  ///< the area's centroid, in model units
+  /// Columns unit, right-handed, largest extent first. More than one where the shape is symmetric:
+  /// its candidates, all with the same right.
+  std::vector<Eigen::Matrix3d> axes;
+};
+
+/// Principal axes of the area's covariance, signs from third moments. Directions within an
+/// eigenspace of several dimensions point to the vertices farthest out; of these to those farthest
+/// along the axis that is settled, and of these to those with the longest edges.
+/// At most `most_candidates`; up to these the result is free of the surface's numbering.
+/// O(#V + #F).
+[[nodiscard]] PrincipalFrame principal_frame(const Surface& surface, std::size_t most_candidates,
+                                             int threads = 0);
+
+}  // namespace curveskel

@@ -1,0 +1,103 @@
+#include <curveskel/advanced/tree.hpp>
+
+#include <vector>
+
+#include "surface/spatial/tree_queries.hpp"
+#include "surface/spatial/wide_tree.hpp"
+
+namespace curveskel {
+
+/// The hierarchy, and where its local frame lies in the frame of the queries.
+struct SurfaceTree::Implementation {
+  std::shared_ptr<const WideTree> tree;
+  Eigen::Vector3d centre;                                  // of the local frame
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // columns: the local axes
+  double scale = 1;                                        // local units per unit
+
+  [[nodiscard]] Eigen::Vector3d to_local(const Eigen::Vector3d& point) const {
+    return direction_to_local(point - centre) * scale;
+  }
+  [[nodiscard]] Eigen::Vector3d direction_to_local(const Eigen::Vector3d& direction) const {
+    return rotation.transpose() * direction;
+  }
+  [[nodiscard]] Eigen::Vector3d from_local(const Eigen::Vector3d& local) const {
+    return rotation * (local / scale) + centre;
+  }
+};
+
+SurfaceTree::SurfaceTree(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+SurfaceTree::SurfaceTree(const Surface& surface)
+    : implementation_(std::make_unique<Implementation>()) {
+  auto tree = std::make_shared<const WideTree>(build_wide_tree(surface));
+  implementation_->centre = tree->centre;
+  implementation_->scale = tree->scale;
+  implementation_->tree = std::move(tree);
+}
+SurfaceTree::~SurfaceTree() = default;
+SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
+SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
+
+SurfaceTree SurfaceTree::in_frame(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin,
+                                  double scale) const {
+  auto moved = std::make_unique<Implementation>(*implementation_);
+  moved->centre = origin + scale * rotation * implementation_->centre;
+  moved->rotation = rotation * implementation_->rotation;
+  moved->scale = implementation_->scale / scale;
+  return SurfaceTree(std::move(moved));
+}
+
+SurfaceTree::Nearest SurfaceTree::nearest(const Eigen::Vector3d& point, double limit) const {
+  const Implementation& here = *implementation_;
+  const Eigen::Vector3d p = here.to_local(point);
+  const LocalNearest nearest = find_nearest(*here.tree, p, limit * here.scale);
+  if (nearest.triangle < 0) return {point};
+  return {here.from_local(nearest.point), (nearest.point - p).norm() / here.scale,
+          nearest.triangle};
+}
+
+SurfaceTree::Hit SurfaceTree::ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                  double limit) const {
+  const Implementation& here = *implementation_;
+  const LocalHit hit = find_hit(*here.tree, here.to_local(origin),
+                                here.direction_to_local(direction), limit * here.scale);
+  if (hit.triangle < 0) return {};
+  return {hit.distance / here.scale, hit.triangle};
+}
+
+void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
+                                std::span<const Eigen::Vector3d> directions, double limit,
+                                std::span<double> distances) const {
+  const Implementation& here = *implementation_;
+  find_distances_in_plane(*here.tree, here.to_local(origin), here.direction_to_local(normal),
+                          directions, here.rotation, limit * here.scale, distances);
+  for (double& distance : distances) distance /= here.scale;
+}
+
+bool SurfaceTree::inside(const Eigen::Vector3d& point) const {
+  return winds_around(*implementation_->tree, implementation_->to_local(point));
+}
+
+double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point) const {
+  const double distance = nearest(point).distance;
+  return inside(point) ? distance : -distance;
+}
+
+double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point, const Ball& inner) const {
+  const double off_centre = (point - inner.centre).norm();
+  if (!(off_centre < inner.radius)) return inscribed_radius(point);
+  constexpr double slack = 1 + 1e-9;  // for rounding
+  return nearest(point, (inner.radius + off_centre) * slack).distance;
+}
+
+SurfaceTree::Ball SurfaceTree::inscribed_ball(const Eigen::Vector3d& point,
+                                              const Eigen::Vector3d& inward_normal,
+                                              double min_sine) const {
+  const Implementation& here = *implementation_;
+  const double radius = find_ball_radius(*here.tree, here.to_local(point),
+                                         here.direction_to_local(inward_normal), min_sine) /
+                        here.scale;
+  return {point + radius * inward_normal, radius};
+}
+
+}  // namespace curveskel

@@ -1,0 +1,132 @@
+#include "skeleton/homology/homology_classes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <curveskel/certificate.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include "meshes/shapes.hpp"
+
+namespace curveskel::homology_classes_laws {
+namespace {
+
+using Eigen::Vector3d;
+using shapes::Shape;
+
+constexpr double pi = std::numbers::pi;
+
+/// On the core of a ring of radius 3, pushed aside by `aside`.
+Vector3d on_ring(double angle, double aside = 0) {
+  return {(3 + aside) * std::cos(angle), (3 + aside) * std::sin(angle), 0.3 * aside};
+}
+
+std::vector<Vector3d> arc(double from, double to, double aside = 0) {
+  std::vector<Vector3d> points;
+  constexpr int steps = 60;
+  for (int k = 0; k <= steps; ++k) {
+    points.push_back(on_ring(from + (to - from) * k / steps, aside));
+  }
+  return points;
+}
+
+/// The polygons as closed curves, each a component.
+CurveSkeleton closed(const std::vector<std::vector<Vector3d>>& polygons) {
+  CurveSkeleton skeleton;
+  std::vector<std::pair<int, int>> edges;
+  std::vector<Vector3d> nodes;
+  for (const auto& polygon : polygons) {
+    const auto first = static_cast<int>(nodes.size());
+    const auto count = static_cast<int>(polygon.size());
+    for (int k = 0; k + 1 < count; ++k) edges.emplace_back(first + k, first + k + 1);
+    edges.emplace_back(first, first + count - 1);
+    nodes.insert(nodes.end(), polygon.begin(), polygon.end());
+  }
+  std::sort(edges.begin(), edges.end());
+  skeleton.nodes.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    skeleton.nodes.row(static_cast<Eigen::Index>(n)) = nodes[n];
+  }
+  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e].first, edges[e].second;
+  }
+  return skeleton;
+}
+
+/// Goes two thirds round the ring and comes back beside its way there.
+std::vector<Vector3d> there_and_back() {
+  auto points = arc(0, 4 * pi / 3, 0.1);
+  const auto back = arc(4 * pi / 3, 0, -0.1);
+  points.insert(points.end(), back.begin(), back.end());
+  return points;
+}
+
+std::vector<Vector3d> once_round(double aside = 0) {
+  auto points = arc(0, 2 * pi, aside);
+  points.pop_back();
+  return points;
+}
+
+TEST(HomologyRank, IsTheGenusForTrueSkeletons) {
+  for (const Shape& shape : {shapes::torus(3, 1, 12), shapes::linked_rings(3, 0.5, 12),
+                             shapes::tube_union("rings", shapes::ring_chain(4, 3, 0.5), {0, 2})}) {
+    EXPECT_EQ(homology_rank(shape.surface, shape.axis), shape.genus) << shape.name;
+    const Shape turned = shapes::rotated(shape, {1, 2, 3}, 0.7);
+    EXPECT_EQ(homology_rank(turned.surface, turned.axis), shape.genus) << shape.name;
+    const Shape tiny = shapes::scaled(shape, 1e-6);
+    EXPECT_EQ(homology_rank(tiny.surface, tiny.axis), shape.genus) << shape.name;
+  }
+}
+
+TEST(HomologyRank, CountsNoCycleThatGoesThereAndBack) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  const CurveSkeleton folded = closed({there_and_back()});
+  EXPECT_EQ(homology_rank(ring.surface, folded), 0);
+  EXPECT_EQ(homology_rank(ring.surface, closed({once_round()})), 1);
+  const Certificate certificate = evaluate(ring.surface, folded, {}, {});
+  EXPECT_EQ(certificate.cycle_rank, certificate.genus);
+  EXPECT_EQ(certificate.inside_fraction, 1);
+  EXPECT_FALSE(certificate.topology_correct());
+}
+
+TEST(HomologyRank, CountsAHandleOnceHoweverManyCyclesGoRoundIt) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  EXPECT_EQ(homology_rank(ring.surface, closed({once_round(0.1), once_round(-0.1)})), 1);
+  const Shape two =
+      shapes::together("apart", {ring, shapes::translated(shapes::torus(3, 0.5, 24), {0, 0, 5})});
+  EXPECT_EQ(homology_rank(two.surface, closed({once_round(0.1), once_round(-0.1)})), 1);
+}
+
+TEST(HomologyRank, TakesNestedShellsOneByOne) {
+  const Shape nested =
+      shapes::together("nested", {shapes::torus(3, 0.5, 24), shapes::torus(3, 0.3, 24)});
+  EXPECT_EQ(homology_rank(nested.surface, closed({once_round(0.1), once_round(-0.1)})), 2);
+  EXPECT_EQ(homology_rank(nested.surface, closed({once_round(0.1), there_and_back()})), 1);
+}
+
+TEST(HomologyClasses, TellTheTwoWaysRoundARingApart) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  HomologyClasses classes(ring.surface);
+  EXPECT_TRUE(classes.has_handles());
+  EXPECT_TRUE(classes.homologous(arc(0, pi / 2, 0.2), arc(0, pi / 2, -0.2)));
+  EXPECT_FALSE(classes.homologous(arc(0, pi / 2), arc(0, -3 * pi / 2)));
+  EXPECT_FALSE(classes.homologous(arc(0, 2 * pi), {on_ring(0)}));
+  EXPECT_TRUE(classes.homologous(there_and_back(), {on_ring(0)}));
+  EXPECT_FALSE(HomologyClasses(shapes::ellipsoid({1, 1, 1}, 2).surface).has_handles());
+}
+
+TEST(IndependentRows, AreThoseThatAreNoSumOfOthers) {
+  IndependentRows rows;
+  EXPECT_TRUE(rows.add({0b110, 1}));
+  EXPECT_TRUE(rows.add({0b011, 0}));
+  EXPECT_FALSE(rows.add({0b101, 1}));
+  EXPECT_FALSE(rows.add({0, 0}));
+  EXPECT_TRUE(rows.add({0, 1ULL << 63U}));
+  EXPECT_EQ(rows.size(), 3);
+}
+
+}  // namespace
+}  // namespace curveskel::homology_classes_laws

@@ -1,0 +1,147 @@
+#include "viewer/model/recording.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "viewer/software/simpler_surface.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+std::size_t bytes_of(const Moment& moment) {
+  if (!moment.surface) return 0;
+  const ShownSurface& surface = *moment.surface;
+  return surface.positions.size() * (sizeof(glm::vec3) + sizeof(std::uint32_t)) +
+         (surface.triangles.size() + surface.fewer.size()) * sizeof(glm::uvec3);
+}
+
+void append(ShownSurface& whole, const ShownSurface& part) {
+  const auto first = static_cast<unsigned>(whole.positions.size());
+  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+  whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
+  const auto add = [first](std::vector<glm::uvec3>& to, const std::vector<glm::uvec3>& from) {
+    std::transform(from.begin(), from.end(), std::back_inserter(to),
+                   [&](const glm::uvec3& triangle) { return triangle + first; });
+  };
+  add(whole.triangles, part.triangles);
+  add(whole.fewer, part.fewer.empty() ? part.triangles : part.fewer);
+}
+
+/// A simpler form that is not simpler is none.
+ShownSurface put_together(const std::map<int, const ShownSurface*>& parts) {
+  ShownSurface whole;
+  for (const auto& [component, surface] : parts) append(whole, *surface);
+  if (whole.fewer.size() == whole.triangles.size()) whole.fewer.clear();
+  return whole;
+}
+
+/// The pipeline's own.
+int order_of(std::string_view stage) {
+  if (stage == "input") return 0;
+  if (stage == "fair") return 1;
+  if (stage == "contract") return 2;
+  if (stage == "surgery") return 3;
+  return stage == "skeleton" ? 4 : 5;
+}
+
+}  // namespace
+
+std::string title_of(const Moment& moment) {
+  if (moment.stage != "fair" && moment.stage != "contract") return moment.stage;
+  const std::string name = moment.stage == "fair" ? "fairing" : "contraction";
+  return name + " " + std::to_string(moment.iteration);
+}
+
+Recording::Recording() {
+  moments_.push_back({.stage = "input", .surface = {}, .skeleton = {}, .rig = {}});
+}
+
+void Recording::add(Moment moment) {
+  bytes_ += bytes_of(moment);
+  moments_.push_back(std::move(moment));
+}
+
+void Recording::cut_from(std::string_view stage) {
+  std::erase_if(moments_, [this, first = order_of(stage)](const Moment& moment) {
+    if (order_of(moment.stage) < first) return false;
+    bytes_ -= bytes_of(moment);
+    return true;
+  });
+}
+
+ShownSurface Recording::surface_at(std::size_t index) const {
+  if (index >= moments_.size() || order_of(moments_[index].stage) > order_of("surgery")) return {};
+  std::map<int, const ShownSurface*> latest;
+  for (std::size_t i = 0; i <= index; ++i) {
+    if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();
+  }
+  return put_together(latest);
+}
+
+ShownSurface Recording::faired_at(std::size_t index) const {
+  std::map<int, const ShownSurface*> faired;
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    const Moment& moment = moments_[i];
+    if (moment.stage != "fair" || !moment.surface) continue;
+    if (i <= index || !faired.contains(moment.component)) {
+      faired[moment.component] = moment.surface.get();
+    }
+  }
+  return put_together(faired);
+}
+
+std::shared_ptr<const ShownSurface> Recording::newest_surface(std::size_t index) const {
+  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
+    if (moments_[i].surface) return moments_[i].surface;
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) const {
+  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
+    if (moments_[i].skeleton) return moments_[i].skeleton;
+  }
+  return nullptr;
+}
+
+Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+                 const ShownSurface* before) {
+  Moment moment;
+  moment.stage = frame.stage;
+  moment.component = frame.component;
+  moment.iteration = frame.iteration;
+  moment.area_ratio = frame.area_ratio;
+  moment.volume_ratio = frame.volume_ratio;
+  moment.residual = frame.residual;
+  moment.seconds = seconds;
+  ShownSurface shown = shown_surface(frame.surface, origin);
+  constexpr std::size_t simple = 3000;  // vertices
+  if (before != nullptr && before->triangles == shown.triangles) {
+    shown.fewer = before->fewer;
+  } else if (shown.positions.size() > 2 * simple) {
+    shown.fewer = fewer_triangles(shown, simple);
+  }
+  moment.surface = std::make_shared<const ShownSurface>(std::move(shown));
+  return moment;
+}
+
+Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before, double seconds) {
+  CurveSkeleton whole;
+  if (before != nullptr) whole = *before;
+  const Eigen::Index nodes = whole.nodes.rows();
+  const Eigen::Index edges = whole.edges.rows();
+  whole.nodes.conservativeResize(nodes + curve.nodes.rows(), 3);
+  whole.nodes.bottomRows(curve.nodes.rows()) = curve.nodes;
+  whole.edges.conservativeResize(edges + curve.edges.rows(), 2);
+  whole.edges.bottomRows(curve.edges.rows()) = curve.edges.array() + static_cast<int>(nodes);
+  Moment moment;
+  moment.stage = curve.stage;
+  moment.component = curve.component;
+  moment.seconds = seconds;
+  moment.skeleton = std::make_shared<const CurveSkeleton>(std::move(whole));
+  return moment;
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,68 @@
+// Everything that a run showed on its way, to go back and forth in.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/rig.hpp>
+#include "viewer/render/shapes_shown.hpp"
+
+namespace curveskel::viewer {
+
+/// One entry of the timeline.
+struct Moment {
+  std::string stage;  ///< "input", "fair", "contract", "surgery", "skeleton", "rig"
+  int component = 0;
+  int iteration = 0;
+  double area_ratio = 1;                        ///< of the component's area when the stage began
+  double volume_ratio = 1;                      ///< the same of its volume
+  double residual = 0;                          ///< of the solve; 0 where nothing was solved
+  double seconds = 0;                           ///< since the run began
+  std::shared_ptr<const ShownSurface> surface;  ///< the component then; null where all is as given
+  std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
+  std::shared_ptr<const Rig> rig;                 ///< by the file's vertices; null but for "rig"
+};
+
+/// "contraction 3", "input": a name for people.
+[[nodiscard]] std::string title_of(const Moment& moment);
+
+/// A value; copies share the surfaces.
+class Recording {
+ public:
+  /// Only the input.
+  Recording();
+  void add(Moment moment);
+  /// Forgets the moments of `stage` and of those that come after it, of all components.
+  void cut_from(std::string_view stage);
+  [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  /// The components' surfaces as they were at moment `index`, put together; empty where none has
+  /// changed yet or the skeleton is there. O(vertices shown + moments).
+  [[nodiscard]] ShownSurface surface_at(std::size_t index) const;
+  /// The components' surfaces as fairing had left them at moment `index`; those that it came to
+  /// later as it found them. O(vertices shown + moments).
+  [[nodiscard]] ShownSurface faired_at(std::size_t index) const;
+  /// That of the last moment up to `index` that has one, or null.
+  [[nodiscard]] std::shared_ptr<const ShownSurface> newest_surface(std::size_t index) const;
+  /// The latest skeleton up to moment `index`, or null.
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
+
+ private:
+  std::vector<Moment> moments_;
+  std::size_t bytes_ = 0;
+};
+
+/// A moment from a stage's frame. `before` is null or an earlier moment's surface, whose simpler
+/// form it takes over where the triangles are the same.
+[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+                               const ShownSurface* before = nullptr);
+/// The component's curve beside those of `before`, the last surgery's moment or null.
+[[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,
+                               double seconds);
+
+}  // namespace curveskel::viewer

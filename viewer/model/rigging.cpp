@@ -1,0 +1,24 @@
+#include "viewer/model/rigging.hpp"
+
+#include <utility>
+
+namespace curveskel::viewer {
+
+std::shared_ptr<const Rig> rig_of(const Document& document, const RepairedSurface& repaired,
+                                  const CurveSkeleton& skeleton, const RigOptions& options,
+                                  const Monitor& monitor) {
+  const CurveSkeleton mapped =
+      skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
+  return std::make_shared<const Rig>(
+      rig_of_given(make_rig(repaired.surface, mapped, options, monitor), repaired.surface,
+                   repaired.vertex_of_input, document.surface.positions));
+}
+
+Moment moment_of(std::shared_ptr<const Rig> rig) {
+  Moment moment;
+  moment.stage = "rig";
+  moment.rig = std::move(rig);
+  return moment;
+}
+
+}  // namespace curveskel::viewer

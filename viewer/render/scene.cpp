@@ -1,0 +1,234 @@
+#include "viewer/render/scene.hpp"
+
+#include <algorithm>
+
+#include <curveskel/error.hpp>
+#include <curveskel/view.hpp>
+
+namespace curveskel::viewer {
+namespace {
+
+constexpr std::array simpler_layers{Layer::simpler, Layer::simpler_still, Layer::simplest};
+
+/// As wide as the ball from wherever it is seen, but for 6 in 100.
+void add_ball(std::vector<glm::vec3>& points, const glm::vec3& middle, float radius) {
+  constexpr float wider = 1.06F;  // than the ball, for the space between the points
+  for (const float x : {-1.0F, 0.0F, 1.0F}) {
+    for (const float y : {-1.0F, 0.0F, 1.0F}) {
+      for (const float z : {-1.0F, 0.0F, 1.0F}) {
+        const glm::vec3 way(x, y, z);
+        if (way == glm::vec3(0)) continue;
+        points.push_back(middle + glm::normalize(way) * (wider * radius));
+      }
+    }
+  }
+}
+
+/// Enough of them to fit the picture to.
+std::vector<glm::vec3> some_points(const Document& document, const ShownSurface& given) {
+  constexpr std::size_t enough = 50000;
+  std::vector<glm::vec3> points;
+  const std::size_t every = given.positions.size() / enough + 1;
+  points.reserve(given.positions.size() / every + 1);
+  for (std::size_t v = 0; v < given.positions.size(); v += every) {
+    points.push_back(given.positions[v]);
+  }
+  if (document.rig) {
+    for (const auto& joint : document.rig->joints.rowwise()) {
+      points.push_back(shown_point(joint, document.origin));
+    }
+  }
+  if (!document.skeleton) return points;
+  const CurveSkeleton& skeleton = *document.skeleton;
+  // Beside a surface, to which balls belong, only the curve itself may lie anywhere.
+  const bool has_balls = points.empty() && skeleton.radii.size() > 0;
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
+    if (has_balls) {
+      add_ball(points, at, static_cast<float>(skeleton.radii[node]));
+    } else {
+      points.push_back(at);
+    }
+  }
+  return points;
+}
+
+glm::mat3 first_axes(const Document& document) {
+  const bool has_triangles = document.surface.triangles.rows() > 0;
+  if (!has_triangles && !document.skeleton) return glm::mat3(1);
+  constexpr int wide = 1600;
+  constexpr int high = 1000;
+  const auto views = has_triangles ? best_views(document.surface, wide, high)
+                                   : best_views(*document.skeleton, wide, high);
+  const Eigen::Matrix3f axes = views[0].axes.cast<float>();
+  glm::mat3 rows(1);
+  for (int row = 0; row < 3; ++row) rows[row] = {axes(row, 0), axes(row, 1), axes(row, 2)};
+  return rows;
+}
+
+}  // namespace
+
+Scene::Scene(Document opened)
+    : document(std::move(opened)),
+      given_(shown_surface(document.surface, document.origin)),
+      face_blocks_(document.surface),
+      points_(some_points(document, given_)),
+      bounds_(bounds_of(points_)),
+      best_axes_(first_axes(document)) {
+  if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
+  look_from(camera, Side::best, best_axes_);
+  constexpr std::array<std::size_t, Pace::levels - 1> vertices{50000, 12000, 3000};
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    // Not worth its cost for a form that is nearly as simple.
+    if (given_.positions.size() < 2 * vertices[i]) continue;
+    simpler_[i] = simpler_surface(given_, vertices[i]);
+  }
+  given_.triangles = {};
+}
+
+Pace::Sizes Scene::sizes() const {
+  const auto whole = static_cast<std::size_t>(document.surface.triangles.rows());
+  Pace::Sizes sizes{whole};
+  for (std::size_t i = 0; i < simpler_.size(); ++i) {
+    const std::size_t size = simpler_[i].surface.triangles.size();
+    sizes[i + 1] = size > 0 ? size : sizes[i];
+  }
+  return sizes;
+}
+
+std::shared_ptr<const CurveSkeleton> Scene::skeleton() const {
+  return own_skeleton ? own_skeleton : recording.skeleton_at(moment);
+}
+
+std::shared_ptr<const Rig> Scene::rig() const {
+  const auto& made = recording.moments()[moment].rig;
+  return made ? made : document.rig;
+}
+
+bool Scene::shows_curve() const {
+  return look.skeleton != SkeletonStyle::hidden && !recording.moments()[moment].rig;
+}
+
+Look Scene::look_now() const {
+  Look now = look;
+  const Moment& shown = recording.moments()[moment];
+  const bool within = shown.stage == "contract" || shown.stage == "surgery" || shown.rig;
+  if (within && now.surface == SurfaceStyle::opaque) {
+    now.surface = SurfaceStyle::transparent;
+  }
+  if (shown.rig && now.surface_colour == ColourBy::plain) now.surface_colour = ColourBy::weight;
+  return now;
+}
+
+/// The surface that stands for the given one now, and its simpler forms.
+void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
+  if (now.faired) {
+    renderer.set_surface(Layer::given, recording.faired_at(moment));
+  } else {
+    renderer.set_surface(Layer::given, given_, document.surface.triangles);
+  }
+  for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
+    renderer.set_surface(simpler_layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
+  }
+}
+
+void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
+  const std::vector<Rgba> colours =
+      surface_colours(document.surface, {now.skeleton.get(), now.rig.get()}, now.look, highlights);
+  renderer.set_colours(Layer::given, colours);
+  for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
+    std::vector<Rgba> fewer;
+    if (!colours.empty()) {
+      fewer.reserve(simpler_[i].vertex_of_given.size());
+      for (const std::uint32_t vertex : simpler_[i].vertex_of_given) {
+        fewer.push_back(colours[vertex]);
+      }
+    }
+    renderer.set_colours(simpler_layers[i], fewer);
+  }
+}
+
+bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
+  const Moment& shown = recording.moments()[moment];
+  const bool faired = shown.stage == "fair" && shown.surface;
+  now.faired = faired ? shown.surface : nullptr;
+  now.contracted = faired                     ? nullptr
+                   : shown.stage == "surgery" ? recording.newest_surface(moment)
+                                              : shown.surface;
+  const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
+  const bool anew = all || now.faired != uploaded_->faired;
+  if (anew) upload_given(renderer, now);
+  const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
+                          now.rig != uploaded_->rig || now.highlights != uploaded_->highlights ||
+                          now.look.surface_colour != uploaded_->look.surface_colour ||
+                          look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
+                          had_faired != faired;
+  if (recoloured && !faired) colour_given(renderer, now);
+  const bool moved = all || now.contracted != uploaded_->contracted;
+  if (moved) {
+    renderer.set_surface(Layer::contracted,
+                         now.contracted ? recording.surface_at(moment) : ShownSurface{});
+  }
+  return anew || recoloured || moved;
+}
+
+bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
+  const bool same_look =
+      !all && now.curve == uploaded_->curve && look.skeleton == uploaded_->look.skeleton &&
+      look.skeleton_colour == uploaded_->look.skeleton_colour && look.map == uploaded_->look.map &&
+      look.theme == uploaded_->look.theme && look.joints == uploaded_->look.joints &&
+      look.bones == uploaded_->look.bones && look.thickness == uploaded_->look.thickness;
+  if (same_look && now.skeleton == uploaded_->skeleton && now.rig == uploaded_->rig &&
+      now.highlights == uploaded_->highlights) {
+    return false;
+  }
+  ShownSkeleton shown;
+  if (now.skeleton && now.curve) {
+    shown = shown_skeleton(*now.skeleton, document.origin, bounds_.diagonal(), look, highlights);
+  }
+  if (now.rig && look.bones) {
+    const ShownSkeleton rig =
+        shown_rig(*now.rig, document.origin, bounds_.diagonal(), look, highlights);
+    shown.edges.insert(shown.edges.end(), rig.edges.begin(), rig.edges.end());
+    shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
+  }
+  renderer.set_skeleton(shown);
+  return true;
+}
+
+bool Scene::upload(Renderer& renderer) {
+  const bool all = !uploaded_;
+  Uploaded now;
+  now.skeleton = skeleton();
+  now.rig = rig();
+  now.curve = shows_curve();
+  now.look = look_now();
+  now.highlights = highlights;
+  const bool surfaces = upload_surfaces(renderer, now, all);
+  const bool skeletons = upload_skeleton(renderer, now, all);
+  uploaded_ = std::move(now);
+  return surfaces || skeletons;
+}
+
+void look_at_rig(Scene& scene, const std::string& joint) {
+  const auto rig = scene.rig();
+  if (!rig || !scene.look.bones) return;
+  if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
+  scene.highlights.joint = -1;
+  if (joint.empty()) return;
+  const std::vector<std::string>& names = rig->names;
+  const auto found = std::find(names.begin(), names.end(), joint);
+  if (found != names.end()) {
+    scene.highlights.joint = static_cast<int>(found - names.begin());
+    return;
+  }
+  constexpr std::size_t most = 100;
+  std::string some;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    some += (some.empty() ? "" : ", ") + names[i];
+  }
+  if (names.size() > most) some += " and " + std::to_string(names.size() - most) + " more";
+  throw Error(Fault::input, "no joint is called " + joint + "; there are " + some);
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,90 @@
+// The scene at one time: a moment of the recording, in a look, from a camera.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/model/document.hpp"
+#include "viewer/model/recording.hpp"
+#include "viewer/render/camera.hpp"
+#include "viewer/render/face_blocks.hpp"
+#include "viewer/render/look.hpp"
+#include "viewer/render/renderer.hpp"
+#include "viewer/render/scene_colours.hpp"
+#include "viewer/software/simpler_surface.hpp"
+
+namespace curveskel::viewer {
+
+class Scene {
+ public:
+  explicit Scene(Document opened);
+
+  Document document;
+  Recording recording;
+  std::size_t moment = 0;  ///< index into the recording
+  Look look;
+  Highlights highlights;
+  Camera camera;
+  /// Instead of the recording's skeleton: the one that was opened, or edited.
+  std::shared_ptr<const CurveSkeleton> own_skeleton;
+
+  /// The skeleton that is shown now, or null.
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton() const;
+  /// The rig that is shown now: the one of this moment, else the file's; or null.
+  [[nodiscard]] std::shared_ptr<const Rig> rig() const;
+  /// True if the curve is seen now; bones stand for it if it was made a rig of.
+  [[nodiscard]] bool shows_curve() const;
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
+  /// Rows right, up, to the viewer of the first view.
+  [[nodiscard]] const glm::mat3& best_axes() const { return best_axes_; }
+
+  /// Of the document's surface.
+  [[nodiscard]] const FaceBlocks& face_blocks() const { return face_blocks_; }
+
+  /// Triangles of the given surface at each level of fineness.
+  [[nodiscard]] Pace::Sizes sizes() const;
+
+  /// Brings the renderer up to date; only what has changed since the last call is uploaded. False
+  /// if nothing had.
+  bool upload(Renderer& renderer);
+  /// Forgets all uploads: the renderer is a new one.
+  void forget_uploads() { uploaded_.reset(); }
+  /// The look as it is drawn at this moment: a contracted surface shows through the given one, a
+  /// rig through the surface that it moves, which has its weights' colours if no others are chosen.
+  [[nodiscard]] Look look_now() const;
+
+ private:
+  struct Uploaded {
+    std::shared_ptr<const ShownSurface> faired;      // kept, so that no other can have its address
+    std::shared_ptr<const ShownSurface> contracted;  // the latest of the components shown
+    std::shared_ptr<const CurveSkeleton> skeleton;
+    std::shared_ptr<const Rig> rig;
+    bool curve = false;  // shown
+    Look look;
+    Highlights highlights;
+  };
+  void upload_given(Renderer& renderer, const Uploaded& now) const;
+  void colour_given(Renderer& renderer, const Uploaded& now) const;
+  bool upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
+  bool upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
+
+  ShownSurface given_;  // without triangles: those are the document's
+  FaceBlocks face_blocks_;
+  std::array<SimplerSurface, Pace::levels - 1> simpler_;  // empty where the surface is small
+  std::vector<glm::vec3> points_;
+  Bounds bounds_;
+  glm::mat3 best_axes_{1};
+  std::optional<Uploaded> uploaded_;
+};
+
+/// Shows what the joints of the rig move, in place of the one colour: the joint of this
+/// name, or all for "". Nothing where there is no rig, or its bones are not shown.
+/// Throws Error(Fault::input) where no joint has the name; all of them are shown then.
+void look_at_rig(Scene& scene, const std::string& joint);
+
+}  // namespace curveskel::viewer

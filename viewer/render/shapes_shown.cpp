@@ -1,0 +1,59 @@
+#include "viewer/render/shapes_shown.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace curveskel::viewer {
+namespace {
+
+std::uint32_t packed(const glm::vec3& normal) {
+  const auto part = [](float value) {
+    constexpr float most = 511;
+    return static_cast<std::uint32_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * most)) & 1023U;
+  };
+  return part(normal.x) | part(normal.y) << 10U | part(normal.z) << 20U;
+}
+
+}  // namespace
+
+void set_normals(ShownSurface& shown) {
+  std::vector<glm::vec3> sums(shown.positions.size(), glm::vec3(0));
+  for (const glm::uvec3& triangle : shown.triangles) {
+    const glm::vec3& a = shown.positions[triangle.x];
+    const glm::vec3 normal =
+        glm::cross(shown.positions[triangle.y] - a, shown.positions[triangle.z] - a);
+    for (int corner = 0; corner < 3; ++corner) sums[triangle[corner]] += normal;
+  }
+  shown.normals.resize(sums.size());
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const float length = glm::length(sums[v]);
+    shown.normals[v] = packed(length > 0 ? sums[v] / length : glm::vec3(0));
+  }
+}
+
+glm::vec3 shown_point(const Eigen::RowVector3d& point, const Eigen::RowVector3d& origin) {
+  const Eigen::RowVector3f moved = (point - origin).cast<float>();
+  return {moved.x(), moved.y(), moved.z()};
+}
+
+void move_surface(ShownSurface& shown, const Positions& positions,
+                  const Eigen::RowVector3d& origin) {
+  shown.positions.resize(static_cast<std::size_t>(positions.rows()));
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    shown.positions[static_cast<std::size_t>(v)] = shown_point(positions.row(v), origin);
+  }
+  set_normals(shown);
+}
+
+ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin) {
+  ShownSurface shown;
+  shown.triangles.resize(static_cast<std::size_t>(surface.triangles.rows()));
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    shown.triangles[static_cast<std::size_t>(f)] =
+        glm::uvec3(surface.triangles(f, 0), surface.triangles(f, 1), surface.triangles(f, 2));
+  }
+  move_surface(shown, surface.positions, origin);
+  return shown;
+}
+
+}  // namespace curveskel::viewer

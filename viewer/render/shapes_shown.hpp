@@ -1,0 +1,58 @@
+// Surfaces and skeletons in the form in which they are drawn.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+#include "viewer/render/colours.hpp"
+
+namespace curveskel::viewer {
+
+/// Single precision about an origin, so that a model far from (0, 0, 0) keeps its digits.
+struct ShownSurface {
+  std::vector<glm::vec3> positions;    ///< model units, minus the origin
+  std::vector<std::uint32_t> normals;  ///< packed as GL_INT_2_10_10_10_REV
+  std::vector<glm::uvec3> triangles;
+  std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
+  /// Of a simpler form with some of the vertices, for slow machines; empty where it is simple.
+  std::vector<glm::uvec3> fewer;
+};
+
+/// With normals, without colours. O(#V + #F).
+[[nodiscard]] ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin);
+/// Area-weighted vertex normals from positions and triangles. O(#V + #F).
+void set_normals(ShownSurface& shown);
+/// The same where only positions have moved: triangles and colours stay.
+void move_surface(ShownSurface& shown, const Positions& positions,
+                  const Eigen::RowVector3d& origin);
+
+/// A drawn edge: a cone's trunk with its own colours at the ends.
+struct TubeInstance {
+  glm::vec4 from;  ///< centre, radius
+  glm::vec4 to;
+  Rgba from_colour;
+  Rgba to_colour;
+  /// The direction of the next edge at an end: both are cut along the plane between them, whose
+  /// normal this is. (0, 0, 0) = cut straight.
+  glm::vec3 from_mitre{0};
+  glm::vec3 to_mitre{0};
+};
+
+struct ShownSkeleton {
+  std::vector<TubeInstance> edges;
+  std::vector<TubeInstance> nodes;  ///< balls: `to` and `to_colour` are not used
+};
+
+/// In double precision; of a point as drawn it is still about the origin.
+[[nodiscard]] inline Eigen::Vector3d model_vector(const glm::vec3& vector) {
+  return {static_cast<double>(vector.x), static_cast<double>(vector.y),
+          static_cast<double>(vector.z)};
+}
+[[nodiscard]] glm::vec3 shown_point(const Eigen::RowVector3d& point,
+                                    const Eigen::RowVector3d& origin);
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,270 @@
+#include "viewer/window/controls.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace curveskel::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double flight_seconds = 0.35;
+constexpr float click_pixels = 4;  // a shorter motion is a click
+
+float aspect_of(const Area& picture) {
+  return std::max(picture.width, 1.0F) / std::max(picture.height, 1.0F);
+}
+
+/// Within the picture, in its pixels.
+glm::vec2 pointer_in(const Area& picture) {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return {at.x - picture.x, at.y - picture.y};
+}
+
+bool holds(const Area& picture, const glm::vec2& at) {
+  return at.x >= 0 && at.y >= 0 && at.x < picture.width && at.y < picture.height;
+}
+
+bool pressed(int key) { return ImGui::IsKeyPressed(key, false); }
+
+template <typename Choice, std::size_t Count>
+void next(Choice& value, const NameTable<Choice, Count>& table) {
+  const auto at = std::find_if(table.begin(), table.end(),
+                               [&](const auto& entry) { return entry.value == value; });
+  const auto after = at == table.end() || at + 1 == table.end() ? table.begin() : at + 1;
+  value = after->value;
+}
+
+/// The pointer's place in the plane through `place` that faces the viewer.
+glm::vec3 beside(const Camera& camera, const glm::vec3& place, const glm::vec2& at,
+                 const Area& picture) {
+  const PickRay ray = ray_through(camera, at.x, at.y, static_cast<int>(picture.width),
+                                  static_cast<int>(picture.height));
+  const glm::vec3 normal = camera.axis(2);
+  const float along = glm::dot(place - ray.origin, normal) / glm::dot(ray.direction, normal);
+  return ray.origin + ray.direction * along;
+}
+
+}  // namespace
+
+void Controls::fly(Workbench& bench, const Camera& to) {
+  flight_ = Flight{bench.scene->camera, to, Clock::now()};
+}
+
+void Controls::fly_on(Workbench& bench) {
+  if (!flight_) return;
+  const double gone = std::chrono::duration<double>(Clock::now() - flight_->began).count();
+  const auto share = static_cast<float>(std::min(gone / flight_seconds, 1.0));
+  bench.scene->camera = between(flight_->from, flight_->to, share);
+  if (share >= 1) flight_.reset();
+}
+
+void Controls::fit_all(Workbench& bench, const Area& picture, bool at_once) {
+  Camera to = bench.scene->camera;
+  fit(to, bench.scene->points(), aspect_of(picture));
+  if (at_once) {
+    bench.scene->camera = to;
+  } else {
+    fly(bench, to);
+  }
+}
+
+void Controls::look_at(Workbench& bench, const glm::vec3& place) {
+  Camera to = bench.scene->camera;
+  to.target = place;
+  constexpr float near = 0.25F;  // of the diagonal
+  to.distance = std::min(to.distance * 0.6F,
+                         std::max(near * bench.scene->bounds().diagonal(), to.distance * 0.3F));
+  fly(bench, to);
+}
+
+void Controls::look_at_side(Workbench& bench, const Area& picture, Side side) {
+  Camera to = bench.scene->camera;
+  look_from(to, side, bench.scene->best_axes());
+  fit(to, bench.scene->points(), aspect_of(picture));
+  fly(bench, to);
+}
+
+void Controls::begin_drag(const Workbench& bench, const Panels& panels) {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (int button = 0; button < 3; ++button) {
+    if (!ImGui::IsMouseClicked(button)) continue;
+    button_ = button;
+    travelled_ = 0;
+    doubled_ = ImGui::IsMouseDoubleClicked(0);
+    drag_ = button == 1 ? Drag::zoom : button == 2 || io.KeyShift ? Drag::pan : Drag::orbit;
+    const bool on_node = panels.hovered.kind == Pick::Kind::node;
+    if (button == 0 && io.KeyCtrl && on_node && !bench.running()) {
+      drag_ = Drag::node;
+      dragged_node_ = panels.hovered.index;
+    }
+  }
+}
+
+void Controls::drag(Workbench& bench, const Area& picture) {
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  travelled_ += std::abs(moved.x) + std::abs(moved.y);
+  if (travelled_ < click_pixels || (moved.x == 0 && moved.y == 0)) return;
+  flight_.reset();
+  Camera& camera = bench.scene->camera;
+  const float turn = 4.0F / std::max(picture.height, 1.0F);
+  switch (drag_) {
+    case Drag::none:
+    case Drag::node:
+      break;
+    case Drag::orbit:
+      orbit(camera, moved.x * turn, moved.y * turn);
+      break;
+    case Drag::pan:
+      pan(camera, moved.x, moved.y, static_cast<int>(picture.height));
+      break;
+    case Drag::zoom:
+      zoom(camera, std::exp(moved.y * turn), 0, 0);
+      break;
+  }
+}
+
+void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& picture) {
+  const Drag ended = std::exchange(drag_, Drag::none);
+  const auto skeleton = bench.scene->skeleton();
+  if (ended == Drag::node && travelled_ >= click_pixels && skeleton &&
+      dragged_node_ < skeleton->nodes.rows()) {
+    const glm::vec3 place =
+        shown_point(skeleton->nodes.row(dragged_node_), bench.scene->document.origin);
+    bench.move(dragged_node_, beside(bench.scene->camera, place, pointer_in(picture), picture));
+    return;
+  }
+  if (travelled_ >= click_pixels || button_ != 0) return;
+  if (doubled_ && panels.hovered.kind != Pick::Kind::nothing) {
+    look_at(bench, panels.hovered.place);
+    return;
+  }
+  bench.select(panels.hovered, ImGui::GetIO().KeyShift);
+}
+
+void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const glm::vec2 at = pointer_in(picture);
+  const bool over = !io.WantCaptureMouse && holds(picture, at);
+  if (drag_ == Drag::none) {
+    panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
+                                 static_cast<int>(picture.height))
+                          : Pick{};
+    if (over) begin_drag(bench, panels);
+  }
+  if (drag_ != Drag::none) {
+    drag(bench, picture);
+    if (drag_ == Drag::node && travelled_ >= click_pixels) {
+      ImGui::GetForegroundDrawList()->AddCircle({at.x + picture.x, at.y + picture.y}, 8,
+                                                IM_COL32(255, 200, 0, 255), 0, 2.5F);
+    }
+    if (!ImGui::IsMouseDown(button_)) end_drag(bench, panels, picture);
+  }
+  if (over && io.MouseWheel != 0) {
+    flight_.reset();
+    constexpr float per_notch = 0.88F;
+    zoom(bench.scene->camera, std::pow(per_notch, io.MouseWheel),
+         (at.x - picture.width / 2) / (picture.height / 2),
+         (picture.height / 2 - at.y) / (picture.height / 2));
+  }
+}
+
+void Controls::escape(Workbench& bench, Panels& panels) const {
+  if (panels.browser.shown()) {
+    panels.browser.close();
+  } else if (panels.help) {
+    panels.help = false;
+  } else if (bench.running()) {
+    bench.cancel();
+  } else {
+    bench.clear_selection();
+  }
+}
+
+void Controls::command_keys(Workbench& bench, Panels& panels, const Area& picture) {
+  if (pressed(GLFW_KEY_O)) panels.browser.ask(FileBrowser::Purpose::open, "");
+  if (pressed(GLFW_KEY_S)) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
+  if (pressed(GLFW_KEY_Z) && !ImGui::GetIO().KeyShift) bench.undo();
+  if (pressed(GLFW_KEY_Y) || (pressed(GLFW_KEY_Z) && ImGui::GetIO().KeyShift)) bench.redo();
+  if (pressed(GLFW_KEY_1)) look_at_side(bench, picture, Side::back);
+  if (pressed(GLFW_KEY_3)) look_at_side(bench, picture, Side::left);
+  if (pressed(GLFW_KEY_7)) look_at_side(bench, picture, Side::bottom);
+}
+
+void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) {
+  Look& look = bench.scene->look;
+  if (pressed(GLFW_KEY_S)) next(look.surface, surface_styles);
+  if (pressed(GLFW_KEY_K)) next(look.skeleton, skeleton_styles);
+  if (pressed(GLFW_KEY_L)) next(look.theme, themes);
+  if (pressed(GLFW_KEY_E)) look.edges = !look.edges;
+  if (pressed(GLFW_KEY_B)) look.transparent_background = !look.transparent_background;
+  if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) panels.help = !panels.help;
+  if (pressed(GLFW_KEY_TAB)) panels.shown = !panels.shown;
+  if (pressed(GLFW_KEY_F12)) panels.wants_picture = true;
+  if (pressed(GLFW_KEY_F)) fit_all(bench, picture, false);
+  if (pressed(GLFW_KEY_O)) bench.scene->camera.orthographic ^= true;
+  if (pressed(GLFW_KEY_0)) look_at_side(bench, picture, Side::best);
+  for (const auto& [key, pad, side] : {std::tuple(GLFW_KEY_1, GLFW_KEY_KP_1, Side::front),
+                                       std::tuple(GLFW_KEY_3, GLFW_KEY_KP_3, Side::right),
+                                       std::tuple(GLFW_KEY_7, GLFW_KEY_KP_7, Side::top),
+                                       std::tuple(GLFW_KEY_9, GLFW_KEY_KP_9, Side::back)}) {
+    if (pressed(key) || pressed(pad)) look_at_side(bench, picture, side);
+  }
+}
+
+void Controls::edit_keys(Workbench& bench) const {
+  if (pressed(GLFW_KEY_DELETE)) bench.prune();
+  if (pressed(GLFW_KEY_BACKSPACE)) bench.remove();
+  if (pressed(GLFW_KEY_M)) bench.merge();
+  if (pressed(GLFW_KEY_C)) bench.cut();
+  if (pressed(GLFW_KEY_J)) bench.join();
+  if (pressed(GLFW_KEY_N)) bench.split();
+  if (pressed(GLFW_KEY_T)) bench.set_root();
+  if (pressed(GLFW_KEY_G)) bench.rig();
+}
+
+void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
+  if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
+  if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
+  // WantTextInput outlives the field by a frame.
+  const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+  if (typing || panels.browser.shown()) return;
+  if (ImGui::GetIO().KeyCtrl) {
+    command_keys(bench, panels, picture);
+    return;
+  }
+  look_keys(bench, panels, picture);
+  edit_keys(bench);
+  if (pressed(GLFW_KEY_R)) bench.reload();
+  if (pressed(GLFW_KEY_SPACE)) {
+    const bool active = bench.running() && bench.run_state() == Run::State::running;
+    active ? bench.pause() : bench.resume();
+  }
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) bench.step();
+  const std::size_t moment = bench.scene->moment;
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT) && moment > 0) bench.go_to(moment - 1);
+  if (pressed(GLFW_KEY_HOME)) bench.rewind();
+  if (pressed(GLFW_KEY_END)) bench.go_to(bench.scene->recording.moments().size() - 1);
+}
+
+void Controls::update(Workbench& bench, Panels& panels, const Area& picture) {
+  if (bench.wants_fit) {
+    flight_.reset();
+    fit_all(bench, picture, true);
+    bench.wants_fit = false;
+  }
+  if (bench.wants_look_at) {
+    look_at(bench, *bench.wants_look_at);
+    bench.wants_look_at.reset();
+  }
+  keys(bench, panels, picture);
+  mouse(bench, panels, picture);
+  fly_on(bench);
+}
+
+}  // namespace curveskel::viewer

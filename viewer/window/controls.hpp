@@ -1,0 +1,53 @@
+// Mouse and keys over the picture.
+#pragma once
+
+#include <chrono>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "viewer/window/panels.hpp"
+#include "viewer/workbench/workbench.hpp"
+
+namespace curveskel::viewer {
+
+class Controls {
+ public:
+  /// Within an ImGui frame: turns events of mouse and keys into actions.
+  void update(Workbench& bench, Panels& panels, const Area& picture);
+  /// True while the camera is on its way.
+  [[nodiscard]] bool flying() const { return flight_.has_value(); }
+  bool wants_to_leave = false;
+
+ private:
+  enum class Drag { none, orbit, pan, zoom, node };
+  struct Flight {
+    Camera from;
+    Camera to;
+    std::chrono::steady_clock::time_point began;
+  };
+
+  void fly(Workbench& bench, const Camera& to);
+  void fly_on(Workbench& bench);
+  void fit_all(Workbench& bench, const Area& picture, bool at_once);
+  void look_at(Workbench& bench, const glm::vec3& place);
+  void look_at_side(Workbench& bench, const Area& picture, Side side);
+  void mouse(Workbench& bench, Panels& panels, const Area& picture);
+  void begin_drag(const Workbench& bench, const Panels& panels);
+  void drag(Workbench& bench, const Area& picture);
+  void end_drag(Workbench& bench, const Panels& panels, const Area& picture);
+  void keys(Workbench& bench, Panels& panels, const Area& picture);
+  void command_keys(Workbench& bench, Panels& panels, const Area& picture);
+  void look_keys(Workbench& bench, Panels& panels, const Area& picture);
+  void edit_keys(Workbench& bench) const;
+  void escape(Workbench& bench, Panels& panels) const;
+
+  Drag drag_ = Drag::none;
+  int button_ = 0;
+  int dragged_node_ = -1;
+  float travelled_ = 0;  // pixels since the button went down
+  bool doubled_ = false;
+  glm::vec2 picked_at_{-1};
+  std::optional<Flight> flight_;
+};
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,193 @@
+// Run, parameters, corrections.
+#include <fmt/core.h>
+
+#include <string>
+
+#include "viewer/window/panel_parts.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+/// A slider's label, a button back to the default where it is another, and whether a person has
+/// just finished changing it.
+template <typename Number>
+bool finish_slider(const char* label, Number& value, Number standard, const char* meaning) {
+  bool finished = ImGui::IsItemDeactivatedAfterEdit();
+  tip(meaning);
+  if (value == standard) return finished;
+  ImGui::SameLine();
+  ImGui::PushID(label);
+  if (ImGui::SmallButton("x")) {
+    value = standard;
+    finished = true;
+  }
+  tip("back to the default");
+  ImGui::PopID();
+  return finished;
+}
+
+bool slide(const char* label, int& value, int standard, int least, int most, const char* meaning,
+           ImGuiSliderFlags flags = 0) {
+  ImGui::SliderInt(label, &value, least, most, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
+  return finish_slider(label, value, standard, meaning);
+}
+
+bool slide(const char* label, double& value, double standard, double least, double most,
+           const char* meaning) {
+  ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most, "%.3g",
+                      ImGuiSliderFlags_AlwaysClamp);
+  return finish_slider(label, value, standard, meaning);
+}
+
+void run_buttons(Workbench& bench) {
+  const bool active = bench.running() && bench.run_state() == Run::State::running;
+  if (active) {
+    if (ImGui::Button("Pause")) bench.pause();
+  } else if (ImGui::Button(bench.running() ? "Go on" : "Run")) {
+    bench.resume();
+  }
+  tip("Space");
+  ImGui::SameLine();
+  if (ImGui::Button("Step")) bench.step();
+  tip("one moment on (Right)");
+  ImGui::SameLine();
+  if (ImGui::Button("Rewind")) bench.rewind();
+  tip("to the input (Home)");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!bench.running());
+  if (ImGui::Button("Cancel")) bench.cancel();
+  ImGui::EndDisabled();
+  tip("stop the run, keep what was recorded (Esc)");
+}
+
+void parameters(Workbench& bench) {
+  const ExtractOptions standard;
+  ExtractOptions& options = bench.pipeline.extract;
+  bool changed = false;
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
+  changed |=
+      slide("fairing", options.fair.iterations, 0, 0, 50,
+            "Iterations of smoothing before anything else. For noisy scans: about ten times the "
+            "noise in % of the diagonal; 0 = none.");
+  changed |=
+      slide("vertices", options.resolution, standard.resolution, options.least_resolution, 60000,
+            "How many vertices the surface is coarsened to before it is contracted. More = "
+            "finer and slower.",
+            ImGuiSliderFlags_Logarithmic);
+  changed |= slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
+                   "How small a branch may be and stay: 0 = only the main limbs, 1 = every bump "
+                   "that makes one.");
+  if (ImGui::TreeNode("More")) {
+    ContractionOptions& flow = options.contraction;
+    const ContractionOptions& usual = standard.contraction;
+    changed |= slide("first weight", flow.contraction_weight, usual.contraction_weight, 0.1, 20,
+                     "How strongly the first iteration contracts.");
+    changed |= slide("growth", flow.contraction_growth, usual.contraction_growth, 1.05, 5,
+                     "Factor on that weight from one iteration to the next. Small = slow and "
+                     "careful.");
+    changed |= slide("medial pull", flow.medial_weight, usual.medial_weight, 0, 10,
+                     "How strongly vertices are drawn to the middle of the body.");
+    changed |= slide("iterations", flow.max_iterations, usual.max_iterations, 1, 200,
+                     "Of the contraction, at most.");
+    changed |= slide("merge", options.embed.merge, standard.embed.merge, 0, 3,
+                     "Junctions nearer to each other than so many inscribed radii become one.");
+    changed |= slide("straight", options.embed.straight, standard.embed.straight, 0, 2,
+                     "Within so many inscribed radii of a junction, branches run straight.");
+    ImGui::TreePop();
+  }
+  ImGui::PopItemWidth();
+  if (ImGui::Button("Defaults")) {
+    const auto cache = options.contraction.program_cache;
+    options = standard;
+    options.fair.iterations = 0;
+    options.contraction.program_cache = options.fair.program_cache = cache;
+    changed = true;
+  }
+  tip("all parameters as they are without choosing any");
+  if (changed && bench.scene->document.has_surface()) bench.start(false);
+}
+
+void rig(Workbench& bench) {
+  const RigOptions usual;
+  RigOptions& options = bench.pipeline.rig;
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
+  bool changed = slide("bone length", options.joints.bone_length, usual.joints.bone_length, 1, 30,
+                       "Of straight limbs, in their radius. Small = many joints.");
+  changed |= slide("softness", options.skin.softness, usual.skin.softness, 0.2, 5,
+                   "How gently the skin goes over from one joint to the next.");
+  ImGui::PopItemWidth();
+  ImGui::BeginDisabled(bench.running() || bench.history().empty());
+  if (ImGui::Button("Make rig")) bench.rig();
+  ImGui::EndDisabled();
+  tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
+  if (changed && (bench.has_rig() || bench.making_rig())) bench.rig();
+}
+
+void corrections(Workbench& bench) {
+  const auto button = [&](const char* label, const char* meaning, auto action) {
+    if (ImGui::Button(label)) action();
+    tip(meaning);
+  };
+  button("Prune", "take out the leaf branch of the selected edge or tip (Delete)",
+         [&] { bench.prune(); });
+  ImGui::SameLine();
+  button("Remove", "take out the selected node (Backspace)", [&] { bench.remove(); });
+  ImGui::SameLine();
+  button("Merge", "make one node of the two selected (M)", [&] { bench.merge(); });
+  button("Cut", "take out the selected edge (C)", [&] { bench.cut(); });
+  ImGui::SameLine();
+  button("Join", "an edge between the two selected nodes (J)", [&] { bench.join(); });
+  ImGui::SameLine();
+  button("Split", "a node in the middle of the selected edge (N)", [&] { bench.split(); });
+  ImGui::SameLine();
+  button("Root", "the selected node is where the hierarchy begins (T)", [&] { bench.set_root(); });
+  ImGui::BeginDisabled(!bench.history().can_undo());
+  button("Undo", "Ctrl-Z", [&] { bench.undo(); });
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!bench.history().can_redo());
+  button("Redo", "Ctrl-Y", [&] { bench.redo(); });
+  ImGui::EndDisabled();
+  if (bench.root() >= 0) {
+    ImGui::SameLine();
+    ImGui::Text("root: node %d", bench.root());
+  }
+}
+
+}  // namespace
+
+void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
+  if (!begin_panel("run", area)) return;
+  if (ImGui::Button("Open")) panels.browser.ask(FileBrowser::Purpose::open, "");
+  tip("Ctrl-O, or drop a file on the window");
+  ImGui::SameLine();
+  if (ImGui::Button("Save")) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
+  tip("Ctrl-S; the format follows from the extension");
+  ImGui::SameLine();
+  if (ImGui::Button("Picture")) panels.wants_picture = true;
+  tip("F12: a PNG beside the file that is open");
+  ImGui::SameLine();
+  if (ImGui::Button("Help")) panels.help = !panels.help;
+  tip("H");
+  ImGui::Separator();
+  run_buttons(bench);
+  if (bench.running()) {
+    ImGui::ProgressBar(static_cast<float>(panels.glance.fraction), {-1, 0},
+                       bench.news().stage.c_str());
+  } else {
+    ImGui::ProgressBar(bench.result() != nullptr ? 1.0F : 0.0F, {-1, 0},
+                       bench.result() != nullptr ? "done" : "");
+  }
+  if (ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) parameters(bench);
+  if (ImGui::CollapsingHeader("Corrections", ImGuiTreeNodeFlags_DefaultOpen)) corrections(bench);
+  if (ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) rig(bench);
+  if (!bench.measured().nodes.empty()) {
+    ImGui::Text("path: %.6g units, %d edges", bench.measured().length,
+                static_cast<int>(bench.measured().nodes.size()) - 1);
+  } else if (bench.selected_nodes().size() == 2) {
+    ImGui::TextUnformatted("no path between the two nodes");
+  }
+  ImGui::End();
+}
+
+}  // namespace curveskel::viewer

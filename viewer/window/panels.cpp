@@ -1,0 +1,271 @@
+#include "viewer/window/panels.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "viewer/window/panel_parts.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                          ImGuiWindowFlags_NoSavedSettings |
+                                          ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void glance_at(const Workbench& bench, Panels& panels) {
+  constexpr std::chrono::milliseconds often(250);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - panels.glance.since < often) return;
+  panels.glance = {panels.times.last(), panels.times.percentile(0.99), bench.news().fraction, now};
+}
+
+/// As many of the facts as fit, the first ones first.
+void status_bar(const Workbench& bench, const Panels& panels, const Area& area) {
+  if (!begin_panel("status", area)) return;
+  const Document& document = bench.scene->document;
+  std::vector<std::string> facts;
+  if (document.has_surface()) {
+    facts.push_back(
+        fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
+                    document.surface.positions.rows(), document.surface.triangles.rows()));
+  }
+  if (const auto skeleton = bench.scene->skeleton()) {
+    facts.push_back(
+        fmt::format("{} nodes, {} edges", skeleton->nodes.rows(), skeleton->edges.rows()));
+  }
+  if (panels.coarse) facts.emplace_back("drawing coarsely while it moves");
+  facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
+  facts.push_back(fmt::format("{:.1f} ms, 99 % below {:.1f}", panels.glance.last_milliseconds,
+                              panels.glance.slow_milliseconds));
+  facts.push_back(panels.gl);
+  facts.push_back(panels.transfer);
+  std::string line;
+  for (const std::string& fact : facts) {
+    const std::string longer = line.empty() ? fact : fmt::format("{}   |   {}", line, fact);
+    const bool fits = ImGui::CalcTextSize(longer.c_str()).x <= ImGui::GetContentRegionAvail().x;
+    if (!fits && !line.empty()) break;
+    line = longer;
+  }
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::End();
+}
+
+void messages(const Workbench& bench, const Area& picture) {
+  const auto now = std::chrono::steady_clock::now();
+  float y = picture.y + 10;
+  for (const Message& message : bench.messages()) {
+    const double shown_seconds = message.bad ? 12 : 4;
+    const double age = std::chrono::duration<double>(now - message.since).count();
+    if (age > shown_seconds) continue;
+    const float widest = picture.width - 40;
+    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, widest);
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
+    const ImVec2 low(picture.x + 12, y);
+    list.AddRectFilled(low, {low.x + size.x + 16, low.y + size.y + 10}, back, 5);
+    list.AddText(nullptr, 0, {low.x + 8, low.y + 5}, IM_COL32(255, 255, 255, 255),
+                 message.text.c_str(), nullptr, widest);
+    y += size.y + 14;
+  }
+}
+
+void help(Panels& panels) {
+  if (!panels.help) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, screen);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse |
+                                     ImGuiWindowFlags_AlwaysAutoResize |
+                                     ImGuiWindowFlags_NoSavedSettings;
+  if (ImGui::Begin("Help", &panels.help, flags)) {
+    constexpr std::array<std::array<const char*, 2>, 18> lines{{
+        {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
+        {"double click, F", "fly to what is under the pointer; fit everything"},
+        {"1 3 7, with Ctrl 9", "front, right, top, and from the other side"},
+        {"0, O", "the best view, parallel projection"},
+        {"click, Shift + click",
+         "select a node, an edge, or the part of the surface of a node; "
+         "two nodes: the path between"},
+        {"Ctrl + drag", "move a node"},
+        {"Delete, Backspace", "prune the branch, remove the node"},
+        {"M  C  J  N  T", "merge, cut, join, put a node on an edge, set the root"},
+        {"G", "joints and skin weights for the skeleton as it is"},
+        {"Ctrl-Z, Ctrl-Y", "take back, do again"},
+        {"Space, Left, Right", "run or pause, one moment back or on"},
+        {"Home, End", "the input, the newest"},
+        {"S  E  K", "how the surface is drawn, its edges, how the skeleton is drawn"},
+        {"L, B", "light or dark, transparent background"},
+        {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
+        {"F12", "a picture"},
+        {"Tab, H", "panels on and off, this help"},
+        {"Esc, Ctrl-Q", "cancel or clear the selection, leave"},
+    }};
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+      for (const auto& [keys, meaning] : lines) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(keys);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(meaning);
+      }
+      ImGui::EndTable();
+    }
+  }
+  ImGui::End();
+}
+
+void browser(Workbench& bench, Panels& panels) {
+  const auto chosen = panels.browser.draw();
+  if (!chosen) return;
+  if (panels.browser.purpose() == FileBrowser::Purpose::open) {
+    bench.open({*chosen});
+  } else {
+    bench.save(*chosen);
+  }
+}
+
+std::string description_of_node(int node, const CurveSkeleton& skeleton) {
+  std::string text = fmt::format("node {}\n({:.5g}, {:.5g}, {:.5g})", node, skeleton.nodes(node, 0),
+                                 skeleton.nodes(node, 1), skeleton.nodes(node, 2));
+  if (skeleton.radii.size() > 0) text += fmt::format("\nradius {:.5g}", skeleton.radii[node]);
+  const auto degree = (skeleton.edges.array() == node).count();
+  text += fmt::format("\n{} edge{}", degree, degree == 1 ? "" : "s");
+  const auto vertices = (skeleton.node_of_vertex.array() == node).count();
+  if (skeleton.node_of_vertex.size() > 0) text += fmt::format("\n{} vertices", vertices);
+  return text;
+}
+
+std::string description_of_joint(int joint, const Rig& rig) {
+  const auto name_of = [&](int index) {
+    const std::string& name = rig.names[static_cast<std::size_t>(index)];
+    return name.empty() ? fmt::format("joint {}", index) : name;
+  };
+  std::string text = fmt::format("{}\n({:.5g}, {:.5g}, {:.5g})", name_of(joint),
+                                 rig.joints(joint, 0), rig.joints(joint, 1), rig.joints(joint, 2));
+  const int parent = rig.parents[joint];
+  text += parent < 0 ? "\na root" : fmt::format("\nbelow {}", name_of(parent));
+  const auto moved = (rig.weights.col(joint).toDense().array() > 0).count();
+  return text + fmt::format("\nmoves {} vertices", moved);
+}
+
+}  // namespace
+
+Area whole_pixels(const Area& area) {
+  const float x = std::floor(area.x);
+  const float y = std::floor(area.y);
+  return {x, y, std::ceil(area.x + area.width) - x, std::ceil(area.y + area.height) - y};
+}
+
+bool begin_panel(const char* name, const Area& area) {
+  if (area.width <= 0 || area.height <= 0) return false;
+  ImGui::SetNextWindowPos({area.x, area.y});
+  ImGui::SetNextWindowSize({area.width, area.height});
+  ImGui::Begin(name, nullptr, fixed_window);
+  return true;
+}
+
+void tip(const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  constexpr float widest = 24;  // of a letter's height
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * widest);
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+Layout lay_out(float width, float height, float scale, bool panels) {
+  // Of whole pixels, so that there is nothing between the parts.
+  Layout layout;
+  const float line = std::floor(26 * scale);
+  layout.status = {0, height - line, width, line};
+  layout.picture = {0, 0, width, height - line};
+  if (!panels) return layout;
+  const float side = std::floor(std::min(290 * scale, width * 0.30F));
+  const float timeline = std::floor(std::min(130 * scale, height * 0.2F));
+  layout.left = {0, 0, side, height - line};
+  layout.right = {width - side, 0, side, height - line};
+  layout.timeline = {side, height - line - timeline, width - 2 * side, timeline};
+  layout.picture = {side, 0, width - 2 * side, height - line - timeline};
+  return layout;
+}
+
+std::string description_of(const Pick& picked, const Workbench& bench) {
+  const auto skeleton = bench.scene->skeleton();
+  const Surface& surface = bench.scene->document.surface;
+  switch (picked.kind) {
+    case Pick::Kind::nothing:
+      break;
+    case Pick::Kind::joint: {
+      const auto rig = bench.scene->rig();
+      if (!rig || picked.index >= rig->joints.rows()) break;
+      return description_of_joint(picked.index, *rig);
+    }
+    case Pick::Kind::node:
+      if (!skeleton || picked.index >= skeleton->nodes.rows()) break;
+      return description_of_node(picked.index, *skeleton);
+    case Pick::Kind::edge: {
+      if (!skeleton || picked.index >= skeleton->edges.rows()) break;
+      const int a = skeleton->edges(picked.index, 0);
+      const int b = skeleton->edges(picked.index, 1);
+      return fmt::format("edge {}: nodes {} and {}\nlength {:.5g}", picked.index, a, b,
+                         (skeleton->nodes.row(a) - skeleton->nodes.row(b)).norm());
+    }
+    case Pick::Kind::face: {
+      std::string text =
+          fmt::format("triangle {}\nvertex {}: ({:.5g}, {:.5g}, {:.5g})", picked.index,
+                      picked.vertex, surface.positions(picked.vertex, 0),
+                      surface.positions(picked.vertex, 1), surface.positions(picked.vertex, 2));
+      if (skeleton && skeleton->node_of_vertex.size() == surface.positions.rows()) {
+        text += fmt::format("\nnode {}", skeleton->node_of_vertex[picked.vertex]);
+      }
+      return text;
+    }
+  }
+  return {};
+}
+
+void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
+  glance_at(bench, panels);
+  draw_left_panel(bench, panels, layout.left);
+  draw_right_panel(bench, panels, layout.right);
+  draw_timeline(bench, layout.timeline);
+  status_bar(bench, panels, layout.status);
+  messages(bench, layout.picture);
+  help(panels);
+  browser(bench, panels);
+  const std::string hovered = description_of(panels.hovered, bench);
+  if (!hovered.empty() && !ImGui::GetIO().WantCaptureMouse) {
+    ImGui::SetTooltip("%s", hovered.c_str());
+  }
+}
+
+void style_panels(Theme theme, float scale) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  if (theme == Theme::dark) {
+    ImGui::StyleColorsDark();
+  } else {
+    ImGui::StyleColorsLight();
+  }
+  style.WindowRounding = 0;
+  style.WindowBorderSize = 1;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.WindowPadding = {10, 8};
+  style.FrameBorderSize = theme == Theme::light ? 1.0F : 0.0F;
+  const Palette palette = palette_of(theme);
+  // Numbers stay legible under the sliders' grips and on the progress bar.
+  style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.45F;
+  style.Colors[ImGuiCol_PlotHistogram] =
+      theme == Theme::dark ? ImVec4(0.16F, 0.44F, 0.36F, 1) : ImVec4(0.58F, 0.83F, 0.75F, 1);
+  style.Colors[ImGuiCol_WindowBg] = {palette.lower.r, palette.lower.g, palette.lower.b, 1};
+  style.ScaleAllSizes(scale);
+}
+
+}  // namespace curveskel::viewer

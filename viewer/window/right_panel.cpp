@@ -1,0 +1,227 @@
+// Look, certificate, input.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/window/panel_parts.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+void look_controls(Look& look, Camera& camera) {
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52F);
+  choose("surface", look.surface, surface_styles);
+  choose("its colours", look.surface_colour, colourings);
+  choose("skeleton", look.skeleton, skeleton_styles);
+  choose("its colours ", look.skeleton_colour, colourings);
+  choose("map", look.map, colour_maps);
+  choose("theme", look.theme, themes);
+  ImGui::SliderFloat("opacity", &look.opacity, 0, 1, "%.2f");
+  tip("of the transparent surface");
+  ImGui::SliderFloat("thickness", &look.thickness, 0.2F, 5, "%.2f", ImGuiSliderFlags_Logarithmic);
+  tip("of tubes and lines");
+  ImGui::PopItemWidth();
+  ImGui::Checkbox("edges", &look.edges);
+  ImGui::SameLine();
+  ImGui::Checkbox("joints", &look.joints);
+  ImGui::SameLine();
+  ImGui::Checkbox("through", &look.through);
+  tip("the skeleton shows through an opaque surface");
+  ImGui::Checkbox("bones", &look.bones);
+  tip("joints and bones of a rig");
+  ImGui::SameLine();
+  ImGui::Checkbox("parallel projection", &camera.orthographic);
+  tip("O");
+}
+
+/// Read against the panel of the theme: 4.5 to 1 at least.
+ImVec4 verdict_colour(bool good, Theme theme) {
+  if (theme == Theme::dark)
+    return good ? ImVec4(0.40F, 0.80F, 0.52F, 1) : ImVec4(1, 0.48F, 0.43F, 1);
+  return good ? ImVec4(0.04F, 0.42F, 0.17F, 1) : ImVec4(0.74F, 0.10F, 0.08F, 1);
+}
+
+void certificate_line(const char* name, const std::string& value, int verdict, Theme theme) {
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine(ImGui::GetFontSize() * 6.5F);
+  if (verdict < 0) {
+    ImGui::TextUnformatted(value.c_str());
+  } else {
+    ImGui::TextColored(verdict_colour(verdict != 0, theme), "%s", value.c_str());
+  }
+}
+
+void certificate(Workbench& bench) {
+  const Judgement* found = bench.judgement();
+  if (found == nullptr) {
+    const bool alone = bench.scene->skeleton() && !bench.scene->document.has_surface();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped(alone ? "open the surface and the skeleton together to judge it"
+                             : "not there yet");
+    ImGui::PopStyleColor();
+    return;
+  }
+  if (!found->error.empty()) {
+    ImGui::TextWrapped("%s", found->error.c_str());
+    return;
+  }
+  const Certificate& c = found->certificate;
+  const auto line = [theme = bench.scene->look.theme](const char* name, const std::string& value,
+                                                      int verdict) {
+    certificate_line(name, value, verdict, theme);
+  };
+  const auto verdict = [](bool good) { return good ? 1 : 0; };
+  line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
+       verdict(c.components == c.components_of_surface));
+  line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
+       verdict(c.cycle_rank == c.genus));
+  line("handles", fmt::format("round {} of {}", c.homology_rank, c.genus),
+       verdict(c.homology_rank == c.genus));
+  line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough));
+  if (!found->findings.exits.empty()) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("show##exits")) bench.show_exits();
+    tip("the edges that leave the surface");
+  }
+  line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
+  if (c.spurs > 0) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("show##spurs")) bench.show_spurs();
+  }
+  line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1);
+  line("centredness", fmt::format("{:.3f}, p90 {:.3f}", c.centredness_median, c.centredness_p90),
+       -1);
+  line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1);
+  line("reach", fmt::format("{:.4f} D", c.reach), -1);
+  line("tips", fmt::format("{}", c.tips), -1);
+  line("junctions", fmt::format("{}", c.junctions), -1);
+  line("length", fmt::format("{:.3f} D", c.length), -1);
+  line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
+}
+
+/// Repairs that were made, or could not be.
+void input_defects(Workbench& bench) {
+  const Defects& found = *bench.defects();
+  const auto line = [&](const char* name, const std::vector<int>& faces, const char* meaning) {
+    if (faces.empty()) return;
+    ImGui::Text("%s: %d", name, static_cast<int>(faces.size()));
+    tip(meaning);
+    ImGui::SameLine();
+    ImGui::PushID(name);
+    if (ImGui::SmallButton("show")) bench.show_faces(faces);
+    ImGui::PopID();
+  };
+  line("open", found.open, "with an edge that no other face has: at a hole or a rim");
+  line("non-manifold", found.non_manifold, "with an edge that three faces or more have");
+  line("flipped", found.flipped, "facing the other way than a neighbour");
+  line("degenerate", found.degenerate, "with a corner twice, or no area");
+}
+
+/// The values and the name of the colour bar; nothing if colours are no numbers.
+std::optional<std::pair<ColourScale, const char*>> scale_shown(const Workbench& bench) {
+  const Look& look = bench.scene->look;
+  if (bench.scene->look_now().surface_colour == ColourBy::weight && bench.selected_joint() >= 0) {
+    return std::pair{ColourScale{0, 1}, "weight"};
+  }
+  const bool by_radius =
+      look.surface_colour == ColourBy::radius || look.skeleton_colour == ColourBy::radius;
+  const auto skeleton = bench.scene->skeleton();
+  if (!by_radius || !skeleton) return std::nullopt;
+  const auto scale = radius_scale(*skeleton);
+  if (!scale) return std::nullopt;
+  return std::pair{*scale, "radius"};
+}
+
+void colour_bar(const Workbench& bench) {
+  const auto shown = scale_shown(bench);
+  if (!shown) return;
+  const auto& [scale, name] = *shown;
+  const Look& look = bench.scene->look;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float height = ImGui::GetFontSize();
+  constexpr int steps = 64;
+  for (int i = 0; i < steps; ++i) {
+    const float share = static_cast<float>(i) / steps;
+    const Rgba colour = rgba(mapped(look.map, share));
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x + width * share, at.y}, {at.x + width * (share + 1.0F / steps) + 1, at.y + height},
+        IM_COL32(colour[0], colour[1], colour[2], 255));
+  }
+  ImGui::Dummy({width, height});
+  const std::string low = fmt::format("{:.4g}", scale.low);
+  const std::string high = fmt::format("{:.4g}", scale.high);
+  ImGui::TextUnformatted(low.c_str());
+  ImGui::SameLine(width / 2 - ImGui::GetFontSize() * 2);
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine(width - ImGui::CalcTextSize(high.c_str()).x);
+  ImGui::TextUnformatted(high.c_str());
+}
+
+/// True when its arrow was clicked.
+bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, bool open) {
+  const auto joint = static_cast<std::size_t>(line.joint);
+  const bool leaf = line.below == 0;
+  const ImGuiTreeNodeFlags flags =
+      ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+      ImGuiTreeNodeFlags_SpanAvailWidth | (leaf ? ImGuiTreeNodeFlags_Leaf : 0) |
+      (line.joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
+  ImGui::PushID(line.joint);
+  ImGui::SetNextItemOpen(open);
+  const std::string& name = rig.names[joint];
+  ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
+  ImGui::PopID();
+  if (ImGui::IsItemToggledOpen()) return true;
+  if (ImGui::IsItemClicked()) {
+    bench.select_joint(line.joint == bench.selected_joint() ? -1 : line.joint);
+  }
+  return false;
+}
+
+/// Only the lines within the panel are laid out.
+void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
+  const float step = ImGui::GetFontSize() * 0.5F;
+  // Deeper ones stand below each other, so that their names are still seen.
+  const float most = ImGui::GetContentRegionAvail().x * 0.5F;
+  int folded = -1;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(outline.seen().size()));
+  while (clipper.Step()) {
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+      const HierarchyLine& line = outline.seen()[static_cast<std::size_t>(row)];
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                           std::min(step * static_cast<float>(line.depth), most));
+      if (joint_line(bench, rig, line, !outline.folded(line.joint))) folded = line.joint;
+    }
+  }
+  if (folded >= 0) outline.fold(folded);
+}
+
+}  // namespace
+
+void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
+  if (!begin_panel("look", area)) return;
+  if (ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
+    look_controls(bench.scene->look, bench.scene->camera);
+    ImGui::Checkbox("coarser while it moves", &panels.may_be_coarse);
+    tip("only where this machine cannot draw sixty whole pictures a second");
+    colour_bar(bench);
+  }
+  if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
+  const auto rig = bench.scene->rig();
+  panels.outline.show(rig);
+  if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
+    hierarchy(bench, panels.outline, *rig);
+  }
+  const bool defective = bench.defects() != nullptr && !bench.defects()->none();
+  if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {
+    input_defects(bench);
+  }
+  ImGui::End();
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,289 @@
+#include "viewer/workbench/workbench.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include <curveskel/topology.hpp>
+#include <curveskel/write_file.hpp>
+#include "app/report.hpp"
+#include "viewer/software/priority.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <typename Value>
+bool is_ready(const std::future<Value>& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+fs::file_time_type time_of(const fs::path& file) {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return error ? fs::file_time_type::min() : time;
+}
+
+std::string names_of(const std::vector<fs::path>& files) {
+  std::string names;
+  for (const fs::path& file : files) {
+    names += (names.empty() ? "" : ", ") + file.filename().string();
+  }
+  return names;
+}
+
+/// The C library keeps the memory of reading and sorting for a while: several times the surface.
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+std::string extension_of(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+}  // namespace
+
+Workbench::Workbench(ViewOptions options)
+    : scene(std::make_shared<Scene>(Document{})),
+      pipeline(options.pipeline),
+      options_(std::move(options)),
+      run_memory_(std::make_shared<RunMemory>()) {
+  news_.state = Run::State::cancelled;
+  scene->look = options_.look;
+  if (!options_.files.empty()) open(options_.files);
+}
+
+Workbench::~Workbench() {
+  // All at once, and then wait for each.
+  if (run_) run_->cancel();
+  for (const auto& run : retired_) run->cancel();
+  rigging_stop_.request_stop();
+}
+
+void Workbench::say(std::string text, bool bad) {
+  constexpr std::size_t most = 50;
+  messages_.push_back({std::move(text), bad, std::chrono::steady_clock::now()});
+  if (messages_.size() > most) messages_.pop_front();
+}
+
+bool Workbench::busy() const {
+  return opening_.valid() || run_ != nullptr || !retired_.empty() || inspecting_.valid() ||
+         judging_.valid() || rigging_.valid();
+}
+
+bool Workbench::update() {
+  bool changed = take_opened();
+  changed = take_news() || changed;
+  changed = take_defects() || changed;
+  changed = take_judgement() || changed;
+  changed = take_rig() || changed;
+  std::erase_if(retired_, [](const std::unique_ptr<Run>& run) {
+    return run->take().state != Run::State::running;
+  });
+  if (wants_start_ && retired_.empty()) start(*wants_start_);
+  return changed;
+}
+
+void Workbench::open(const std::vector<fs::path>& files) {
+  if (opening_.valid()) {
+    say("another file is still being opened", true);
+    return;
+  }
+  say("opening " + names_of(files));
+  opening_ = std::async(std::launch::async, [files] {
+    Opened opened;
+    opened.files = files;
+    for (const fs::path& file : files) opened.times.push_back(time_of(file));
+    try {
+      opened.scene = std::make_shared<Scene>(open_document(files, Monitor{}));
+    } catch (const std::bad_alloc&) {
+      opened.error = names_of(files) + ": out of memory";
+    } catch (const std::exception& error) {
+      opened.error = error.what();
+    }
+    give_back_memory();
+    return opened;
+  });
+}
+
+bool Workbench::take_opened() {
+  if (!is_ready(opening_)) return false;
+  Opened opened = opening_.get();
+  // If another file could not be opened, the open ones have not changed.
+  if (opened.scene || reloading_) read_times_ = opened.times;
+  if (!opened.scene) {
+    reloading_ = false;
+    say(opened.error, true);
+    return true;
+  }
+  retire_run();
+  rigging_stop_.request_stop();
+  rig_again_ = false;
+  save_rig_to_.clear();
+  opened.scene->look = scene->look;
+  const bool same_place = reloading_;
+  if (same_place) opened.scene->camera = scene->camera;
+  scene = std::move(opened.scene);
+  files_ = std::move(opened.files);
+  wants_fit = !same_place;
+  reloading_ = false;
+  run_memory_ = std::make_shared<RunMemory>();
+  result_.reset();
+  judgement_.reset();
+  ground_.reset();
+  history_ = History();
+  clear_selection();
+  failed_edges_.clear();
+  failed_faces_.clear();
+  if (scene->own_skeleton) begin_history(scene->own_skeleton);
+  inspect();
+  say("opened " + names_of(files_));
+  const Document& document = scene->document;
+  try {
+    look_at_rig(*scene, options_.joint);
+    selected_joint_ = scene->highlights.joint;
+  } catch (const Error& error) {
+    say(error.what(), true);
+    options_.joint.clear();  // it is said once
+  }
+  if (options_.run && document.has_surface() && !document.rig && !scene->own_skeleton) start(false);
+  return true;
+}
+
+void Workbench::reload() {
+  if (files_.empty() || opening_.valid()) return;
+  reloading_ = true;
+  open(files_);
+}
+
+void Workbench::watch_files() {
+  if (opening_.valid()) return;
+  for (std::size_t i = 0; i < files_.size() && i < read_times_.size(); ++i) {
+    const auto now = time_of(files_[i]);
+    if (now == fs::file_time_type::min() || now == read_times_[i]) continue;
+    reload();
+    return;
+  }
+}
+
+void Workbench::save(const fs::path& file) {
+  const auto skeleton = scene->skeleton();
+  if (!skeleton) {
+    say("there is no skeleton to save yet", true);
+    return;
+  }
+  const std::string extension = extension_of(file);
+  const auto format = choice_of(skeleton_formats, extension);
+  const auto rig_format = choice_of(rig_formats, extension);
+  if (!format && !rig_format) {
+    say(file.filename().string() + ": the extension is none of " + names_in(skeleton_formats) +
+            "; for a rig, " + names_in(rig_formats),
+        true);
+    return;
+  }
+  try {
+    if (rig_format) {
+      save_rig(file, *rig_format);
+      return;
+    }
+    SkeletonContext context;
+    context.root = root();
+    context.provenance = program_and_version() + ", " + names_of(files_) +
+                         (history_.changed() ? ", corrected by hand" : "");
+    if (scene->document.has_surface()) context.surface = &scene->document.surface;
+    write_file(file, format_skeleton(*skeleton, *format, context));
+    say("saved " + file.string());
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+/// The defects of the surface as it was read; nobody waits for them.
+void Workbench::inspect() {
+  defects_.reset();
+  if (inspecting_.valid()) {
+    // Its own end is waited for by a thread that has nothing else to do.
+    background_.push_back(std::async(
+        std::launch::async, [](auto old) { old.wait(); }, std::move(inspecting_)));
+  }
+  std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
+  if (scene->document.surface.triangles.rows() == 0) return;
+  inspecting_ = std::async(std::launch::async, [held = scene] {
+    give_way();
+    auto found = std::make_shared<const Defects>(defects_of(held->document.surface));
+    give_back_memory();
+    return found;
+  });
+}
+
+bool Workbench::take_defects() {
+  if (!is_ready(inspecting_)) return false;
+  defects_ = inspecting_.get();
+  return true;
+}
+
+const Judgement* Workbench::judgement() const {
+  const bool current = judgement_ && judgement_->skeleton == scene->skeleton();
+  return current ? &*judgement_ : nullptr;
+}
+
+/// Of the skeleton that is shown, on another thread; `take_judgement` starts the next one where it
+/// has changed meanwhile.
+void Workbench::judge() {
+  const auto skeleton = scene->skeleton();
+  if (!skeleton || !scene->document.has_surface() || judging_.valid() || judgement() != nullptr)
+    return;
+  auto repaired = result_ ? result_->repaired : nullptr;
+  judging_ = std::async(std::launch::async, [skeleton, repaired, ground = ground_, held = scene,
+                                             options = pipeline.extract.certificate,
+                                             repair_options = pipeline.repair]() mutable {
+    give_way();
+    Judgement found;
+    found.skeleton = skeleton;
+    try {
+      if (!repaired) {
+        repaired = std::make_shared<const RepairedSurface>(
+            repair(*held->document.polygons(), repair_options, Monitor{}));
+      }
+      if (!ground || ground->repaired != repaired) {
+        const Topology counted = topology(repaired->surface);
+        ground = std::make_shared<const Ground>(
+            Ground{repaired, SurfaceTree(repaired->surface),
+                   bounding_box_diagonal(repaired->surface.positions), counted.components(),
+                   counted.total_genus()});
+      }
+      found.ground = ground;
+      found.certificate = evaluate({ground->repaired->surface, ground->tree, ground->diagonal,
+                                    ground->components, ground->genus},
+                                   *skeleton, options, Monitor{});
+      found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, Monitor{});
+    } catch (const std::exception& error) {
+      found.error = error.what();
+    }
+    return found;
+  });
+}
+
+bool Workbench::take_judgement() {
+  if (!is_ready(judging_)) return false;
+  Judgement found = judging_.get();
+  if (found.ground) ground_ = found.ground;
+  if (found.skeleton == scene->skeleton()) {
+    judgement_ = std::move(found);
+  } else {
+    judge();
+  }
+  return true;
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,206 @@
+// Everything a person does with the viewer, without window, mouse or panels: files, runs, the
+// timeline, selection, corrections. The window draws it and calls it.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/edit.hpp>
+#include <curveskel/findings.hpp>
+#include <curveskel/rig_files.hpp>
+#include "viewer/model/defects.hpp"
+#include "viewer/model/history.hpp"
+#include "viewer/model/run.hpp"
+#include "viewer/render/scene.hpp"
+#include "viewer/view_options.hpp"
+#include "viewer/workbench/pick.hpp"
+
+namespace curveskel::viewer {
+
+/// A line for the person, shown for a while.
+struct Message {
+  std::string text;
+  bool bad = false;
+  std::chrono::steady_clock::time_point since;
+};
+
+/// The surface that skeletons are judged against.
+struct Ground {
+  std::shared_ptr<const RepairedSurface> repaired;
+  SurfaceTree tree;
+  double diagonal = 0;  ///< D
+  int components = 0;
+  int genus = 0;
+};
+
+/// A certificate and where it fails, of one skeleton.
+struct Judgement {
+  std::shared_ptr<const CurveSkeleton> skeleton;
+  std::shared_ptr<const Ground> ground;
+  Certificate certificate;
+  Findings findings;
+  std::string error;  ///< why there is none
+};
+
+class Workbench {
+ public:
+  explicit Workbench(ViewOptions options);
+  ~Workbench();
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+
+  /// Takes in what other threads have finished; true if something that is seen has changed, apart
+  /// from how far a stage has come. Never waits.
+  bool update();
+  /// True if another thread is at work, so that `update` should be called soon again.
+  [[nodiscard]] bool busy() const;
+
+  // Files. A failure becomes a message, and the open files stay.
+  void open(const std::vector<std::filesystem::path>& files);
+  void reload();
+  /// Reloads if the files on the disk are newer than those that were read.
+  void watch_files();
+  /// The skeleton, as it is now, in the format of the extension; also a picture, or its rig, which
+  /// is made first if need be.
+  void save(const std::filesystem::path& file);
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
+  // The run.
+  void start(bool paused);
+  void pause();
+  void resume();  ///< starts one where none is under way
+  void step();    ///< one moment on: of the run, or of the recording
+  void cancel();
+  void rewind();
+  [[nodiscard]] Run::State run_state() const { return news_.state; }
+  [[nodiscard]] bool running() const { return run_ != nullptr; }
+  [[nodiscard]] const Run::News& news() const { return news_; }
+  void go_to(std::size_t moment);
+
+  // Selection: nodes in the order in which they were picked, or one edge; and a joint of the rig.
+  void select(const Pick& picked, bool more);
+  void clear_selection();
+  [[nodiscard]] const std::vector<int>& selected_nodes() const { return selected_nodes_; }
+  [[nodiscard]] int selected_edge() const { return selected_edge_; }
+  [[nodiscard]] int selected_joint() const { return selected_joint_; }
+  /// -1 = none: the weights of all joints are shown.
+  void select_joint(int joint);
+  /// Between the two selected nodes along the curve; empty otherwise.
+  [[nodiscard]] const Path& measured() const { return measured_; }
+  void show_exits();
+  void show_spurs();
+  /// Colours faces of the given surface red and flies to the first.
+  void show_faces(const std::vector<int>& faces);
+
+  /// Makes joints and skin weights of the skeleton as it is, beside what goes on; they become the
+  /// last moment of the timeline, until the skeleton changes.
+  void rig();
+  /// True if a rig is being made, of a skeleton chosen before now.
+  [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
+  [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
+
+  // Corrections of the skeleton.
+  void prune();
+  void remove();
+  void merge();
+  void cut();
+  void join();
+  void split();
+  void move(int node, const glm::vec3& place);
+  void set_root();
+  void undo();
+  void redo();
+  [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] int root() const { return history_.empty() ? -1 : history_.now().root; }
+
+  void say(std::string text, bool bad = false);
+  [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
+  /// Over the repaired surface; null until a skeleton has been judged by it.
+  [[nodiscard]] const SurfaceTree* tree() const { return ground_ ? &ground_->tree : nullptr; }
+  /// Of the surface as it was read; null until they are known.
+  [[nodiscard]] const Defects* defects() const { return defects_.get(); }
+  /// Of the skeleton that is shown, once it is known.
+  [[nodiscard]] const Judgement* judgement() const;
+  [[nodiscard]] const RunResult* result() const { return result_ ? &*result_ : nullptr; }
+
+  std::shared_ptr<Scene> scene;  ///< never null
+  RunOptions pipeline;
+  /// Set when the camera should go to where the scene is seen best.
+  bool wants_fit = true;
+  /// Set when the camera should fly here; about the document's origin.
+  std::optional<glm::vec3> wants_look_at;
+
+ private:
+  struct Opened {
+    std::shared_ptr<Scene> scene;
+    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::file_time_type> times;
+    std::string error;
+  };
+  struct Rigged {
+    Edited of;
+    std::shared_ptr<const Rig> rig;  // null where it was stopped
+    std::string error;
+  };
+  bool take_opened();
+  bool take_news();
+  bool take_defects();
+  bool take_judgement();
+  bool take_rig();
+  void drop_rig();
+  void save_rig(const std::filesystem::path& file, RigFormat format);
+  void take_moments(std::vector<Moment> moments);
+  void take_result(RunResult result);
+  void inspect();
+  void retire_run();
+  void begin_history(std::shared_ptr<const CurveSkeleton> skeleton);
+  void edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
+            const std::string& what);
+  void show_state();
+  void judge();
+  void set_highlights();
+
+  ViewOptions options_;
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::file_time_type> read_times_;
+  std::future<Opened> opening_;
+  bool reloading_ = false;
+  std::unique_ptr<Run> run_;
+  std::vector<std::unique_ptr<Run>> retired_;  // cancelled, not yet at their ends
+  std::optional<bool> wants_start_;            // paused or not, once those are gone
+  std::shared_ptr<RunMemory> run_memory_;
+  Run::News news_;
+  bool first_moment_ = true;
+  bool follow_ = true;
+  bool rig_again_ = false;  // once the one that is made has stopped
+  std::optional<RunResult> result_;
+  History history_;
+  std::vector<std::future<void>> background_;  // so that nobody has to wait for them
+  std::shared_ptr<const Defects> defects_;
+  std::future<std::shared_ptr<const Defects>> inspecting_;
+  std::shared_ptr<const Ground> ground_;
+  std::optional<Judgement> judgement_;
+  std::future<Judgement> judging_;
+  std::stop_source rigging_stop_;
+  std::future<Rigged> rigging_;
+  std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
+  std::vector<int> selected_nodes_;
+  int selected_edge_ = -1;
+  int selected_joint_ = -1;
+  std::shared_ptr<const Rig> shown_rig_;  // whose joint that is
+  std::vector<int> failed_edges_;
+  std::vector<int> failed_faces_;
+  Path measured_;
+  std::deque<Message> messages_;
+};
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,102 @@
+// The workbench's rig: made of the skeleton as it is, on another thread.
+#include <exception>
+#include <utility>
+
+#include <curveskel/rig_files.hpp>
+#include <curveskel/write_file.hpp>
+#include "app/report.hpp"
+#include "viewer/model/rigging.hpp"
+#include "viewer/software/priority.hpp"
+#include "viewer/workbench/workbench.hpp"
+
+namespace curveskel::viewer {
+
+void Workbench::rig() {
+  const bool ready = !run_ && !history_.empty() && scene->document.has_surface();
+  if (!ready) {
+    save_rig_to_.clear();
+    say(run_ ? "the rig is made of the skeleton, which is not there yet"
+             : "a rig needs a surface and its skeleton: open or extract them first",
+        true);
+    return;
+  }
+  if (rigging_.valid()) {
+    rigging_stop_.request_stop();  // `take_rig` begins anew
+    rig_again_ = true;
+    return;
+  }
+  rigging_stop_ = {};
+  RigOptions options = pipeline.rig;
+  options.joints.root = history_.now().root;
+  auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
+  say("making the rig");
+  rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
+                                             repair_options = pipeline.repair,
+                                             stop = rigging_stop_.get_token()]() mutable {
+    give_way();
+    Monitor monitor;
+    monitor.stop = stop;
+    Rigged made;
+    made.of = of;
+    try {
+      if (!repaired) {
+        repaired = std::make_shared<const RepairedSurface>(
+            repair(*held->document.polygons(), repair_options, monitor));
+      }
+      made.rig = rig_of(held->document, *repaired, *of.skeleton, options, monitor);
+    } catch (const Cancelled&) {
+    } catch (const std::exception& error) {
+      made.error = error.what();
+    }
+    return made;
+  });
+}
+
+bool Workbench::take_rig() {
+  const bool ready =
+      rigging_.valid() && rigging_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (!ready) return false;
+  const Rigged made = rigging_.get();
+  const bool stopped = !made.rig && made.error.empty();  // by a change, even one taken back
+  const bool stale = stopped || run_ || history_.empty() ||
+                     made.of.skeleton != history_.now().skeleton ||
+                     made.of.root != history_.now().root;
+  const bool again = std::exchange(rig_again_, false) || (stale && !save_rig_to_.empty());
+  if (again) {
+    rig();
+    return true;
+  }
+  if (stale) return true;
+  if (!made.error.empty()) {
+    save_rig_to_.clear();
+    say(made.error, true);
+    return true;
+  }
+  drop_rig();
+  scene->recording.add(moment_of(made.rig));
+  go_to(scene->recording.moments().size() - 1);
+  say(std::to_string(made.rig->joints.rows()) + " joints");
+  if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}));
+  return true;
+}
+
+void Workbench::drop_rig() {
+  rigging_stop_.request_stop();
+  if (!has_rig()) return;
+  scene->recording.cut_from("rig");
+  scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
+}
+
+void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
+  if (!has_rig() || rigging_.valid()) {
+    save_rig_to_ = file;
+    if (!rigging_.valid()) rig();
+    return;
+  }
+  const std::string name = files_.empty() ? "surface" : files_.front().stem().string();
+  write_file(file, format_rig(scene->document.surface, *scene->recording.moments().back().rig,
+                              format, name, program_and_version()));
+  say("saved " + file.string());
+}
+
+}  // namespace curveskel::viewer

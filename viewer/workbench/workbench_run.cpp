@@ -1,0 +1,142 @@
+// The workbench's runs and its timeline.
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "viewer/workbench/workbench.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+bool is_done(Run::State state) {
+  return state == Run::State::finished || state == Run::State::cancelled ||
+         state == Run::State::failed;
+}
+
+}  // namespace
+
+void Workbench::start(bool paused) {
+  wants_start_.reset();
+  if (!scene->document.has_surface()) {
+    say("open a surface first: a skeleton alone has nothing to be contracted", true);
+    return;
+  }
+  retire_run();
+  if (!retired_.empty()) {
+    wants_start_ = paused;  // the memory that they share serves one at a time
+    return;
+  }
+  RunOptions options = pipeline;
+  options.gives_way = true;
+  options.extract.fairing = options.extract.fair.iterations > 0;
+  // One core stays for the picture; the result is the same.
+  if (options.extract.threads == 0) {
+    options.extract.threads =
+        std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+  }
+  options.extract.certificate.threads = options.extract.threads;
+  options.extract.fair.threads = options.extract.threads;
+  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.origin,
+                               run_memory_, paused);
+  news_ = {};
+  first_moment_ = true;
+  follow_ = true;
+}
+
+void Workbench::retire_run() {
+  wants_start_.reset();
+  if (!run_) return;
+  run_->cancel();
+  retired_.push_back(std::move(run_));
+  run_.reset();
+  news_.state = Run::State::cancelled;
+}
+
+void Workbench::pause() {
+  if (run_) run_->pause();
+}
+
+void Workbench::resume() {
+  if (run_) {
+    follow_ = true;
+    go_to(scene->recording.moments().size() - 1);
+    run_->resume();
+  } else {
+    start(false);
+  }
+}
+
+void Workbench::step() {
+  if (scene->moment + 1 < scene->recording.moments().size()) {
+    go_to(scene->moment + 1);
+  } else if (run_) {
+    follow_ = true;
+    run_->step();
+  } else if (!result_) {
+    start(true);
+    if (run_) run_->step();
+  } else if (!has_rig()) {
+    rig();
+  }
+}
+
+void Workbench::cancel() {
+  if (!run_) return;
+  retire_run();
+  say("cancelled; what was recorded is kept");
+}
+
+void Workbench::rewind() {
+  if (run_) run_->pause();
+  go_to(0);
+}
+
+void Workbench::go_to(std::size_t moment) {
+  scene->moment = std::min(moment, scene->recording.moments().size() - 1);
+  follow_ = scene->moment + 1 == scene->recording.moments().size();
+  show_state();
+}
+
+void Workbench::take_moments(std::vector<Moment> moments) {
+  for (Moment& moment : moments) {
+    if (first_moment_) {
+      // Moments that this run shows anew take the place of those of an earlier run.
+      scene->recording.cut_from(moment.stage);
+      scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
+      first_moment_ = false;
+    }
+    scene->recording.add(std::move(moment));
+  }
+  if (follow_) scene->moment = scene->recording.moments().size() - 1;
+}
+
+void Workbench::take_result(RunResult result) {
+  say("extracted in " + std::to_string(result.seconds).substr(0, 4) + " s");
+  for (const std::string& line : result.repaired->repairs.lines) say("repaired: " + line);
+  for (const std::string& note : result.notes) say(note);
+  begin_history(result.skeleton);
+  result_ = std::move(result);
+}
+
+bool Workbench::take_news() {
+  if (!run_) return false;
+  Run::News news = run_->take();
+  const bool changed =
+      !news.moments.empty() || news.state != news_.state || news.stage != news_.stage;
+  take_moments(std::move(news.moments));
+  news.moments.clear();
+  const bool done = is_done(news.state);
+  if (news.result) {
+    take_result(std::move(*news.result));
+    news.result.reset();
+  }
+  if (news.state == Run::State::failed) say(news.error, true);
+  news_ = std::move(news);
+  if (done) {
+    run_.reset();
+    show_state();
+  }
+  return changed;
+}
+
+}  // namespace curveskel::viewer
