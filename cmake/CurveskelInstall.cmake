@@ -28,6 +28,7 @@ set(CURVESKEL_PUBLIC_CONTRACTION
 set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/advanced/embed.hpp
   include/curveskel/advanced/extraction_cache.hpp
+  include/curveskel/advanced/step_clock.hpp
   include/curveskel/advanced/surface_partition.hpp
   include/curveskel/advanced/surgery.hpp
   include/curveskel/certificate.hpp

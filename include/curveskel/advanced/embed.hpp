@@ -4,6 +4,7 @@
 #include <functional>
 
 #include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/step_clock.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/curve_skeleton.hpp>
@@ -32,14 +33,15 @@ struct EmbedOptions {
 
 /// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
 /// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge
-/// inside the surface of `finer`, prunes spurs there and smooths once more.
+/// inside the surface of `full_tree`, prunes spurs there and smooths once more.
 /// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
-/// surface itself, `finer` gives a tree over the one that it was coarsened from, or `tree`. It is
+/// surface itself, `full_tree` gives a tree over the one that it was coarsened from, or `tree`. It is
 /// called once, half-way, so that the tree may grow till then. Radii are the distances to its
 /// surface. Most of the time is spent in rays against `tree`: a coarse surface pays.
 [[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
-                                  const std::function<const SurfaceTree&()>& finer,
+                                  const std::function<const SurfaceTree&()>& full_tree,
                                   const InscribedBalls& balls, const PartitionGraph& graph,
-                                  const EmbedOptions& options, int threads, const Monitor& monitor);
+                                  const EmbedOptions& options, int threads, const Monitor& monitor,
+                                  StepClock* steps = nullptr);
 
 }  // namespace curveskel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/indices.hpp"
@@ -13,17 +14,6 @@ namespace curveskel {
 namespace {
 
 constexpr int most_passes = 8;
-constexpr std::size_t fewest_vertices = 8;
-// In inscribed radii where the branch begins.
-constexpr double least_branch = 1.5;
-constexpr double least_extension = 2;
-// At the apex: a crease is no limb, nor is the corner of a blunt end.
-constexpr double least_branch_ball = 0.12;
-constexpr double least_extension_ball = 0.25;
-constexpr double most_ball = 1.2;  // a wider one is where the arc comes from
-constexpr double least_extension_prominence = 1.5;
-/// The graph does not enter a part while its vertices' places are this much nearer to the centre.
-constexpr double within = 0.6;
 
 struct Apex {
   int vertex = -1;
@@ -35,12 +25,13 @@ struct Apex {
 class Growth {
  public:
   Growth(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-         const InscribedBalls& balls, const PartitionGraph& partition)
+         const InscribedBalls& balls, const PartitionGraph& partition, const GrowthTuning& tuning)
       : graph_(graph),
         surface_(surface),
         tree_(tree),
         balls_(balls),
         partition_(partition),
+        tuning_(tuning),
         sweep_(surface),
         projections_(idx(surface.positions.rows())),
         grown_(projections_.size(), 0) {}
@@ -76,9 +67,17 @@ class Growth {
 
   [[nodiscard]] Protrusion protrusion(const Point& base, int apex) {
     const auto is_own = [&](int v) {
-      return (projections_[idx(v)].place - base).norm() < within * (place(v) - base).norm();
+      return (projections_[idx(v)].place - base).norm() <
+             tuning_.entered * (place(v) - base).norm();
     };
-    return sweep_(base, apex, is_own, std::numeric_limits<double>::infinity(), fewest_vertices);
+    return sweep_(base, apex, is_own, std::numeric_limits<double>::infinity(),
+                  tuning_.fewest_vertices);
+  }
+
+  /// Of two vertices of equal height, as symmetric limbs have them, the later is lower: one of any
+  /// number of equals is the highest.
+  [[nodiscard]] bool is_lower(int a, int b) const {
+    return std::pair(height(a), -a) < std::pair(height(b), -b);
   }
 
   /// Vertices from which no edge leads farther away from the graph.
@@ -88,7 +87,7 @@ class Growth {
       for (int k = 0; k < 3; ++k) {
         const int a = t(k);
         const int b = t((k + 1) % 3);
-        (height(a) < height(b) ? lower[idx(a)] : lower[idx(b)]) = 1;
+        lower[idx(is_lower(a, b) ? a : b)] = 1;
       }
     }
     std::vector<int> vertices;
@@ -108,15 +107,13 @@ class Growth {
     const Point inwards = found.rim_centre - place(v);
     const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
     const double share = ball.radius / root.radius;
-    if (!(share > least_ball && share < most_ball)) return {};
+    if (!(share > least_ball && share < tuning_.most_ball)) return {};
     return {v, node, found.prominence, tip(found, root, ball.centre)};
   }
 
   /// In the middle of a blunt end, rather than in the corner where the apex is.
   [[nodiscard]] Point tip(const Protrusion& part, const SurfaceTree::Ball& root,
                           const Point& at_apex) const {
-    constexpr double beyond = 1.1;  // of the radius where it begins: nearer by it would be a spur
-    constexpr double least = 0.2;
     const Point outwards = part.cap_centre - part.rim_centre;
     if (!(outwards.norm() > 0) || !tree_.inside(part.rim_centre)) return at_apex;
     const Point direction = outwards.normalized();
@@ -124,19 +121,19 @@ class Growth {
     if (!std::isfinite(reach)) return at_apex;
     const Point end = part.rim_centre + reach * direction;
     const auto ball = tree_.inscribed_ball(end, -direction);
-    const double off = beyond * root.radius;
+    const double off = tuning_.beyond * root.radius;
     if (ball.radius < reach && (ball.centre - root.centre).norm() > off) return ball.centre;
     const Point nearer_the_end = root.centre + off * (end - root.centre).normalized();
-    const bool fits = tree_.inscribed_radius(nearer_the_end) > least * root.radius;
+    const bool fits = tree_.inscribed_radius(nearer_the_end) > tuning_.least_tip_ball * root.radius;
     return fits ? nearer_the_end : at_apex;
   }
 
   [[nodiscard]] Apex extension(int v, int tip) {
     const Point& base = graph_.nodes[idx(tip)].position;
     const SurfaceTree::Ball root{base, tree_.inscribed_radius(base)};
-    if ((place(v) - base).norm() < least_extension * root.radius) return {};
-    return made(v, tip, root, protrusion(base, v), least_extension_prominence,
-                least_extension_ball);
+    if ((place(v) - base).norm() < tuning_.least_extension * root.radius) return {};
+    return made(v, tip, root, protrusion(base, v), tuning_.least_extension_prominence,
+                tuning_.least_extension_ball);
   }
 
   [[nodiscard]] Apex branch(int v, int node, double radius, double limit) {
@@ -147,14 +144,14 @@ class Growth {
     for (const int end : {arc.from, arc.to}) {
       const Point& junction = graph_.nodes[idx(end)].position;
       if (graph_.degree(end) < 3) continue;
-      if ((junction - projection.place).norm() > least_branch * radius) continue;
+      if ((junction - projection.place).norm() > tuning_.least_branch * radius) continue;
       const Protrusion here = protrusion(junction, v);
       if (here.prominence <= best.prominence) continue;
       best = here;
       base = junction;
       node = end;
     }
-    return made(v, node, {base, radius}, best, limit, least_branch_ball);
+    return made(v, node, {base, radius}, best, limit, tuning_.least_branch_ball);
   }
 
   /// Those that deserve a branch, most prominent first.
@@ -162,7 +159,7 @@ class Growth {
     std::vector<Apex> found;
     for (const int v : farthest_around()) {
       const double radius = tree_.inscribed_radius(projections_[idx(v)].place);
-      if (height(v) < least_branch * radius) continue;
+      if (height(v) < tuning_.least_branch * radius) continue;
       const int node = node_at(projections_[idx(v)], radius);
       const bool extends = node >= 0 && graph_.degree(node) == 1;
       const Apex apex = extends ? extension(v, node) : branch(v, node, radius, limit);
@@ -205,6 +202,7 @@ class Growth {
   const SurfaceTree& tree_;
   const InscribedBalls& balls_;
   const PartitionGraph& partition_;
+  const GrowthTuning& tuning_;
   ProminenceSweep sweep_;
   std::vector<ArcProjection> projections_;  // per vertex
   std::vector<char> grown_;                 // per vertex: it has had its branch
@@ -214,8 +212,9 @@ class Growth {
 }  // namespace
 
 int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                  const InscribedBalls& balls, const PartitionGraph& partition, double limit) {
-  return Growth(graph, surface, tree, balls, partition).run(limit);
+                  const InscribedBalls& balls, const PartitionGraph& partition, double limit,
+                  const GrowthTuning& tuning) {
+  return Growth(graph, surface, tree, balls, partition, tuning).run(limit);
 }
 
 }  // namespace curveskel

@@ -6,6 +6,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/tuning.hpp"
 
 namespace curveskel {
 
@@ -19,6 +20,7 @@ namespace curveskel {
 /// the apex of a blunt end is. The new points may lie outside.
 /// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
 int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                  const InscribedBalls& balls, const PartitionGraph& partition, double limit);
+                  const InscribedBalls& balls, const PartitionGraph& partition, double limit,
+                  const GrowthTuning& tuning = {});
 
 }  // namespace curveskel

@@ -9,14 +9,10 @@
 
 #include "base/indices.hpp"
 #include "skeleton/embed/contain/ball_chains.hpp"
-#include "skeleton/embed/place/relax.hpp"
+#include "skeleton/embed/place/spacing.hpp"
 
 namespace curveskel {
 namespace {
-
-constexpr double wider = 2;           // in its narrowest place
-constexpr double cheaper = 3;         // on the whole
-constexpr double shortest = 1.0 / 3;  // of the old length: a limb must still be reached
 
 /// True if the arc's nodes fall apart without the arc.
 bool is_bridge(const SkeletonGraph& graph, int arc) {
@@ -69,7 +65,7 @@ struct Ends {
 };
 
 /// The widest places on both sides of the narrowest that has such.
-std::optional<Ends> around_the_narrowest(const Course& course) {
+std::optional<Ends> around_the_narrowest(const Course& course, double wider) {
   const std::size_t count = course.points.size();
   std::vector<std::size_t> before(count);  // the widest up to here
   std::vector<std::size_t> behind(count);
@@ -95,11 +91,16 @@ struct Gain {
   double ratio = 0;  // of the costs of the old way and the new one between them
 };
 
-class WiderWays {
+class Rerouting {
  public:
-  WiderWays(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
-            const PartitionGraph& partition, const SurfaceTree& tree)
-      : graph_(graph), partition_(partition), tree_(tree), chains_(surface, balls, partition) {}
+  Rerouting(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+            const PartitionGraph& partition, const SurfaceTree& tree,
+            const BottleneckTuning& tuning)
+      : graph_(graph),
+        partition_(partition),
+        tree_(tree),
+        tuning_(tuning),
+        chains_(surface, balls, partition) {}
 
   int run() {
     int count = 0;
@@ -107,7 +108,7 @@ class WiderWays {
       const Arc& arc = graph_.arcs[idx(s)];
       if (!arc.alive || arc.from == arc.to) continue;
       const Course course(graph_.polyline(arc), tree_);
-      const auto narrow = around_the_narrowest(course);
+      const auto narrow = around_the_narrowest(course, tuning_.wider);
       if (narrow && is_bridge(graph_, s) && replace(graph_.arcs[idx(s)], course, *narrow)) {
         ++count;
       }
@@ -119,16 +120,16 @@ class WiderWays {
   bool replace(Arc& arc, const Course& course, Ends around) {
     const auto groups = groups_along(graph_, arc, partition_);
     const Gain gain = most_to_gain(course, around, groups);
-    if (gain.ratio < cheaper) return false;
+    if (gain.ratio < tuning_.cheaper) return false;
     const auto [first, last] = gain.ends;
     std::vector<Point> points(course.points.begin(), course.points.begin() + offset(first) + 1);
     const auto between = chains_.chain(course.points[first], course.points[last], groups);
     points.insert(points.end(), between.begin(), between.end());
     points.insert(points.end(), course.points.begin() + offset(last), course.points.end());
     const Course found(std::move(points), tree_);
-    if (found.length() < shortest * course.length()) return false;
+    if (found.length() < tuning_.shortest * course.length()) return false;
     const std::size_t until = first + between.size() + 1;
-    if (found.narrowest(first, until) < wider * course.narrowest(first, last)) return false;
+    if (found.narrowest(first, until) < tuning_.wider * course.narrowest(first, last)) return false;
     arc.points.assign(found.points.begin() + 1, found.points.end() - 1);
     return true;
   }
@@ -157,14 +158,16 @@ class WiderWays {
   SkeletonGraph& graph_;
   const PartitionGraph& partition_;
   const SurfaceTree& tree_;
+  const BottleneckTuning& tuning_;
   BallChains chains_;
 };
 
 }  // namespace
 
 int reroute_bottlenecks(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
-                        const PartitionGraph& partition, const SurfaceTree& tree) {
-  return WiderWays(graph, surface, balls, partition, tree).run();
+                        const PartitionGraph& partition, const SurfaceTree& tree,
+                        const BottleneckTuning& tuning) {
+  return Rerouting(graph, surface, balls, partition, tree, tuning).run();
 }
 
 }  // namespace curveskel

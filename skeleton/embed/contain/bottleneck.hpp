@@ -6,6 +6,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/tuning.hpp"
 
 namespace curveskel {
 
@@ -16,6 +17,7 @@ namespace curveskel {
 /// points may lie outside. Returns the number of ways taken. D = 1. O(n log n) where such a place
 /// is.
 int reroute_bottlenecks(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
-                        const PartitionGraph& partition, const SurfaceTree& tree);
+                        const PartitionGraph& partition, const SurfaceTree& tree,
+                        const BottleneckTuning& tuning = {});
 
 }  // namespace curveskel

@@ -10,12 +10,13 @@
 #include "base/indices.hpp"
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
-#include "skeleton/embed/place/relax.hpp"
+#include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/place/shorten.hpp"
 
 namespace curveskel {
 namespace {
 
+constexpr double least_spacing = SpacingTuning{}.least;
 constexpr int deepest = 10;
 
 /// Inside and away from the surface, or moved there if that can be done nearby.

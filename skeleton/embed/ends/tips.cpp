@@ -11,7 +11,6 @@
 namespace curveskel {
 namespace {
 
-constexpr double least_tip_radius = 1.0 / 1000;
 constexpr int most_steps = 64;
 
 /// The direction in which the line arrives at its point i, from three points before it, or from
@@ -30,9 +29,8 @@ bool turns_away(const Point& step, const Point& heading) {
 /// Cuts the arc where all the rest of it and the surface straight ahead lie within `reach`
 /// inscribed radii, or where the rest turns away and lies within the ball or not far beyond it in a
 /// narrow corner: an end that bends into a corner of a blunt end goes.
-void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double reach) {
-  constexpr double corner_reach = 1.75;
-  constexpr double narrow = 0.3;
+void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double reach,
+             const TipTuning& tuning) {
   const auto line = graph.polyline(arc);
   const double tip_radius = tree.inscribed_radius(line.back());
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
@@ -41,7 +39,7 @@ void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double rea
       return std::none_of(line.begin() + static_cast<std::ptrdiff_t>(i), line.end(),
                           [&](const Point& p) { return (p - line[i]).norm() > distance; });
     };
-    const double curl_reach = tip_radius < narrow * radius ? corner_reach : 1;
+    const double curl_reach = tip_radius < tuning.narrow * radius ? tuning.corner_reach : 1;
     if (!rest_within(std::max(reach, curl_reach) * radius)) continue;
     const Point ahead = heading(line, i, radius);
     const bool curls = turns_away(line.back() - line[i], ahead) && rest_within(curl_reach * radius);
@@ -58,18 +56,18 @@ void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double rea
 /// Steps straight ahead, recentred each time, until the surface ahead is near. A step that turns
 /// away has left the end that it should reach; steps that end farther from the surface ahead, in
 /// inscribed radii, than one before them lead into a corner and are taken back.
-void grow(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double gap) {
+void extend_tip(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double gap,
+                const TipTuning& tuning) {
   auto line = graph.polyline(arc);
-  constexpr double tolerance = 1.05;
   double radius = tree.inscribed_radius(line.back());
   const Point first_heading = heading(line, line.size() - 1, radius);
   double nearest = std::numeric_limits<double>::infinity();  // in inscribed radii
   std::size_t kept = line.size();
-  for (int step = 0; step < most_steps && radius >= least_tip_radius; ++step) {
+  for (int step = 0; step < most_steps && radius >= tuning.least_radius; ++step) {
     const Point& tip = line.back();
     const Point direction = heading(line, line.size() - 1, radius);
     const double left = tree.ray(tip, direction).distance;
-    if (left <= tolerance * nearest * radius) kept = line.size();
+    if (left <= tuning.tolerance * nearest * radius) kept = line.size();
     nearest = std::min(nearest, left / radius);
     if (left <= gap * radius || !std::isfinite(left)) break;
     const Point guess = tip + std::min(0.5 * radius, left - radius) * direction;
@@ -80,7 +78,7 @@ void grow(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double gap) {
       next = guess;
       radius = guess_radius;
     }
-    if (radius < least_tip_radius) break;
+    if (radius < tuning.least_radius) break;
     if (turns_away(next - tip, first_heading)) break;
     line.push_back(next);
   }
@@ -91,22 +89,21 @@ void grow(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double gap) {
 
 }  // namespace
 
-void shape_tips(SkeletonGraph& graph, const SurfaceTree& tree, double reach, double gap) {
+void shape_tips(SkeletonGraph& graph, const SurfaceTree& tree, double reach, double gap,
+                const TipTuning& tuning) {
   for (int s = 0; s < static_cast<int>(graph.arcs.size()); ++s) {
     if (!graph.arcs[idx(s)].alive) continue;
     for (const int tip : {graph.arcs[idx(s)].from, graph.arcs[idx(s)].to}) {
       if (graph.degree(tip) != 1) continue;
       graph.orient_from(
           s, graph.arcs[idx(s)].from == tip ? graph.arcs[idx(s)].to : graph.arcs[idx(s)].from);
-      retract(graph, graph.arcs[idx(s)], tree, reach);
-      grow(graph, graph.arcs[idx(s)], tree, gap);
+      retract(graph, graph.arcs[idx(s)], tree, reach, tuning);
+      extend_tip(graph, graph.arcs[idx(s)], tree, gap, tuning);
     }
   }
 }
 
-void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree) {
-  constexpr double margin = 1.02;
-  constexpr double narrowest = 0.4;
+void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree, const TipTuning& tuning) {
   for (int s = 0; s < static_cast<int>(graph.arcs.size()); ++s) {
     if (!graph.is_leaf(graph.arcs[idx(s)])) continue;
     const int from = graph.arcs[idx(s)].from;
@@ -114,19 +111,19 @@ void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree) {
     Arc& arc = graph.arcs[idx(s)];
     auto line = graph.polyline(arc);
     const double junction_radius = tree.inscribed_radius(line.front());
-    const double missing = margin * junction_radius - graph.length(arc);
+    const double missing = tuning.leaf_margin * junction_radius - graph.length(arc);
     if (missing <= 0 || graph.length(arc) < 0.25 * junction_radius) continue;
     const Point ahead = heading(line, line.size() - 1, tree.inscribed_radius(line.back()));
     const Point tip = line.back() + missing * ahead;
-    if (tree.inscribed_radius(tip) < narrowest * junction_radius) continue;
+    if (tree.inscribed_radius(tip) < tuning.leaf_narrowest * junction_radius) continue;
     if (tree.ray(line.back(), ahead, missing).triangle >= 0) continue;
     arc.points.push_back(line.back());
     graph.nodes[idx(arc.to)].position = tip;
   }
 }
 
-std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTree& tree) {
-  constexpr double least_way = 1.0 / 25;
+std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTree& tree,
+                                     const RelaxTuning& tuning) {
   std::vector<TipHeading> headings;
   for (const Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
@@ -138,7 +135,7 @@ std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTr
           const auto leaves = [&](const Point& p) { return (line.front() - p).norm() >= way; };
           return *std::find_if(line.begin(), line.end() - 1, leaves);
         };
-        const Point way = before(radius) - before(std::max(3 * radius, least_way));
+        const Point way = before(radius) - before(std::max(3 * radius, tuning.heading_way));
         headings.push_back({node, way.normalized(), radius});
       }
       std::reverse(line.begin(), line.end());
@@ -148,13 +145,12 @@ std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTr
 }
 
 void centre_tips(SkeletonGraph& graph, const SurfaceTree& tree,
-                 const std::vector<TipHeading>& headings) {
-  constexpr double keep = 0.95;
+                 const std::vector<TipHeading>& headings, const RelaxTuning& tuning) {
   for (const auto& [node, direction, first_radius] : headings) {
     Point& tip = graph.nodes[idx(node)].position;
     const double radius = tree.inscribed_radius(tip);
     const Point candidate = 0.5 * (tip + cross_section_centre(tree, tip, direction, radius));
-    if (tree.inscribed_radius(candidate) >= keep * first_radius) tip = candidate;
+    if (tree.inscribed_radius(candidate) >= tuning.tip_keep * first_radius) tip = candidate;
   }
 }
 

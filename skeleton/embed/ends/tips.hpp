@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/tuning.hpp"
 
 namespace curveskel {
 
@@ -12,11 +13,13 @@ namespace curveskel {
 /// local inscribed radius, or its rest turns away within the ball or into a narrow corner beside
 /// it; then prolongs it straight ahead, centring as it goes, until the surface ahead is within
 /// `gap` x the radius, or nearest.
-void shape_tips(SkeletonGraph& graph, const SurfaceTree& tree, double reach, double gap);
+void shape_tips(SkeletonGraph& graph, const SurfaceTree& tree, double reach, double gap,
+                const TipTuning& tuning = {});
 
 /// Prolongs leaf arcs that end inside the inscribed ball of their junction to just beyond it, if
 /// there is room: their tip must keep 0.4 of the junction's radius.
-void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree);
+void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree,
+                           const TipTuning& tuning = {});
 
 /// A tip and the way it looks, as a unit vector.
 struct TipHeading {
@@ -29,11 +32,12 @@ struct TipHeading {
 /// but at least D/25 (D = 1), to one. Nearer the curve may bend into a corner, and a tip that
 /// looked where its own moves lead would drift.
 [[nodiscard]] std::vector<TipHeading> tip_headings(const SkeletonGraph& graph,
-                                                   const SurfaceTree& tree);
+                                                   const SurfaceTree& tree,
+                                                   const RelaxTuning& tuning = {});
 
 /// Moves each tip half-way to the centre of the cross-section there normal to its heading, if it
 /// keeps 0.95 of the inscribed radius that it had.
 void centre_tips(SkeletonGraph& graph, const SurfaceTree& tree,
-                 const std::vector<TipHeading>& headings);
+                 const std::vector<TipHeading>& headings, const RelaxTuning& tuning = {});
 
 }  // namespace curveskel

@@ -55,11 +55,11 @@ const Point& next_to(const SkeletonGraph& graph, const Arc& arc, int node) {
 
 }  // namespace
 
-Point meeting_of_axes(const SkeletonGraph& graph, int node, double radius) {
-  constexpr double hold = 0.1;
+Point meeting_of_axes(const SkeletonGraph& graph, int node, double radius,
+                      const RelaxTuning& tuning) {
   const Point& here = graph.nodes[idx(node)].position;
   const auto axes = axes_at(graph, node, radius);
-  const double held = hold * static_cast<double>(axes.size());
+  const double held = tuning.axes_hold * static_cast<double>(axes.size());
   Eigen::Matrix3d sum = held * Eigen::Matrix3d::Identity();
   Point right = held * here;
   for (const Axis& axis : axes) {
@@ -72,8 +72,7 @@ Point meeting_of_axes(const SkeletonGraph& graph, int node, double radius) {
 }
 
 bool makes_spur(const SkeletonGraph& graph, int node, const SurfaceTree::Ball& from,
-                const SurfaceTree::Ball& to) {
-  constexpr double margin = 1.05;
+                const SurfaceTree::Ball& to, const RelaxTuning& tuning) {
   const auto& arcs = graph.nodes[idx(node)].arcs;
   return std::any_of(arcs.begin(), arcs.end(), [&](int s) {
     const Arc& arc = graph.arcs[idx(s)];
@@ -81,7 +80,7 @@ bool makes_spur(const SkeletonGraph& graph, int node, const SurfaceTree::Ball& f
     const Point& next = next_to(graph, arc, node);
     const double before = graph.length(arc);
     const double after = before - (next - from.centre).norm() + (next - to.centre).norm();
-    return after < margin * to.radius && after * from.radius < before * to.radius;
+    return after < tuning.spur_margin * to.radius && after * from.radius < before * to.radius;
   });
 }
 

@@ -13,7 +13,6 @@ namespace curveskel {
 namespace {
 
 constexpr std::size_t ray_count = 12;
-constexpr double ray_limit = 3;  // inscribed radii: farther off lies another limb
 
 struct Section {
   std::array<Point, ray_count> directions;
@@ -49,19 +48,19 @@ bool has_section(const Point& direction, double radius) {
 }  // namespace
 
 Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
-                           double radius) {
+                           double radius, const SectionTuning& tuning) {
   if (!has_section(direction, radius)) return point;
-  const double limit = ray_limit * radius;
+  const double limit = tuning.ray_limit * radius;
   Section section = section_at(tree, point, direction, limit);
   for (double& distance : section.distances) distance = std::min(distance, limit);
   return point + step_of(section);
 }
 
 Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
-                           double radius, const std::function<bool(int)>& is_own) {
-  constexpr double longest_step = 0.5;
+                           double radius, const std::function<bool(int)>& is_own,
+                           const SectionTuning& tuning) {
   if (!has_section(direction, radius)) return point;
-  const double limit = ray_limit * radius;
+  const double limit = tuning.ray_limit * radius;
   Section section = section_at(tree, point, direction, std::numeric_limits<double>::infinity());
   const auto stays = [&](std::size_t k) {
     if (section.distances[k] <= limit) return true;
@@ -77,7 +76,7 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
     behind = std::min(behind, limit);
   }
   const Point step = step_of(section);
-  return point + step * std::min(1.0, longest_step * radius / step.norm());
+  return point + step * std::min(1.0, tuning.longest_step * radius / step.norm());
 }
 
 }  // namespace curveskel

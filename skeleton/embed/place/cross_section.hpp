@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/tuning.hpp"
 
 namespace curveskel {
 
@@ -12,7 +13,8 @@ namespace curveskel {
 /// vectors along rays to the surface, which is exact to first order for a circle. 12 rays, each cut
 /// at three times the point's inscribed `radius`. The point itself if that is not positive.
 [[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
-                                         const Point& direction, double radius);
+                                         const Point& direction, double radius,
+                                         const SectionTuning& tuning = {});
 
 /// The same where a limb is flat, from one edge of it to the other: of two opposite rays none is
 /// cut where both end on a triangle that `is_own`. What is cut lies in other limbs. No
@@ -20,6 +22,7 @@ namespace curveskel {
 /// the next.
 [[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
                                          const Point& direction, double radius,
-                                         const std::function<bool(int)>& is_own);
+                                         const std::function<bool(int)>& is_own,
+                                         const SectionTuning& tuning = {});
 
 }  // namespace curveskel

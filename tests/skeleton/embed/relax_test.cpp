@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/tree.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/skeleton_graph.hpp"
 
 namespace curveskel::relax_laws {
@@ -28,14 +29,14 @@ TEST(Relax, PlacesPointsHalfOfTheirRadiusApart) {
   std::vector<Point> line;
   for (double x = -0.45; x < 0.46; x += 0.01) line.emplace_back(x, 0, 0);
   SkeletonGraph graph = arc_of(line);
-  space_by_radius(graph, tree, 1);
+  space_by_radius(graph, tree, {1.0 / 400, 1});
   const auto spaced = graph.polyline(graph.arcs.front());
   const auto radii = radii_at(tree, spaced);
   for (std::size_t i = 0; i + 1 < spaced.size(); ++i) {
     const double share = 2 * (spaced[i + 1] - spaced[i]).norm() / (radii[i] + radii[i + 1]);
     EXPECT_NEAR(share, 0.5, 0.05) << "at " << spaced[i].x();
   }
-  space_by_radius(graph, tree, most_spacing / 4);
+  space_by_radius(graph, tree, {1.0 / 400, most_spacing / 4});
   const auto dense = graph.polyline(graph.arcs.front());
   for (std::size_t i = 0; i + 1 < dense.size(); ++i) {
     EXPECT_LT((dense[i + 1] - dense[i]).norm(), 1.01 * most_spacing / 4);

@@ -1,0 +1,19 @@
+// The embedding with other constants than the usual ones, for the test that moves each of them.
+#pragma once
+
+#include <functional>
+
+#include <curveskel/advanced/embed.hpp>
+#include "skeleton/embed/tuning.hpp"
+
+namespace curveskel {
+
+/// See `embed`.
+[[nodiscard]] CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
+                                        const std::function<const SurfaceTree&()>& full_tree,
+                                        const InscribedBalls& balls,
+                                        const PartitionGraph& partition,
+                                        const EmbedOptions& options, const EmbedTuning& tuning,
+                                        int threads, StepClock& clock, const Monitor& monitor);
+
+}  // namespace curveskel

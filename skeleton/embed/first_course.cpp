@@ -1,0 +1,61 @@
+#include "skeleton/embed/first_course.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <curveskel/advanced/laplacian.hpp>
+#include "base/indices.hpp"
+#include "skeleton/embed/branches/prune.hpp"
+#include "skeleton/embed/contain/inside.hpp"
+#include "skeleton/homology/reroute.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Each group at the area-weighted mean of its vertices' ball centres, each cut curve at that of
+/// the ends of the edges that it crosses.
+std::vector<Point> positions_from_balls(const Surface& surface, const InscribedBalls& balls,
+                                        const PartitionGraph& partition) {
+  const Eigen::VectorXd areas = vertex_areas(surface);
+  std::vector<Point> sum(idx(partition.nodes()), Point::Zero());
+  std::vector<double> weight(idx(partition.nodes()), 0);
+  const auto add = [&](int node, int vertex) {
+    const double w = std::max(areas[vertex], std::numeric_limits<double>::min());
+    sum[idx(node)] += w * balls.centres.row(vertex).transpose();
+    weight[idx(node)] += w;
+  };
+  for (int v = 0; v < static_cast<int>(partition.group_of_vertex.size()); ++v) {
+    add(partition.group_of_vertex[v], v);
+  }
+  for (int c = 0; c < static_cast<int>(partition.cut_curves.size()); ++c) {
+    for (const auto& edge : partition.cut_curves[idx(c)]) {
+      add(partition.groups + c, edge[0]);
+      add(partition.groups + c, edge[1]);
+    }
+  }
+  for (std::size_t n = 0; n < sum.size(); ++n) sum[n] /= weight[n];
+  return sum;
+}
+
+}  // namespace
+
+SkeletonGraph first_course(const Setting& in) {
+  const double limit = prominence_limit(in.options.detail);
+  const SkeletonGraph whole =
+      skeleton_graph_of(in.partition, positions_from_balls(in.surface, in.balls, in.partition));
+  SkeletonGraph graph = whole;
+  prune_blunt(graph, in.surface, in.partition, limit);
+  HomologyGuard anywhere;  // outside, lines say nothing about handles yet
+  const int uncovered = keep_inside(graph, in.surface, in.balls, in.partition, in.tree, anywhere);
+  if (!in.guard.has_handles()) return graph;
+  if (uncovered == 0 && goes_round_all_handles(graph, in.partition, in.surface)) return graph;
+  graph = whole;
+  reroute_around_handles(graph, in.surface, in.tree, in.balls, in.partition, in.guard);
+  prune_blunt(graph, in.surface, in.partition, limit);
+  keep_inside(graph, in.surface, in.balls, in.partition, in.tree, in.guard);
+  in.guard.pull_taut(graph, in.tree);
+  return graph;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,140 @@
+#include "skeleton/embed/place/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/indices.hpp"
+#include "skeleton/homology/homology_guard.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Points along a polyline, half of the radius there apart, ends left out; `radii` per vertex.
+std::vector<Point> spaced(const std::vector<Point>& line, const std::vector<double>& radii,
+                          const Spacing& spacing, int fewest) {
+  std::vector<double> steps{0};  // from the beginning
+  steps.reserve(line.size());
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double step = std::clamp(0.25 * (radii[i - 1] + radii[i]), spacing.least, spacing.most);
+    steps.push_back(steps.back() + (line[i] - line[i - 1]).norm() / step);
+  }
+  const int inner = std::max(fewest, static_cast<int>(std::lround(steps.back())) - 1);
+  std::vector<Point> points;
+  points.reserve(idx(inner));
+  std::size_t i = 1;
+  for (int k = 1; k <= inner; ++k) {
+    const double place = steps.back() * k / (inner + 1);
+    while (i + 1 < line.size() && steps[i] < place) ++i;
+    const double length = steps[i] - steps[i - 1];
+    const double t = length > 0 ? (place - steps[i - 1]) / length : 0;
+    points.push_back(line[i - 1] + t * (line[i] - line[i - 1]));
+  }
+  return points;
+}
+
+int fewest_points(const Arc& arc) { return arc.from == arc.to ? 3 : 1; }
+
+}  // namespace
+
+Spacing spacing_on(const Surface& surface, const SpacingTuning& tuning) {
+  double sum = 0;
+  for (const auto& t : surface.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      sum += (surface.positions.row(t(k)) - surface.positions.row(t((k + 1) % 3))).norm();
+    }
+  }
+  const auto edges = static_cast<double>(surface.triangles.size());
+  return {tuning.least, std::max(tuning.most, tuning.of_edge * sum / edges)};
+}
+
+std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& points) {
+  std::vector<double> radii(points.size());
+  std::transform(points.begin(), points.end(), radii.begin(),
+                 [&](const Point& p) { return tree.inscribed_radius(p); });
+  return radii;
+}
+
+void space_evenly(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing) {
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    const auto line = graph.polyline(arc);
+    auto radii = radii_at(tree, line);
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    radii.assign(line.size(), *middle);
+    arc.points = spaced(line, radii, spacing, fewest_points(arc));
+  }
+}
+
+void space_by_radius(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing) {
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    const auto line = graph.polyline(arc);
+    arc.points = spaced(line, radii_at(tree, line), spacing, fewest_points(arc));
+  }
+}
+
+void thin_out(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing) {
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    const auto line = graph.polyline(arc);
+    auto radius = radii_at(tree, line);
+    std::vector<Point> kept;
+    std::size_t last = 0;
+    const std::size_t least = arc.from == arc.to ? 2 : 1;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      const double gap = (line[i + 1] - line[last]).norm();
+      const bool enough = kept.size() + (line.size() - 2 - i) >= least;
+      if (enough && gap <= std::clamp(0.5 * radius[i], spacing.least, spacing.most) &&
+          (gap <= radius[last] + radius[i + 1] || !crosses(tree, line[last], line[i + 1]))) {
+        continue;
+      }
+      kept.push_back(line[i]);
+      last = i;
+    }
+    arc.points = std::move(kept);
+  }
+}
+
+void cut_detours(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxTuning& tuning) {
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive || arc.from == arc.to || arc.points.size() < 2) continue;
+    const auto line = graph.polyline(arc);
+    const auto radii = radii_at(tree, line);
+    std::vector<Point> kept;
+    std::size_t here = 0;
+    while (here + 1 < line.size()) {
+      std::size_t next = here + 1;
+      double length = (line[next] - line[here]).norm();
+      for (std::size_t there = here + 2; there < line.size(); ++there) {
+        length += (line[there] - line[there - 1]).norm();
+        if (length > 4 * std::max(radii[here], 0.0)) break;
+        const double chord = (line[there] - line[here]).norm();
+        const bool in_both = chord < tuning.detour_reach * std::min(radii[here], radii[there]);
+        if (in_both && length > tuning.detour_length * chord) next = there;
+      }
+      here = next;
+      if (here + 1 < line.size()) kept.push_back(line[here]);
+    }
+    arc.points = std::move(kept);
+  }
+}
+
+void keep_simple(SkeletonGraph& graph) {
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    const std::size_t least = arc.from == arc.to ? 2 : 1;
+    while (arc.points.size() < least) {
+      const auto line = graph.polyline(arc);
+      std::vector<Point> points;
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        if (i > 0) points.push_back(line[i]);
+        points.push_back(0.5 * (line[i] + line[i + 1]));
+      }
+      arc.points = std::move(points);
+    }
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,251 @@
+#include "skeleton/embed/steps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/indices.hpp"
+#include "skeleton/embed/arc_projection.hpp"
+#include "skeleton/embed/branches/grow_branches.hpp"
+#include "skeleton/embed/branches/prune.hpp"
+#include "skeleton/embed/contain/bottleneck.hpp"
+#include "skeleton/embed/contain/inside.hpp"
+#include "skeleton/embed/ends/tips.hpp"
+#include "skeleton/embed/first_course.hpp"
+#include "skeleton/embed/place/junctions.hpp"
+#include "skeleton/embed/place/relax.hpp"
+
+namespace curveskel {
+namespace {
+
+// Each step, in the order of the tables below.
+namespace step {
+
+bool start(SkeletonGraph& graph, const Setting& in) {
+  graph = first_course(in);
+  return true;
+}
+
+bool widen_junctions(SkeletonGraph& graph, const Setting& in) {
+  centre_junctions(graph, in.tree);
+  return true;
+}
+
+bool merge(SkeletonGraph& graph, const Setting& in) {
+  merge_junctions(graph, in.tree, in.guard, in.options.merge);
+  return true;
+}
+
+bool straighten(SkeletonGraph& graph, const Setting& in) {
+  straighten_at_junctions(graph, in.tree, in.options.straight, false);
+  return true;
+}
+
+bool space(SkeletonGraph& graph, const Setting& in) {
+  space_evenly(graph, in.tree, in.spacing);
+  return true;
+}
+
+RelaxOptions relaxing(const Setting& in, int rounds) {
+  RelaxOptions options;
+  options.rounds = rounds;
+  options.keep = in.options.keep_radius;
+  options.tuning = in.tuning.relax;
+  options.section = in.tuning.section;
+  return options;
+}
+
+bool centre(SkeletonGraph& graph, const Setting& in) {
+  relax(graph, in.tree, relaxing(in, in.options.first_rounds), in.guard, in.threads);
+  return true;
+}
+
+bool shape_ends(SkeletonGraph& graph, const Setting& in) {
+  shape_tips(graph, in.tree, in.options.tip_reach, in.options.tip_gap, in.tuning.tips);
+  lengthen_short_leaves(graph, in.tree, in.tuning.tips);
+  return true;
+}
+
+bool prune(SkeletonGraph& graph, const Setting& in) {
+  return prune_spurs(graph, in.tree, in.tuning.spur);
+}
+
+bool stay_inside(SkeletonGraph& graph, const Setting& in) {
+  return keep_inside(graph, in.surface, in.balls, in.partition, in.tree, in.guard) == 0;
+}
+
+/// Takes a change only if it makes something to which a way inside is found.
+template <typename Change>
+bool change_inside(SkeletonGraph& graph, const Setting& in, const Change& change) {
+  SkeletonGraph changed = graph;
+  if (change(changed) == 0 || !stay_inside(changed, in)) return false;
+  graph = std::move(changed);
+  return true;
+}
+
+bool widen_bottlenecks(SkeletonGraph& graph, const Setting& in) {
+  return change_inside(graph, in, [&in](SkeletonGraph& changed) {
+    return reroute_bottlenecks(changed, in.surface, in.balls, in.partition, in.tree,
+                               in.tuning.bottleneck);
+  });
+}
+
+bool grow(SkeletonGraph& graph, const Setting& in) {
+  const double limit =
+      std::max(in.tuning.growth.least_prominence, prominence_limit(in.options.detail));
+  return change_inside(graph, in, [&in, limit](SkeletonGraph& changed) {
+    return grow_branches(changed, in.surface, in.tree, in.balls, in.partition, limit,
+                         in.tuning.growth);
+  });
+}
+
+/// Copies the graph where there are handles, and gives arcs that left theirs their points back.
+template <typename Change>
+bool keep_handles(SkeletonGraph& graph, const Setting& in, const Change& change) {
+  if (!in.guard.has_handles()) return change();
+  const SkeletonGraph before = graph;
+  const bool result = change();
+  in.guard.restore_arcs(before, graph, in.tree);
+  return result;
+}
+
+/// Once no arc comes or goes: the places of junctions decide which leaves are spurs.
+bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
+  constexpr int times_spaced = 4;  // kinks draw points together and then hold them
+  RelaxOptions centring = relaxing(in, in.options.relax_rounds / times_spaced);
+  centring.meet = true;
+  centring.tips = true;
+  centring.keep_junction = 1;
+  const auto projections = project_on_arcs(graph, in.surface, in.balls, in.partition);
+  centring.is_own = [&](int triangle, int arc) {
+    const auto corners = in.surface.triangles.row(triangle);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](int vertex) { return projections[idx(vertex)].arc == arc; });
+  };
+  for (int spaced = 0; spaced < times_spaced; ++spaced) {
+    keep_handles(graph, in, [&] {
+      space_by_radius(graph, in.tree, in.spacing);
+      return true;
+    });
+    relax(graph, in.tree, centring, in.guard, in.threads);
+  }
+  return true;
+}
+
+bool tell_apart(SkeletonGraph& graph, const Setting& /*in*/) {
+  keep_simple(graph);
+  return true;
+}
+
+bool thin(SkeletonGraph& graph, const Setting& in) {
+  thin_out(graph, in.tree, in.spacing);
+  return true;
+}
+
+bool shortcut(SkeletonGraph& graph, const Setting& in) {
+  cut_detours(graph, in.tree, in.tuning.relax);
+  return true;
+}
+
+bool smooth(SkeletonGraph& graph, const Setting& in) {
+  RelaxOptions smoothing = relaxing(in, in.options.smooth_rounds);
+  smoothing.covered = true;
+  relax(graph, in.tree, smoothing, in.guard, in.threads);
+  return true;
+}
+
+bool straighten_at_last(SkeletonGraph& graph, const Setting& in) {
+  straighten_at_junctions(graph, in.tree, in.options.straight_at_last, true);
+  return true;
+}
+
+bool lengthen(SkeletonGraph& graph, const Setting& in) {
+  lengthen_short_leaves(graph, in.tree, in.tuning.tips);
+  return true;
+}
+
+}  // namespace step
+
+constexpr bool guarded = true;
+
+constexpr EmbedStep prune_the_spurs{"prune spurs", step::prune};
+
+constexpr std::array after_growth{
+    EmbedStep{"straighten", step::straighten, guarded},
+    EmbedStep{"space", step::space, guarded},
+    EmbedStep{"centre", step::centre},
+    prune_the_spurs,
+};
+constexpr std::array after_rerouting{
+    after_growth[0],
+    after_growth[1],
+    after_growth[2],
+    prune_the_spurs,
+    EmbedStep{"shape tips", step::shape_ends},  // they were shaped as the old ways arrived
+};
+
+constexpr std::array beginning{
+    EmbedStep{"first course", step::start},
+    EmbedStep{"widen junctions", step::widen_junctions, guarded},
+    EmbedStep{"merge junctions", step::merge},
+};
+constexpr std::array settling_branches{
+    EmbedStep{"straighten", step::straighten, guarded},
+    EmbedStep{"space", step::space, guarded},
+    EmbedStep{"centre", step::centre},
+    EmbedStep{"straighten", step::straighten, guarded},
+    EmbedStep{"shape tips", step::shape_ends},
+};
+constexpr std::array finishing{
+    EmbedStep{"widen bottlenecks", step::widen_bottlenecks, false, after_rerouting},
+    EmbedStep{"grow branches", step::grow, false, after_growth},
+    EmbedStep{"merge junctions", step::merge},  // centred, they may have come together
+    EmbedStep{"centre at last", step::centre_at_last},
+};
+constexpr std::array working_phases{
+    EmbedPhase{beginning, false, 0.2},
+    EmbedPhase{settling_branches, true, 0.4},
+    EmbedPhase{finishing, false, 0.6},
+};
+
+constexpr std::array settling{
+    EmbedStep{"keep inside", step::tell_apart},
+    EmbedStep{"keep inside", step::stay_inside},
+    EmbedStep{"thin out", step::thin, guarded},
+    EmbedStep{"cut detours", step::shortcut, guarded},
+    EmbedStep{"smooth", step::smooth},
+    EmbedStep{"straighten at last", step::straighten_at_last, guarded},
+    EmbedStep{"cut detours", step::shortcut, guarded},
+    EmbedStep{"lengthen leaves", step::lengthen},
+};
+constexpr std::array full_phases{EmbedPhase{settling, true, 0.9}};
+
+bool run_step(const EmbedStep& one, SkeletonGraph& graph, const Setting& in, StepClock& clock,
+              const Monitor& monitor) {
+  if (monitor.stop.stop_requested()) throw Cancelled();
+  const bool goes_on = clock(one.name, [&] {
+    return one.guarded ? step::keep_handles(graph, in, [&] { return one.apply(graph, in); })
+                       : one.apply(graph, in);
+  });
+  if (goes_on) {
+    for (const EmbedStep& next : one.then) run_step(next, graph, in, clock, monitor);
+  }
+  return goes_on;
+}
+
+}  // namespace
+
+std::span<const EmbedPhase> phases_on_working_surface() { return working_phases; }
+std::span<const EmbedPhase> phases_on_full_surface() { return full_phases; }
+
+void run_phases(std::span<const EmbedPhase> phases, SkeletonGraph& graph, const Setting& setting,
+                StepClock& clock, const Monitor& monitor) {
+  for (const EmbedPhase& phase : phases) {
+    do {
+      for (const EmbedStep& one : phase.steps) run_step(one, graph, setting, clock, monitor);
+    } while (phase.until_no_spur && run_step(prune_the_spurs, graph, setting, clock, monitor));
+    monitor.report("embed", phase.done);
+  }
+}
+
+}  // namespace curveskel
