@@ -22,6 +22,8 @@ constexpr const char* exit_codes =
 
 int exit_code(Fault fault) {
   switch (fault) {
+    case Fault::usage:
+      return ExitCode::usage;
     case Fault::input:
       return ExitCode::input;
     case Fault::device:

@@ -137,10 +137,35 @@ Json to_json(const ComponentRecord& c, bool with_times) {
   return {{"vertices", c.vertices},
           {"working_vertices", c.working_vertices},
           {"genus", c.genus},
-          {"attempts", c.attempts},
-          {"bands", c.bands},
           {"stop", name_of(stops, c.stop)},
           {"contraction", std::move(steps)}};
+}
+
+Json to_json(const Try& one, bool with_times) {
+  Json json = {{"name", one.name},
+               {"of", one.component < 0 ? Json("whole surface") : Json(one.component)},
+               {"part_of", one.part_of < 0 ? Json(nullptr) : Json(one.part_of)},
+               {"why", one.why},
+               {"outcome", name_of(outcomes, one.outcome)},
+               {"message", one.message},
+               {"certificate", nullptr}};
+  if (one.certificate) {
+    json["certificate"] = {{"topology_correct", one.certificate->topology_correct},
+                           {"inside_enough", one.certificate->inside_enough},
+                           {"inside_fraction", one.certificate->inside_fraction},
+                           {"tips", one.certificate->tips},
+                           {"junctions", one.certificate->junctions}};
+  }
+  if (with_times) json["seconds"] = one.seconds;
+  return json;
+}
+
+Json to_json(const StageTime& time) {
+  Json json = {{"stage", time.stage}, {"seconds", time.seconds}};
+  for (const StepTime& step : time.steps) {
+    json["steps"].push_back({{"step", step.step}, {"seconds", step.seconds}});
+  }
+  return json;
 }
 
 Json to_json(const ExtractionRecord& record, bool with_times) {
@@ -149,6 +174,8 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
   for (const ComponentRecord& component : record.extraction.components) {
     components.push_back(to_json(component, with_times));
   }
+  Json history = Json::array();
+  for (const Try& one : record.extraction.history) history.push_back(to_json(one, with_times));
   Json parameters = {{"repair", to_json(record.repair_options)}};
   parameters.update(to_json(record.options));
   return {{"program", program_and_version()},
@@ -166,8 +193,7 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
             {"genus", record.extraction.certificate.genus}}},
           {"parameters", std::move(parameters)},
           {"components", std::move(components)},
-          {"faired_again", record.extraction.faired_again},
-          {"all_vertices_again", record.extraction.all_vertices_again},
+          {"history", std::move(history)},
           {"notes", record.notes},
           {"skeleton",
            {{"nodes", record.extraction.skeleton.nodes.rows()},
@@ -197,9 +223,7 @@ std::string result_json(const ExtractionRecord& record) {
 std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
   Json json = to_json(record, true);
   Json times = Json::array();
-  for (const StageTime& time : run.times) {
-    times.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
-  }
+  for (const StageTime& time : run.times) times.push_back(to_json(time));
   json["outputs"] = run.outputs;
   json["threads"] = threads_of(record.options);
   json["times"] = std::move(times);

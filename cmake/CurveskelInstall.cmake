@@ -39,6 +39,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/extract_repaired.hpp
   include/curveskel/findings.hpp
   include/curveskel/skeleton_files.hpp
+  include/curveskel/tries.hpp
   include/curveskel/view.hpp
 )
 set(CURVESKEL_PUBLIC_RIG

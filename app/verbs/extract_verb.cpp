@@ -45,7 +45,7 @@ template <typename Work>
 auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
   const auto begin = Clock::now();
   auto result = work();
-  times.push_back({stage, seconds_since(begin)});
+  times.push_back({stage, seconds_since(begin), {}});
   return result;
 }
 
@@ -58,6 +58,19 @@ Eigen::VectorXi node_of_file_vertex(const RepairedSurface& repaired,
 
 std::string count_of(Eigen::Index count, const std::string& one, const std::string& many = {}) {
   return fmt::format("{} {}", count, count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+/// "tried faired: not better (1.25 s)", of the whole surface: a note tells of what was kept.
+std::string tries_in_vain(const std::vector<Try>& history) {
+  std::string text;
+  for (std::size_t number = 1; number < history.size(); ++number) {
+    const Try& one = history[number];
+    if (one.part_of >= 0 || one.outcome == Outcome::kept) continue;
+    text +=
+        fmt::format("  also tried {}: {}{} ({:.2f} s)\n", one.name, name_of(outcomes, one.outcome),
+                    one.message.empty() ? "" : ", " + one.message, one.seconds);
+  }
+  return text;
 }
 
 std::string summary(const ExtractArguments& arguments, const ExtractionRecord& record) {
@@ -74,6 +87,7 @@ std::string summary(const ExtractArguments& arguments, const ExtractionRecord& r
   for (const std::string& line : record.repaired.repairs.lines)
     text += fmt::format("  repaired: {}\n", line);
   for (const std::string& line : record.notes) text += fmt::format("  {}\n", line);
+  text += tries_in_vain(record.extraction.history);
   text += fmt::format("skeleton: {}, {}\n", count_of(skeleton.nodes.rows(), "node"),
                       count_of(skeleton.edges.rows(), "edge"));
   return text + certificate_table(certificate, arguments.options.certificate);

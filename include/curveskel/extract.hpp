@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/extraction_cache.hpp>
+#include <curveskel/advanced/step_clock.hpp>
 #include <curveskel/advanced/surgery.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/contract.hpp>
@@ -14,6 +15,7 @@
 #include <curveskel/fair.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/surface.hpp>
+#include <curveskel/tries.hpp>
 
 namespace curveskel {
 
@@ -45,6 +47,7 @@ struct ExtractOptions {
 struct StageTime {
   std::string stage;
   double seconds = 0;
+  std::vector<StepTime> steps{};  ///< of a stage that tells them, in the order of first use
 };
 
 /// The record of one component.
@@ -52,9 +55,7 @@ struct ComponentRecord {
   int vertices = 0;          ///< of the surface passed in
   int working_vertices = 0;  ///< after coarsening or refining
   int genus = 0;
-  int attempts = 1;    ///< contractions until the surgery succeeded, each gentler than the last
-  bool bands = false;  ///< the surgery gave up, see level_set_graph
-  std::vector<Step> steps;
+  std::vector<Step> steps;  ///< of the last contraction
   Stop stop = Stop::iterations;
 };
 
@@ -65,15 +66,18 @@ struct Extraction {
   std::vector<StageTime> times;  ///< in the order of the stages, summed over the components; only
                                  ///< of those that ran
   std::vector<std::string> reused;  ///< stages all of which came from the ExtractionCache, in order
-  bool faired_again = false;        ///< see ExtractOptions::fair_if_outside
-  bool all_vertices_again = false;  ///< see ExtractOptions::all_vertices_if_failed
+  std::vector<Try> history;         ///< of all tries, in the order in which they were begun
 };
 
 /// normalise -> fair -> coarsen -> balls -> contract -> surgery -> embed -> certify, by component.
-/// Precondition: a clean surface (see Surface). The certificate of a single component is taken
-/// against its canonical form in the model's frame, which may differ from the surface by
-/// `canonical_step` / 2 of D per coordinate; that of several against the surface itself.
-/// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
+/// own. A component that the surgery finds no cut for is contracted once more, gently; where that
+/// does not help, level sets cut it. If the certificate fails, all this is tried again as the
+/// options say. A try that fails by an Error or a lack of memory leaves what there is; an
+/// Error(Fault::usage) and Cancelled pass through any. Precondition: a clean surface (see Surface).
+/// The certificate of a single component is taken against its canonical form in the model's frame,
+/// which may differ from the surface by `canonical_step` / 2 of D per coordinate; that of several
+/// against the surface itself. Throws Error(Fault::solver) when a component cannot be contracted,
+/// Cancelled on a stop.
 [[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
                                  const Monitor& monitor);
 

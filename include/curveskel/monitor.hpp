@@ -12,24 +12,33 @@
 
 namespace curveskel {
 
+/// The try of an extraction that something is shown of.
+struct ShownTry {
+  int number = -1;        ///< in Extraction::history; -1 where a stage runs on its own
+  int of_surface = -1;    ///< the same of the try of the whole surface that it is part of
+  std::string_view name;  ///< "as asked", "faired", "faired, gentler contraction", ...
+};
+
 /// A surface on its way through a stage.
 struct Frame {
   std::string_view stage;   ///< "fair" or "contract"
-  int component = 0;        ///< of `topology` when `extract` runs the stage, else 0
+  int component = 0;        ///< of `topology`, of the surface that the try is of; else 0
   int iteration = 0;        ///< 0 = before the first
   double area_ratio = 1;    ///< area / that of iteration 0; never grows in "contract"
   double volume_ratio = 1;  ///< |volume| / that of iteration 0
   double residual = 0;      ///< contract: see Solution::residual; fair: 0
   const Surface& surface;   ///< in the frame of what the stage was called with, `extract`'s is the
                             ///< model's; lives as long as the call
+  ShownTry made_in{};
 };
 
 /// A curve on its way: the surgery's graph of a component, before embedding.
 struct CurveFrame {
   std::string_view stage;  ///< "surgery"
-  int component = 0;       ///< of `topology`
+  int component = 0;       ///< of `topology`, of the surface that the try is of
   const Positions& nodes;  ///< #N by 3, in the model's frame
   const Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>& edges;  ///< #E by 2
+  ShownTry made_in{};
 };
 
 /// Callbacks, all optional, called from the thread that runs the stage. A stage calls `report` at
@@ -39,8 +48,8 @@ struct Monitor {
   std::function<void(std::string_view stage, double fraction)> progress;
   /// One line for the user about something that was changed or decided.
   std::function<void(std::string_view line)> note;
-  /// The surface before the first and after each iteration of `fair` and `contract`. When `extract`
-  /// contracts a second time or fairs after all, iterations count from 0 again.
+  /// The surface before the first and after each iteration of `fair` and `contract`. Another try of
+  /// `extract` counts from 0 again, see Frame::made_in.
   std::function<void(const Frame& frame)> frame;
   /// A component's curve when its surgery has succeeded.
   std::function<void(const CurveFrame& curve)> curve;

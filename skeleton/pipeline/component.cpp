@@ -58,21 +58,51 @@ class Pipeline {
         stage_(stage),
         fine_(fine) {}
 
-  Shared<CurveSkeleton> run(ComponentRecord& record) {
+  Shared<CurveSkeleton> run(ComponentRecord& record, TryLog& log, const TriesOf& of) {
     const Shared<Surface> source = source_surface();
     const Shared<Coarsened> working = working_surface(source);
     record.working_vertices = static_cast<int>(working->surface.positions.rows());
     const Shared<WorkingBalls> balls = balls_in(*source, working);
-    if (const auto graph = graph_by_contraction(working->surface, balls, record)) {
-      return embedded(working->surface, *balls, balls->balls, graph, working->vertex_of_input);
-    }
-    const Shared<Bands> bands = bands_of(*working, balls);
-    record.bands = true;
-    const Shared<PartitionGraph> graph(bands, &bands->cut.graph);
-    return embedded(bands->cut.surface, *balls, bands->balls, graph, bands->vertex_of_input);
+    const Cut cut = best_of(carry_out(
+        plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
+        [](const Cut&) { return std::nullopt; }, monitor_, log));
+    return embedded(*cut.surface, *balls, *cut.balls, cut.graph, *cut.vertex_of_canonical);
   }
 
  private:
+  /// A surface that is cut, and where.
+  struct Cut {
+    Shared<PartitionGraph> graph;
+    Shared<Surface> surface;
+    Shared<InscribedBalls> balls;
+    Shared<Eigen::VectorXi> vertex_of_canonical;
+  };
+
+  /// Each is made if the surgery gave up before.
+  std::vector<Plan<Cut>> plans(const Shared<Coarsened>& working, const Shared<WorkingBalls>& balls,
+                               ComponentRecord& record) {
+    using SoFar = Plan<Cut>::SoFar;
+    const auto by_contraction = [&](ContractionAttempt& kept, const ContractionOptions& options) {
+      return [&, options](const Plan<Cut>::Room& room) {
+        return cut_by_contraction(working, balls, options, kept, record, room.monitor);
+      };
+    };
+    const auto if_given_up = [](const SoFar& so_far) -> std::optional<std::string> {
+      if (so_far.best || !so_far.first || !so_far.first->gave_up) return std::nullopt;
+      return so_far.last->message;
+    };
+    ContractionOptions gentler = options_.contraction;
+    gentler.contraction_weight /= 3;
+    gentler.contraction_growth = 1 + (gentler.contraction_growth - 1) / 3;
+    gentler.collapse_length /= 2;
+    return {{try_as_asked, [](const SoFar&) { return std::string(); },
+             by_contraction(kept_.contractions[0], options_.contraction)},
+            {try_gentler, if_given_up, by_contraction(kept_.contractions[1], gentler)},
+            {try_level_sets, if_given_up, [&](const Plan<Cut>::Room& room) {
+               return cut_by_level_sets(*working, balls, room.monitor);
+             }}};
+  }
+
   Shared<Surface> source_surface() {
     if (!options_.fairing) return {canonical_, &canonical_->surface};
     return stage_("fair", kept_.faired, {canonical_, what_counts(options_.fair)},
@@ -115,56 +145,59 @@ class Pipeline {
     });
   }
 
-  /// Nothing when no attempt is gentle enough for the surgery.
-  Shared<PartitionGraph> graph_by_contraction(const Surface& working,
-                                              const Shared<WorkingBalls>& balls,
-                                              ComponentRecord& record) {
-    ContractionOptions contraction = options_.contraction;
-    record.attempts = 0;
-    for (ContractionAttempt& attempt : kept_.attempts) {
-      ++record.attempts;
-      const Shared<Contraction> contracted =
-          stage_("contract", attempt.contraction, {balls, what_counts(contraction)},
-                 [&] { return contract(working, balls->targets, contraction, monitor_); });
-      const auto graph = stage_("surgery", attempt.graph, {contracted, options_.surgery}, [&] {
-        auto made = surgery(working, *contracted, options_.surgery, monitor_);
-        if (made && monitor_.curve) show_curve(*made, *contracted);
-        return made;
-      });
-      record.steps = contracted->steps;
-      record.stop = contracted->stop;
-      if (*graph) return {graph, &**graph};
-      contraction.contraction_weight /= 3;
-      contraction.contraction_growth = 1 + (contraction.contraction_growth - 1) / 3;
-      contraction.collapse_length /= 2;
-    }
-    return nullptr;
-  }
-
-  /// The graph where the contraction has left its vertices.
-  void show_curve(const PartitionGraph& graph, const Contraction& contracted) const {
-    const Positions at = contracted.surface.positions(contracted.vertex_of_input, Eigen::all);
-    monitor_.curve({"surgery", 0, middles_of_groups(graph, at), graph.edges});
-  }
-
-  Shared<Bands> bands_of(const Coarsened& working, const Shared<WorkingBalls>& balls) {
-    return stage_("surgery", kept_.bands, {balls}, [&] {
-      Bands bands;
-      bands.cut = level_set_graph(working.surface, monitor_);
-      bands.vertex_of_input = bands.cut.vertex_of_input(working.vertex_of_input);
-      bands.balls = inscribed_balls(bands.cut.surface, balls->near, options_.threads);
-      return bands;
+  Cut cut_by_contraction(const Shared<Coarsened>& working, const Shared<WorkingBalls>& balls,
+                         const ContractionOptions& options, ContractionAttempt& kept,
+                         ComponentRecord& record, const Monitor& monitor) {
+    const Shared<Contraction> contracted =
+        stage_("contract", kept.contraction, {balls, what_counts(options)},
+               [&] { return contract(working->surface, balls->targets, options, monitor); });
+    const auto graph = stage_("surgery", kept.graph, {contracted, options_.surgery}, [&] {
+      auto made = surgery(working->surface, *contracted, options_.surgery, monitor);
+      const Surface& left = contracted->surface;
+      if (made && monitor.curve) {
+        show_curve(*made, left.positions(contracted->vertex_of_input, Eigen::all), monitor);
+      }
+      return made;
     });
+    record.steps = contracted->steps;
+    record.stop = contracted->stop;
+    if (!*graph) throw GaveUp("the surgery found no cut of what the contraction left");
+    return {{graph, &**graph},
+            {working, &working->surface},
+            {balls, &balls->balls},
+            {working, &working->vertex_of_input}};
+  }
+
+  Cut cut_by_level_sets(const Coarsened& working, const Shared<WorkingBalls>& balls,
+                        const Monitor& monitor) {
+    const Shared<Bands> bands = stage_("surgery", kept_.bands, {balls}, [&] {
+      Bands made;
+      made.cut = level_set_graph(working.surface, monitor);
+      made.vertex_of_input = made.cut.vertex_of_input(working.vertex_of_input);
+      made.balls = inscribed_balls(made.cut.surface, balls->near, options_.threads);
+      if (monitor.curve) show_curve(made.cut.graph, made.cut.surface.positions, monitor);
+      return made;
+    });
+    return {{bands, &bands->cut.graph},
+            {bands, &bands->cut.surface},
+            {bands, &bands->balls},
+            {bands, &bands->vertex_of_input}};
+  }
+
+  /// The graph of a surface whose vertices are there. Precondition: someone watches.
+  static void show_curve(const PartitionGraph& graph, const Positions& vertices,
+                         const Monitor& monitor) {
+    monitor.curve({"surgery", 0, middles_of_groups(graph, vertices), graph.edges});
   }
 
   Shared<CurveSkeleton> embedded(const Surface& surface, const WorkingBalls& trees,
                                  const InscribedBalls& balls, const Shared<PartitionGraph>& graph,
                                  const Eigen::VectorXi& vertex_of_canonical) {
-    return stage_("embed", kept_.skeleton, {graph, options_.embed}, [&] {
+    return stage_("embed", kept_.skeleton, {graph, options_.embed}, [&](StepClock& steps) {
       // Most of the embedding's rays go against the working surface, which fits the cache.
       CurveSkeleton skeleton = embed(
           surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
-          options_.embed, options_.threads, monitor_);
+          options_.embed, options_.threads, monitor_, &steps);
       skeleton.nodes = canonical_->to_model(skeleton.nodes);
       skeleton.radii *= canonical_->scale;
       const Eigen::VectorXi node_of_canonical = skeleton.node_of_vertex(vertex_of_canonical);
@@ -189,14 +222,14 @@ Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number)
   if (monitor.curve) {
     within.curve = [&monitor, &canonical, number](const CurveFrame& curve) {
       const Positions moved = canonical.to_model(curve.nodes);
-      monitor.curve({curve.stage, number, moved, curve.edges});
+      monitor.curve({curve.stage, number, moved, curve.edges, curve.made_in});
     };
   }
   if (!monitor.frame) return within;
   within.frame = [&monitor, &canonical, number](const Frame& frame) {
     const Surface moved{canonical.to_model(frame.surface.positions), frame.surface.triangles};
     monitor.frame({frame.stage, number, frame.iteration, frame.area_ratio, frame.volume_ratio,
-                   frame.residual, moved});
+                   frame.residual, moved, frame.made_in});
   };
   return within;
 }
@@ -204,7 +237,8 @@ Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number)
 }  // namespace
 
 ComponentResult component_result(const Part& part, const ExtractOptions& options,
-                                 const Monitor& monitor, ComponentStages* kept) {
+                                 const Monitor& monitor, ComponentStages* kept, TryLog& log,
+                                 int part_of) {
   ComponentStages passing;
   ComponentStages& stages = kept != nullptr ? *kept : passing;
   ComponentResult result;
@@ -216,8 +250,8 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
       "normalise", stages.canonical, {}, [&] { return canonical_form(surface, options.threads); });
   const Monitor within = in_model(monitor, *canonical, part.number);
   GrowingTree fine(canonical, stages, stage.keeps(), options.threads);
-  result.skeleton =
-      Pipeline(canonical, part.size, options, within, stages, stage, fine).run(result.record);
+  result.skeleton = Pipeline(canonical, part.size, options, within, stages, stage, fine)
+                        .run(result.record, log, {part.number, part_of, true});
   result.tree = fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale);
   return result;
 }

@@ -9,6 +9,7 @@
 #include <curveskel/extract.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/stages.hpp"
+#include "skeleton/pipeline/try_loop.hpp"
 
 namespace curveskel {
 
@@ -30,16 +31,20 @@ struct ComponentResult {
 };
 
 /// From the component to its skeleton in the model's frame; so are the monitor's frames. Takes what
-/// it can from `kept` and leaves there what it made; without it, nothing outlives its use.
+/// it can from `kept` and leaves there what it made; without it, nothing outlives its use. The
+/// tries of its cut are part of try `part_of`.
 /// Throws Error(Fault::solver) when it cannot be contracted, Cancelled on a stop.
 [[nodiscard]] ComponentResult component_result(const Part& part, const ExtractOptions& options,
-                                               const Monitor& monitor, ComponentStages* kept);
+                                               const Monitor& monitor, ComponentStages* kept,
+                                               TryLog& log, int part_of);
 
 /// All components. Each of the larger ones has all threads to itself; the small ones, of which
 /// there may be many, go side by side with one thread each. Trees are there of a single one only.
+/// Tries are written down in the components' order.
 [[nodiscard]] std::vector<ComponentResult> component_results(const Parts& whole,
                                                              const ExtractOptions& options,
                                                              const Monitor& monitor,
-                                                             std::vector<ComponentStages>* kept);
+                                                             std::vector<ComponentStages>* kept,
+                                                             TryLog& log, int part_of);
 
 }  // namespace curveskel

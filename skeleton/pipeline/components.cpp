@@ -49,30 +49,37 @@ std::vector<std::size_t> order_of(const Topology& counted, bool smallest_first) 
 
 std::vector<ComponentResult> component_results(const Parts& whole, const ExtractOptions& options,
                                                const Monitor& monitor,
-                                               std::vector<ComponentStages>* kept) {
+                                               std::vector<ComponentStages>* kept, TryLog& log,
+                                               int part_of) {
   constexpr int small = 2000;  // working vertices that leave nothing to share out
   const Topology& counted = whole.counted;
   const bool several = whole.components.size() > 1;
   if (kept != nullptr) kept->resize(whole.components.size());
   std::vector<ComponentResult> all(whole.components.size());
+  std::vector<TryLog> logs(whole.components.size());
   std::vector<std::size_t> side_by_side;
-  const auto part_of = [&](std::size_t c) {
+  const auto part = [&](std::size_t c) {
     return Part{whole.components[c], static_cast<int>(c), counted.genus[c],
                 working_size(options, counted.vertices[c], counted.genus[c], counted)};
   };
   const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
-    all[c] = component_result(part_of(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr);
+    all[c] = component_result(part(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],
+                              part_of);
     if (several) all[c].tree.reset();
   };
   const bool on_host = options.contraction.solver == Solver::automatic ||
                        options.contraction.solver == Solver::cholesky;
-  const bool may_share = on_host && !options.fairing && !monitor.frame && !monitor.curve;
-  for (const std::size_t c : order_of(counted, options.fairing && !monitor.frame)) {
-    const WorkingSize size = part_of(c).size;
-    if (may_share && std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
+  const bool watched = monitor.frame || monitor.curve;
+  int next = log.next();  // what is shown has the number that it is written down with
+  for (const std::size_t c : order_of(counted, options.fairing && !watched)) {
+    const WorkingSize size = part(c).size;
+    if (on_host && !options.fairing && !watched &&
+        std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
       side_by_side.push_back(c);
     } else {
+      logs[c].first = next;
       contribute(c, options, monitor);
+      next = logs[c].next();
     }
   }
   ExtractOptions alone = options;
@@ -84,6 +91,9 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
     const bool here = std::this_thread::get_id() == caller;
     contribute(side_by_side[i], alone, here ? monitor : silent);
   });
+  for (TryLog& own : logs) {
+    log.tries.insert(log.tries.end(), own.tries.begin(), own.tries.end());
+  }
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
+#include "skeleton/pipeline/try_loop.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/wrap_components.hpp"
 
@@ -18,13 +19,15 @@ std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, do
                                              const CertificateOptions& options,
                                              const Monitor& monitor) {
   for (const double one : wrap_openings) {
-    try {
+    std::optional<WrappedSolid> agreeing;
+    const auto try_to = [&] {
       auto wrapped = wrap_solid(failing.surface, opening > 0 ? opening : one, monitor);
       if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).holds()) {
-        return wrapped;
+        agreeing = std::move(wrapped);
       }
-    } catch (const Error&) {  // too large to be wrapped
-    }
+    };
+    const bool failed = failure_of(try_to).has_value();  // too large to be wrapped
+    if (agreeing && !failed) return agreeing;
     if (opening > 0) break;
   }
   return std::nullopt;

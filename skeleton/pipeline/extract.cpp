@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <future>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,6 +14,7 @@
 #include "base/parallel.hpp"
 #include "skeleton/embed/ends/rims.hpp"
 #include "skeleton/pipeline/component.hpp"
+#include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
 
 namespace curveskel {
@@ -99,7 +98,8 @@ bool has_stage(const std::vector<StageTime>& times, std::string_view stage) {
                      [&](const StageTime& time) { return time.stage == stage; });
 }
 
-/// Of the stages in `taken` those that never ran, in order, each once.
+}  // namespace
+
 std::vector<std::string> only_reused(const std::vector<std::string>& taken,
                                      const std::vector<StageTime>& ran) {
   constexpr std::array stages{"normalise", "fair",    "coarsen", "balls",
@@ -112,9 +112,8 @@ std::vector<std::string> only_reused(const std::vector<std::string>& taken,
   return result;
 }
 
-/// As the options say.
 Extraction extract_once(const Surface& surface, const ExtractOptions& options,
-                        const Monitor& monitor, SurfaceStages* kept) {
+                        const Monitor& monitor, SurfaceStages* kept, TryLog& log, int part_of) {
   Extraction result;
   require_memory(least_memory_bytes(surface, options), available_memory_bytes(), "the extraction",
                  Fault::input,
@@ -131,8 +130,8 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
     return Parts{std::move(counted), std::move(components)};
   });
   TreeOfAll tree_of_all(surface, *parts, kept, options.threads);
-  auto results =
-      component_results(*parts, options, monitor, kept != nullptr ? &kept->components : nullptr);
+  auto results = component_results(*parts, options, monitor,
+                                   kept != nullptr ? &kept->components : nullptr, log, part_of);
   for (ComponentResult& one : results) {
     for (const StageTime& time : one.times) stage.clock.add(time);
     taken.insert(taken.end(), one.reused.begin(), one.reused.end());
@@ -154,97 +153,15 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   return result;
 }
 
-/// Gives the second run the stages that fairing does not touch.
-void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
-  to.parts = from.parts;
-  to.tree = from.tree;
-  to.components.resize(from.components.size());
-  for (std::size_t c = 0; c < from.components.size(); ++c) {
-    to.components[c].canonical = from.components[c].canonical;
-    to.components[c].tree = from.components[c].tree;
-  }
-}
-
-bool better(const Certificate& a, const Certificate& b) {
-  return std::pair(a.topology_correct(), a.inside_fraction) >
-         std::pair(b.topology_correct(), b.inside_fraction);
-}
-
-/// Runs with other options and keeps the better result; whether that is the new one.
-bool try_again(Extraction& result, const Surface& surface, const ExtractOptions& options,
-               const Monitor& monitor, SurfaceStages* kept) {
-  std::optional<Extraction> other;
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    other = extract_once(surface, options, monitor, kept);
-  } catch (const Error&) {  // a part too thin to be faired is no noise
-    const auto lost = std::chrono::steady_clock::now() - start;
-    result.times.push_back({"second try", std::chrono::duration<double>(lost).count()});
-    return false;
-  }
-  std::vector<StageTime> ran = result.times;
-  ran.insert(ran.end(), other->times.begin(), other->times.end());
-  std::vector<std::string> reused = result.reused;
-  reused.insert(reused.end(), other->reused.begin(), other->reused.end());
-  const bool is_better = better(other->certificate, result.certificate);
-  if (is_better) result = std::move(*other);
-  result.reused = only_reused(reused, ran);
-  result.times = std::move(ran);
-  return is_better;
-}
-
-bool was_coarsened(const Extraction& extraction) {
-  return std::any_of(
-      extraction.components.begin(), extraction.components.end(),
-      [](const ComponentRecord& one) { return one.working_vertices < one.vertices; });
-}
-
-Extraction extract_with(const Surface& surface, const ExtractOptions& options,
-                        const Monitor& monitor, ExtractionCache::Implementation* kept) {
-  Extraction result =
-      extract_once(surface, options, monitor, kept != nullptr ? &kept->as_asked : nullptr);
-  // A limb as thin as the coarsened triangles are long has other handles there.
-  constexpr Eigen::Index most_for_all = 50000;
-  if (!result.certificate.topology_correct() && options.all_vertices_if_failed &&
-      was_coarsened(result) && surface.positions.rows() <= most_for_all) {
-    ExtractOptions finest = options;
-    finest.resolution = 0;
-    if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    if (try_again(result, surface, finest, monitor,
-                  kept != nullptr ? &kept->all_vertices : nullptr)) {
-      result.all_vertices_again = true;
-      monitor.say("the certificate failed, so the skeleton was extracted again from all vertices");
-    }
-  }
-  // Noise as thick as the limbs turns them inside out here and there; without it the curve has a
-  // way through.
-  if (!result.certificate.inside_enough && !options.fairing && options.fair_if_outside) {
-    ExtractOptions gentler = options;
-    gentler.fairing = true;
-    gentler.fair.iterations = 30;
-    if (kept != nullptr) share_beginning(kept->as_asked, kept->faired_again);
-    if (try_again(result, surface, gentler, monitor,
-                  kept != nullptr ? &kept->faired_again : nullptr)) {
-      result.faired_again = true;
-      monitor.say(
-          "the curve left the surface, so it was extracted again from the faired surface (30 "
-          "iterations)");
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
 Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
-  return extract_with(surface, options, monitor, nullptr);
+  return carry_out_plans(extraction_plans(surface, options, nullptr), monitor).extraction;
 }
 
 Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor,
                    ExtractionCache& cache) {
   ExtractionCache::Implementation& kept = cache.implementation();
   kept.keep_only(surface);
-  return extract_with(surface, options, monitor, &kept);
+  return carry_out_plans(extraction_plans(surface, options, &kept), monitor).extraction;
 }
 
 }  // namespace curveskel

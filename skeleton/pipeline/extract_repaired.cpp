@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <new>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
+#include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "surface/repair/wrap_components.hpp"
 #include "surface/repair/wrap_solid.hpp"
@@ -17,25 +18,11 @@
 namespace curveskel {
 namespace {
 
-/// The best wrap so far, and the certificate of its skeleton.
+/// A wrap of a component, and the certificate of what is extracted from it.
 struct Attempt {
   WrappedSolid wrap;
   Certificate certificate;
 };
-
-/// The component's wrap with this wrap gap, if its own skeleton is certified.
-std::optional<Attempt> attempt(const Surface& component, double opening,
-                               const ExtractOptions& options, const Monitor& monitor) {
-  try {
-    auto wrapped = wrap_solid(component, opening, monitor);
-    if (!wrapped) return std::nullopt;
-    const Certificate found = extract(wrapped->surface, options, monitor).certificate;
-    if (found.holds()) return Attempt{std::move(*wrapped), found};
-  } catch (const Error&) {           // too large to be wrapped, or too thin to be contracted
-  } catch (const std::bad_alloc&) {  // nobody knew
-  }
-  return std::nullopt;
-}
 
 /// True if the first has the genus and the second has not, or else explains more of its surface: a
 /// wrap that goes round every spike of noise is mostly spikes.
@@ -45,26 +32,10 @@ bool better(const Certificate& wider, const Certificate& narrower, int genus) {
   return wider.coverage > narrower.coverage + clearly;
 }
 
-/// From narrow to wide the best of those whose certificate holds.
-std::optional<WrappedSolid> best_wrap(const FailingComponent& failing, double opening,
-                                      const ExtractOptions& options, const Monitor& monitor) {
-  std::optional<Attempt> best;
-  for (const double one : wrap_openings) {
-    auto found = attempt(failing.surface, opening > 0 ? opening : one, options, monitor);
-    if (found && (!best || better(found->certificate, best->certificate, failing.genus))) {
-      best = std::move(found);
-    }
-    if (opening > 0) break;
-  }
-  if (!best) return std::nullopt;
-  return std::move(best->wrap);
-}
-
 /// Options with which one component alone is extracted as it will be among the others.
 ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) {
   ExtractOptions one = options;
   one.openings.clear();
-  one.fair_if_outside = one.all_vertices_if_failed = false;
   if (options.resolution > 0) {
     one.resolution =
         std::max(1, static_cast<int>(std::lround(options.resolution * share_of_vertices)));
@@ -72,74 +43,138 @@ ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) 
   return one;
 }
 
-/// For each component that fails the best of its wraps, where one has a certificate that holds.
+std::string why_wrapped(double opening) {
+  std::ostringstream words;
+  words.precision(3);
+  words << "the component's certificate failed; gaps of up to " << opening
+        << " of its extent are wrapped over";
+  return words.str();
+}
+
+Plan<Attempt> wrap_plan(const FailingComponent& failing, double opening,
+                        const ExtractOptions& options) {
+  return {try_wrapped, [opening](const auto&) { return why_wrapped(opening); },
+          [&failing, opening, &options](const Plan<Attempt>::Room& room) {
+            auto wrapped = wrap_solid(failing.surface, opening, room.monitor);
+            if (!wrapped) throw GaveUp("the wrap encloses next to nothing");
+            const Certificate found = extract_once(wrapped->surface, options, room.monitor, nullptr,
+                                                   room.log, room.number)
+                                          .certificate;
+            // Its own skeleton only tells how good the wrap is.
+            for (int n = room.number + 1; n < room.log.next(); ++n) room.log.drop(n);
+            return Attempt{std::move(*wrapped), found};
+          }};
+}
+
+/// From narrow to wide the best of those whose certificate holds.
+std::optional<Attempt> best_wrap(const FailingComponent& failing, double opening,
+                                 const ExtractOptions& options, const Plan<Extracted>::Room& room) {
+  std::vector<Plan<Attempt>> plans;
+  for (const double one : wrap_openings) {
+    plans.push_back(wrap_plan(failing, opening > 0 ? opening : one, options));
+    if (opening > 0) break;
+  }
+  const auto takes = [&](const Attempt& wider, const Attempt* best) {
+    return wider.certificate.holds() &&
+           (best == nullptr || better(wider.certificate, best->certificate, failing.genus));
+  };
+  return carry_out(
+             plans, {failing.number, room.number}, takes,
+             [](const Attempt& one) { return in_brief(one.certificate); }, room.monitor, room.log)
+      .best;
+}
+
+/// For each component that fails the best of its wraps, if one has a certificate that holds.
 std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing, double opening,
                                     Eigen::Index vertices, const ExtractOptions& options,
-                                    const Monitor& monitor) {
+                                    const Plan<Extracted>::Room& room) {
   std::vector<ComponentWrap> wraps;
   for (const FailingComponent& one : failing) {
     const double share = double(one.surface.positions.rows()) / double(vertices);
-    auto wrap = best_wrap(one, opening, for_one(options, share), monitor);
-    if (wrap) wraps.push_back({one.number, std::move(*wrap)});
+    auto best = best_wrap(one, opening, for_one(options, share), room);
+    if (best) wraps.push_back({one.number, std::move(best->wrap)});
   }
   return wraps;
 }
 
-/// Says which of the failing components were wrapped.
+/// Which of the failing components were wrapped.
 std::string which_were(std::size_t wrapped, std::size_t failing) {
   if (wrapped == failing) return "what it fails for was wrapped";
   return std::to_string(wrapped) + " of the " + std::to_string(failing) +
          " components that it fails for were wrapped (no wrap of the others has one that holds)";
 }
 
-/// From wraps of the components that fail, if any helps.
-std::optional<RepairedExtraction> extracted_from_wraps(const RepairedSurface& repaired,
-                                                       const RepairOptions& as_repaired,
-                                                       const Extraction& failed,
-                                                       const ExtractOptions& options,
-                                                       const Monitor& monitor) {
-  Monitor silent = monitor;  // a try that comes to nothing is not mentioned
+std::vector<FailingComponent> failing_of(const Surface& surface, const Extraction& extraction,
+                                         const CertificateOptions& options,
+                                         const Monitor& monitor) {
+  const Topology counted = topology(surface);
+  return failing_components(surface, counted, extraction.skeleton,
+                            component_by_map(extraction.skeleton, counted), options, monitor);
+}
+
+/// A wrap's certificate held while it was alone, which does not make it hold beside the others.
+bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap>& wraps,
+                const CertificateOptions& options, const Monitor& monitor) {
+  if (found.extraction.certificate.holds()) return true;
+  const auto failing = failing_of(found.wrapped->surface, found.extraction, options, monitor);
+  int added = 0;  // components so far that wraps have beyond one each
+  for (const ComponentWrap& one : wraps) {
+    const int first = one.component + added;
+    const int own = topology(one.wrap.surface).components();
+    const bool fails = std::any_of(failing.begin(), failing.end(), [&](const auto& component) {
+      return component.number >= first && component.number < first + own;
+    });
+    if (fails) return false;
+    added += own - 1;
+  }
+  return true;
+}
+
+Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOptions& as_repaired,
+                               const ExtractOptions& options, const Plan<Extracted>::Room& given) {
+  const auto start = std::chrono::steady_clock::now();
+  Monitor silent = given.monitor;  // what comes to nothing is not said
   silent.note = nullptr;
-  const Topology counted = topology(repaired.surface);
-  const auto failing =
-      failing_components(repaired.surface, counted, failed.skeleton,
-                         component_by_map(failed.skeleton, counted), options.certificate, silent);
-  const auto wraps = wraps_of(failing, as_repaired.wrap_opening, repaired.surface.positions.rows(),
-                              options, silent);
-  if (wraps.empty()) return std::nullopt;
+  const Plan<Extracted>::Room room{given.so_far, silent, given.log, given.number};
+  const Extraction& failed = given.so_far.best->found.extraction;
+  const auto failing = failing_of(repaired.surface, failed, options.certificate, silent);
+  const auto wraps =
+      wraps_of(failing, as_repaired.wrap_opening, repaired.surface.positions.rows(), options, room);
+  if (wraps.empty()) throw GaveUp("no wrap has a certificate that holds");
   auto wrapped = with_wraps(repaired, wraps, silent);
   ExtractOptions from_wraps = options;
   from_wraps.openings = wrapped.openings;
-  from_wraps.fair_if_outside = from_wraps.all_vertices_if_failed = false;
-  RepairedExtraction found{extract(wrapped.surface, from_wraps, silent), std::move(wrapped)};
-  const auto rank = [](const Certificate& one) {
-    return std::pair(one.topology_correct(), one.inside_enough);
-  };
-  if (rank(found.extraction.certificate) < rank(failed.certificate)) return std::nullopt;
-  monitor.say("the certificate failed (" + failures(failed.certificate, options.certificate) +
-              "), so " + which_were(wraps.size(), failing.size()) +
-              ", and the skeleton extracted again");
-  return found;
-}
-
-RepairedExtraction wrapped_if_failed(const RepairedSurface& repaired,
-                                     const RepairOptions& as_repaired, Extraction extraction,
-                                     const ExtractOptions& options, const Monitor& monitor) {
-  if (extraction.certificate.holds() || as_repaired.wrap != Wrapping::needed) {
-    return {std::move(extraction), std::nullopt};
+  RepairedExtraction found{
+      extract_once(wrapped.surface, from_wraps, silent, nullptr, room.log, room.number),
+      std::move(wrapped)};
+  if (!wraps_hold(found, wraps, options.certificate, silent)) {
+    throw GaveUp("the wraps fail beside the other components: " +
+                 failures(found.extraction.certificate, options.certificate));
   }
-  const auto start = std::chrono::steady_clock::now();
-  auto found = extracted_from_wraps(repaired, as_repaired, extraction, options, monitor);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  extraction.times.push_back({"wrap", taken.count()});
-  if (!found) return {std::move(extraction), std::nullopt};
-  found->extraction.times = std::move(extraction.times);
-  return std::move(*found);
+  found.extraction.times = {{"wrap", taken.count()}};
+  return {std::move(found), "the certificate failed (" +
+                                failures(failed.certificate, options.certificate) + "), so " +
+                                which_were(wraps.size(), failing.size()) +
+                                ", and the skeleton extracted again"};
 }
 
-ExtractOptions with_openings(ExtractOptions options, const RepairedSurface& repaired) {
-  options.openings = repaired.openings;
-  return options;
+RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOptions& as_repaired,
+                             const ExtractOptions& options, const Monitor& monitor,
+                             ExtractionCache::Implementation* kept) {
+  ExtractOptions with_openings = options;
+  with_openings.openings = repaired.openings;
+  auto plans = extraction_plans(repaired.surface, with_openings, kept);
+  const auto why = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
+    if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;
+    const Certificate& found = so_far.best->found.extraction.certificate;
+    if (found.holds()) return std::nullopt;
+    return failures(found, options.certificate);
+  };
+  plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
+                     return extracted_from_wraps(repaired, as_repaired, options, room);
+                   }});
+  return carry_out_plans(plans, monitor);
 }
 
 }  // namespace
@@ -147,18 +182,15 @@ ExtractOptions with_openings(ExtractOptions options, const RepairedSurface& repa
 RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                     const RepairOptions& as_repaired, const ExtractOptions& options,
                                     const Monitor& monitor) {
-  return wrapped_if_failed(repaired, as_repaired,
-                           extract(repaired.surface, with_openings(options, repaired), monitor),
-                           options, monitor);
+  return extracted(repaired, as_repaired, options, monitor, nullptr);
 }
 
 RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                     const RepairOptions& as_repaired, const ExtractOptions& options,
                                     const Monitor& monitor, ExtractionCache& cache) {
-  return wrapped_if_failed(
-      repaired, as_repaired,
-      extract(repaired.surface, with_openings(options, repaired), monitor, cache), options,
-      monitor);
+  ExtractionCache::Implementation& kept = cache.implementation();
+  kept.keep_only(repaired.surface);
+  return extracted(repaired, as_repaired, options, monitor, &kept);
 }
 
 }  // namespace curveskel

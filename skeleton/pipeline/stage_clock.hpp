@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <type_traits>
 #include <vector>
 
+#include <curveskel/advanced/step_clock.hpp>
 #include <curveskel/extract.hpp>
 
 namespace curveskel {
@@ -14,13 +16,21 @@ class StageClock {
  public:
   explicit StageClock(std::vector<StageTime>& times) : times_(times) {}
 
+  /// work() makes the stage's value; work(steps), if it takes a StepClock, times its steps there.
   template <typename Work>
   auto operator()(const char* stage, const Work& work) {
     const auto start = std::chrono::steady_clock::now();
-    auto result = work();
+    StepClock steps;
+    auto result = [&] {
+      if constexpr (std::is_invocable_v<const Work&, StepClock&>) {
+        return work(steps);
+      } else {
+        return work();
+      }
+    }();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    add({stage, seconds});
+    add({stage, seconds, steps.times()});
     return result;
   }
 
@@ -31,6 +41,7 @@ class StageClock {
       times_.push_back(time);
     } else {
       found->seconds += time.seconds;
+      for (const StepTime& step : time.steps) add_step(found->steps, step);
     }
   }
 

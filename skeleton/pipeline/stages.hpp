@@ -83,7 +83,7 @@ struct ComponentStages {
   Kept<std::tuple<Shared<Canonical>, FairOptions>, Surface> faired;
   Kept<std::tuple<Shared<Surface>, WorkingSize>, Coarsened> working;
   Kept<std::tuple<Shared<Coarsened>>, WorkingBalls> balls;
-  std::array<ContractionAttempt, 2> attempts;
+  std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, Bands> bands;
   Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions>, CurveSkeleton> skeleton;
 };
@@ -111,8 +111,8 @@ struct SurfaceStages {
 struct ExtractionCache::Implementation {
   Surface surface;
   SurfaceStages as_asked;
-  SurfaceStages faired_again;  ///< see ExtractOptions::fair_if_outside
   SurfaceStages all_vertices;  ///< see ExtractOptions::all_vertices_if_failed
+  SurfaceStages faired;        ///< see ExtractOptions::fair_if_outside
 
   /// Forgets everything if it is of another surface.
   void keep_only(const Surface& wanted);
@@ -127,8 +127,8 @@ class StageRun {
            bool keep)
       : clock(times), reused_(reused), monitor_(monitor), keep_(keep) {}
 
-  /// work() makes the value from `key`. What is kept stays until the new value is there, so that a
-  /// cancelled run takes nothing away. Throws Cancelled if a stop was requested.
+  /// work makes the value from `key`, see StageClock. What is kept stays until the new value is
+  /// there, so that a cancelled run takes nothing away. Throws Cancelled if a stop was requested.
   template <typename Key, typename Value, typename Work>
   Shared<Value> operator()(const char* stage, Kept<Key, Value>& kept, std::type_identity_t<Key> key,
                            const Work& work) {

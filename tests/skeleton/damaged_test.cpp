@@ -136,7 +136,7 @@ TEST(Damaged, NoiseAsThickAsTheLimbsLeavesTheCurveInside) {
     SCOPED_TRACE(seed);
     const Extraction found = extract(furry_star(0.01, seed), {}, {});
     EXPECT_GE(found.certificate.inside_fraction, 0.99999);
-    EXPECT_FALSE(found.faired_again);
+    EXPECT_FALSE(is_kept(found.history, try_faired));
     EXPECT_GE(found.certificate.tips, 5);
     expect_at_most(known, "noisy star " + std::to_string(seed), "tips", found.certificate.tips, 5);
   }
@@ -149,7 +149,7 @@ TEST(Damaged, NoiseThatTheCurveLeavesIsSmoothedAway) {
     const Surface star = furry_star(share, seed);
     const Extraction found = extract(star, {}, {});
     EXPECT_TRUE(found.certificate.inside_enough);
-    EXPECT_TRUE(found.faired_again);
+    EXPECT_TRUE(is_kept(found.history, try_faired));
     EXPECT_EQ(found.certificate.tips, 5);
     ExtractOptions as_it_is;
     as_it_is.fair_if_outside = false;

@@ -124,6 +124,33 @@ TEST(ExtractRepaired, WrapsWhatItCanWhereSomethingElseCannotBeHelped) {
   EXPECT_NE(notes.back().find("% of the length is inside"), std::string::npos) << notes.back();
 }
 
+// A wrap that fails was taken although nothing had become better.
+TEST(ExtractRepaired, LeavesTheSurfaceGivenWhereTheWrapFailsInTheEnd) {
+  const RepairedSurface repaired = as_given(ragged());
+  ExtractOptions options;
+  options.fair_if_outside = options.all_vertices_if_failed = false;
+  const Extraction alone = extract(repaired.surface, options, {});
+  ASSERT_FALSE(alone.certificate.holds());
+  RepairOptions one_gap;
+  one_gap.wrap_opening = 1.0 / 40;
+  ASSERT_TRUE(extract_repaired(repaired, one_gap, options, {}).wrapped);
+  // Once the wrap is judged by itself, more is asked for than any curve has.
+  bool wrapped = false;
+  Monitor monitor;
+  monitor.progress = [&](std::string_view stage, double) {
+    wrapped = wrapped || stage == "wrap";
+    if (wrapped && stage == "embed") options.certificate.inside_needed = 2;
+  };
+  const RepairedExtraction found = extract_repaired(repaired, one_gap, options, monitor);
+  EXPECT_EQ(options.certificate.inside_needed, 2);
+  EXPECT_FALSE(found.wrapped);
+  EXPECT_EQ(found.extraction.skeleton.nodes, alone.skeleton.nodes);
+  EXPECT_FALSE(holds(found));
+  EXPECT_TRUE(is_kept(found.extraction.history, try_as_asked));
+  EXPECT_FALSE(is_kept(found.extraction.history, try_wrapped));
+  EXPECT_EQ(found.extraction.times.back().stage, "wrap");
+}
+
 /// However many of their thicknesses they are wide.
 TEST(ExtractRepaired, SheetsHaveNoMoreNodesThanOthers) {
   for (const double thickness : {1e-3, 1e-4, 1e-5}) {

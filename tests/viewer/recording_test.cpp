@@ -191,6 +191,108 @@ TEST(Recording, CopiesShareTheirSurfaces) {
   EXPECT_EQ(recording.moments().size(), 2U);
 }
 
+// ---- Tries --------------------------------------------------------------------------------------
+
+Moment of_try(Moment moment, int number, int of_surface, const std::string& name) {
+  moment.try_number = number;
+  moment.of_surface = of_surface;
+  moment.try_name = name;
+  return moment;
+}
+
+Moment curve_moment() {
+  Moment moment = skeleton_moment();
+  moment.stage = "surgery";
+  return moment;
+}
+
+/// As asked, two components, the second of them cut twice; then faired, and this is kept.
+std::vector<Try> faired_history() {
+  const auto one = [](std::string_view name, int component, int part_of, Outcome outcome) {
+    Try made;
+    made.name = name;
+    made.component = component;
+    made.part_of = part_of;
+    made.outcome = outcome;
+    return made;
+  };
+  return {
+      one(try_as_asked, -1, -1, Outcome::not_better), one(try_as_asked, 0, 0, Outcome::not_better),
+      one(try_as_asked, 1, 0, Outcome::failed),       one(try_gentler, 1, 0, Outcome::not_better),
+      one(try_faired, -1, -1, Outcome::kept),         one(try_as_asked, 0, 4, Outcome::kept),
+      one(try_as_asked, 1, 4, Outcome::failed),       one(try_gentler, 1, 4, Outcome::kept)};
+}
+
+std::vector<Moment> faired_run() {
+  const std::string gentler = "gentler contraction";
+  return {of_try(surface_moment("contract", 0, 0, fan(1, 1)), 1, 0, "as asked"),
+          of_try(curve_moment(), 1, 0, "as asked"),
+          of_try(surface_moment("contract", 1, 0, fan(2, 2)), 2, 0, "as asked"),
+          of_try(surface_moment("contract", 1, 0, fan(3, 3)), 3, 0, gentler),
+          of_try(surface_moment("fair", 0, 1, fan(4, 4)), 4, 4, "faired"),
+          of_try(surface_moment("contract", 0, 0, fan(5, 5)), 5, 4, "faired"),
+          of_try(surface_moment("contract", 1, 0, fan(6, 6)), 6, 4, "faired"),
+          of_try(surface_moment("contract", 1, 0, fan(7, 7)), 7, 4, "faired, " + gentler),
+          skeleton_moment()};
+}
+
+// A second try's surfaces and curves lay on top of the first's.
+TEST(Tries, DoNotMix) {
+  Recording recording;
+  const std::vector<Moment> run = faired_run();
+  for (const Moment& moment : run) recording.add(moment);
+  ASSERT_EQ(recording.moments().size(), run.size() + 1);
+  EXPECT_EQ(drawn(recording.surface_at(1)), drawn(*run[0].surface));
+  EXPECT_EQ(recording.surface_at(4).triangles.size(), 1U + 3U);
+  EXPECT_NE(recording.skeleton_at(4), nullptr);
+  EXPECT_EQ(drawn(recording.surface_at(5)), drawn(*run[4].surface));
+  EXPECT_EQ(drawn(recording.faired_at(5)), drawn(*run[4].surface));
+  EXPECT_EQ(drawn(recording.surface_at(6)), drawn(*run[5].surface));
+  EXPECT_EQ(recording.skeleton_at(5), nullptr) << "of the try before";
+  EXPECT_EQ(recording.skeleton_at(6), nullptr) << "of the try before";
+  EXPECT_EQ(recording.skeleton_at(9), run[8].skeleton);
+}
+
+TEST(Tries, OnlyTheOneThatWasKeptIsShownUnlessAllAre) {
+  Recording recording;
+  const std::vector<Moment> run = faired_run();
+  for (const Moment& moment : run) recording.add(moment);
+  EXPECT_FALSE(recording.has_other_tries());
+  const std::size_t bytes = recording.bytes();
+  recording.settle(faired_history());
+  EXPECT_TRUE(recording.has_other_tries());
+  const auto titles = [&] {
+    std::vector<std::string> all;
+    for (const Moment& moment : recording.moments()) all.push_back(title_of(moment));
+    return all;
+  };
+  const std::vector<std::string> kept{"input", "fairing 1 (faired)", "contraction 0 (faired)",
+                                      "contraction 0 (faired, gentler contraction)", "skeleton"};
+  EXPECT_EQ(titles(), kept);
+  recording.show_all_tries(true);
+  EXPECT_EQ(recording.moments().size(), run.size() + 1);
+  EXPECT_EQ(recording.bytes(), bytes);
+  recording.show_all_tries(false);
+  EXPECT_EQ(titles(), kept);
+  recording.cut_from("skeleton");
+  EXPECT_EQ(recording.moments().size(), kept.size() - 1);
+  recording.show_all_tries(true);
+  EXPECT_EQ(recording.moments().size(), run.size());
+  recording.cut_from("fair");
+  EXPECT_EQ(recording.moments().size(), 1U);
+  EXPECT_EQ(recording.bytes(), 0U);
+  EXPECT_FALSE(recording.has_other_tries());
+}
+
+TEST(Tries, OfAnotherRunThatHaveTheSameNumberAreNotTaken) {
+  Recording recording;
+  for (const Moment& moment : faired_run()) recording.add(moment);
+  std::vector<Try> history = faired_history();
+  history[4].name = "all vertices";  // the new run has another try in its place
+  recording.settle(history);
+  EXPECT_EQ(recording.moments().size(), 2U) << "input and skeleton";
+}
+
 TEST(TitleOf, IsWhatTheCommandLineCallsIt) {
   EXPECT_EQ(title_of(surface_moment("contract", 0, 3, nullptr)), "contraction 3");
   EXPECT_EQ(title_of(surface_moment("fair", 0, 12, nullptr)), "fairing 12");

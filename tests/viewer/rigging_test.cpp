@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -108,6 +109,62 @@ TEST_F(Rigging, HangsFromTheRootThatWasSet) {
   make_rig();
   EXPECT_EQ(bench.scene->rig()->parents[0], -1);
   EXPECT_EQ(bench.scene->rig()->joints.row(0), place);
+}
+
+// It was dropped without a word whenever there were fewer nodes.
+TEST_F(Rigging, TheRootStaysWithItsNodeOrGoesToItsHeir) {
+  open_y();
+  const auto skeleton = bench.scene->skeleton();
+  const auto all = branches(*skeleton);
+  int at_tips = 0;
+  for (const Branch& branch : all) {
+    for (const int root : {0, static_cast<int>(skeleton->nodes.rows()) - 1, branch.nodes[1]}) {
+      SCOPED_TRACE("root " + std::to_string(root));
+      Pick picked;
+      picked.kind = Pick::Kind::node;
+      picked.index = root;
+      bench.select(picked, false);
+      bench.set_root();
+      picked.kind = Pick::Kind::edge;
+      picked.index = edge_between(*skeleton, branch.nodes[0], branch.nodes[1]);
+      bench.select(picked, false);
+      bench.prune();
+      const auto pruned = bench.scene->skeleton();
+      ASSERT_LT(pruned->nodes.rows(), skeleton->nodes.rows());
+      ASSERT_GE(bench.root(), 0);
+      const bool on_it =
+          std::find(branch.nodes.begin(), branch.nodes.end(), root) != branch.nodes.end();
+      const Eigen::RowVector3d place = pruned->nodes.row(bench.root());
+      if (place == skeleton->nodes.row(root)) {
+        EXPECT_EQ(last_said(), "pruned a branch");
+      } else {
+        EXPECT_TRUE(on_it);
+        const bool at_an_end = place == skeleton->nodes.row(branch.nodes.front()) ||
+                               place == skeleton->nodes.row(branch.nodes.back());
+        EXPECT_TRUE(at_an_end) << "the branch hangs there";
+        EXPECT_NE(last_said().find("the root is node " + std::to_string(bench.root())),
+                  std::string::npos)
+            << last_said();
+        ++at_tips;
+      }
+      bench.undo();
+      EXPECT_EQ(bench.root(), root);
+    }
+  }
+  EXPECT_GT(at_tips, 0);
+}
+
+TEST_F(Rigging, ANewSkeletonHasNoRootAndSaysSo) {
+  open_y();
+  Pick node;
+  node.kind = Pick::Kind::node;
+  node.index = 0;
+  bench.select(node, false);
+  bench.set_root();
+  bench.start(false);
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_EQ(bench.root(), -1);
+  EXPECT_NE(last_said().find("root"), std::string::npos) << last_said();
 }
 
 TEST_F(Rigging, FollowsItsParametersEvenWhileItIsMade) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <random>
@@ -146,6 +147,29 @@ TEST(Run, ShowsEachIterationOfEachComponentOnce) {
     EXPECT_EQ(moment.surface != nullptr, !curve);
     EXPECT_EQ(moment.skeleton != nullptr, curve);
   }
+}
+
+// The curve of a second try came on top of the first's.
+TEST(Run, ShowsEachTryByItself) {
+  RunOptions options;
+  options.extract.certificate.inside_needed = 2;  // more than any curve has: a second try
+  options.repair.wrap = Wrapping::never;
+  Watched watched(small_surface(), false, options);
+  ASSERT_TRUE(watched.wait_for(State::finished));
+  const std::vector<Try>& history = watched.result->extraction->history;
+  int curves = 0;
+  for (const Moment& moment : watched.moments) {
+    if (moment.stage == "skeleton") continue;
+    ASSERT_GE(moment.try_number, 0);
+    ASSERT_LT(moment.try_number, static_cast<int>(history.size()));
+    EXPECT_EQ(moment.try_name, full_name(history, moment.try_number));
+    EXPECT_EQ(history[static_cast<std::size_t>(moment.of_surface)].component, -1);
+    if (moment.stage != "surgery") continue;
+    ++curves;
+    const std::vector<int> piece = component_of_node(*moment.skeleton);
+    EXPECT_EQ(*std::max_element(piece.begin(), piece.end()), 0) << "one curve, not two";
+  }
+  EXPECT_EQ(curves, 2);
 }
 
 TEST(Pause, StopsAtAMoment) {

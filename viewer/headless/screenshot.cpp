@@ -41,6 +41,7 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
     for (Moment& moment : news.moments) scene.recording.add(std::move(moment));
     if (news.state == Run::State::failed) throw Error(news.fault, news.error);
     if (news.state == Run::State::finished) {
+      scene.recording.settle(news.result->extraction->history);
       if (options.stage.stage != "rig") return;
       add_rig(scene, *news.result->repaired, *news.result->skeleton, options, monitor);
       return;

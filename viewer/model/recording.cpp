@@ -46,36 +46,77 @@ int order_of(std::string_view stage) {
   return stage == "skeleton" ? 4 : 5;
 }
 
+void mark(Moment& moment, const ShownTry& made_in) {
+  moment.try_number = made_in.number;
+  moment.of_surface = made_in.of_surface;
+  moment.try_name = made_in.name;
+}
+
 }  // namespace
 
 std::string title_of(const Moment& moment) {
-  if (moment.stage != "fair" && moment.stage != "contract") return moment.stage;
+  const bool usual = moment.try_name.empty() || moment.try_name == try_as_asked;
+  const std::string of_try = usual ? "" : " (" + moment.try_name + ")";
+  if (moment.stage != "fair" && moment.stage != "contract") return moment.stage + of_try;
   const std::string name = moment.stage == "fair" ? "fairing" : "contraction";
-  return name + " " + std::to_string(moment.iteration);
+  return name + " " + std::to_string(moment.iteration) + of_try;
 }
 
 Recording::Recording() {
-  moments_.push_back({.stage = "input", .surface = {}, .skeleton = {}, .rig = {}});
+  Moment input;
+  input.stage = "input";
+  add(std::move(input));
 }
 
 void Recording::add(Moment moment) {
   bytes_ += bytes_of(moment);
-  moments_.push_back(std::move(moment));
+  moments_.push_back(moment);
+  all_.push_back({std::move(moment)});
+}
+
+void Recording::settle(const std::vector<Try>& history) {
+  const auto kept = [&](const Moment& moment) {
+    if (moment.try_number < 0) return true;
+    const auto number = static_cast<std::size_t>(moment.try_number);
+    return number < history.size() && history[number].outcome == Outcome::kept &&
+           full_name(history, moment.try_number) == moment.try_name;
+  };
+  for (Recorded& one : all_) one.aside = !kept(one.moment);
+  choose();
+}
+
+void Recording::show_all_tries(bool all) {
+  shows_all_tries_ = all;
+  choose();
+}
+
+void Recording::choose() {
+  moments_.clear();
+  has_other_tries_ = false;
+  for (const Recorded& one : all_) {
+    has_other_tries_ = has_other_tries_ || one.aside;
+    if (shows_all_tries_ || !one.aside) moments_.push_back(one.moment);
+  }
 }
 
 void Recording::cut_from(std::string_view stage) {
-  std::erase_if(moments_, [this, first = order_of(stage)](const Moment& moment) {
-    if (order_of(moment.stage) < first) return false;
-    bytes_ -= bytes_of(moment);
+  const int first = order_of(stage);
+  std::erase_if(moments_, [first](const Moment& one) { return order_of(one.stage) >= first; });
+  std::erase_if(all_, [this, first](const Recorded& one) {
+    if (order_of(one.moment.stage) < first) return false;
+    bytes_ -= bytes_of(one.moment);
     return true;
   });
+  has_other_tries_ =
+      std::any_of(all_.begin(), all_.end(), [](const Recorded& one) { return one.aside; });
 }
 
 ShownSurface Recording::surface_at(std::size_t index) const {
   if (index >= moments_.size() || order_of(moments_[index].stage) > order_of("surgery")) return {};
   std::map<int, const ShownSurface*> latest;
   for (std::size_t i = 0; i <= index; ++i) {
-    if (moments_[i].surface) latest[moments_[i].component] = moments_[i].surface.get();
+    if (!moments_[i].surface || moments_[i].of_surface != moments_[index].of_surface) continue;
+    latest[moments_[i].component] = moments_[i].surface.get();
   }
   return put_together(latest);
 }
@@ -84,7 +125,9 @@ ShownSurface Recording::faired_at(std::size_t index) const {
   std::map<int, const ShownSurface*> faired;
   for (std::size_t i = 0; i < moments_.size(); ++i) {
     const Moment& moment = moments_[i];
-    if (moment.stage != "fair" || !moment.surface) continue;
+    const bool other_try =
+        moment.of_surface != moments_[std::min(index, moments_.size() - 1)].of_surface;
+    if (moment.stage != "fair" || !moment.surface || other_try) continue;
     if (i <= index || !faired.contains(moment.component)) {
       faired[moment.component] = moment.surface.get();
     }
@@ -93,15 +136,21 @@ ShownSurface Recording::faired_at(std::size_t index) const {
 }
 
 std::shared_ptr<const ShownSurface> Recording::newest_surface(std::size_t index) const {
-  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
-    if (moments_[i].surface) return moments_[i].surface;
+  const std::size_t end = std::min(index + 1, moments_.size());
+  for (std::size_t i = end; i-- > 0;) {
+    const bool same_try = moments_[i].of_surface == moments_[end - 1].of_surface;
+    if (moments_[i].surface && same_try) return moments_[i].surface;
   }
   return nullptr;
 }
 
 std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) const {
-  for (std::size_t i = std::min(index + 1, moments_.size()); i-- > 0;) {
-    if (moments_[i].skeleton) return moments_[i].skeleton;
+  const std::size_t end = std::min(index + 1, moments_.size());
+  for (std::size_t i = end; i-- > 0;) {
+    const int of = moments_[end - 1].of_surface;
+    if (moments_[i].skeleton && (of < 0 || moments_[i].of_surface == of)) {
+      return moments_[i].skeleton;
+    }
   }
   return nullptr;
 }
@@ -111,6 +160,7 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   Moment moment;
   moment.stage = frame.stage;
   moment.component = frame.component;
+  mark(moment, frame.made_in);
   moment.iteration = frame.iteration;
   moment.area_ratio = frame.area_ratio;
   moment.volume_ratio = frame.volume_ratio;
@@ -139,6 +189,7 @@ Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before, double se
   Moment moment;
   moment.stage = curve.stage;
   moment.component = curve.component;
+  mark(moment, curve.made_in);
   moment.seconds = seconds;
   moment.skeleton = std::make_shared<const CurveSkeleton>(std::move(whole));
   return moment;

@@ -9,6 +9,7 @@
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/rig.hpp>
+#include <curveskel/tries.hpp>
 #include "viewer/render/shapes_shown.hpp"
 
 namespace curveskel::viewer {
@@ -18,6 +19,9 @@ struct Moment {
   std::string stage;  ///< "input", "fair", "contract", "surgery", "skeleton", "rig"
   int component = 0;
   int iteration = 0;
+  int try_number = -1;                          ///< in the history of the run; -1 = of none
+  int of_surface = -1;                          ///< see ShownTry
+  std::string try_name;                         ///< the same
   double area_ratio = 1;                        ///< of the component's area when the stage began
   double volume_ratio = 1;                      ///< the same of its volume
   double residual = 0;                          ///< of the solve; 0 where nothing was solved
@@ -27,7 +31,7 @@ struct Moment {
   std::shared_ptr<const Rig> rig;                 ///< by the file's vertices; null but for "rig"
 };
 
-/// "contraction 3", "input": a name for people.
+/// "contraction 3 (faired)", "input": what a person calls it.
 [[nodiscard]] std::string title_of(const Moment& moment);
 
 /// A value; copies share the surfaces.
@@ -35,25 +39,44 @@ class Recording {
  public:
   /// Only the input.
   Recording();
+  /// It is among the moments, whatever try it is of, until `settle`.
   void add(Moment moment);
+  /// The run has come to its end with this history: the moments are those of the tries that were
+  /// kept. The others are set aside.
+  void settle(const std::vector<Try>& history);
+  /// Brings those that were set aside back among the moments, or takes them away again.
+  void show_all_tries(bool all);
+  [[nodiscard]] bool shows_all_tries() const { return shows_all_tries_; }
+  [[nodiscard]] bool has_other_tries() const { return has_other_tries_; }
   /// Forgets the moments of `stage` and of those that come after it, of all components.
   void cut_from(std::string_view stage);
   [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
-  /// The components' surfaces as they were at moment `index`, put together; empty where none has
-  /// changed yet or the skeleton is there. O(vertices shown + moments).
+  /// The components' surfaces as they were at moment `index` in the try that it is of, put
+  /// together; empty where none has changed yet or the skeleton is there. O(vertices shown +
+  /// moments).
   [[nodiscard]] ShownSurface surface_at(std::size_t index) const;
-  /// The components' surfaces as fairing had left them at moment `index`; those that it came to
-  /// later as it found them. O(vertices shown + moments).
+  /// The components' surfaces as fairing had left them at moment `index` in the try that it is of;
+  /// those that it came to later as it found them. O(vertices shown + moments).
   [[nodiscard]] ShownSurface faired_at(std::size_t index) const;
-  /// That of the last moment up to `index` that has one, or null.
+  /// That of the last moment up to `index` in its try that has one, or null.
   [[nodiscard]] std::shared_ptr<const ShownSurface> newest_surface(std::size_t index) const;
-  /// The latest skeleton up to moment `index`, or null.
+  /// The latest skeleton up to moment `index`, of no other try than that, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
 
  private:
-  std::vector<Moment> moments_;
+  /// One moment, and if it is of a try that was not kept.
+  struct Recorded {
+    Moment moment;
+    bool aside = false;
+  };
+  void choose();
+
+  std::vector<Recorded> all_;
+  std::vector<Moment> moments_;  // those of `all_` that are shown
+  bool shows_all_tries_ = false;
+  bool has_other_tries_ = false;
   std::size_t bytes_ = 0;
 };
 
@@ -61,7 +84,7 @@ class Recording {
 /// form it takes over where the triangles are the same.
 [[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
                                const ShownSurface* before = nullptr);
-/// The component's curve beside those of `before`, the last surgery's moment or null.
+/// The component's curve beside those of `before`, the last surgery's of the same surface, or null.
 [[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,
                                double seconds);
 

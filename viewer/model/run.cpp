@@ -128,8 +128,10 @@ void Run::work(const std::stop_token& stop) {
     show(std::move(moment), stop);
   };
   monitor.curve = [&](const CurveFrame& curve) {
-    Moment moment = moment_of(curve, operated_.get(), seconds());
+    const bool same_try = curve.made_in.of_surface == operated_in_;
+    Moment moment = moment_of(curve, same_try ? operated_.get() : nullptr, seconds());
     operated_ = moment.skeleton;
+    operated_in_ = moment.of_surface;
     show(std::move(moment), stop);
   };
   const auto end = [this](State state, const std::string& why, Fault fault = Fault::solver) {

@@ -87,6 +87,7 @@ class Run {
   const Eigen::RowVector3d origin_;
   const std::shared_ptr<RunMemory> memory_;
   std::shared_ptr<const CurveSkeleton> operated_;  // of the pipeline's thread alone
+  int operated_in_ = -1;                           // ShownTry::of_surface of that
   std::shared_ptr<const ShownSurface> shown_;      // of that, too
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 

@@ -38,6 +38,26 @@ constexpr Plot plots[] = {
     {"residual", &Moment::residual, IM_COL32(165, 110, 225, 255)},
 };
 
+void draw_title(const Scene& scene, bool roomy) {
+  const Moment& shown = scene.recording.moments()[scene.moment];
+  std::string title = fmt::format("{}   {} of {}", title_of(shown), scene.moment,
+                                  scene.recording.moments().size() - 1);
+  if (roomy && shown.surface) {
+    title += fmt::format("   area {:.3g}   volume {:.3g}   residual {:.2g}", shown.area_ratio,
+                         shown.volume_ratio, shown.residual);
+  }
+  ImGui::TextUnformatted(title.c_str());
+}
+
+/// Only where there are tries that were not kept.
+void draw_choice_of_tries(Workbench& bench) {
+  const Recording& recording = bench.scene->recording;
+  if (!recording.has_other_tries() || bench.running()) return;
+  ImGui::SameLine(0, 30);
+  bool all = recording.shows_all_tries();
+  if (ImGui::Checkbox("all tries", &all)) bench.show_all_tries(all);
+}
+
 }  // namespace
 
 void draw_timeline(Workbench& bench, const Area& area) {
@@ -48,20 +68,13 @@ void draw_timeline(Workbench& bench, const Area& area) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
-  const auto& moments = bench.scene->recording.moments();
-  const Moment& shown = moments[bench.scene->moment];
-  std::string title =
-      fmt::format("{}   {} of {}", title_of(shown), bench.scene->moment, moments.size() - 1);
-  const bool roomy = area.width > ImGui::GetFontSize() * 44;
-  if (roomy && shown.surface) {
-    title += fmt::format("   area {:.3g}   volume {:.3g}   residual {:.2g}", shown.area_ratio,
-                         shown.volume_ratio, shown.residual);
-  }
-  ImGui::TextUnformatted(title.c_str());
+  draw_title(*bench.scene, area.width > ImGui::GetFontSize() * 44);
   for (const Plot& plot : plots) {
     ImGui::SameLine(0, plot.value == &Moment::area_ratio ? 30.0F : 12.0F);
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
   }
+  draw_choice_of_tries(bench);
+  const auto& moments = bench.scene->recording.moments();
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x,
                     std::max(ImGui::GetContentRegionAvail().y, 10.0F));
@@ -84,7 +97,8 @@ void draw_timeline(Workbench& bench, const Area& area) {
   for (const Plot& plot : plots) {
     for (std::size_t i = 1; i < moments.size(); ++i) {
       const bool both = moments[i - 1].surface && moments[i].surface &&
-                        moments[i].component == moments[i - 1].component;
+                        moments[i].component == moments[i - 1].component &&
+                        moments[i].try_number == moments[i - 1].try_number;
       if (!both) continue;
       const auto y_of = [&](std::size_t k) {
         return low.y + size.y * (1 - height_of(moments[k].*plot.value));

@@ -85,6 +85,8 @@ class Workbench {
   [[nodiscard]] bool running() const { return run_ != nullptr; }
   [[nodiscard]] const Run::News& news() const { return news_; }
   void go_to(std::size_t moment);
+  /// The timeline has the moments of all tries of the run, or of those that were kept.
+  void show_all_tries(bool all);
 
   // Selection: nodes in the order in which they were picked, or one edge; and a joint of the rig.
   void select(const Pick& picked, bool more);

@@ -27,6 +27,34 @@ std::vector<int> edges_along(const CurveSkeleton& skeleton, const std::vector<in
   return edges;
 }
 
+using Change = std::function<CurveSkeleton(const CurveSkeleton&)>;
+
+/// The corrected skeleton, with the root where its node went: a correction hands the vertices of a
+/// node on to its heir, and the root goes along as one more vertex.
+Edited changed_with_root(const Edited& before, const Change& change) {
+  if (before.root < 0) {
+    return {std::make_shared<const CurveSkeleton>(change(*before.skeleton)), -1};
+  }
+  CurveSkeleton marked = *before.skeleton;
+  const Eigen::Index vertices = marked.node_of_vertex.size();
+  marked.node_of_vertex.conservativeResize(vertices + 1);
+  marked.node_of_vertex[vertices] = before.root;
+  CurveSkeleton changed = change(marked);
+  const int root = changed.node_of_vertex[vertices];
+  changed.node_of_vertex.conservativeResize(vertices);
+  return {std::make_shared<const CurveSkeleton>(std::move(changed)), root};
+}
+
+/// A word for the person if the root is another node now, and not just another number.
+std::string about_root(const Edited& before, const Edited& after) {
+  if (before.root < 0) return {};
+  if (after.root < 0) return "; the root went with its node, set another one (T)";
+  const bool same_place =
+      before.skeleton->nodes.row(before.root) == after.skeleton->nodes.row(after.root);
+  if (same_place) return {};
+  return "; the root is node " + std::to_string(after.root) + " now";
+}
+
 }  // namespace
 
 void Workbench::begin_history(std::shared_ptr<const CurveSkeleton> skeleton) {
@@ -177,15 +205,14 @@ void Workbench::edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& c
     return;
   }
   try {
-    Edited next = history_.now();
-    const Eigen::Index nodes = next.skeleton->nodes.rows();
-    next.skeleton = std::make_shared<const CurveSkeleton>(change(*next.skeleton));
-    if (next.skeleton->nodes.rows() < nodes) next.root = -1;  // nodes have moved up
-    history_.add(std::move(next));
+    const Edited before = history_.now();
+    const Edited next = changed_with_root(before, change);
+    const bool fewer = next.skeleton->nodes.rows() < before.skeleton->nodes.rows();
+    history_.add(next);
     drop_rig();
     scene->moment = scene->recording.moments().size() - 1;
     show_state();
-    say(what);
+    say(what + (fewer ? about_root(before, next) : std::string()));
   } catch (const std::exception& error) {
     say(error.what(), true);
   }

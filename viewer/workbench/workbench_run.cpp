@@ -97,6 +97,11 @@ void Workbench::go_to(std::size_t moment) {
   show_state();
 }
 
+void Workbench::show_all_tries(bool all) {
+  scene->recording.show_all_tries(all);
+  go_to(scene->recording.moments().size() - 1);
+}
+
 void Workbench::take_moments(std::vector<Moment> moments) {
   for (Moment& moment : moments) {
     if (first_moment_) {
@@ -114,7 +119,12 @@ void Workbench::take_result(RunResult result) {
   say("extracted in " + std::to_string(result.seconds).substr(0, 4) + " s");
   for (const std::string& line : result.repaired->repairs.lines) say("repaired: " + line);
   for (const std::string& note : result.notes) say(note);
+  scene->recording.settle(result.extraction->history);
+  scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
+  if (follow_) scene->moment = scene->recording.moments().size() - 1;
+  const bool had_root = root() >= 0;
   begin_history(result.skeleton);
+  if (had_root) say("the root was a node of the skeleton before; set it again (T)");
   result_ = std::move(result);
 }
 

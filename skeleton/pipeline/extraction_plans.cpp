@@ -1,0 +1,150 @@
+#include "skeleton/pipeline/extraction_plans.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace curveskel {
+namespace {
+
+using SoFar = Plan<Extracted>::SoFar;
+using Room = Plan<Extracted>::Room;
+
+/// Gives another try what neither fairing nor the resolution touches.
+void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
+  to.parts = from.parts;
+  to.tree = from.tree;
+  to.components.resize(from.components.size());
+  for (std::size_t c = 0; c < from.components.size(); ++c) {
+    to.components[c].canonical = from.components[c].canonical;
+    to.components[c].tree = from.components[c].tree;
+  }
+}
+
+bool was_coarsened(const Extraction& extraction) {
+  return std::any_of(
+      extraction.components.begin(), extraction.components.end(),
+      [](const ComponentRecord& one) { return one.working_vertices < one.vertices; });
+}
+
+/// A wrap is only made of what fails, and comes to nothing unless it holds there.
+bool takes(const Extracted& other, const Extracted* best) {
+  if (best == nullptr) return true;
+  const Certificate& a = other.found.extraction.certificate;
+  const Certificate& b = best->found.extraction.certificate;
+  if (other.found.wrapped) {
+    return std::pair(a.topology_correct(), a.inside_enough) >=
+           std::pair(b.topology_correct(), b.inside_enough);
+  }
+  return std::pair(a.topology_correct(), a.inside_fraction) >
+         std::pair(b.topology_correct(), b.inside_fraction);
+}
+
+/// Of all tries that led to something, whatever was kept.
+struct Spent {
+  std::vector<StageTime> times;
+  std::vector<std::string> reused;
+
+  void add(const Extraction& one) {
+    times.insert(times.end(), one.times.begin(), one.times.end());
+    reused.insert(reused.end(), one.reused.begin(), one.reused.end());
+  }
+};
+
+Plan<Extracted> as_asked(const Surface& surface, const ExtractOptions& options,
+                         ExtractionCache::Implementation* kept) {
+  return {try_as_asked, [](const SoFar&) { return std::string(); },
+          [&surface, &options, kept](const Room& room) {
+            SurfaceStages* const stages = kept != nullptr ? &kept->as_asked : nullptr;
+            return Extracted{
+                {extract_once(surface, options, room.monitor, stages, room.log, room.number), {}},
+                {}};
+          }};
+}
+
+/// What is as thin as the coarsened triangles are long has other handles there.
+Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
+                                  ExtractionCache::Implementation* kept) {
+  const auto why = [&surface, &options](const SoFar& so_far) -> std::optional<std::string> {
+    constexpr Eigen::Index most = 50000;
+    if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
+    const Extraction& found = so_far.best->found.extraction;
+    const bool helps = !found.certificate.topology_correct() && was_coarsened(found) &&
+                       surface.positions.rows() <= most;
+    if (!helps) return std::nullopt;
+    return failures(found.certificate, options.certificate);
+  };
+  const auto make = [&surface, &options, kept](const Room& room) {
+    ExtractOptions finest = options;
+    finest.resolution = 0;
+    if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
+    SurfaceStages* const stages = kept != nullptr ? &kept->all_vertices : nullptr;
+    return Extracted{
+        {extract_once(surface, finest, room.monitor, stages, room.log, room.number), {}},
+        "the certificate failed, so the skeleton was extracted again from all vertices"};
+  };
+  return {try_all_vertices, why, make};
+}
+
+/// Noise as thick as the limbs turns them inside out here and there; without it the curve has a way
+/// through.
+Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
+                       ExtractionCache::Implementation* kept) {
+  const auto why = [&options](const SoFar& so_far) -> std::optional<std::string> {
+    if (!so_far.best || options.fairing || !options.fair_if_outside) return std::nullopt;
+    const Certificate& found = so_far.best->found.extraction.certificate;
+    if (found.inside_enough) return std::nullopt;
+    return failures(found, options.certificate);
+  };
+  const auto make = [&surface, &options, kept](const Room& room) {
+    ExtractOptions gentler = options;
+    gentler.fairing = true;
+    gentler.fair.iterations = 30;
+    if (kept != nullptr) share_beginning(kept->as_asked, kept->faired);
+    SurfaceStages* const stages = kept != nullptr ? &kept->faired : nullptr;
+    return Extracted{
+        {extract_once(surface, gentler, room.monitor, stages, room.log, room.number), {}},
+        "the curve left the surface, so it was extracted again from the faired surface (30 "
+        "iterations)"};
+  };
+  return {try_faired, why, make};
+}
+
+}  // namespace
+
+std::vector<Plan<Extracted>> extraction_plans(const Surface& surface, const ExtractOptions& options,
+                                              ExtractionCache::Implementation* kept) {
+  return {as_asked(surface, options, kept), from_all_vertices(surface, options, kept),
+          faired(surface, options, kept)};
+}
+
+RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
+                                   const Monitor& monitor) {
+  Spent spent;
+  std::vector<Plan<Extracted>> counted = plans;
+  for (Plan<Extracted>& plan : counted) {
+    plan.make = [&spent, make = plan.make](const Room& room) {
+      Extracted made = make(room);
+      spent.add(made.found.extraction);
+      return made;
+    };
+  }
+  TryLog log;
+  Extracted best = best_of(carry_out(
+      counted, {}, takes,
+      [](const Extracted& one) { return in_brief(one.found.extraction.certificate); }, monitor,
+      log));
+  for (const Try& one : log.tries) {
+    if (one.part_of >= 0 || one.outcome != Outcome::failed) continue;
+    spent.times.push_back({one.name == try_wrapped ? "wrap" : "second try", one.seconds});
+  }
+  Extraction& result = best.found.extraction;
+  result.reused =
+      best.found.wrapped ? std::vector<std::string>() : only_reused(spent.reused, spent.times);
+  result.times = std::move(spent.times);
+  result.history = std::move(log.tries);
+  if (!best.note.empty()) monitor.say(best.note);
+  return std::move(best.found);
+}
+
+}  // namespace curveskel

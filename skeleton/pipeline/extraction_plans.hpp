@@ -1,0 +1,41 @@
+// The plans for an extraction of a whole surface: the first is what was asked for, each other one
+// is for certificates that fail.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <curveskel/extract_repaired.hpp>
+#include "skeleton/pipeline/stages.hpp"
+#include "skeleton/pipeline/try_loop.hpp"
+
+namespace curveskel {
+
+/// What one try of a whole surface ends in.
+struct Extracted {
+  RepairedExtraction found;
+  std::string note;  ///< for the user, if it is the result
+};
+
+/// As asked, from all vertices, and faired, see ExtractOptions. All refer to what is given; `kept`
+/// may be null.
+[[nodiscard]] std::vector<Plan<Extracted>> extraction_plans(const Surface& surface,
+                                                            const ExtractOptions& options,
+                                                            ExtractionCache::Implementation* kept);
+
+/// The best of what the plans lead to, with the history, and the times of all. Says what was done.
+/// Throws what the last plan threw if none led to anything.
+[[nodiscard]] RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
+                                                 const Monitor& monitor);
+
+/// One extraction, as the options say, without another try of the whole; without history. The
+/// tries within it are part of try `part_of`.
+[[nodiscard]] Extraction extract_once(const Surface& surface, const ExtractOptions& options,
+                                      const Monitor& monitor, SurfaceStages* kept, TryLog& log,
+                                      int part_of);
+
+/// Of the stages in `taken` those that never ran, in order, each once.
+[[nodiscard]] std::vector<std::string> only_reused(const std::vector<std::string>& taken,
+                                                   const std::vector<StageTime>& ran);
+
+}  // namespace curveskel
