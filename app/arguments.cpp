@@ -33,6 +33,27 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
   });
 }
 
+void add_preset(CLI::App& parser, Preset& preset, RepairOptions& repair, ExtractOptions& options) {
+  const auto set = [&preset, &repair, &options](const std::string& name) {
+    const auto found = choice_of(presets, name);
+    if (!found) throw CLI::ValidationError("--preset", name + " is none of: " + names_in(presets));
+    preset = *found;
+    use_preset(preset, repair, options);
+  };
+  parser
+      .add_option_function<std::string>("--preset", set,
+                                        "options that belong together; others override it")
+      ->type_name("NAME")
+      ->default_str(std::string(name_of(presets, preset)));
+}
+
+void add_surgery(CLI::App& parser, ExtractOptions& options) {
+  add_choice(parser, "--surgery", options.surgery.method, surgery_methods,
+             "how the contracted surface becomes a graph");
+  add_choice(parser, "--embed", options.embed.method, embed_methods,
+             "where the graph's nodes go then");
+}
+
 void add_time_limit(CLI::App& parser, double& seconds) {
   add_number(parser, "--time-limit", seconds, 0.0, 1e9,
              "seconds, then it ends with exit 5 and writes nothing more; 0 = none");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <curveskel/advanced/names.hpp>
+#include <curveskel/preset.hpp>
 #include <curveskel/repair.hpp>
 
 namespace curveskel {
@@ -57,6 +58,14 @@ CLI::Option* add_number(CLI::App& parser, const std::string& flag, Number& value
 
 /// --components, --min-size, --wrap and --wrap-opening.
 void add_repair(CLI::App& parser, RepairOptions& options);
+
+/// --preset, which sets `repair` and `options` before any other option does, wherever it stands on
+/// the command line. To be added before the others: options take effect in the order of their
+/// adding.
+void add_preset(CLI::App& parser, Preset& preset, RepairOptions& repair, ExtractOptions& options);
+
+/// --surgery and --embed.
+void add_surgery(CLI::App& parser, ExtractOptions& options);
 
 /// --time-limit, in seconds; 0 = none.
 void add_time_limit(CLI::App& parser, double& seconds);

@@ -101,26 +101,29 @@ Json to_json(const FairOptions& o) {
 }
 
 Json to_json(const ExtractOptions& o) {
-  return {
-      {"resolution", o.resolution},
-      {"least_resolution", o.least_resolution},
-      {"fair_if_outside", o.fair_if_outside},
-      {"fair", o.fairing ? to_json(o.fair) : Json(nullptr)},
-      {"contraction", to_json(o.contraction)},
-      {"surgery",
-       {{"shape_weight", o.surgery.shape_weight}, {"sampling_weight", o.surgery.sampling_weight}}},
-      {"embed",
-       {{"detail", o.embed.detail},
-        {"merge", o.embed.merge},
-        {"straight", o.embed.straight},
-        {"straight_at_last", o.embed.straight_at_last},
-        {"first_rounds", o.embed.first_rounds},
-        {"relax_rounds", o.embed.relax_rounds},
-        {"smooth_rounds", o.embed.smooth_rounds},
-        {"keep_radius", o.embed.keep_radius},
-        {"tip_reach", o.embed.tip_reach},
-        {"tip_gap", o.embed.tip_gap}}},
-      {"certificate", to_json(o.certificate)}};
+  return {{"resolution", o.resolution},
+          {"least_resolution", o.least_resolution},
+          {"fair_if_outside", o.fair_if_outside},
+          {"all_vertices_if_failed", o.all_vertices_if_failed},
+          {"fair", o.fairing ? to_json(o.fair) : Json(nullptr)},
+          {"contraction", to_json(o.contraction)},
+          {"surgery",
+           {{"method", name_of(surgery_methods, o.surgery.method)},
+            {"shape_weight", o.surgery.shape_weight},
+            {"sampling_weight", o.surgery.sampling_weight}}},
+          {"embed",
+           {{"method", name_of(embed_methods, o.embed.method)},
+            {"detail", o.embed.detail},
+            {"merge", o.embed.merge},
+            {"straight", o.embed.straight},
+            {"straight_at_last", o.embed.straight_at_last},
+            {"first_rounds", o.embed.first_rounds},
+            {"relax_rounds", o.embed.relax_rounds},
+            {"smooth_rounds", o.embed.smooth_rounds},
+            {"keep_radius", o.embed.keep_radius},
+            {"tip_reach", o.embed.tip_reach},
+            {"tip_gap", o.embed.tip_gap}}},
+          {"certificate", to_json(o.certificate)}};
 }
 
 Json to_json(const ComponentRecord& c, bool with_times) {
@@ -176,7 +179,8 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
   }
   Json history = Json::array();
   for (const Try& one : record.extraction.history) history.push_back(to_json(one, with_times));
-  Json parameters = {{"repair", to_json(record.repair_options)}};
+  Json parameters = {{"preset", name_of(presets, record.preset)},
+                     {"repair", to_json(record.repair_options)}};
   parameters.update(to_json(record.options));
   return {{"program", program_and_version()},
           {"input",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <curveskel/extract.hpp>
+#include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 
@@ -21,6 +22,7 @@ struct ExtractionRecord {
   const ExtractOptions& options;
   const Extraction& extraction;
   const std::vector<std::string>& notes;  ///< notes of the stages on the way
+  Preset preset = Preset::standard;       ///< that the options started from
 };
 
 /// Values that depend on the run and not on input and options.

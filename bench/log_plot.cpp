@@ -59,12 +59,21 @@ std::string grid(const Axis& x, const Axis& y) {
 }
 
 std::string curve(const Series& series, const Axis& x, const Axis& y, std::size_t index) {
-  const char* const colour = colours[index % colours.size()];
-  const char* const dash = index < colours.size() ? "none" : "5 3";
+  const std::size_t of = series.beside < 0 ? index : static_cast<std::size_t>(series.beside);
+  const char* const colour = colours[of % colours.size()];
+  const bool first_round = of < colours.size();
+  const char* const dash =
+      series.other ? (first_round ? "1 3" : "5 3 1 3") : (first_round ? "none" : "5 3");
   std::string points;
   std::string marks;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     points += fmt::format("{:.1f},{:.1f} ", x.at(series.x[i]), y.at(series.y[i]));
+    if (series.other) {
+      marks +=
+          fmt::format("<rect x='{:.1f}' y='{:.1f}' width='8' height='8' stroke='{}' fill='#fff'/>",
+                      x.at(series.x[i]) - 4, y.at(series.y[i]) - 4, colour);
+      continue;
+    }
     marks += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' stroke='{}' fill='{}'/>",
                          x.at(series.x[i]), y.at(series.y[i]), colour,
                          series.predicted[i] ? "#fff" : colour);
@@ -97,17 +106,20 @@ std::string log_log_plot(const std::string& title, const std::string& x_name,
   x.widen();
   y.widen();
   std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='720' height='480' font-family='sans-serif' "
-      "font-size='12'>\n<rect width='720' height='480' fill='#fff'/>\n"
+      "<svg xmlns='http://www.w3.org/2000/svg' width='760' height='480' font-family='sans-serif' "
+      "font-size='12'>\n<rect width='760' height='480' fill='#fff'/>\n"
       "<text x='{}' y='22' font-size='15'>{}</text>\n",
       left, title);
   svg += grid(x, y);
   for (std::size_t i = 0; i < series.size(); ++i) svg += curve(series[i], x, y, i);
+  const bool others =
+      std::any_of(series.begin(), series.end(), [](const Series& s) { return s.other; });
   svg += fmt::format(
       "<text x='{}' y='{}' text-anchor='middle'>{}</text>\n"
       "<text transform='translate(20 {}) rotate(-90)' text-anchor='middle'>{}</text>\n"
-      "<text x='{}' y='{}' fill='#666'>hollow: predicted</text>\n</svg>\n",
-      (left + right) / 2, bottom + 40, x_name, (top + bottom) / 2, y_name, right + 15, bottom);
+      "<text x='{}' y='{}' fill='#666'>hollow{}: predicted</text>\n</svg>\n",
+      (left + right) / 2, bottom + 40, x_name, (top + bottom) / 2, y_name, right + 15, bottom,
+      others ? " circle" : "");
   return svg;
 }
 

@@ -22,6 +22,7 @@ for file in "${files[@]}"; do
     *) paths+=("$(find "$meshes" -name "$file" -not -path '*/defects/*')") ;;
   esac
 done
+"$build/bin/surgeries" "${paths[@]}" >"$work/surgeries.md"
 "$build/bin/stability" "${paths[@]}" >"$work/stability.md"
 "$build/bin/stability" --cgal "${paths[@]}" >"$work/stability-cgal.md"
 
@@ -52,6 +53,12 @@ PYTHON
   cat "$work/summary.md"
   echo
   cat "$work/table.md"
+  printf '\n## Two surgeries\n'
+  cat <<'TEXT'
+The same contraction of each surface, handed to the surgery of this program and to CGAL's (`--surgery cgal`), with the embedding and without (`--embed none`); no second tries, no wraps. *Cut*: 1st = the first contraction did, 2nd = a gentler one, bands = neither, so that the surface was cut into bands; CGAL alone has one contraction and no bands. Components and cycles: of the skeleton / of the surface. Seconds of the extraction without reading and repair. Without the embedding the curve is where the contracted vertices are: nothing keeps it inside, and spurs stay.
+
+TEXT
+  cat "$work/surgeries.md"
   printf '\n## Small changes\n'
   cat <<'TEXT'
 Tips and junctions after a small change of the surface, and the Hausdorff distance of the skeletons over *D*. What comes and goes is mostly one short, blunt branch whose slenderness lies near the limit, or a branch that the surgery did not make; or two junctions become one.

@@ -1,5 +1,6 @@
 // The paper's table and figure: global and local methods on closed surfaces of 648, 1416, 5664 and
-// 14952 vertices; preprocessing, iteration and overall times (3 global or 30 local iterations).
+// 14952 vertices; preprocessing, iteration and overall times (3 global or 30 local iterations),
+// beside the paper's own.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -18,15 +19,14 @@
 #include <curveskel/advanced/least_squares.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/fair.hpp>
-#include "bench/log_plot.hpp"
 #include "bench/paper_flow.hpp"
+#include "bench/table1_pages.hpp"
 
 namespace curveskel::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<int, 4> sizes{648, 1416, 5664, 14952};
 constexpr int global_iterations = 3;
 constexpr int local_iterations = 30;
 constexpr double paper_weight = 1e3;  // W_L of the first iteration / sqrt(mean face area)
@@ -34,15 +34,6 @@ constexpr double paper_weight = 1e3;  // W_L of the first iteration / sqrt(mean 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-struct Cell {
-  double preprocessing = 0;  // seconds
-  double iteration = 0;
-  double overall = 0;
-  double residual = 0;  // the largest; global only
-  bool predicted = false;
-  std::string failure;  // empty = none
-};
 
 struct Method {
   std::string name;
@@ -140,13 +131,13 @@ std::vector<Method> methods() {
   return all;
 }
 
-/// The row of one method; a cell that would take longer than `most_seconds` is predicted.
-std::vector<Cell> run_row(const Method& method, double most_seconds) {
+/// The cells of one method; what would take longer than `most_seconds` is predicted.
+std::vector<Cell> run_cells(const Method& method, double most_seconds) {
   std::vector<Cell> row;
-  for (const int size : sizes) {
+  for (const int size : table_sizes) {
     if (!row.empty() && row.back().failure.empty()) {
       const double growth =
-          std::pow(static_cast<double>(size) / sizes[row.size() - 1], method.order);
+          std::pow(static_cast<double>(size) / table_sizes[row.size() - 1], method.order);
       if (row.back().overall * growth > most_seconds) {
         Cell guess = row.back();
         guess.preprocessing *= growth;
@@ -171,98 +162,52 @@ std::vector<Cell> run_row(const Method& method, double most_seconds) {
   return row;
 }
 
-std::string cell_words(const Cell& cell, double value) {
-  if (!cell.failure.empty()) return "no";
-  return cell.predicted ? fmt::format("*{:.3g}*", value) : fmt::format("{:.3g}", value);
-}
-
-std::string markdown(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows) {
-  std::string text =
-      "Seconds: preprocessing / one iteration / overall. *Slanted*: predicted from the size "
-      "before, "
-      "not run. no: refused or failed, see below.\n\n| method | in the paper |";
-  for (const int size : sizes) text += fmt::format(" {} |", size);
-  text += "\n|---|---|---|---|---|---|\n";
-  std::string reasons;
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    text += fmt::format("| `{}` | {} |", all[m].name, all[m].paper);
-    for (const Cell& cell : rows[m]) {
-      text += cell.failure.empty()
-                  ? fmt::format(" {} / {} / {} |", cell_words(cell, cell.preprocessing),
-                                cell_words(cell, cell.iteration), cell_words(cell, cell.overall))
-                  : " no |";
-    }
-    text += "\n";
-    const auto failed = std::find_if(rows[m].begin(), rows[m].end(),
-                                     [](const Cell& c) { return !c.failure.empty(); });
-    if (failed != rows[m].end()) reasons += fmt::format("- {}\n", failed->failure);
+std::vector<Row> run_rows(const std::vector<std::string>& only, double most_seconds) {
+  std::vector<Row> rows;
+  for (const Method& method : methods()) {
+    if (!only.empty() && std::ranges::count(only, method.name) == 0) continue;
+    rows.push_back({method.name, method.paper, run_cells(method, most_seconds)});
   }
-  return text + "\n" + reasons;
-}
-
-std::string csv(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows) {
-  std::string text =
-      "method,paper,vertices,preprocessing_s,iteration_s,overall_s,residual,predicted,failure\n";
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      const Cell& c = rows[m][i];
-      text += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{},\"{}\"\n", all[m].name,
-                          all[m].paper, sizes[i], c.preprocessing, c.iteration, c.overall,
-                          c.residual, c.predicted ? 1 : 0, c.failure);
-    }
-  }
-  return text;
-}
-
-std::string plot(const std::vector<Method>& all, const std::vector<std::vector<Cell>>& rows,
-                 const std::string& title, double Cell::*value) {
-  std::vector<Series> series;
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    Series s;
-    s.name = all[m].name;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      if (!rows[m][i].failure.empty() || !(rows[m][i].*value > 0)) continue;
-      s.x.push_back(sizes[i]);
-      s.y.push_back(rows[m][i].*value);
-      s.predicted.push_back(rows[m][i].predicted);
-    }
-    if (!s.x.empty()) series.push_back(std::move(s));
-  }
-  return log_log_plot(title, "vertices", "seconds", series);
+  return rows;
 }
 
 int run(int argc, char** argv) {
   CLI::App app("The paper's methods and those beyond them on surfaces of the paper's sizes");
   double most_seconds = 60;
   fs::path folder = "table1";
+  fs::path from;
+  fs::path paper_file = CURVESKEL_PAPER_TABLE;
   std::vector<std::string> only;
   app.add_option("--cell-seconds", most_seconds, "a cell that would take longer is predicted")
       ->capture_default_str();
   app.add_option("-o,--output", folder, "folder for table1.csv, table1.md and the plots")
       ->capture_default_str();
   app.add_option("--only", only, "these rows, by their names (\"cg\", \"fair opencl\")");
+  app.add_option("--from", from, "cells of an earlier table1.csv: nothing is run");
+  app.add_option("--paper", paper_file, "the paper's own figures")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::vector<Method> all = methods();
-  if (!only.empty()) {
-    std::erase_if(all,
-                  [&](const Method& method) { return std::ranges::count(only, method.name) == 0; });
-  }
-  std::vector<std::vector<Cell>> rows;
-  rows.reserve(all.size());
-  for (const Method& method : all) rows.push_back(run_row(method, most_seconds));
+  const std::vector<Row> paper = read_paper_rows(paper_file);
+  const std::vector<Row> rows = from.empty() ? run_rows(only, most_seconds) : read_rows(from);
   fs::create_directories(folder);
-  std::ofstream(folder / "table1.csv") << csv(all, rows);
-  std::ofstream(folder / "table1.md") << markdown(all, rows);
+  std::ofstream(folder / "table1.csv") << csv(rows, paper);
+  std::ofstream(folder / "table1.md") << markdown(rows, paper);
   std::ofstream(folder / "preprocessing.svg")
-      << plot(all, rows, "Preprocessing", &Cell::preprocessing);
-  std::ofstream(folder / "iteration.svg") << plot(all, rows, "One iteration", &Cell::iteration);
+      << plot(rows, paper, "Preprocessing", &Cell::preprocessing);
+  std::ofstream(folder / "iteration.svg") << plot(rows, paper, "One iteration", &Cell::iteration);
   std::ofstream(folder / "overall.svg")
-      << plot(all, rows, "Overall: 3 global or 30 local iterations", &Cell::overall);
-  std::cout << markdown(all, rows);
+      << plot(rows, paper, "Overall: 3 global or 30 local iterations", &Cell::overall);
+  std::cout << markdown(rows, paper);
   return 0;
 }
 
 }  // namespace
 }  // namespace curveskel::bench
 
-int main(int argc, char** argv) { return curveskel::bench::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return curveskel::bench::run(argc, argv);
+  } catch (const curveskel::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}

@@ -38,6 +38,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/extract.hpp
   include/curveskel/extract_repaired.hpp
   include/curveskel/findings.hpp
+  include/curveskel/preset.hpp
   include/curveskel/skeleton_files.hpp
   include/curveskel/tries.hpp
   include/curveskel/view.hpp

@@ -25,6 +25,12 @@ if [ -e "$armadillo" ]; then
   "$program" view ../shared/meshes/rigs/makehuman-body-13k-quads.obj --screenshot "$work/other.png" \
     --size 640x560 --stage rig 2>/dev/null
   convert "$work"/{all,other}.png +append docs/pictures/rig.png
+  # The default beside the paper's chain.
+  for preset in default paper; do
+    "$program" view "$armadillo" --preset "$preset" --screenshot "$work/$preset.png" \
+      --size 640x560 2>/dev/null
+  done
+  convert "$work"/{default,paper}.png +append docs/pictures/paper-preset.png
 fi
 
 # A rig, where the collection of meshes is: the weights of all joints, and those of one.

@@ -30,6 +30,7 @@
 #include <curveskel/findings.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/monitor.hpp>
+#include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/preset.hpp>
 #include "viewer/model/run.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/look.hpp"
@@ -35,6 +36,7 @@ struct ViewOptions {
   std::string joint;        ///< of a rig: its name; empty = none
   std::string frame_times;  ///< CSV of the window's frame times, written at the end; empty = none
   Look look;
+  Preset preset = Preset::standard;
   RunOptions pipeline;
 };
 

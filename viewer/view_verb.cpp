@@ -120,6 +120,9 @@ Verb add_view(CLI::App& program) {
   const auto options = std::make_shared<ViewOptions>();
   CLI::App* parser =
       program.add_subcommand("view", "Watch a surface become its skeleton, or look at one");
+  ExtractOptions& extract_options = options->pipeline.extract;
+  extract_options.fair.iterations = 0;
+  add_preset(*parser, options->preset, options->pipeline.repair, extract_options);
   parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each; a rig (glTF)")
       ->type_name("");
   parser->add_option("--screenshot", options->screenshot, "write a picture and open no window")
@@ -151,8 +154,7 @@ Verb add_view(CLI::App& program) {
       ->add_option("--frame-times", options->frame_times,
                    "milliseconds of each picture in the window, written when it is closed")
       ->type_name("FILE.csv");
-  ExtractOptions& extract_options = options->pipeline.extract;
-  extract_options.fair.iterations = 0;
+  add_surgery(*parser, extract_options);
   extract_options.contraction.program_cache = kernel_cache();
   extract_options.fair.program_cache = kernel_cache();
   add_number(*parser, "--detail", extract_options.embed.detail, 0.0, 1.0,
@@ -162,8 +164,10 @@ Verb add_view(CLI::App& program) {
   add_number(*parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");
   add_repair(*parser, options->pipeline.repair);
   add_time_limit(*parser, options->time_limit_seconds);
-  parser->footer(meanings("Surface", surface_styles) + meanings("Skeleton", skeleton_styles) +
-                 meanings("Colours", colourings) + meanings("Views", sides));
+  parser->footer(meanings("Presets", presets) + meanings("Surgeries", surgery_methods) +
+                 meanings("Embeddings", embed_methods) + meanings("Surface", surface_styles) +
+                 meanings("Skeleton", skeleton_styles) + meanings("Colours", colourings) +
+                 meanings("Views", sides));
   return {parser, [options](Session& session) { return run_view(*options, session); }};
 }
 

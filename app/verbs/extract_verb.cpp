@@ -30,7 +30,7 @@ struct ExtractArguments {
   bool quiet = false;
   bool strict = false;
   double time_limit_seconds = 0;
-  int fair_iterations = 0;
+  Preset preset = Preset::standard;
   RepairOptions repair;
   ExtractOptions options;
 };
@@ -82,6 +82,8 @@ std::string summary(const ExtractArguments& arguments, const ExtractionRecord& r
                   count_of(surface.positions.rows(), "vertex", "vertices"),
                   count_of(surface.triangles.rows(), "triangle"),
                   count_of(certificate.components_of_surface, "component"), certificate.genus);
+  if (record.preset != Preset::standard)
+    text += fmt::format("  preset: {}\n", name_of(presets, record.preset));
   for (const std::string& line : record.repaired.changes.lines)
     text += fmt::format("  changed: {}\n", line);
   for (const std::string& line : record.repaired.repairs.lines)
@@ -145,8 +147,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   check_outputs(names, arguments.mesh);
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
   if (to_output) session.terminal.keep_output_clean();
-  arguments.options.fairing = arguments.fair_iterations > 0;
-  arguments.options.fair.iterations = arguments.fair_iterations;
+  arguments.options.fairing = arguments.options.fair.iterations > 0;
   arguments.options.fair.threads = arguments.options.threads;
   arguments.options.certificate.threads = arguments.options.threads;
 
@@ -171,7 +172,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   CurveSkeleton skeleton = extraction.skeleton;
   skeleton.node_of_vertex = node_of_file_vertex(repaired, extraction.skeleton);
   const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
-                                extraction, notes};
+                                extraction, notes,    arguments.preset};
   auto files = timed(times, "write",
                      [&] { return format_outputs(arguments, formats, record, skeleton, session); });
   if (!arguments.report.empty()) {
@@ -205,6 +206,8 @@ Verb add_extract(CLI::App& program) {
   CLI::App* parser =
       program.add_subcommand("extract", "Extract the curve skeleton of a surface file");
   ExtractOptions& options = arguments->options;
+  options.fair.iterations = 0;
+  add_preset(*parser, arguments->preset, arguments->repair, options);
   parser
       ->add_option("MESH", arguments->mesh,
                    "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
@@ -254,10 +257,11 @@ Verb add_extract(CLI::App& program) {
                       options.least_resolution))
       ->type_name("N|full")
       ->default_str(std::to_string(options.resolution));
+  add_surgery(*parser, options);
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
              "0..1: how small a branch may be and stay");
   add_number(
-      *parser, "--fair", arguments->fair_iterations, 0, 1000000,
+      *parser, "--fair", options.fair.iterations, 0, 1000000,
       "iterations of fairing before the contraction, for noisy surfaces: about ten times the "
       "noise in % of the diagonal");
   add_number(*parser, "--threads", options.threads, 0, 4096,
@@ -267,8 +271,9 @@ Verb add_extract(CLI::App& program) {
   parser->add_flag("--strict", arguments->strict,
                    "a skeleton that leaves the surface is an error, too (exit 5), not a warning");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  parser->footer(meanings("Flows", flows) + meanings("Solvers", solvers) +
-                 meanings("Formats", skeleton_formats));
+  parser->footer(meanings("Presets", presets) + meanings("Flows", flows) +
+                 meanings("Solvers", solvers) + meanings("Surgeries", surgery_methods) +
+                 meanings("Embeddings", embed_methods) + meanings("Formats", skeleton_formats));
   return {parser, [arguments](Session& session) { return run_extract(*arguments, session); }};
 }
 

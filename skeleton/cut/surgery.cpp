@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <curveskel/advanced/surface_partition.hpp>
+#include "skeleton/cut/cgal_surgery.hpp"
+#include "skeleton/cut/level_set_graph.hpp"
 
 namespace curveskel {
 namespace {
@@ -136,10 +138,30 @@ class Surgeon {
   std::priority_queue<Candidate> heap_;
 };
 
+bool any_triangle_in_three(const Surface& surface, const Eigen::VectorXi& group) {
+  const auto in_three = [&](const auto& t) {
+    return group[t(0)] != group[t(1)] && group[t(1)] != group[t(2)] && group[t(2)] != group[t(0)];
+  };
+  const auto triangles = surface.triangles.rowwise();
+  return std::any_of(triangles.begin(), triangles.end(), in_three);
+}
+
+/// Nothing where pieces do not meet along cut curves only, or one has a handle of its own.
+std::optional<PartitionGraph> graph_by_cgal(const Surface& surface,
+                                            const Contraction& contraction) {
+  const Eigen::VectorXi group = cgal_surgery(contraction).node_of_vertex;
+  if (any_triangle_in_three(surface, group)) return std::nullopt;
+  PartitionGraph graph = partition_graph(surface, group);
+  const std::vector<int> genus = genus_of_groups(surface, graph);
+  if (std::any_of(genus.begin(), genus.end(), [](int g) { return g != 0; })) return std::nullopt;
+  return graph;
+}
+
 }  // namespace
 
 std::optional<PartitionGraph> surgery(const Surface& surface, const Contraction& contraction,
                                       const SurgeryOptions& options, const Monitor& monitor) {
+  if (options.method == SurgeryMethod::cgal) return graph_by_cgal(surface, contraction);
   Surgeon surgeon(contraction.surface, options);
   surgeon.run(monitor);
   if (surgeon.groups().triples() > 0) return std::nullopt;

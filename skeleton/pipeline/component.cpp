@@ -62,6 +62,17 @@ class Pipeline {
     const Shared<Surface> source = source_surface();
     const Shared<Coarsened> working = working_surface(source);
     record.working_vertices = static_cast<int>(working->surface.positions.rows());
+    if (options_.embed.method == EmbedMethod::none) {
+      using Made = Shared<CurveSkeleton>;
+      const std::vector<Plan<Made>> only{
+          {try_as_asked, [](const Plan<Made>::SoFar&) { return std::string(); },
+           [&](const Plan<Made>::Room& room) {
+             return as_contracted(*source, working, record, room.monitor);
+           }}};
+      return best_of(carry_out(
+          only, of, [](const Made&, const Made*) { return true; },
+          [](const Made&) { return std::nullopt; }, monitor_, log));
+    }
     const Shared<WorkingBalls> balls = balls_in(*source, working);
     const Cut cut = best_of(carry_out(
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
@@ -184,6 +195,36 @@ class Pipeline {
             {bands, &bands->vertex_of_input}};
   }
 
+  /// Without embedding: one contraction, and balls only where its flow is drawn to them.
+  Shared<CurveSkeleton> as_contracted(const Surface& source, const Shared<Coarsened>& working,
+                                      ComponentRecord& record, const Monitor& monitor) {
+    const Shared<WorkingBalls> balls =
+        options_.contraction.flow == Flow::medial ? balls_in(source, working) : nullptr;
+    StagesAsContracted& kept = kept_.as_contracted;
+    const Shared<Contraction> contracted = stage_(
+        "contract", kept.contraction, {working, balls, what_counts(options_.contraction)}, [&] {
+          return contract(working->surface, balls ? balls->targets : Positions(0, 3),
+                          options_.contraction, monitor);
+        });
+    const Shared<SkeletonAsContracted> operated =
+        stage_("surgery", kept.operated, {contracted, options_.surgery}, [&] {
+          auto made =
+              skeleton_as_contracted(working->surface, *contracted, options_.surgery, monitor);
+          if (monitor.curve) {
+            monitor.curve({"surgery", 0, made.skeleton.nodes, made.skeleton.edges});
+          }
+          return made;
+        });
+    record.steps = contracted->steps;
+    record.stop = contracted->stop;
+    if (operated->bands) monitor.say("the surgery gave up, so level sets cut the surface");
+    return stage_("embed", kept.skeleton, {operated}, [&] {
+      CurveSkeleton skeleton = operated->skeleton;
+      skeleton.radii = inscribed_radii(skeleton.nodes, *fine_.get());
+      return on_model(std::move(skeleton), working->vertex_of_input);
+    });
+  }
+
   /// The graph of a surface whose vertices are there. Precondition: someone watches.
   static void show_curve(const PartitionGraph& graph, const Positions& vertices,
                          const Monitor& monitor) {
@@ -198,12 +239,18 @@ class Pipeline {
       CurveSkeleton skeleton = embed(
           surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
           options_.embed, options_.threads, monitor_, &steps);
-      skeleton.nodes = canonical_->to_model(skeleton.nodes);
-      skeleton.radii *= canonical_->scale;
-      const Eigen::VectorXi node_of_canonical = skeleton.node_of_vertex(vertex_of_canonical);
-      skeleton.node_of_vertex = node_of_canonical(canonical_->vertex_of_input);
-      return skeleton;
+      return on_model(std::move(skeleton), vertex_of_canonical);
     });
+  }
+
+  /// From the canonical frame to the model's, its vertex map from the component's vertices.
+  [[nodiscard]] CurveSkeleton on_model(CurveSkeleton skeleton,
+                                       const Eigen::VectorXi& vertex_of_canonical) const {
+    skeleton.nodes = canonical_->to_model(skeleton.nodes);
+    skeleton.radii *= canonical_->scale;
+    const Eigen::VectorXi node_of_canonical = skeleton.node_of_vertex(vertex_of_canonical);
+    skeleton.node_of_vertex = node_of_canonical(canonical_->vertex_of_input);
+    return skeleton;
   }
 
   Shared<Canonical> canonical_;

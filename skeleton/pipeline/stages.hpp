@@ -16,6 +16,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/topology.hpp>
+#include "skeleton/cut/as_contracted.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
 #include "skeleton/pipeline/stage_clock.hpp"
 #include "surface/resample/canonical.hpp"
@@ -76,6 +77,14 @@ struct ContractionAttempt {
   Kept<std::tuple<Shared<Contraction>, SurgeryOptions>, std::optional<PartitionGraph>> graph;
 };
 
+/// Without embedding. The balls are null where the flow needs none.
+struct StagesAsContracted {
+  Kept<std::tuple<Shared<Coarsened>, Shared<WorkingBalls>, ContractionOptions>, Contraction>
+      contraction;
+  Kept<std::tuple<Shared<Contraction>, SurgeryOptions>, SkeletonAsContracted> operated;
+  Kept<std::tuple<Shared<SkeletonAsContracted>>, CurveSkeleton> skeleton;
+};
+
 /// Of one component, in its canonical frame but for the skeleton, which is in the model's.
 struct ComponentStages {
   Kept<std::monostate, Canonical> canonical;
@@ -86,6 +95,7 @@ struct ComponentStages {
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, Bands> bands;
   Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions>, CurveSkeleton> skeleton;
+  StagesAsContracted as_contracted;
 };
 
 struct Parts {

@@ -47,6 +47,19 @@ class ViewTest(CommandLineTest):
         self.assertGreater(numpy.abs(first - second).max(), 20)
 
 
+class Options(ViewTest):
+    def test_preset_surgery_and_embedding_change_the_curve(self):
+        usual = self.picture(Y)
+        for options in (("--preset", "paper"), ("--surgery", "cgal", "--embed", "none")):
+            self.assert_differ(usual, self.picture(Y, *options))
+        overridden = self.picture(Y, "--embed", "own", "--preset", "default")
+        numpy.testing.assert_array_equal(usual, overridden)
+
+    def test_unknown_presets_are_refused(self):
+        self.refused(USAGE, "view", Y, "--screenshot", "x.png", "--preset", "nonsense",
+                     says=["default", "paper"], cwd=self.folder)
+
+
 class Screenshot(ViewTest):
     def test_of_a_surface_a_skeleton_or_both(self):
         skeleton = self.skeleton()

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include <curveskel/advanced/inscribed_balls.hpp>
+#include <curveskel/advanced/names.hpp>
 #include <curveskel/advanced/step_clock.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
@@ -13,7 +14,15 @@
 
 namespace curveskel {
 
+enum class EmbedMethod { own, none };
+
+inline constexpr NameTable<EmbedMethod, 2> embed_methods{{
+    {EmbedMethod::own, "own", "central, inside and smooth, without spurs"},
+    {EmbedMethod::none, "none", "nodes stay where contraction and surgery leave them"},
+}};
+
 struct EmbedOptions {
+  EmbedMethod method = EmbedMethod::own;  ///< none: `extract` leaves all below aside
   double detail = 0.5;    ///< 0..1: how blunt a branch may be and stay; 1 keeps nearly all
   double merge = 1;       ///< junctions nearer than this x the inscribed radius become one
   double straight = 0.5;  ///< of a junction's inscribed radius: branches run straight within it

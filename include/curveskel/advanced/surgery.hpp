@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <curveskel/advanced/names.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/contract.hpp>
 #include <curveskel/monitor.hpp>
@@ -10,9 +11,17 @@
 
 namespace curveskel {
 
+enum class SurgeryMethod { own, cgal };
+
+inline constexpr NameTable<SurgeryMethod, 2> surgery_methods{{
+    {SurgeryMethod::own, "own", "in the order of Au et al.'s costs; every handle is kept"},
+    {SurgeryMethod::cgal, "cgal", "CGAL's: the shortest edge first; handles may be lost"},
+}};
+
 struct SurgeryOptions {
-  double shape_weight = 1;       ///< Au et al. 2008, w_a
-  double sampling_weight = 0.1;  ///< Au et al. 2008, w_b
+  SurgeryMethod method = SurgeryMethod::own;
+  double shape_weight = 1;       ///< own: Au et al. 2008, w_a
+  double sampling_weight = 0.1;  ///< own: Au et al. 2008, w_b
 
   [[nodiscard]] bool operator==(const SurgeryOptions&) const = default;
 };
@@ -21,7 +30,8 @@ struct SurgeryOptions {
 /// et al.'s shape and sampling costs, until no triangle has three groups; never makes a group of
 /// genus > 0. One node per group and one per cut curve along which two groups meet, so the cycle
 /// rank is the surface's genus. Empty when the collapses end in triangles that no merge may remove;
-/// then contract more gently, or see reeb_groups.
+/// then contract more gently, or see level_set_graph. With SurgeryMethod::cgal the groups are those
+/// of cgal_surgery; empty when one of them has a handle of its own.
 [[nodiscard]] std::optional<PartitionGraph> surgery(const Surface& surface,
                                                     const Contraction& contraction,
                                                     const SurgeryOptions& options,
