@@ -1,8 +1,8 @@
 // The whole library in one include: a triangle surface in, its curve skeleton out.
 //
 //   using namespace curveskel;
-//   const RepairedSurface repaired = repair(read_polygons("model.obj", {}), {}, {});
-//   const RepairedExtraction found = extract_repaired(repaired, {}, ExtractOptions{}, Monitor{});
+//   const RepairedSurface repaired = repair(read_polygons("model.obj"));
+//   const RepairedExtraction found = extract_repaired(repaired);
 //   found.extraction.skeleton.nodes;   // #N by 3
 #pragma once
 
@@ -42,3 +42,4 @@
 #include <curveskel/view.hpp>
 #include <curveskel/write_file.hpp>
 #include <curveskel/write_surface.hpp>
+#include "surface/mesh/closed_manifold.hpp"

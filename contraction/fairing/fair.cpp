@@ -5,8 +5,10 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/restore_volume.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -63,11 +65,23 @@ FairMethod choose_fair_method(FairMethod wanted) {
   return wanted == FairMethod::automatic ? FairMethod::host : wanted;
 }
 
+void require_valid(const FairOptions& options) {
+  constexpr OptionRange rings{1, 1e6};
+  constexpr OptionRange smoothing{0, 1e6};
+  const OptionCheck check("FairOptions");
+  check.choice("method", options.method, fair_methods);
+  check.number("iterations", options.iterations, iteration_range);
+  check.number("rings", options.rings, rings);
+  check.choice("local_solver", options.local_solver, local_solvers);
+  check.number("smoothing", options.smoothing, smoothing);
+  check.choice("volume", options.volume, volume_rules);
+  check.number("threads", options.threads, thread_range);
+}
+
 Surface fair(const Surface& surface, const FairOptions& options, const Monitor& monitor) {
-  if (options.rings < 1) {
-    throw Error(Fault::input, "patches of " + std::to_string(options.rings) +
-                                  " rings were asked for; 1 or more are needed");
-  }
+  require_valid(options);
+  if (surface.triangles.rows() == 0) return surface;
+  require_sound(surface, "fair");
   monitor.report("fair", 0);
   const FrameSequence frames(surface, monitor);
   const double diagonal = bounding_box_diagonal(surface.positions);

@@ -12,8 +12,10 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "contraction/flow/contracting_surface.hpp"
 #include "contraction/flow/flow_system.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -94,16 +96,15 @@ bool go_towards(ContractingSurface& surface, const Positions& target, Extent& no
 }
 
 void check(const Surface& surface, const Positions& centres, const ContractionOptions& options) {
-  if (surface.triangles.rows() == 0) {
-    throw Error(Fault::input, "a surface without faces cannot be contracted");
-  }
+  require_valid(options);
+  require_closed_manifold(surface, "contract", options.threads);
   if (options.flow == Flow::medial && centres.rows() != surface.positions.rows()) {
     throw Error(Fault::input, "the medial flow needs one ball centre per vertex: found " +
                                   std::to_string(centres.rows()) + " for " +
                                   std::to_string(surface.positions.rows()) + " vertices");
   }
-  if (!surface.positions.allFinite() || !centres.allFinite()) {
-    throw Error(Fault::input, "positions and ball centres must be finite to be contracted");
+  if (!centres.allFinite()) {
+    throw Error(Fault::input, "contract: a ball centre is no finite number, needed finite ones");
   }
 }
 
@@ -132,6 +133,26 @@ std::optional<Stop> reason_to_stop(const Step& step, const ContractionOptions& o
 }
 
 }  // namespace
+
+void require_valid(const ContractionOptions& options) {
+  constexpr OptionRange weight{0, 1e6, true};
+  constexpr OptionRange growth{0, 1e3, true};
+  constexpr OptionRange edge_lengths{0, 1e3};
+  const OptionCheck check("ContractionOptions");
+  check.choice("flow", options.flow, flows);
+  check.choice("solver", options.solver, solvers);
+  check.number("max_iterations", options.max_iterations, iteration_range);
+  check.number("contraction_weight", options.contraction_weight, weight);
+  check.number("contraction_growth", options.contraction_growth, growth);
+  check.number("medial_weight", options.medial_weight, weight);
+  check.number("paper_weight", options.paper_weight, weight);
+  check.number("attraction_weight", options.attraction_weight, weight);
+  check.number("collapse_length", options.collapse_length, edge_lengths);
+  check.number("stop_volume_ratio", options.stop_volume_ratio, share_range);
+  check.number("stop_area_ratio", options.stop_area_ratio, share_range);
+  check.number("small_area_ratio", options.small_area_ratio, share_range);
+  check.number("threads", options.threads, thread_range);
+}
 
 Contraction contract(const Surface& surface, const Positions& centres,
                      const ContractionOptions& options, const Monitor& monitor) {

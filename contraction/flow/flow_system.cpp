@@ -34,6 +34,7 @@ SolverOptions solver_options(const ContractionOptions& options) {
   SolverOptions result;
   result.solver = options.solver;
   result.program_cache = options.program_cache;
+  result.threads = options.threads;
   return result;
 }
 

@@ -6,10 +6,12 @@
 
 #include "contraction/laplacian/assemble.hpp"
 #include "contraction/laplacian/intrinsic_delaunay.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 
 SparseMatrix cotangent_laplacian(const Surface& surface) {
+  require_sound(surface, "cotangent_laplacian");
   std::vector<WeightedEdge> edges;
   edges.reserve(surface.triangles.size());
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
@@ -31,6 +33,7 @@ SparseMatrix cotangent_laplacian(const Surface& surface) {
 
 SparseMatrix intrinsic_delaunay_laplacian(const Surface& surface, double mollify,
                                           double max_weight) {
+  require_sound(surface, "intrinsic_delaunay_laplacian");
   const int vertices = static_cast<int>(surface.positions.rows());
   IntrinsicDelaunay triangulation;
   SparseMatrix laplacian;
@@ -41,6 +44,7 @@ SparseMatrix intrinsic_delaunay_laplacian(const Surface& surface, double mollify
 }
 
 Eigen::VectorXd vertex_areas(const Surface& surface) {
+  require_sound(surface, "vertex_areas");
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.positions.rows());
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
     const auto corner = surface.triangles.row(f);

@@ -3,8 +3,19 @@
 
 namespace curveskel {
 
-/// Sets OpenBLAS to one thread, for good, so that every run rounds homologous; the fronts of these
-/// factorisations are too small for more. Does nothing with another BLAS.
-void use_one_blas_thread();
+/// While one lives, OpenBLAS runs on one thread, so that every run rounds homologous; the fronts of
+/// our factorisations are too small for more. The number belongs to the whole process, in which
+/// others may use the same BLAS: it is set for a factorisation or a solve only, and when the last
+/// guard of several threads goes it is what the first one found. Does nothing with another BLAS.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int found_ = 0;  // 0 = there is nothing to set back
+};
 
 }  // namespace curveskel

@@ -66,7 +66,6 @@ struct CholeskyFactor::Workspace::Implementation {
 
 struct CholeskyFactor::Implementation {
   Implementation() {
-    use_one_blas_thread();
     cholmod_start(&common);
     common.print = 0;
     common.nmethods = 1;
@@ -115,6 +114,7 @@ CholeskyFactor::CholeskyFactor() : implementation_(std::make_unique<Implementati
 CholeskyFactor::~CholeskyFactor() = default;
 
 void CholeskyFactor::factorize(const SparseMatrix& h) {
+  const OneBlasThread one_thread;
   Implementation& own = *implementation_;
   cholmod_sparse lower = lower_triangle(h);
   if (!own.same_pattern(h)) {
@@ -133,6 +133,7 @@ void CholeskyFactor::factorize(const SparseMatrix& h) {
 
 Eigen::Map<const Eigen::MatrixXd> CholeskyFactor::solve(const Eigen::MatrixXd& r,
                                                         Workspace& workspace) const {
+  const OneBlasThread one_thread;
   Workspace::Implementation& own = *workspace.implementation_;
   cholmod_dense b{};
   b.nrow = static_cast<std::size_t>(r.rows());

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "contraction/solvers/least_squares_backend.hpp"
 
 namespace curveskel {
@@ -82,6 +83,15 @@ Solver choose_solver(Solver wanted, int /*unknowns*/, const Device* /*device*/) 
   return wanted == Solver::automatic ? Solver::cholesky : wanted;
 }
 
+void require_valid(const SolverOptions& options) {
+  constexpr OptionRange tolerance{0, 1, true};
+  const OptionCheck check("SolverOptions");
+  check.choice("solver", options.solver, solvers);
+  check.number("tolerance", options.tolerance, tolerance);
+  check.number("most_iterations", options.most_iterations, {});
+  check.number("threads", options.threads, thread_range);
+}
+
 struct LeastSquares::Implementation {
   SolverOptions options;
   Solver used = Solver::automatic;
@@ -104,6 +114,7 @@ LeastSquares::LeastSquares(Solver solver) : implementation_(std::make_unique<Imp
 }
 LeastSquares::LeastSquares(const SolverOptions& options)
     : implementation_(std::make_unique<Implementation>()) {
+  require_valid(options);
   implementation_->options = options;
   implementation_->used = options.solver;
 }

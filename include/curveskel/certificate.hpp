@@ -20,6 +20,10 @@ struct CertificateOptions {
   [[nodiscard]] bool operator==(const CertificateOptions&) const = default;
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const CertificateOptions& options);
+
 /// D = the surface's bounding-box diagonal. docs/method.md has the definitions.
 struct Certificate {
   int components = 0;
@@ -54,7 +58,8 @@ struct Certificate {
 /// the tree and a few microseconds per sample and ray.
 /// Throws Error(Fault::input) if a node's position is no finite number.
 [[nodiscard]] Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
-                                   const CertificateOptions& options, const Monitor& monitor);
+                                   const CertificateOptions& options = {},
+                                   const Monitor& monitor = {});
 
 /// The conditions that fail, in one line; empty if none.
 [[nodiscard]] std::string failures(const Certificate& certificate,

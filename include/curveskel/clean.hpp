@@ -50,6 +50,7 @@ struct CleanSurface {
 /// Throws Error(Fault::input) if the result is no closed orientable 2-manifold; the message names
 /// the first offending edge by its vertices (0-based, as in the file). `threads` as everywhere: 0 =
 /// one per core, the result does not depend on it.
-[[nodiscard]] CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads = 0);
+[[nodiscard]] CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor = {},
+                                 int threads = 0);
 
 }  // namespace curveskel

@@ -43,9 +43,14 @@ struct ContractionOptions {
   double stop_volume_ratio = 1e-7;  ///< of the initial volume; counts once the area is small, too
   double stop_area_ratio = 1e-3;    ///< of the initial area
   double small_area_ratio = 1e-2;   ///< a flat sheet has no volume: above this it contracts on
+  int threads = 0;                  ///< see SolverOptions
 
   [[nodiscard]] bool operator==(const ContractionOptions&) const = default;
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const ContractionOptions& options);
 
 struct Step {
   double area_ratio = 1;    ///< area / initial area after the step
@@ -70,6 +75,7 @@ struct Contraction {
 /// A frame for the start and for each of `steps`.
 /// The connectivity shrinks by edge collapses under the link condition: the topology is kept.
 [[nodiscard]] Contraction contract(const Surface& surface, const Positions& centres,
-                                   const ContractionOptions& options, const Monitor& monitor);
+                                   const ContractionOptions& options = {},
+                                   const Monitor& monitor = {});
 
 }  // namespace curveskel

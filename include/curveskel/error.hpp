@@ -8,7 +8,7 @@
 namespace curveskel {
 
 enum class Fault {
-  usage,   ///< an option or an argument: no other try mends it
+  usage,   ///< an option or an argument out of its range: no other try mends it
   input,   ///< the file or the surface in it
   device,  ///< the OpenCL device, its driver or a kernel
   solver,  ///< a linear solver, or a certificate that failed

@@ -24,7 +24,7 @@ struct RepairedEvaluation {
 [[nodiscard]] RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
                                                    const RepairOptions& as_repaired,
                                                    const CurveSkeleton& skeleton,
-                                                   const CertificateOptions& options,
-                                                   const Monitor& monitor);
+                                                   const CertificateOptions& options = {},
+                                                   const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -26,7 +26,9 @@ struct ExtractOptions {
   /// sure of fewer, 200,000 over their number, but none is coarsened to fewer than 200 or left at
   /// fewer than 100.
   int least_resolution = 1500;
-  int threads = 0;       ///< 0 = one per core; the result does not depend on it
+  /// 0 = one per core; the result does not depend on it. Counts for every stage, whatever `threads`
+  /// of the stage's own options says.
+  int threads = 0;
   bool fairing = false;  ///< clean the input by `fair` first
   /// Vertices round each hole that was closed (RepairedSurface::openings): where a tip faces one,
   /// the curve goes on to it, see `reach_rims`.
@@ -43,6 +45,10 @@ struct ExtractOptions {
   EmbedOptions embed;
   CertificateOptions certificate;
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const ExtractOptions& options);
 
 struct StageTime {
   std::string stage;
@@ -78,8 +84,8 @@ struct Extraction {
 /// which may differ from the surface by `canonical_step` / 2 of D per coordinate; that of several
 /// against the surface itself. Throws Error(Fault::solver) when a component cannot be contracted,
 /// Cancelled on a stop.
-[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options,
-                                 const Monitor& monitor);
+[[nodiscard]] Extraction extract(const Surface& surface, const ExtractOptions& options = {},
+                                 const Monitor& monitor = {});
 
 /// The same result, byte for byte (but for the seconds that steps took), in less time: stages whose
 /// input and options are those of the last run that reached them are taken from `cache`. `threads`

@@ -25,9 +25,9 @@ struct RepairedExtraction {
 /// says what was done.
 /// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
 [[nodiscard]] RepairedExtraction extract_repaired(const RepairedSurface& repaired,
-                                                  const RepairOptions& as_repaired,
-                                                  const ExtractOptions& options,
-                                                  const Monitor& monitor);
+                                                  const RepairOptions& as_repaired = {},
+                                                  const ExtractOptions& options = {},
+                                                  const Monitor& monitor = {});
 
 /// The same, with the stages of the surface given taken from `cache`; what is wrapped is wrapped
 /// and extracted again each time.

@@ -53,6 +53,10 @@ struct FairOptions {
   [[nodiscard]] bool operator==(const FairOptions&) const = default;
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const FairOptions& options);
+
 /// The meaning of `auto`: always `host`, so that the result for a file does not depend on
 /// the drivers of the machine. Pure.
 [[nodiscard]] FairMethod choose_fair_method(FairMethod wanted);
@@ -74,8 +78,9 @@ struct FairOptions {
 /// for frames nothing is spent on them.
 /// Throws Error(Fault::device) when OpenCL was asked for and no device can do it or hold the
 /// patches, Error(Fault::solver) when a component was smoothed until it has no volume left to
-/// restore, Error(Fault::input) for rings < 1.
-[[nodiscard]] Surface fair(const Surface& surface, const FairOptions& options,
-                           const Monitor& monitor);
+/// restore, Error(Fault::input) for corners that are no vertices and
+/// coordinates that are no finite numbers.
+[[nodiscard]] Surface fair(const Surface& surface, const FairOptions& options = {},
+                           const Monitor& monitor = {});
 
 }  // namespace curveskel

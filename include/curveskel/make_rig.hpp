@@ -17,12 +17,16 @@ struct RigOptions {
   SkinOptions skin;
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const RigOptions& options);
+
 /// `place_joints`, `skin_weights`, then `name_sides` (rig/sides.hpp). A vertex that has no node (or
 /// none has) goes to the one whose ball is nearest. Precondition: a clean surface; node_of_vertex
 /// by its vertices, if there is one. Throws Error(Fault::input) as `place_joints`, Cancelled on a
 /// stop.
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
-                           const RigOptions& options, const Monitor& monitor);
+                           const RigOptions& options = {}, const Monitor& monitor = {});
 
 /// The skeleton with node_of_vertex, if it has one, by the vertices of the surface that was
 /// repaired instead of those given; -1 for vertices that only the repair made. `vertex_of_input` is

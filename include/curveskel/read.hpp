@@ -38,6 +38,7 @@ struct PolygonSoup {
 /// that is unambiguous and from the extension otherwise.
 /// Throws Error(Fault::input) naming the file and, for text, the line. Time and memory linear in
 /// the file's size; a header's counts are checked against it before anything is allocated.
-[[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path,
+                                        const Monitor& monitor = {});
 
 }  // namespace curveskel

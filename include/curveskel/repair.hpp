@@ -42,7 +42,13 @@ struct RepairOptions {
   /// chosen among 1/100, 1/40 and 1/15: the narrowest that encloses something, or after an
   /// extraction the one whose skeleton explains most.
   double wrap_opening = 0;
+
+  [[nodiscard]] bool operator==(const RepairOptions&) const = default;
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const RepairOptions& options);
 
 /// The repairs beyond those that `Changes` counts. `lines` says the same in words.
 struct Repairs {
@@ -85,7 +91,7 @@ struct RepairedSurface {
 /// sheets, and all but the largest components if so wanted.
 /// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.
 /// Deterministic. As fast as `clean` for a whole surface.
-[[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
-                                     const Monitor& monitor, int threads = 0);
+[[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options = {},
+                                     const Monitor& monitor = {}, int threads = 0);
 
 }  // namespace curveskel

@@ -6,6 +6,13 @@
 
 namespace curveskel {
 
+// Matrices cross the border of the library, where one side frees what the other has allocated. By
+// itself Eigen allocates in another way for each instruction set that is compiled for.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 32 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16,
+              "curveskel needs the alignment that it was built with: link the CMake target "
+              "curveskel::curveskel, or compile everything with -DEIGEN_MAX_ALIGN_BYTES=32 "
+              "-DEIGEN_MAX_STATIC_ALIGN_BYTES=16");
+
 /// #V by 3 vertex positions, one per row, in model units.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -13,7 +20,8 @@ using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Triangles = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// A triangle surface. Stages past `clean` may rely on: every component is a closed, oriented
-/// 2-manifold, outward (positive volume), without isolated vertices.
+/// 2-manifold, outward (positive volume), without isolated vertices. Functions that need this check
+/// the first and the last of it where they are entered, see `require_closed_manifold`.
 struct Surface {
   Positions positions;  ///< #V by 3
   Triangles triangles;  ///< #F by 3, rows index into positions

@@ -7,7 +7,9 @@
 
 #include <curveskel/error.hpp>
 #include "base/indices.hpp"
+#include "base/option_ranges.hpp"
 #include "rig/joints/rooted_tree.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -234,12 +236,23 @@ class JointPlacer {
 
 }  // namespace
 
+void require_valid(const JointOptions& options) {
+  constexpr OptionRange node{-1};
+  constexpr OptionRange radii{0.01, 1e6};
+  const OptionCheck check("JointOptions");
+  check.number("root", options.root, node);
+  check.number("bone_length", options.bone_length, radii);
+  check.number("bend", options.bend, radii);
+}
+
 Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) {
+  require_valid(options);
+  require_sound(skeleton, "place_joints");
   const Eigen::Index nodes = skeleton.nodes.rows();
   if (nodes == 0) {
     throw Error(Fault::input, "a skeleton without nodes, needed one at least; extract it again");
   }
-  if (options.root < -1 || options.root >= nodes) {
+  if (options.root >= nodes) {
     throw Error(Fault::input, "root " + std::to_string(options.root) + ", needed one of the " +
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");

@@ -11,6 +11,8 @@
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -70,8 +72,22 @@ int nearest_vertex(const SurfaceTree& tree, const Surface& surface,
 
 }  // namespace
 
+void require_valid(const RigOptions& options) {
+  require_valid(options.joints);
+  require_valid(options.skin);
+}
+
 Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
              const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "make_rig", options.skin.threads);
+  require_sound(skeleton, "make_rig");
+  const Eigen::Index mapped = skeleton.node_of_vertex.size();
+  if (mapped != 0 && mapped != surface.positions.rows()) {
+    throw Error(Fault::input, "make_rig: the skeleton has nodes for " + std::to_string(mapped) +
+                                  " vertices, needed one for each of the surface's " +
+                                  std::to_string(surface.positions.rows()) + ", or none");
+  }
   monitor.report("joints", 0);
   Joints joints = place_joints(skeleton, options.joints);
   Rig rig;

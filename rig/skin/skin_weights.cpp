@@ -5,15 +5,20 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/topology.hpp>
 #include "base/indices.hpp"
+#include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -247,11 +252,41 @@ SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints, double l
   return weights;
 }
 
+void require_joints(const Surface& surface, const CurveSkeleton& skeleton,
+                    const Eigen::VectorXi& joint_of_node, int joints) {
+  const bool every_vertex_has_a_node = skeleton.node_of_vertex.size() == surface.positions.rows() &&
+                                       (skeleton.node_of_vertex.array() >= 0).all();
+  const bool every_node_has_a_joint =
+      joint_of_node.size() == skeleton.nodes.rows() &&
+      (joint_of_node.array() >= 0 && joint_of_node.array() < joints).all();
+  if (every_vertex_has_a_node && every_node_has_a_joint) return;
+  throw Error(Fault::input,
+              std::string("skin_weights: found a ") +
+                  (every_vertex_has_a_node ? "node without a joint" : "vertex without a node") +
+                  ", needed a node for each vertex and one of " + std::to_string(joints) +
+                  " joints for each node; see make_rig");
+}
+
 }  // namespace
+
+void require_valid(const SkinOptions& options) {
+  constexpr OptionRange softness{0.001, 1000};
+  constexpr OptionRange joints{1, static_cast<double>(room)};
+  constexpr OptionRange weight{0, 0.1};
+  const OptionCheck check("SkinOptions");
+  check.number("softness", options.softness, softness);
+  check.number("most_joints", options.most_joints, joints);
+  check.number("least_weight", options.least_weight, weight);
+  check.number("threads", options.threads, thread_range);
+}
 
 SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
                          const Eigen::VectorXi& joint_of_node, int joints,
                          const SkinOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "skin_weights", options.threads);
+  require_sound(skeleton, "skin_weights");
+  require_joints(surface, skeleton, joint_of_node, joints);
   const SkinBeginning beginning = beginning_of(surface, skeleton, joint_of_node);
   const std::vector<Component> parts = split_components(surface, topology(surface));
   SkinRun run(surface.positions.rows(), beginning, options, monitor);

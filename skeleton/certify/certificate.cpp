@@ -11,11 +11,14 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
+#include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/certify/centredness.hpp"
 #include "skeleton/certify/measured_curve.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/homology/homology_classes.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -145,8 +148,20 @@ void count(const CurveSkeleton& skeleton, Certificate& certificate) {
 
 }  // namespace
 
+void require_valid(const CertificateOptions& options) {
+  constexpr OptionRange spacing{1e-6, 1};
+  constexpr OptionRange rays{3, 4096};
+  const OptionCheck check("CertificateOptions");
+  check.number("sample_spacing", options.sample_spacing, spacing);
+  check.number("inside_needed", options.inside_needed, {});  // above 1: never enough
+  check.number("rays", options.rays, rays);
+  check.number("threads", options.threads, thread_range);
+}
+
 Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "evaluate", options.threads);
   monitor.report("certify", 0);
   const Topology counted = topology(surface);
   return evaluate({surface, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
@@ -156,6 +171,7 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
 
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
+  require_sound(skeleton, "evaluate");
   Certificate certificate;
   monitor.report("certify", 0);
   count(skeleton, certificate);

@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include <curveskel/certificate.hpp>
 #include <curveskel/error.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,6 +27,8 @@ void add_samples(MeasuredCurve& curve, double spacing) {
 MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
                              const CurveSkeleton& skeleton, const CertificateOptions& options,
                              const Monitor& monitor) {
+  require_valid(options);
+  require_sound(skeleton, "certify");
   if (!skeleton.nodes.allFinite()) {
     throw Error(Fault::input,
                 "the skeleton has a coordinate that is no finite number; certify needs finite "

@@ -13,8 +13,11 @@
 #include <vector>
 
 #include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "skeleton/cut/cgal_surgery.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -157,10 +160,33 @@ std::optional<PartitionGraph> graph_by_cgal(const Surface& surface,
   return graph;
 }
 
+void require_its_own(const Contraction& contraction, const Surface& surface) {
+  require_sound(contraction.surface, "surgery");
+  const Eigen::VectorXi& map = contraction.vertex_of_input;
+  const Eigen::Index vertices = surface.positions.rows();
+  if (map.size() == vertices && (map.array() >= 0).all() &&
+      (map.array() < contraction.surface.positions.rows()).all()) {
+    return;
+  }
+  throw Error(Fault::input, "surgery: the contraction is of another surface than that of " +
+                                std::to_string(vertices) +
+                                " vertices, needed its own; contract it again");
+}
+
 }  // namespace
+
+void require_valid(const SurgeryOptions& options) {
+  constexpr OptionRange weight{0, 1e6};
+  const OptionCheck check("SurgeryOptions");
+  check.number("shape_weight", options.shape_weight, weight);
+  check.number("sampling_weight", options.sampling_weight, weight);
+}
 
 std::optional<PartitionGraph> surgery(const Surface& surface, const Contraction& contraction,
                                       const SurgeryOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "surgery", 1);
+  require_its_own(contraction, surface);
   if (options.method == SurgeryMethod::cgal) return graph_by_cgal(surface, contraction);
   Surgeon surgeon(contraction.surface, options);
   surgeon.run(monitor);

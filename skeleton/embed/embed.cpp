@@ -4,9 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include <curveskel/error.hpp>
 #include "base/indices.hpp"
+#include "base/option_ranges.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/steps.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -40,12 +43,41 @@ CurveSkeleton finished(const SkeletonGraph& graph, const Setting& in) {
   return std::move(nodes.skeleton);
 }
 
+void require_same_vertices(const PartitionGraph& partition, const InscribedBalls& balls,
+                           const Surface& surface) {
+  const Eigen::Index vertices = surface.positions.rows();
+  if (partition.group_of_vertex.size() == vertices && balls.radii.size() == vertices &&
+      balls.centres.rows() == vertices) {
+    return;
+  }
+  throw Error(Fault::input, "embed: found a partition of " +
+                                std::to_string(partition.group_of_vertex.size()) +
+                                " vertices and " + std::to_string(balls.radii.size()) +
+                                " balls, needed both of the " + std::to_string(vertices) +
+                                " vertices of the surface");
+}
+
 }  // namespace
 
 double prominence_limit(double detail) {
   constexpr double most = 3;
   constexpr double usual = 1.15;
   return detail < 0.5 ? most - 2 * detail * (most - usual) : 2 * (1 - detail) * usual;
+}
+
+void require_valid(const EmbedOptions& options) {
+  constexpr OptionRange radii{0, 1e3};
+  const OptionCheck check("EmbedOptions");
+  check.number("detail", options.detail, share_range);
+  check.number("merge", options.merge, radii);
+  check.number("straight", options.straight, radii);
+  check.number("straight_at_last", options.straight_at_last, radii);
+  check.number("first_rounds", options.first_rounds, iteration_range);
+  check.number("relax_rounds", options.relax_rounds, iteration_range);
+  check.number("smooth_rounds", options.smooth_rounds, iteration_range);
+  check.number("keep_radius", options.keep_radius, share_range);
+  check.number("tip_reach", options.tip_reach, radii);
+  check.number("tip_gap", options.tip_gap, radii);
 }
 
 CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
@@ -73,6 +105,9 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
                     const InscribedBalls& balls, const PartitionGraph& partition,
                     const EmbedOptions& options, int threads, const Monitor& monitor,
                     StepClock* steps) {
+  require_valid(options);
+  require_closed_manifold(surface, "embed", threads);
+  require_same_vertices(partition, balls, surface);
   StepClock unread;
   return embed_tuned(surface, tree, full_tree, balls, partition, options, {}, threads,
                      steps != nullptr ? *steps : unread, monitor);

@@ -88,10 +88,11 @@ bool crosses_over(const Segment& a, const Segment& b) {
   return height_at(a, a_from, a_to) > height_at(b, b_from, b_to);
 }
 
-/// Square cells, each with the segments whose boxes meet it.
+/// Square cells, each with the segments whose boxes meet it. Keeps the segments.
 class Grid {
  public:
-  explicit Grid(const std::vector<Segment>& segments) : segments_(segments) {
+  explicit Grid(std::vector<Segment> given) : segments_(std::move(given)) {
+    const std::vector<Segment>& segments = segments_;
     if (segments.empty()) return;
     low_ = {segments[0][0].x, segments[0][0].y};
     std::array<std::int64_t, 2> high = low_;
@@ -111,6 +112,8 @@ class Grid {
     }
     last_asked_by_.assign(segments.size(), -1);
   }
+
+  [[nodiscard]] std::size_t size() const { return segments_.size(); }
 
   /// Calls found(s) for each segment s that the given one crosses over.
   template <typename Found>
@@ -143,7 +146,7 @@ class Grid {
     }
   }
 
-  const std::vector<Segment>& segments_;
+  std::vector<Segment> segments_;
   std::array<std::int64_t, 2> low_{};
   std::int64_t side_ = 0;
   std::int64_t cell_ = 1;
@@ -156,14 +159,12 @@ class Grid {
 struct SeenLoops {
   HandleLoops handles;
   Projection projection;
-  std::vector<Segment> edges;
-  Grid grid;
+  Grid edges;
 
   explicit SeenLoops(const Surface& surface)
       : handles(handle_loops(surface)),
         projection(surface.positions),
-        edges(segments(surface.positions)),
-        grid(edges) {}
+        edges(segments(surface.positions)) {}
 
  private:
   [[nodiscard]] std::vector<Segment> segments(const Positions& positions) const {
@@ -268,7 +269,7 @@ std::vector<BitRow> linking_numbers(const Surface& surface,
     Seen last = loops.projection(polygons[i].back());
     for (const Eigen::Vector3d& point : polygons[i]) {
       const Seen next = loops.projection(point);
-      loops.grid.crossed_by({last, next}, [&](int under) {
+      loops.edges.crossed_by({last, next}, [&](int under) {
         crossings.push_back({static_cast<int>(i), under});
       });
       last = next;
@@ -285,12 +286,12 @@ namespace {
 
 int rank_within(SeenLoops& loops, const CurveSkeleton& skeleton) {
   const Forest forest = spanning_forest(skeleton);
-  if (forest.left.empty() || loops.edges.empty()) return 0;
+  if (forest.left.empty() || loops.edges.size() == 0) return 0;
   const auto nodes = loops.projection(skeleton.nodes);
   std::vector<Crossing> crossings;
   for (int e = 0; e < static_cast<int>(skeleton.edges.rows()); ++e) {
     const Segment edge{nodes[idx(skeleton.edges(e, 0))], nodes[idx(skeleton.edges(e, 1))]};
-    loops.grid.crossed_by(edge, [&](int under) { crossings.push_back({e, under}); });
+    loops.edges.crossed_by(edge, [&](int under) { crossings.push_back({e, under}); });
   }
   std::vector<BitRow> linking(forest.left.size());
   for_words(loops.handles, crossings, idx(skeleton.edges.rows()), [&](const BitRow& of_edge) {
@@ -435,7 +436,7 @@ struct HomologyClasses::Implementation {
 
   [[nodiscard]] std::uint64_t number_of(const Segment& segment) {
     std::uint64_t number = 0;
-    loops.grid.crossed_by(segment, [&](int under) { number ^= number_of_edge[idx(under)]; });
+    loops.edges.crossed_by(segment, [&](int under) { number ^= number_of_edge[idx(under)]; });
     return number;
   }
 
@@ -446,7 +447,7 @@ struct HomologyClasses::Implementation {
 HomologyClasses::HomologyClasses(const Surface& surface)
     : implementation_(std::make_shared<Implementation>(surface)) {}
 
-bool HomologyClasses::has_handles() const { return !implementation_->loops.edges.empty(); }
+bool HomologyClasses::has_handles() const { return implementation_->loops.edges.size() > 0; }
 
 bool HomologyClasses::homologous(const std::vector<Eigen::Vector3d>& there,
                                  const std::vector<Eigen::Vector3d>& back) {

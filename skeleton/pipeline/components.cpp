@@ -83,7 +83,9 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
     }
   }
   ExtractOptions alone = options;
-  if (several) alone.threads = 1;
+  if (several) {
+    alone.threads = alone.fair.threads = alone.contraction.threads = alone.certificate.threads = 1;
+  }
   Monitor silent;  // callbacks are for the calling thread
   silent.stop = monitor.stop;
   const std::thread::id caller = std::this_thread::get_id();

@@ -8,6 +8,7 @@
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/wrap_components.hpp"
 
@@ -39,7 +40,10 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
                                      const RepairOptions& as_repaired,
                                      const CurveSkeleton& skeleton,
                                      const CertificateOptions& options, const Monitor& monitor) {
+  require_valid(as_repaired);
+  require_valid(options);
   const Surface& surface = repaired.surface;
+  require_closed_manifold(surface, "evaluate_repaired", options.threads);
   const Topology counted = topology(surface);
   const SurfaceTree tree(surface);
   const double diagonal = bounding_box_diagonal(surface.positions);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,11 +13,13 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
 #include "base/memory.hpp"
+#include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/embed/ends/rims.hpp"
 #include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -153,15 +157,45 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   return result;
 }
 
+void require_valid(const ExtractOptions& options) {
+  constexpr OptionRange refined{0, 1e6};
+  const OptionCheck check("ExtractOptions");
+  check.number("resolution", options.resolution, {});
+  check.number("least_resolution", options.least_resolution, refined);
+  check.number("threads", options.threads, thread_range);
+  require_valid(options.fair);
+  require_valid(options.contraction);
+  require_valid(options.surgery);
+  require_valid(options.embed);
+  require_valid(options.certificate);
+}
+
+ExtractOptions admitted(const Surface& surface, const ExtractOptions& options) {
+  require_valid(options);
+  require_closed_manifold(surface, "extract", options.threads);
+  for (const auto& opening : options.openings) {
+    for (const std::int32_t vertex : opening) {
+      if (vertex >= 0 && vertex < surface.positions.rows()) continue;
+      throw Error(Fault::usage, "ExtractOptions::openings has vertex " + std::to_string(vertex) +
+                                    ", needed 0.." + std::to_string(surface.positions.rows() - 1));
+    }
+  }
+  ExtractOptions its = options;
+  its.fair.threads = its.contraction.threads = its.certificate.threads = options.threads;
+  return its;
+}
+
 Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor) {
-  return carry_out_plans(extraction_plans(surface, options, nullptr), monitor).extraction;
+  const ExtractOptions its = admitted(surface, options);
+  return carry_out_plans(extraction_plans(surface, its, nullptr), monitor).extraction;
 }
 
 Extraction extract(const Surface& surface, const ExtractOptions& options, const Monitor& monitor,
                    ExtractionCache& cache) {
+  const ExtractOptions its = admitted(surface, options);
   ExtractionCache::Implementation& kept = cache.implementation();
   kept.keep_only(surface);
-  return carry_out_plans(extraction_plans(surface, options, &kept), monitor).extraction;
+  return carry_out_plans(extraction_plans(surface, its, &kept), monitor).extraction;
 }
 
 }  // namespace curveskel

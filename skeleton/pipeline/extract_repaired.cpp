@@ -162,17 +162,19 @@ Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOpti
 RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOptions& as_repaired,
                              const ExtractOptions& options, const Monitor& monitor,
                              ExtractionCache::Implementation* kept) {
+  require_valid(as_repaired);
   ExtractOptions with_openings = options;
   with_openings.openings = repaired.openings;
-  auto plans = extraction_plans(repaired.surface, with_openings, kept);
+  const ExtractOptions its = admitted(repaired.surface, with_openings);
+  auto plans = extraction_plans(repaired.surface, its, kept);
   const auto why = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;
     const Certificate& found = so_far.best->found.extraction.certificate;
     if (found.holds()) return std::nullopt;
-    return failures(found, options.certificate);
+    return failures(found, its.certificate);
   };
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
-                     return extracted_from_wraps(repaired, as_repaired, options, room);
+                     return extracted_from_wraps(repaired, as_repaired, its, room);
                    }});
   return carry_out_plans(plans, monitor);
 }

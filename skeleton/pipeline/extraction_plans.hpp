@@ -38,4 +38,9 @@ struct Extracted {
 [[nodiscard]] std::vector<std::string> only_reused(const std::vector<std::string>& taken,
                                                    const std::vector<StageTime>& ran);
 
+/// The options with the extraction's threads in every stage, once they and the surface are checked.
+/// Throws Error(Fault::usage) for an option out of its range, Error(Fault::input) unless the
+/// surface is closed and a manifold.
+[[nodiscard]] ExtractOptions admitted(const Surface& surface, const ExtractOptions& options);
+
 }  // namespace curveskel

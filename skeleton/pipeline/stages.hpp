@@ -42,6 +42,7 @@ struct Kept {
   return options;
 }
 [[nodiscard]] inline ContractionOptions what_counts(ContractionOptions options) {
+  options.threads = 0;
   options.program_cache.clear();
   return options;
 }

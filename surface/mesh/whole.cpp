@@ -110,24 +110,20 @@ bool all_of_ranges(std::int32_t count, std::int32_t grain, int threads, const Bo
   return all;
 }
 
-}  // namespace
-
-std::optional<Topology> topology_if_whole(const Surface& surface, int threads) {
-  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
-  const auto faces = static_cast<std::int32_t>(surface.triangles.rows());
-  if (faces == 0) return std::nullopt;
-  Pairing pairing(surface);
+/// Whether each edge is run through exactly once either way.
+bool pairs(Pairing& pairing, std::int32_t vertices, int threads) {
   // Each range reads all faces, so there are no more of them than cores.
   const auto ranges = static_cast<std::int32_t>(thread_count(threads));
   const std::int32_t range = (vertices + ranges - 1) / ranges;
-  const bool paired = all_of_ranges(
-      vertices, range, threads,
-      [&](std::int32_t first, std::int32_t last) { return pairing.pair(first, last); });
-  if (!paired) return std::nullopt;
+  return all_of_ranges(vertices, range, threads, [&](std::int32_t first, std::int32_t last) {
+    return pairing.pair(first, last);
+  });
+}
 
-  auto counted = in_background(threads, [&] { return topology(surface); });
+/// Precondition: it pairs.
+bool is_manifold(const Pairing& pairing, std::int32_t vertices, std::int32_t faces, int threads) {
   constexpr std::int32_t grain = 1 << 14;
-  const bool manifold =
+  const bool umbrellas =
       all_of_ranges(vertices, grain, threads, [&](std::int32_t first, std::int32_t last) {
         for (std::int32_t v = first; v < last; ++v) {
           if (!pairing.one_umbrella(v)) return false;
@@ -135,10 +131,30 @@ std::optional<Topology> topology_if_whole(const Surface& surface, int threads) {
         return true;
       });
   for (std::int32_t f = 0; f < faces; ++f) {
-    if (manifold && pairing.repeats(f)) return std::nullopt;
+    if (umbrellas && pairing.repeats(f)) return false;
   }
-  if (!manifold) return std::nullopt;
+  return umbrellas;
+}
+
+}  // namespace
+
+std::optional<Topology> topology_if_whole(const Surface& surface, int threads) {
+  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
+  const auto faces = static_cast<std::int32_t>(surface.triangles.rows());
+  if (faces == 0) return std::nullopt;
+  Pairing pairing(surface);
+  if (!pairs(pairing, vertices, threads)) return std::nullopt;
+  auto counted = in_background(threads, [&] { return topology(surface); });
+  if (!is_manifold(pairing, vertices, faces, threads)) return std::nullopt;
   return counted.get();
+}
+
+bool is_whole(const Surface& surface, int threads) {
+  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
+  const auto faces = static_cast<std::int32_t>(surface.triangles.rows());
+  if (faces == 0) return false;
+  Pairing pairing(surface);
+  return pairs(pairing, vertices, threads) && is_manifold(pairing, vertices, faces, threads);
 }
 
 }  // namespace curveskel

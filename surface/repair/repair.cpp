@@ -15,6 +15,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
 #include "base/indices.hpp"
+#include "base/option_ranges.hpp"
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/loose_parts.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
@@ -452,8 +453,22 @@ Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options, cons
 
 }  // namespace
 
+void require_valid(const RepairOptions& options) {
+  constexpr OptionRange distance{0, 0.1};
+  constexpr OptionRange opening{0, 0.5};
+  const OptionCheck check("RepairOptions");
+  check.number("join_distance", options.join_distance, distance);
+  check.number("least_area", options.least_area, share_range);
+  check.number("components", options.components, {});
+  check.number("most_added_area", options.most_added_area, share_range);
+  check.number("least_crumb", options.least_crumb, share_range);
+  check.choice("wrap", options.wrap, wrappings);
+  check.number("wrap_opening", options.wrap_opening, opening);
+}
+
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
+  require_valid(options);
   Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor, threads)
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;

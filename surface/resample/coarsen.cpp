@@ -9,7 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 #include "surface/resample/collapse.hpp"
 #include "surface/spatial/morton.hpp"
 
@@ -185,7 +187,15 @@ bool coarsens_in_parts(Eigen::Index vertices, const CoarsenOptions& options) {
   return count > parts_pay * target && count > 2 * part_size;
 }
 
+void require_valid(const CoarsenOptions& options) {
+  const OptionCheck check("CoarsenOptions");
+  check.number("target_vertices", options.target_vertices, {});
+  check.number("threads", options.threads, thread_range);
+}
+
 Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "coarsen", options.threads);
   monitor.report(stage_name, 0);
   const auto count = static_cast<std::size_t>(surface.positions.rows());
   const auto target = static_cast<std::size_t>(std::max(options.target_vertices, 0));

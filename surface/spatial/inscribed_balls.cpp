@@ -4,6 +4,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include "base/parallel.hpp"
+#include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
@@ -43,6 +44,7 @@ void fill_invalid(const Surface& surface, std::vector<char>& valid, InscribedBal
 }  // namespace
 
 InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, int threads) {
+  require_sound(surface, "inscribed_balls");
   const Eigen::Index vertices = surface.positions.rows();
   const Positions normals = vertex_normals(surface);
   const double largest = 0.5 * bounding_box_diagonal(surface.positions);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "surface/mesh/closed_manifold.hpp"
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/wide_tree.hpp"
 
@@ -29,6 +30,7 @@ SurfaceTree::SurfaceTree(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 SurfaceTree::SurfaceTree(const Surface& surface)
     : implementation_(std::make_unique<Implementation>()) {
+  require_sound(surface, "SurfaceTree");
   auto tree = std::make_shared<const WideTree>(build_wide_tree(surface));
   implementation_->centre = tree->centre;
   implementation_->scale = tree->scale;

@@ -24,8 +24,13 @@ int main() {
       torus.triangles.row(2 * a + 1) << a, c, d;
     }
   }
-  const curveskel::Extraction found = curveskel::extract(torus, {}, {});
+  curveskel::Extraction found = curveskel::extract(torus);
   const curveskel::GraphTopology graph = curveskel::graph_topology(found.skeleton);
+  // Memory that the library has allocated is given back by this program.
+  curveskel::Positions nodes = found.skeleton.nodes;
+  nodes.conservativeResize(nodes.rows() + 1000, 3);
+  nodes.bottomRows(1000).setOnes();
+  found.skeleton.nodes = nodes;
   std::printf("%d component, %d cycle\n", graph.components, graph.cycle_rank);
   return graph.components == 1 && graph.cycle_rank == 1 ? 0 : 1;
 }

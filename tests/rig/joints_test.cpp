@@ -223,11 +223,11 @@ TEST(Joints, HangFromTheNodeThatIsWanted) {
   }
 }
 
-std::string refusal_of(const CurveSkeleton& skeleton, int root) {
+std::string refusal_of(const CurveSkeleton& skeleton, int root, Fault fault = Fault::input) {
   try {
     (void)place_joints(skeleton, {.root = root});
   } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), Fault::input);
+    EXPECT_EQ(error.fault(), fault);
     return error.what();
   }
   return "";
@@ -237,7 +237,7 @@ TEST(Joints, NeedANodeForTheirRoot) {
   const CurveSkeleton chain = chain_through({{0, 0, 0}, {9, 0, 0}}, 1, 1);
   EXPECT_EQ(refusal_of(chain, 9), "");
   EXPECT_NE(refusal_of(chain, 10).find("root 10, needed one of the 10 nodes"), std::string::npos);
-  EXPECT_NE(refusal_of(chain, -2).find("root -2"), std::string::npos);
+  EXPECT_NE(refusal_of(chain, -2, Fault::usage).find("root is -2"), std::string::npos);
   EXPECT_NE(refusal_of({}, -1).find("without nodes"), std::string::npos);
 }
 

@@ -10,12 +10,6 @@
 namespace curveskel::viewer {
 namespace {
 
-bool same(const RepairOptions& a, const RepairOptions& b) {
-  return a.join_distance == b.join_distance && a.least_area == b.least_area &&
-         a.components == b.components && a.most_added_area == b.most_added_area &&
-         a.least_crumb == b.least_crumb && a.wrap == b.wrap && a.wrap_opening == b.wrap_opening;
-}
-
 CurveSkeleton on_file_vertices(const RepairedSurface& repaired, const CurveSkeleton& skeleton) {
   CurveSkeleton result = skeleton;
   result.node_of_vertex = repaired.vertex_of_input.unaryExpr(
@@ -84,7 +78,7 @@ void Run::show(Moment moment, const std::stop_token& stop) {
 }
 
 void Run::extract_all(const Monitor& monitor) {
-  if (!memory_->repaired || !same(memory_->repair_options, options_.repair)) {
+  if (!memory_->repaired || memory_->repair_options != options_.repair) {
     memory_->repaired = std::make_shared<const RepairedSurface>(
         repair(*soup_, options_.repair, monitor, options_.extract.threads));
     memory_->repair_options = options_.repair;

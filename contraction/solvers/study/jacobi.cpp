@@ -16,12 +16,12 @@ constexpr Eigen::Index rows_for_threads = 20000;  // fewer rows take less time t
 constexpr std::size_t rows_per_part = 4096;
 
 /// One iteration x -> next with x + relaxation D^-1 (r - H x). Returns ||r - H x|| of the x given.
-double relax_rows(const NormalEquations& system, double relaxation, const Positions& x,
+double relax_rows(const NormalEquations& system, double relaxation, int threads, const Positions& x,
                   Positions& next) {
   const SparseMatrix& h = system.h;
   const std::size_t rows = idx(h.cols());
   std::vector<double> squares((rows + rows_per_part - 1) / rows_per_part, 0);
-  parallel_for(rows, rows_per_part, h.cols() < rows_for_threads ? 1 : 0,
+  parallel_for(rows, rows_per_part, h.cols() < rows_for_threads ? 1 : threads,
                [&](std::size_t begin, std::size_t end) {
                  double square = 0;
                  for (std::size_t i = begin; i < end; ++i) {
@@ -91,7 +91,8 @@ class Jacobi final : public LeastSquaresBackend {
     Convergence convergence(name(), options_);
     for (int iterations = 0;; ++iterations) {
       if (monitor.stop.stop_requested()) throw Cancelled();
-      const double residual = relax_rows(system, relaxation, solution.x, next) / size;
+      const double residual =
+          relax_rows(system, relaxation, options_.threads, solution.x, next) / size;
       solution.iterations = iterations;
       if (convergence.reached(iterations, residual)) return solution;
       solution.x.swap(next);

@@ -15,7 +15,6 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
 class SparseQr final : public LeastSquaresBackend {
  public:
   SparseQr() {
-    use_one_blas_thread();
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.SPQR_nthreads = 1;
@@ -28,6 +27,7 @@ class SparseQr final : public LeastSquaresBackend {
   SparseQr& operator=(const SparseQr&) = delete;
 
   Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
+    const OneBlasThread one_thread;
     const bool known = same_pattern(a);
     if (!known) {
       outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);

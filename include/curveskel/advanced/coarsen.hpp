@@ -13,6 +13,10 @@ struct CoarsenOptions {
   int threads = 0;             ///< at most, 0 = one per core; the result does not depend on it
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const CoarsenOptions& options);
+
 struct Coarsened {
   Surface surface;
   Eigen::VectorXi vertex_of_input;  ///< #V of the input: the vertex that it was merged into
@@ -26,7 +30,7 @@ struct Coarsened {
 /// link condition, so the genus of every component is kept. Far too fine surfaces are collapsed in
 /// parts first, in parallel. Deterministic, for any number of threads.
 /// Precondition: closed oriented 2-manifold. May stop above the target where no edge may go.
-[[nodiscard]] Coarsened coarsen(const Surface& surface, const CoarsenOptions& options,
-                                const Monitor& monitor);
+[[nodiscard]] Coarsened coarsen(const Surface& surface, const CoarsenOptions& options = {},
+                                const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -37,6 +37,10 @@ struct EmbedOptions {
   [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const EmbedOptions& options);
+
 /// The prominence below which `detail` prunes a branch: 3 at 0, 1.15 at 0.5, 0 at 1.
 [[nodiscard]] double prominence_limit(double detail);
 

@@ -12,9 +12,14 @@ namespace curveskel {
 
 struct JointOptions {
   int root = -1;           ///< a node of the skeleton; -1 = chosen, see `place_joints`
-  double bone_length = 6;  ///< that a straight limb is cut into, of the radius along it; > 0
-  double bend = 0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; > 0
+  double bone_length = 6;  ///< that a straight limb is cut into, of the radius along it; 0.01..1e6
+  double bend =
+      0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; same range
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const JointOptions& options);
 
 /// A forest of joints.
 struct Joints {
@@ -37,6 +42,6 @@ struct Joints {
 /// rooted where it hangs.
 /// Throws Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred
 /// times as much where there are many junctions.
-[[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options);
+[[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
 
 }  // namespace curveskel

@@ -56,7 +56,12 @@ struct SolverOptions {
   double tolerance = 1e-10;             ///< iterative ones: stop at this Solution::residual
   int most_iterations = 1000000;        ///< iterative ones: give up where more would be needed
   std::filesystem::path program_cache;  ///< folder for compiled kernels; empty = compile each time
+  int threads = 0;  ///< of jor and jacobi: 0 = one per core; the result does not depend on it
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const SolverOptions& options);
 
 struct Solution {
   Positions x;          ///< n x 3

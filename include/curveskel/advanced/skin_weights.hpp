@@ -12,12 +12,16 @@ namespace curveskel {
 
 struct SkinOptions {
   /// Width of the passage from one joint to the next, in units of the distance from the
-  /// skin to the curve; > 0.
+  /// skin to the curve; 0.001..1000.
   double softness = 1;
   int most_joints = 4;         ///< that move one vertex; 1..8
   double least_weight = 0.01;  ///< smaller shares in a vertex are left out; 0..0.1
   int threads = 0;             ///< 0 = one per core; the result does not depend on it
 };
+
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const SkinOptions& options);
 
 /// n x `joints`, rows of sum 1 (up to rounding in single precision).
 ///
@@ -31,6 +35,7 @@ struct SkinOptions {
 /// joint. Throws Cancelled on a stop. One Cholesky factorisation a component, one solve a joint.
 [[nodiscard]] SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
                                        const Eigen::VectorXi& joint_of_node, int joints,
-                                       const SkinOptions& options, const Monitor& monitor);
+                                       const SkinOptions& options = {},
+                                       const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -26,6 +26,10 @@ struct SurgeryOptions {
   [[nodiscard]] bool operator==(const SurgeryOptions&) const = default;
 };
 
+/// Throws Error(Fault::usage) that names the first option out of its range, the value and the
+/// range.
+void require_valid(const SurgeryOptions& options);
+
 /// Merges vertices into groups by half-edge collapses of the contracted surface, in the order of Au
 /// et al.'s shape and sampling costs, until no triangle has three groups; never makes a group of
 /// genus > 0. One node per group and one per cut curve along which two groups meet, so the cycle
@@ -34,7 +38,7 @@ struct SurgeryOptions {
 /// of cgal_surgery; empty when one of them has a handle of its own.
 [[nodiscard]] std::optional<PartitionGraph> surgery(const Surface& surface,
                                                     const Contraction& contraction,
-                                                    const SurgeryOptions& options,
-                                                    const Monitor& monitor);
+                                                    const SurgeryOptions& options = {},
+                                                    const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -1,0 +1,29 @@
+#include "skeleton/graph/sound_skeleton.hpp"
+
+#include <string>
+
+#include <curveskel/error.hpp>
+
+namespace curveskel {
+
+void require_sound(const CurveSkeleton& skeleton, std::string_view purpose) {
+  const Eigen::Index nodes = skeleton.nodes.rows();
+  const auto refuse = [&](const std::string& found) {
+    throw Error(Fault::input, std::string(purpose) + ": the skeleton has " + found +
+                                  ", needed numbers of its " + std::to_string(nodes) + " nodes");
+  };
+  for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+    const auto edge = skeleton.edges.row(e);
+    if (edge.minCoeff() >= 0 && edge.maxCoeff() < nodes) continue;
+    refuse("an edge from node " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]));
+  }
+  const Eigen::Index radii = skeleton.radii.size();
+  if (radii != 0 && radii != nodes) refuse(std::to_string(radii) + " radii");
+  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const int node = skeleton.node_of_vertex[v];
+    if (node < nodes) continue;
+    refuse("node " + std::to_string(node) + " for vertex " + std::to_string(v));
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,14 @@
+// A skeleton whose numbers are numbers of its own nodes, checked where it enters.
+#pragma once
+
+#include <string_view>
+
+#include <curveskel/curve_skeleton.hpp>
+
+namespace curveskel {
+
+/// Throws Error(Fault::input) that begins with `purpose` unless every edge runs between two nodes,
+/// radii are as many as nodes or none, and no vertex has a node that there is not. O(#N + #E + #V).
+void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
+
+}  // namespace curveskel
