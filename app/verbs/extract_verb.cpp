@@ -15,7 +15,6 @@
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/verbs/verbs.hpp"
-#include "app/verbs/viewer_program.hpp"
 
 namespace curveskel {
 namespace {
@@ -106,20 +105,6 @@ std::string time_line(const std::vector<StageTime>& times, double seconds, bool 
                      static_cast<double>(peak_memory_bytes()) / 1e6);
 }
 
-/// By the viewer where it is installed and can draw, else by the library.
-std::string picture(const ExtractionRecord& record, const SkeletonContext& context,
-                    Session& session) {
-  const CurveSkeleton& skeleton = record.extraction.skeleton;
-  std::error_code ignored;
-  if (std::filesystem::exists(viewer_program(), ignored)) {
-    const ViewerPicture drawn =
-        picture_by_viewer(record.repaired.surface, skeleton, session.interruption);
-    if (!drawn.png.empty()) return drawn.png;
-    session.terminal.note("picture drawn without OpenGL: " + drawn.reason);
-  }
-  return format_skeleton(skeleton, SkeletonFormat::png, context);
-}
-
 std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
                                        const std::vector<SkeletonFormat>& formats,
                                        const ExtractionRecord& record,
@@ -131,9 +116,7 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    files.push_back({arguments.outputs[i], formats[i] == SkeletonFormat::png
-                                               ? picture(record, context, session)
-                                               : format_skeleton(skeleton, formats[i], context)});
+    files.push_back({arguments.outputs[i], format_skeleton(skeleton, formats[i], context)});
   }
   return files;
 }

@@ -3,17 +3,24 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <curveskel/error.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
 #include "app/verbs/verbs.hpp"
-#include "app/verbs/viewer_program.hpp"
 
 namespace curveskel {
 namespace {
+
+/// Where the viewer stands if it is installed: beside this program.
+std::filesystem::path viewer_program() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "curveskel-view";
+}
 
 /// Returns only by an exception: the process becomes the viewer.
 int become_viewer(const std::vector<std::string>& arguments) {

@@ -14,23 +14,6 @@ constexpr std::size_t slices_per_range = 1024;  // slices or vertices per piece 
 /// Vertices sorted by valence at a time: few enough that their neighbours stay in cache.
 constexpr std::size_t vertices_per_stretch = 4096;
 
-std::vector<std::int32_t> along_morton_curve(const Positions& positions, int threads) {
-  constexpr unsigned bits_per_axis = 11;
-  const Eigen::RowVector3d low = positions.colwise().minCoeff();
-  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
-  const double scale = extent > 0 ? ((1U << bits_per_axis) - 1) / extent : 0;
-  std::vector<std::uint64_t> keys(static_cast<std::size_t>(positions.rows()));
-  parallel_for(keys.size(), vertices_per_stretch, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Eigen::RowVector3d cell = (positions.row(static_cast<Eigen::Index>(v)) - low) * scale;
-      keys[v] =
-          morton_key(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
-                     static_cast<std::uint64_t>(cell.z()));
-    }
-  });
-  return order_by_key(keys, 3 * bits_per_axis);
-}
-
 std::size_t ring_size(const OneRings& rings, std::int32_t v) {
   return rings.of(static_cast<std::size_t>(v)).size();
 }

@@ -1,10 +1,16 @@
+#include <tiny_gltf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <sstream>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/measures.hpp>
@@ -17,44 +23,20 @@
 namespace curveskel {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// glTF 2.0, section 3.6.2.2 and 3.6.2.3.
-constexpr int component_uint8 = 5121;
-constexpr int component_uint16 = 5123;
-constexpr int component_uint32 = 5125;
-constexpr int component_float = 5126;
 constexpr int first_joint_node = 2;
-constexpr int target_vertices = 34962;
-constexpr int target_triangles = 34963;
-
-std::string base64_of(const std::string& bytes) {
-  constexpr std::string_view letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t given = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t three = 0;
-    for (std::size_t b = 0; b < 3; ++b) {
-      three = three << 8 | (b < given ? static_cast<std::uint8_t>(bytes[k + b]) : 0);
-    }
-    for (std::size_t letter = 0; letter < 4; ++letter) {
-      text += letter <= given ? letters[three >> (18 - 6 * letter) & 63] : '=';
-    }
-  }
-  return text;
-}
 
 /// Names of files need not be UTF-8, but JSON is.
-std::string text_of(const Json& file, int indent) {
-  return file.dump(indent, ' ', false, Json::error_handler_t::replace);
+std::string as_utf8(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// A glTF file that grows accessor by accessor.
+/// A glTF model that grows accessor by accessor, all in one buffer.
 class GltfWriter {
  public:
-  Json file;
+  GltfWriter() { model.buffers.emplace_back(); }
+
+  tinygltf::Model model;
 
   template <typename Value>
   static void put(std::string& bytes, Value value) {
@@ -66,69 +48,59 @@ class GltfWriter {
   }
 
   /// The rows as a buffer view with an accessor of its own; returns the accessor.
-  int add(const std::string& rows, int component, const char* shape, std::size_t count,
-          int target = 0) {
-    Json view{{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", rows.size()}};
-    if (target != 0) view["target"] = target;
-    file["bufferViews"].push_back(view);
-    file["accessors"].push_back({{"bufferView", file["bufferViews"].size() - 1},
-                                 {"componentType", component},
-                                 {"count", count},
-                                 {"type", shape}});
-    buffer_ += rows;
-    buffer_.resize((buffer_.size() + 3) / 4 * 4);
-    return static_cast<int>(file["accessors"].size()) - 1;
+  int add(const std::string& rows, int component, int shape, std::size_t count, int target = 0) {
+    std::vector<unsigned char>& buffer = model.buffers.front().data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = rows.size();
+    view.target = target;
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size());
+    accessor.componentType = component;
+    accessor.count = count;
+    accessor.type = shape;
+    model.bufferViews.push_back(std::move(view));
+    model.accessors.push_back(std::move(accessor));
+    buffer.insert(buffer.end(), rows.begin(), rows.end());
+    buffer.resize((buffer.size() + 3) / 4 * 4);
+    return static_cast<int>(model.accessors.size()) - 1;
   }
 
-  [[nodiscard]] std::string text() {
-    file["buffers"] = {{{"byteLength", buffer_.size()},
-                        {"uri", "data:application/octet-stream;base64," + base64_of(buffer_)}}};
-    return text_of(file, 1) + "\n";
-  }
-
-  /// Section 4.4: header, JSON, numbers; each chunk padded to four bytes.
-  [[nodiscard]] std::string binary() {
-    file["buffers"] = {{{"byteLength", buffer_.size()}}};
-    std::string json = text_of(file, -1);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    constexpr std::uint32_t magic = 0x46546C67;
-    constexpr std::uint32_t json_chunk = 0x4E4F534A;
-    constexpr std::uint32_t binary_chunk = 0x004E4942;
-    const std::size_t size = 12 + 8 + json.size() + 8 + buffer_.size();
-    if (size > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error(Fault::output, std::to_string(size) +
-                                     " bytes, more than the 4 GB that a .glb can have; decimate "
-                                     "the surface");
-    }
-    std::string bytes;
-    bytes.reserve(size);
-    put(bytes, magic);
-    put(bytes, std::uint32_t{2});
-    put(bytes, static_cast<std::uint32_t>(size));
-    put(bytes, static_cast<std::uint32_t>(json.size()));
-    put(bytes, json_chunk);
-    bytes += json;
-    put(bytes, static_cast<std::uint32_t>(buffer_.size()));
-    put(bytes, binary_chunk);
-    return bytes + buffer_;
+  /// As a binary file, or as text with the buffer in it. tinygltf counts bytes in 32 bits.
+  [[nodiscard]] std::string bytes(RigFormat format) const {
+    const bool binary = format == RigFormat::glb;
+    require_four_gigabytes(model.buffers.front().data.size());
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, true, binary);
+    std::string written = std::move(stream).str();
+    if (binary) require_four_gigabytes(written.size());
+    return written;
   }
 
  private:
-  std::string buffer_;
+  static void require_four_gigabytes(std::size_t size) {
+    if (size <= std::numeric_limits<std::uint32_t>::max()) return;
+    throw Error(Fault::output, std::to_string(size) +
+                                   " bytes, more than the 4 GB that a glTF file can have; "
+                                   "decimate the surface");
+  }
 };
 
-Json numbers_of(const Eigen::RowVector3d& point) { return {point[0], point[1], point[2]}; }
+std::vector<double> numbers_of(const Eigen::RowVector3d& point) {
+  return {point[0], point[1], point[2]};
+}
 
 int add_positions(GltfWriter& writer, const Positions& positions) {
   std::string rows;
   for (const auto& point : positions.rowwise()) GltfWriter::put_point(rows, point);
-  const int accessor =
-      writer.add(rows, component_float, "VEC3", idx(positions.rows()), target_vertices);
+  const int accessor = writer.add(rows, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
+                                  idx(positions.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
   // The bounds must be those of the numbers in the file.
-  const Eigen::RowVector3f least = positions.cast<float>().colwise().minCoeff();
-  const Eigen::RowVector3f most = positions.cast<float>().colwise().maxCoeff();
-  writer.file["accessors"].back()["min"] = {least[0], least[1], least[2]};
-  writer.file["accessors"].back()["max"] = {most[0], most[1], most[2]};
+  const auto single = positions.cast<float>();
+  tinygltf::Accessor& written = writer.model.accessors.back();
+  written.minValues = numbers_of(single.colwise().minCoeff().cast<double>());
+  written.maxValues = numbers_of(single.colwise().maxCoeff().cast<double>());
   return accessor;
 }
 
@@ -160,11 +132,13 @@ int add_normals(GltfWriter& writer, const Surface& surface) {
     const bool usable = normal.allFinite() && normal.squaredNorm() > 0.5;
     GltfWriter::put_point(rows, usable ? Eigen::RowVector3d(normal) : Eigen::RowVector3d(0, 0, 1));
   }
-  return writer.add(rows, component_float, "VEC3", idx(normals.rows()), target_vertices);
+  return writer.add(rows, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, idx(normals.rows()),
+                    TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 /// JOINTS_0 and WEIGHTS_0: the four largest of each row, which sum to 1 in single precision.
-void add_weights(GltfWriter& writer, const SkinWeights& weights, Json& attributes) {
+void add_weights(GltfWriter& writer, const SkinWeights& weights,
+                 std::map<std::string, int>& attributes) {
   constexpr std::size_t most = 4;
   const bool small = weights.cols() <= 256;
   std::string which;
@@ -189,38 +163,41 @@ void add_weights(GltfWriter& writer, const SkinWeights& weights, Json& attribute
       }
     }
   }
-  attributes["JOINTS_0"] = writer.add(which, small ? component_uint8 : component_uint16, "VEC4",
-                                      idx(weights.rows()), target_vertices);
-  attributes["WEIGHTS_0"] =
-      writer.add(shares, component_float, "VEC4", idx(weights.rows()), target_vertices);
+  attributes["JOINTS_0"] = writer.add(
+      which, small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+      TINYGLTF_TYPE_VEC4, idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
+  attributes["WEIGHTS_0"] = writer.add(shares, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4,
+                                       idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 void add_mesh(GltfWriter& writer, const Surface& surface, const Rig& rig, const std::string& name) {
-  Json attributes;
-  attributes["POSITION"] = add_positions(writer, surface.positions);
-  attributes["NORMAL"] = add_normals(writer, surface);
-  add_weights(writer, rig.weights, attributes);
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  primitive.attributes["POSITION"] = add_positions(writer, surface.positions);
+  primitive.attributes["NORMAL"] = add_normals(writer, surface);
+  add_weights(writer, rig.weights, primitive.attributes);
   std::string corners;
   for (const auto& triangle : surface.triangles.rowwise()) {
     for (const int vertex : triangle) GltfWriter::put(corners, static_cast<std::uint32_t>(vertex));
   }
-  const int indices = writer.add(corners, component_uint32, "SCALAR", idx(surface.triangles.size()),
-                                 target_triangles);
-  writer.file["meshes"] = {
-      {{"name", name}, {"primitives", {{{"attributes", attributes}, {"indices", indices}}}}}};
-}
-
-Json numbers_of(const Eigen::Quaterniond& rotation) {
-  return {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+  primitive.indices =
+      writer.add(corners, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                 idx(surface.triangles.size()), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+  tinygltf::Mesh& mesh = writer.model.meshes.emplace_back();
+  mesh.name = name;
+  mesh.primitives.push_back(std::move(primitive));
 }
 
 /// Node 0 is the parent of all joints, node 1 the mesh, node 2 + k joint k.
-Json nodes_of(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes,
-              const std::string& name) {
-  Json nodes;
-  nodes.push_back({{"name", name + " rig"}, {"children", Json::array()}});
-  nodes.push_back({{"name", name}, {"mesh", 0}, {"skin", 0}});
-  for (Eigen::Index joint = 0; joint < rig.parents.size(); ++joint) {
+void add_nodes(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quaterniond>& axes,
+               const std::string& name) {
+  std::vector<tinygltf::Node>& nodes = writer.model.nodes;
+  nodes.resize(idx(first_joint_node + rig.parents.size()));
+  nodes[0].name = name + " rig";
+  nodes[1].name = name;
+  nodes[1].mesh = 0;
+  nodes[1].skin = 0;
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
     const int parent = rig.parents[joint];
     Eigen::Vector3d offset = rig.joints.row(joint).transpose();
     Eigen::Quaterniond turn = axes[idx(joint)];
@@ -229,20 +206,23 @@ Json nodes_of(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes,
       offset = back * (offset - rig.joints.row(parent).transpose());
       turn = (back * turn).normalized();
     }
-    nodes.push_back({{"name", rig.names[idx(joint)]},
-                     {"translation", numbers_of(Eigen::RowVector3d(offset.transpose()))},
-                     {"rotation", numbers_of(turn)}});
-    Json& above = nodes[parent < 0 ? 0 : idx(parent + first_joint_node)];
-    above["children"].push_back(joint + first_joint_node);
+    tinygltf::Node& node = nodes[idx(first_joint_node + joint)];
+    node.name = as_utf8(rig.names[idx(joint)]);
+    node.translation = numbers_of(offset.transpose());
+    node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+    nodes[parent < 0 ? 0 : idx(first_joint_node + parent)].children.push_back(first_joint_node +
+                                                                              joint);
   }
-  return nodes;
+  tinygltf::Scene& scene = writer.model.scenes.emplace_back();
+  scene.nodes = {0, 1};
+  writer.model.defaultScene = 0;
 }
 
 void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quaterniond>& axes) {
-  Json listed = Json::array();
+  tinygltf::Skin& skin = writer.model.skins.emplace_back();
   std::string matrices;
-  for (Eigen::Index joint = 0; joint < rig.parents.size(); ++joint) {
-    listed.push_back(joint + first_joint_node);
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
+    skin.joints.push_back(first_joint_node + joint);
     const Eigen::Matrix3d back = axes[idx(joint)].conjugate().toRotationMatrix();
     for (int column = 0; column < 3; ++column) {
       GltfWriter::put_point(matrices, back.col(column).transpose());
@@ -251,8 +231,9 @@ void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quate
     GltfWriter::put_point(matrices, -(back * rig.joints.row(joint).transpose()).transpose());
     GltfWriter::put(matrices, 1.0F);
   }
-  const int bind = writer.add(matrices, component_float, "MAT4", idx(rig.joints.rows()));
-  writer.file["skins"] = {{{"inverseBindMatrices", bind}, {"skeleton", 0}, {"joints", listed}}};
+  skin.inverseBindMatrices = writer.add(matrices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4,
+                                        idx(rig.joints.rows()));
+  skin.skeleton = 0;
 }
 
 }  // namespace
@@ -268,14 +249,14 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
   require_single_precision(surface.positions, "glTF");
   require_single_range(rig.joints, "glTF");
   GltfWriter writer;
-  writer.file["asset"] = {{"version", "2.0"}, {"generator", provenance}};
-  writer.file["scene"] = 0;
-  writer.file["scenes"] = {{{"nodes", {0, 1}}}};
-  add_mesh(writer, surface, rig, name);
+  writer.model.asset.version = "2.0";
+  writer.model.asset.generator = as_utf8(provenance);
+  const std::string model_name = as_utf8(name);
+  add_mesh(writer, surface, rig, model_name);
   const std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
-  writer.file["nodes"] = nodes_of(rig, axes, name);
+  add_nodes(writer, rig, axes, model_name);
   add_skin(writer, rig, axes);
-  return format == RigFormat::glb ? writer.binary() : writer.text();
+  return writer.bytes(format);
 }
 
 }  // namespace curveskel

@@ -11,26 +11,12 @@
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
+#include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/mesh/closed_manifold.hpp"
 
 namespace curveskel {
 namespace {
-
-int node_of_nearest_ball(const CurveSkeleton& skeleton, const Eigen::RowVector3d& point) {
-  const bool has_radii = skeleton.radii.size() > 0;
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
-    const double distance =
-        (point - skeleton.nodes.row(node)).norm() - (has_radii ? skeleton.radii[node] : 0);
-    if (distance < least) {
-      least = distance;
-      nearest = static_cast<int>(node);
-    }
-  }
-  return nearest;
-}
 
 /// The skeleton with a node for every vertex.
 CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton, int threads,
@@ -39,6 +25,7 @@ CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton
   if (mapped.node_of_vertex.size() == 0) {
     mapped.node_of_vertex.setConstant(surface.positions.rows(), -1);
   }
+  const NodeBalls balls(skeleton);
   constexpr std::size_t block = 16384;
   const auto count = static_cast<std::size_t>(mapped.node_of_vertex.size());
   for (std::size_t first = 0; first < count; first += block) {
@@ -48,7 +35,7 @@ CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton
                    for (std::size_t k = first + begin; k < first + end; ++k) {
                      const auto v = static_cast<Eigen::Index>(k);
                      int& node = mapped.node_of_vertex[v];
-                     if (node < 0) node = node_of_nearest_ball(skeleton, surface.positions.row(v));
+                     if (node < 0) node = balls.nearest(surface.positions.row(v).transpose());
                    }
                  });
   }

@@ -1,11 +1,21 @@
 #include <curveskel/advanced/surface_partition.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <tuple>
+#include <utility>
+
+#include "base/indices.hpp"
 
 namespace curveskel {
+
+namespace {
+
+bool is_inner(const std::array<int, 3>& groups) {
+  return groups[0] == groups[1] && groups[1] == groups[2];
+}
+
+}  // namespace
 
 EdgeIndex index_edges(const Triangles& triangles) {
   struct Side {
@@ -60,7 +70,9 @@ SurfacePartition::SurfacePartition(const Surface& surface)
   for (int t = 0; t < triangles_.rows(); ++t) {
     for (int k = 0; k < 3; ++k) boundary_[triangles_(t, k)].push_back(t);
   }
+  inner_.assign(vertices, 0);
   euler_.assign(vertices, 1);
+  genus_.assign(vertices, 0);
   parent_.resize(index_.edges.size());
   std::iota(parent_.begin(), parent_.end(), 0);
 }
@@ -85,7 +97,7 @@ std::vector<int> SurfacePartition::triple_neighbours(int group) const {
 }
 
 bool SurfacePartition::share_triple(int a, int b) const {
-  const auto& shorter = boundary_[a].size() < boundary_[b].size() ? boundary_[a] : boundary_[b];
+  const auto& shorter = shorter_boundary(a, b);
   return std::any_of(shorter.begin(), shorter.end(), [&](int t) {
     const auto g = groups_at(t);
     const bool three = g[0] != g[1] && g[1] != g[2] && g[2] != g[0];
@@ -103,20 +115,31 @@ int SurfacePartition::triples() const {
   return count;
 }
 
+const std::vector<int>& SurfacePartition::shorter_boundary(int a, int b) const {
+  return boundary_[boundary_[a].size() < boundary_[b].size() ? a : b];
+}
+
 std::vector<int> SurfacePartition::touching(int a, int b) const {
   std::vector<int> either;
   either.reserve(boundary_[a].size() + boundary_[b].size());
-  std::set_union(boundary_[a].begin(), boundary_[a].end(), boundary_[b].begin(), boundary_[b].end(),
-                 std::back_inserter(either));
+  for (const int t : boundary_[a]) {
+    if (!is_inner(groups_at(t))) either.push_back(t);
+  }
+  for (const int t : boundary_[b]) {
+    const auto g = groups_at(t);
+    if (!is_inner(g) && std::find(g.begin(), g.end(), a) == g.end()) either.push_back(t);
+  }
   return either;
 }
 
-int SurfacePartition::euler_of_union(int a, int b, const std::vector<int>& touching) const {
-  // Triangles and edges that become interior; each such edge is seen from its two triangles.
+int SurfacePartition::euler_of_union(int a, int b) const {
+  // Triangles and edges that become interior; each such edge is seen from its two triangles. All
+  // have corners in both groups.
   int faces = 0;
   int half_edges = 0;
-  for (const int t : touching) {
+  for (const int t : shorter_boundary(a, b)) {
     const auto g = groups_at(t);
+    if (is_inner(g)) continue;
     bool inside = true;
     for (int k = 0; k < 3; ++k) {
       inside = inside && (g[k] == a || g[k] == b);
@@ -137,26 +160,21 @@ int SurfacePartition::root(int edge) {
   return edge;
 }
 
-int SurfacePartition::circles_of_union(int a, int b, const std::vector<int>& touching) {
-  // A triangle on the boundary has exactly two edges that cross it; linking them closes cut curves.
+template <typename Crosses>
+int SurfacePartition::curves_through(const std::vector<int>& triangles, const Crosses& crosses) {
   std::vector<int> crossing;
   int links = 0;
-  for (const int t : touching) {
+  for (const int t : triangles) {
     const auto g = groups_at(t);
-    std::array<int, 2> pair{};
-    int count = 0;
+    std::array<int, 3> edges{};
+    std::size_t count = 0;
     for (int k = 0; k < 3; ++k) {
-      const int p = g[(k + 1) % 3];
-      const int q = g[(k + 2) % 3];
-      if ((p == a || p == b) != (q == a || q == b)) {
-        if (count < 2) pair[static_cast<std::size_t>(count)] = index_.edge_of_corner(t, k);
-        ++count;
-      }
+      if (crosses(g[(k + 1) % 3], g[(k + 2) % 3])) edges.at(count++) = index_.edge_of_corner(t, k);
     }
+    crossing.insert(crossing.end(), edges.begin(), edges.begin() + count);
     if (count != 2) continue;
-    crossing.insert(crossing.end(), pair.begin(), pair.end());
-    const int p = root(pair[0]);
-    const int q = root(pair[1]);
+    const int p = root(edges[0]);
+    const int q = root(edges[1]);
     if (p != q) {
       parent_[p] = q;
       ++links;
@@ -169,22 +187,44 @@ int SurfacePartition::circles_of_union(int a, int b, const std::vector<int>& tou
 }
 
 int SurfacePartition::genus_of_union(int a, int b) {
-  const auto around = touching(a, b);
-  return (2 - euler_of_union(a, b, around) - circles_of_union(a, b, around)) / 2;
+  // Pieces that meet along one arc or cut curve: genera add up.
+  const int contacts = curves_through(shorter_boundary(a, b), [&](int p, int q) {
+    return (p == a && q == b) || (p == b && q == a);
+  });
+  if (contacts == 1) return genus_[a] + genus_[b];
+  // A triangle on the boundary has exactly two edges that cross it; linking them closes cut curves.
+  const int circles = curves_through(
+      touching(a, b), [&](int p, int q) { return (p == a || p == b) != (q == a || q == b); });
+  return (2 - euler_of_union(a, b) - circles) / 2;
 }
 
 void SurfacePartition::merge(int from, int into) {
-  auto around = touching(from, into);
-  euler_[into] = euler_of_union(from, into, around);
+  genus_[into] = genus_of_union(from, into);
+  euler_[into] = euler_of_union(from, into);
+  const bool from_is_longer = boundary_[from].size() > boundary_[into].size();
+  const int longer = from_is_longer ? from : into;
+  const int shorter = from_is_longer ? into : from;
+  std::vector<int> joined = std::move(boundary_[longer]);
+  int inner = inner_[longer];
+  for (const int t : boundary_[shorter]) {
+    const auto g = groups_at(t);
+    if (is_inner(g)) continue;
+    if (std::find(g.begin(), g.end(), longer) == g.end()) {
+      joined.push_back(t);
+    } else if (std::all_of(g.begin(), g.end(), [&](int n) { return n == from || n == into; })) {
+      ++inner;
+    }
+  }
   for (const int v : members_[from]) group_of_vertex_[v] = into;
   members_[into].insert(members_[into].end(), members_[from].begin(), members_[from].end());
   members_[from] = {};
-  std::erase_if(around, [&](int t) {
-    const auto g = groups_at(t);
-    return g[0] == g[1] && g[1] == g[2];
-  });
-  boundary_[into] = std::move(around);
   boundary_[from] = {};
+  if (2 * idx(inner) > joined.size()) {
+    std::erase_if(joined, [&](int t) { return is_inner(groups_at(t)); });
+    inner = 0;
+  }
+  boundary_[into] = std::move(joined);
+  inner_[into] = inner;
 }
 
 namespace {

@@ -57,6 +57,22 @@ struct Candidate {
   bool operator<(const Candidate& other) const { return key() > other.key(); }
 };
 
+/// With more of them, a group's candidates are not made anew at each of its merges, which would
+/// take the square of their number.
+constexpr std::size_t many_neighbours = 1000;
+
+/// Of a group with many neighbours: what its candidates were last made from.
+struct Hub {
+  double edge_sum = 0;
+  std::size_t neighbours = 0;
+  std::size_t changes = 0;  ///< of its neighbours since then
+  /// An eighth of them: the sum is out by about as much, and all candidates in all are made from
+  /// no more than nine times the neighbours that there ever were.
+  [[nodiscard]] bool current() const {
+    return neighbours > many_neighbours && 8 * changes < neighbours;
+  }
+};
+
 class Surgeon {
  public:
   Surgeon(const Surface& surface, const SurgeryOptions& options)
@@ -65,6 +81,7 @@ class Surgeon {
     version_.assign(vertices, 0);
     alive_.assign(vertices, true);
     quadrics_.resize(vertices);
+    hubs_.resize(vertices);
     for (int v = 0; v < vertices; ++v) {
       for (const int neighbour : neighbours(v)) {
         const Eigen::Vector3d edge = positions_.row(neighbour) - positions_.row(v);
@@ -99,21 +116,26 @@ class Surgeon {
     return groups_.triple_neighbours(group);
   }
 
+  /// Sum of the lengths of a group's edges; that of a hub is made anew now and then.
+  double edge_sum(int group) {
+    Hub& hub = hubs_[group];
+    ++hub.changes;
+    return hub.current() ? hub.edge_sum : edge_sum(group, neighbours(group));
+  }
+
+  double edge_sum(int group, const std::vector<int>& around) {
+    double sum = 0;
+    for (const int other : around) sum += (positions_.row(other) - positions_.row(group)).norm();
+    hubs_[group] = {sum, around.size(), 0};
+    return sum;
+  }
+
   void push_candidates_of(int group, bool both_ways) {
     const auto around = neighbours(group);
-    double edge_sum = 0;
-    for (const int other : around) {
-      edge_sum += (positions_.row(other) - positions_.row(group)).norm();
-    }
-    for (const int other : around) push(group, other, edge_sum);
+    const double sum = edge_sum(group, around);
+    for (const int other : around) push(group, other, sum);
     if (!both_ways) return;
-    for (const int other : around) {
-      double other_sum = 0;
-      for (const int next : neighbours(other)) {
-        other_sum += (positions_.row(next) - positions_.row(other)).norm();
-      }
-      push(other, group, other_sum);
-    }
+    for (const int other : around) push(other, group, edge_sum(other));
   }
 
   void push(int from, int into, double edge_sum_of_from) {
@@ -125,11 +147,22 @@ class Surgeon {
   }
 
   void merge(int from, int into) {
+    ++hubs_[into].changes;
+    const bool as_before = hubs_[into].current();
+    const std::vector<int> gained = as_before ? neighbours(from) : std::vector<int>{};
     groups_.merge(from, into);
     quadrics_[into].add(quadrics_[from]);
     alive_[from] = false;
-    ++version_[into];
-    push_candidates_of(into, true);
+    if (!as_before) {
+      ++version_[into];
+      push_candidates_of(into, true);
+      return;
+    }
+    for (const int other : gained) {
+      if (other == into) continue;
+      push(into, other, hubs_[into].edge_sum);
+      push(other, into, edge_sum(other));
+    }
   }
 
   const SurgeryOptions& options_;
@@ -138,6 +171,7 @@ class Surgeon {
   std::vector<int> version_;
   std::vector<char> alive_;
   std::vector<LineQuadric> quadrics_;
+  std::vector<Hub> hubs_;  // per group
   std::priority_queue<Candidate> heap_;
 };
 

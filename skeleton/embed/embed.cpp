@@ -14,28 +14,11 @@
 namespace curveskel {
 namespace {
 
-/// Every vertex goes to the nearest of the nodes that its group may belong to.
-Eigen::VectorXi nearest_nodes(const InscribedBalls& balls, const PartitionGraph& partition,
-                              const EmbeddedNodes& nodes) {
-  Eigen::VectorXi node_of_vertex(partition.group_of_vertex.size());
-  for (Eigen::Index v = 0; v < node_of_vertex.size(); ++v) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const int node : nodes.nodes_of_group[idx(partition.group_of_vertex[v])]) {
-      const double distance = (nodes.skeleton.nodes.row(node) - balls.centres.row(v)).squaredNorm();
-      if (distance < nearest) {
-        nearest = distance;
-        node_of_vertex[v] = node;
-      }
-    }
-  }
-  return node_of_vertex;
-}
-
 /// The graph's points as nodes, with their inscribed radii and the vertices that they stand for.
 CurveSkeleton finished(const SkeletonGraph& graph, const Setting& in) {
   EmbeddedNodes nodes = skeleton_of(graph, in.partition.groups);
   CurveSkeleton& skeleton = nodes.skeleton;
-  skeleton.node_of_vertex = nearest_nodes(in.balls, in.partition, nodes);
+  skeleton.node_of_vertex = nearest_nodes(nodes, in.partition.group_of_vertex, in.balls.centres);
   skeleton.radii.resize(skeleton.nodes.rows());
   for (Eigen::Index n = 0; n < skeleton.nodes.rows(); ++n) {
     skeleton.radii[n] = std::max(0.0, in.tree.inscribed_radius(skeleton.nodes.row(n)));

@@ -1,9 +1,12 @@
 #include "skeleton/embed/skeleton_graph.hpp"
 
-#include "base/indices.hpp"
-
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <utility>
+
+#include "base/indices.hpp"
+#include "skeleton/partition/node_balls.hpp"
 
 namespace curveskel {
 namespace {
@@ -271,6 +274,29 @@ EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups) {
     skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
   }
   return result;
+}
+
+Eigen::VectorXi nearest_nodes(const EmbeddedNodes& nodes, const Eigen::VectorXi& group_of_vertex,
+                              const Positions& places) {
+  std::optional<NodeBalls> all;
+  Eigen::VectorXi node_of_vertex = Eigen::VectorXi::Constant(group_of_vertex.size(), -1);
+  for (Eigen::Index v = 0; v < node_of_vertex.size(); ++v) {
+    const std::vector<int>& own = nodes.nodes_of_group[idx(group_of_vertex[v])];
+    if (own.empty()) {
+      if (!all) all.emplace(nodes.skeleton);
+      node_of_vertex[v] = all->nearest(places.row(v).transpose());
+      continue;
+    }
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int node : own) {
+      const double distance = (nodes.skeleton.nodes.row(node) - places.row(v)).squaredNorm();
+      if (distance < nearest) {
+        nearest = distance;
+        node_of_vertex[v] = node;
+      }
+    }
+  }
+  return node_of_vertex;
 }
 
 }  // namespace curveskel

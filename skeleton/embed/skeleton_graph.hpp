@@ -76,4 +76,10 @@ struct EmbeddedNodes {
 };
 [[nodiscard]] EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups);
 
+/// The node of each vertex: the nearest to its place (#V by 3) of those that its group may belong
+/// to, of all where that is none; the first of equally near ones. O(#V x nodes of a group).
+[[nodiscard]] Eigen::VectorXi nearest_nodes(const EmbeddedNodes& nodes,
+                                            const Eigen::VectorXi& group_of_vertex,
+                                            const Positions& places);
+
 }  // namespace curveskel

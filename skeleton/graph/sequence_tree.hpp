@@ -39,6 +39,14 @@ class SequenceTree {
     }
   }
 
+  /// Calls found(i) once for every item whose box has a point in common with the one from `lower`
+  /// to `upper`.
+  template <typename Found>
+  void overlapping(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                   const Found& found) const {
+    if (!levels_.front().empty()) overlap(levels_.size() - 1, 0, lower, upper, found);
+  }
+
   /// The smallest value(i) over all items, where value(i) >= (distance from p to box i) - weight i;
   /// infinity if there are no items. Once a value <= enough is found, any such value may be
   /// returned.
@@ -51,6 +59,21 @@ class SequenceTree {
 
  private:
   static constexpr std::size_t width = 8;
+
+  template <typename Found>
+  void overlap(std::size_t level, std::size_t index, const Eigen::Vector3d& lower,
+               const Eigen::Vector3d& upper, const Found& found) const {
+    const Item& item = levels_[level][index];
+    if ((item.lower.array() > upper.array()).any() || (item.upper.array() < lower.array()).any()) {
+      return;
+    }
+    if (level == 0) {
+      found(index);
+      return;
+    }
+    const std::size_t end = std::min((index + 1) * width, levels_[level - 1].size());
+    for (std::size_t i = index * width; i < end; ++i) overlap(level - 1, i, lower, upper, found);
+  }
 
   template <typename Value>
   void visit(std::size_t level, std::size_t index, const Eigen::Vector3d& p, double enough,

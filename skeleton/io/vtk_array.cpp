@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/base64.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -27,38 +29,13 @@ class Blocks {
       rest_.remove_prefix(taken.size());
       return taken;
     }
-    while (decoded_.size() < count && decode_group()) {
-    }
+    append_from_base64(decoded_, rest_, count);
     std::string taken = decoded_.substr(0, count);
     decoded_.erase(0, taken.size());
     return taken;
   }
 
  private:
-  /// Four characters; a group that ends in '=' may be followed by more, VTK pads every block.
-  bool decode_group() {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::uint32_t bits = 0;
-    int known = 0;
-    for (int read = 0; read < 4;) {
-      if (rest_.empty()) return false;
-      const char c = rest_.front();
-      rest_.remove_prefix(1);
-      if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
-      ++read;
-      const std::size_t digit = digits.find(c);
-      if (c != '=' && digit == std::string_view::npos) return false;
-      bits = bits << 6U | (c == '=' ? 0U : static_cast<std::uint32_t>(digit));
-      known += c == '=' ? 0 : 1;
-    }
-    for (int byte = 0; byte < known - 1; ++byte) {
-      decoded_ += static_cast<char>(
-          static_cast<unsigned char>(bits >> (16U - 8U * static_cast<unsigned>(byte)) & 0xFFU));
-    }
-    return true;
-  }
-
   std::string_view rest_;
   std::string decoded_;
   bool base64_;

@@ -114,6 +114,7 @@ std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   const std::vector<SwcSample> samples = depth_first_samples(skeleton, forest, context.root);
   std::vector<int> id_of_node(samples.size());
   std::string unknown;
+  const double placeholder = placeholder_radius(skeleton);
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const int node = samples[s].node;
     id_of_node[static_cast<std::size_t>(node)] = static_cast<int>(s) + 1;
@@ -124,7 +125,7 @@ std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
     text += ' ';
     append_decimals(text, skeleton.nodes.row(node), ' ');
     text += ' ';
-    append_decimal(text, known ? skeleton.radii(node) : placeholder_radius(skeleton));
+    append_decimal(text, known ? skeleton.radii(node) : placeholder);
     text += ' ';
     append_decimal(text, samples[s].parent < 0 ? -1 : samples[s].parent + 1);
     text += '\n';

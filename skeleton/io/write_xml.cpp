@@ -1,5 +1,9 @@
 // The two XML formats: VTK's PolyData and GraphML.
-#include <string_view>
+#include <algorithm>
+#include <pugixml.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
@@ -7,47 +11,86 @@
 namespace curveskel {
 namespace {
 
-constexpr std::string_view xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-
-/// Inside a comment "--" is not allowed, and neither are control characters.
-std::string xml_comment(const std::string& provenance) {
-  if (provenance.empty()) return {};
-  std::string text = "<!-- ";
-  for (const char c : provenance) {
-    if (c == '-' && text.back() == '-') text += ' ';
-    text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+/// A document that keeps the lines that it is given: pugixml escapes, and leaves blanks alone.
+class XmlLines {
+ public:
+  explicit XmlLines(const std::string& provenance) {
+    pugi::xml_node head = document.append_child(pugi::node_declaration);
+    head.append_attribute("version") = "1.0";
+    head.append_attribute("encoding") = "UTF-8";
+    end_line(document);
+    if (provenance.empty()) return;
+    std::string text = " " + provenance + " ";
+    std::replace_if(text.begin(), text.end(), is_control, ' ');
+    document.append_child(pugi::node_comment).set_value(text.c_str());
+    end_line(document);
   }
-  return text + " -->\n";
-}
 
-/// A DataArray with one line per call of `append_row`.
+  static void end_line(pugi::xml_node in) { in.append_child(pugi::node_pcdata).set_value("\n"); }
+
+  /// An element whose content begins on a line of its own.
+  static pugi::xml_node open(pugi::xml_node in, const char* name) {
+    pugi::xml_node element = in.append_child(name);
+    end_line(element);
+    return element;
+  }
+
+  [[nodiscard]] std::string text() const {
+    struct Appender : pugi::xml_writer {
+      std::string bytes;
+      void write(const void* data, std::size_t size) override {
+        bytes.append(static_cast<const char*>(data), size);
+      }
+    } appender;
+    document.save(appender, "", pugi::format_raw, pugi::encoding_utf8);
+    return std::move(appender.bytes);
+  }
+
+  pugi::xml_document document;
+
+ private:
+  static bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20; }
+};
+
+/// A DataArray with one line per call of `append_row(text, row)`.
 template <typename AppendRow>
-void append_array(std::string& text, std::string_view attributes, std::size_t rows,
-                  const AppendRow& append_row) {
-  text.append("<DataArray ").append(attributes).append(" format=\"ascii\">\n");
+pugi::xml_node append_array(pugi::xml_node in, const char* type, const char* name, int components,
+                            std::size_t rows, const AppendRow& append_row) {
+  pugi::xml_node array = in.append_child("DataArray");
+  array.append_attribute("type") = type;
+  array.append_attribute("Name") = name;
+  if (components > 1) array.append_attribute("NumberOfComponents") = components;
+  array.append_attribute("format") = "ascii";
+  std::string text = "\n";
   for (std::size_t row = 0; row < rows; ++row) {
-    append_row(row);
+    append_row(text, row);
     text += '\n';
   }
-  text += "</DataArray>\n";
+  array.text().set(text.c_str());
+  XmlLines::end_line(in);
+  return array;
 }
 
-void append_cells(std::string& text, std::string_view element, const std::vector<Branch>& cells) {
-  text.append("<").append(element).append(">\n");
-  append_array(text, R"(type="Int64" Name="connectivity")", cells.size(),
-               [&](std::size_t cell) { append_decimals(text, cells[cell].nodes, ' '); });
+void append_cells(pugi::xml_node piece, const char* name, const std::vector<Branch>& cells) {
+  pugi::xml_node element = XmlLines::open(piece, name);
+  append_array(
+      element, "Int64", "connectivity", 1, cells.size(),
+      [&](std::string& text, std::size_t cell) { append_decimals(text, cells[cell].nodes, ' '); });
   std::size_t offset = 0;
-  append_array(text, R"(type="Int64" Name="offsets")", cells.size(), [&](std::size_t cell) {
-    offset += cells[cell].nodes.size();
-    append_decimal(text, offset);
-  });
-  text.append("</").append(element).append(">\n");
+  append_array(element, "Int64", "offsets", 1, cells.size(),
+               [&](std::string& text, std::size_t cell) {
+                 offset += cells[cell].nodes.size();
+                 append_decimal(text, offset);
+               });
+  XmlLines::end_line(piece);
 }
 
-void append_data(std::string& text, char key, double value) {
-  text.append("<data key=\"").append(1, key).append("\">");
+void append_data(pugi::xml_node element, const char* key, double value) {
+  std::string text;
   append_decimal(text, value);
-  text += "</data>";
+  pugi::xml_node data = element.append_child("data");
+  data.append_attribute("key") = key;
+  data.text().set(text.c_str());
 }
 
 }  // namespace
@@ -58,61 +101,79 @@ std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   for (const int node : isolated_nodes(skeleton)) points.push_back(Branch{{node}});
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
 
-  std::string text(xml_head);
-  text += xml_comment(context.provenance);
-  text +=
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(nodes) + "\" NumberOfVerts=\"" + std::to_string(points.size()) +
-      "\" NumberOfLines=\"" + std::to_string(lines.size()) +
-      "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
+  XmlLines xml(context.provenance);
+  pugi::xml_node file = XmlLines::open(xml.document, "VTKFile");
+  file.append_attribute("type") = "PolyData";
+  file.append_attribute("version") = "1.0";
+  file.append_attribute("byte_order") = "LittleEndian";
+  file.append_attribute("header_type") = "UInt64";
+  pugi::xml_node body = XmlLines::open(file, "PolyData");
+  pugi::xml_node piece = XmlLines::open(body, "Piece");
+  piece.append_attribute("NumberOfPoints") = nodes;
+  piece.append_attribute("NumberOfVerts") = points.size();
+  piece.append_attribute("NumberOfLines") = lines.size();
+  piece.append_attribute("NumberOfStrips") = 0;
+  piece.append_attribute("NumberOfPolys") = 0;
   if (skeleton.radii.size() > 0) {
-    text += "<PointData Scalars=\"radius\">\n";
-    append_array(text, R"(type="Float64" Name="radius")", nodes, [&](std::size_t node) {
+    pugi::xml_node data = XmlLines::open(piece, "PointData");
+    data.append_attribute("Scalars") = "radius";
+    append_array(data, "Float64", "radius", 1, nodes, [&](std::string& text, std::size_t node) {
       append_decimal(text, skeleton.radii(static_cast<Eigen::Index>(node)));
     });
-    text += "</PointData>\n";
+    XmlLines::end_line(piece);
   }
-  text += "<Points>\n";
-  append_array(text, R"(type="Float64" Name="points" NumberOfComponents="3")", nodes,
-               [&](std::size_t node) {
+  append_array(XmlLines::open(piece, "Points"), "Float64", "points", 3, nodes,
+               [&](std::string& text, std::size_t node) {
                  append_decimals(text, skeleton.nodes.row(static_cast<Eigen::Index>(node)), ' ');
                });
-  text += "</Points>\n";
-  append_cells(text, "Verts", points);
-  append_cells(text, "Lines", lines);
-  return text + "</Piece>\n</PolyData>\n</VTKFile>\n";
+  XmlLines::end_line(piece);
+  append_cells(piece, "Verts", points);
+  append_cells(piece, "Lines", lines);
+  for (pugi::xml_node parent : {body, file, pugi::xml_node(xml.document)}) {
+    XmlLines::end_line(parent);
+  }
+  return xml.text();
 }
 
 std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
-  std::string text(xml_head);
-  text += xml_comment(context.provenance);
-  text +=
-      "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\" "
-      "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-      "xsi:schemaLocation=\"http://graphml.graphdrawing.org/xmlns "
-      "http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd\">\n";
-  for (const std::string_view name : {"x", "y", "z", "radius", "length"}) {
-    text.append("<key id=\"").append(name.substr(0, 1)).append("\" for=\"");
-    text.append(name == "length" ? "edge" : "node");
-    text.append("\" attr.name=\"").append(name).append("\" attr.type=\"double\"/>\n");
+  XmlLines xml(context.provenance);
+  pugi::xml_node file = XmlLines::open(xml.document, "graphml");
+  file.append_attribute("xmlns") = "http://graphml.graphdrawing.org/xmlns";
+  file.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
+  file.append_attribute("xsi:schemaLocation") =
+      "http://graphml.graphdrawing.org/xmlns "
+      "http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd";
+  for (const std::string name : {"x", "y", "z", "radius", "length"}) {
+    pugi::xml_node key = file.append_child("key");
+    key.append_attribute("id") = name.substr(0, 1).c_str();
+    key.append_attribute("for") = name == "length" ? "edge" : "node";
+    key.append_attribute("attr.name") = name.c_str();
+    key.append_attribute("attr.type") = "double";
+    XmlLines::end_line(file);
   }
-  text += "<graph id=\"skeleton\" edgedefault=\"undirected\">\n";
+  pugi::xml_node graph = XmlLines::open(file, "graph");
+  graph.append_attribute("id") = "skeleton";
+  graph.append_attribute("edgedefault") = "undirected";
+  const auto id_of = [](Eigen::Index node) { return "n" + std::to_string(node); };
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
-    text += "<node id=\"n" + std::to_string(node) + "\">";
-    append_data(text, 'x', skeleton.nodes(node, 0));
-    append_data(text, 'y', skeleton.nodes(node, 1));
-    append_data(text, 'z', skeleton.nodes(node, 2));
-    if (skeleton.radii.size() > 0) append_data(text, 'r', skeleton.radii(node));
-    text += "</node>\n";
+    pugi::xml_node element = graph.append_child("node");
+    element.append_attribute("id") = id_of(node).c_str();
+    append_data(element, "x", skeleton.nodes(node, 0));
+    append_data(element, "y", skeleton.nodes(node, 1));
+    append_data(element, "z", skeleton.nodes(node, 2));
+    if (skeleton.radii.size() > 0) append_data(element, "r", skeleton.radii(node));
+    XmlLines::end_line(graph);
   }
   for (const auto& edge : skeleton.edges.rowwise()) {
-    text += "<edge source=\"n" + std::to_string(edge(0)) + "\" target=\"n" +
-            std::to_string(edge(1)) + "\">";
-    append_data(text, 'l', (skeleton.nodes.row(edge(0)) - skeleton.nodes.row(edge(1))).norm());
-    text += "</edge>\n";
+    pugi::xml_node element = graph.append_child("edge");
+    element.append_attribute("source") = id_of(edge(0)).c_str();
+    element.append_attribute("target") = id_of(edge(1)).c_str();
+    append_data(element, "l", (skeleton.nodes.row(edge(0)) - skeleton.nodes.row(edge(1))).norm());
+    XmlLines::end_line(graph);
   }
-  return text + "</graph>\n</graphml>\n";
+  XmlLines::end_line(file);
+  XmlLines::end_line(xml.document);
+  return xml.text();
 }
 
 }  // namespace curveskel

@@ -1,222 +1,95 @@
 #include "skeleton/io/xml.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstdint>
+#include <pugixml.hpp>
 
 namespace curveskel {
 namespace {
 
 constexpr int deepest_element = 64;
 constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view appended_data = "AppendedData";
 
 std::string without_prefix(std::string_view name) {
   const std::size_t colon = name.find(':');
   return std::string(colon == std::string_view::npos ? name : name.substr(colon + 1));
 }
 
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto append = [&text](std::uint32_t byte) {
-    text += static_cast<char>(static_cast<unsigned char>(byte));
-  };
-  if (code < 0x80) return append(code);
-  if (code < 0x800) {
-    append(0xC0U | code >> 6U);
-  } else if (code < 0x10000) {
-    append(0xE0U | code >> 12U);
-    append(0x80U | (code >> 6U & 0x3FU));
-  } else {
-    append(0xF0U | code >> 18U);
-    append(0x80U | (code >> 12U & 0x3FU));
-    append(0x80U | (code >> 6U & 0x3FU));
+/// Where in the file VTK's raw data stands, which is no XML and is left out of what is parsed.
+struct RawData {
+  std::size_t begin = 0;
+  std::size_t end = 0;  ///< begin = none
+  /// The place in the file of a place in the text that is parsed.
+  [[nodiscard]] std::size_t in_file(std::size_t place) const {
+    return place < begin ? place : place + (end - begin);
   }
-  append(0x80U | (code & 0x3FU));
+};
+
+RawData raw_data(const FileBytes& file) {
+  const std::string_view text = file.content;
+  const std::size_t tag = text.find("<" + std::string(appended_data));
+  const std::size_t tag_end = tag < text.size() ? text.find('>', tag) : tag;
+  if (tag_end == std::string_view::npos) return {};
+  pugi::xml_document element;
+  const std::string alone = std::string(text.substr(tag, tag_end - tag)) + "/>";
+  if (!element.load_buffer(alone.data(), alone.size()) ||
+      std::string_view(element.document_element().attribute("encoding").value()) != "raw") {
+    return {};
+  }
+  const std::size_t end = text.rfind("</" + std::string(appended_data));
+  if (end == std::string_view::npos || end < tag_end) {
+    fail_at(file, tag, "no end of the data", "</AppendedData>");
+  }
+  return {tag_end + 1, end};
 }
 
-class Parser {
- public:
-  explicit Parser(const FileBytes& file) : file_(file), text_(file.content) {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+/// The tag at a place in the text, or what else stands there.
+std::string excerpt(std::string_view text, std::size_t place) {
+  constexpr std::size_t most = 40;
+  const std::size_t tag = text.substr(0, place + 1).rfind('<');
+  if (tag != std::string_view::npos && place - tag < most) place = tag;
+  return place >= text.size() ? "the end of the file" : in_quotes(text.substr(place, most));
+}
+
+/// The one element that is no other's.
+pugi::xml_node root_of(const FileBytes& file, const RawData& raw,
+                       const pugi::xml_document& document) {
+  const pugi::xml_node root = document.document_element();
+  if (!root) fail_at(file, 0, "no element", "one");
+  for (const pugi::xml_node& other : document.children()) {
+    const std::string_view text = other.value();
+    const bool blank = text.find_first_not_of(blanks) == std::string_view::npos;
+    if (other == root || (blank && other.type() != pugi::node_element)) continue;
+    const std::size_t place = raw.in_file(static_cast<std::size_t>(other.offset_debug()));
+    fail_at(file, place, excerpt(file.content, place), "one element and nothing beside it");
   }
+  return root;
+}
 
-  XmlElement document() {
-    skip_between_elements();
-    if (at_ == text_.size()) fail("the end of the file", "an element");
-    if (text_[at_] != '<') fail(in_quotes(text_.substr(at_, 20)), "an element");
-    XmlElement root = element(0);
-    skip_between_elements();
-    if (at_ != text_.size()) {
-      fail(in_quotes(text_.substr(at_, 20)), "nothing behind the last element");
-    }
-    return root;
+XmlElement element_of(const FileBytes& file, const RawData& raw, const pugi::xml_node& node,
+                      int depth) {
+  XmlElement element;
+  element.position = raw.in_file(static_cast<std::size_t>(node.offset_debug()));
+  if (depth > deepest_element) {
+    fail_at(file, element.position,
+            "elements nested more than " + std::to_string(deepest_element) + " deep", "fewer");
   }
-
- private:
-  [[noreturn]] void fail(std::string_view found, std::string_view needed) const {
-    fail_at(file_, at_, found, needed);
+  element.name = without_prefix(node.name());
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    element.attributes.emplace_back(attribute.name(), attribute.value());
   }
-
-  bool accept(std::string_view token) {
-    if (!text_.substr(at_).starts_with(token)) return false;
-    at_ += token.size();
-    return true;
-  }
-
-  /// The text before the token; the token is stepped over, too.
-  std::string_view until(std::string_view token) {
-    const std::size_t end = text_.find(token, at_);
-    if (end == std::string_view::npos) {
-      fail("no " + in_quotes(token) + " before the end of the file", "one");
-    }
-    const std::string_view before = text_.substr(at_, end - at_);
-    at_ = end + token.size();
-    return before;
-  }
-
-  void skip_blanks() { at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size()); }
-
-  void skip_between_elements() {
-    for (;;) {
-      skip_blanks();
-      if (accept("<?")) {
-        until("?>");
-      } else if (accept("<!--")) {
-        until("-->");
-      } else if (accept("<!DOCTYPE")) {
-        skip_doctype();
-      } else {
-        return;
-      }
-    }
-  }
-
-  /// To its '>', past an internal subset in brackets.
-  void skip_doctype() {
-    int brackets = 0;
-    for (; at_ < text_.size(); ++at_) {
-      const char c = text_[at_];
-      brackets += c == '[' ? 1 : c == ']' ? -1 : 0;
-      if (c == '>' && brackets <= 0) break;
-    }
-    until(">");
-  }
-
-  std::string_view name() {
-    constexpr std::string_view ends = " \t\r\n/>=<\"'";
-    const std::size_t end = std::min(text_.find_first_of(ends, at_), text_.size());
-    if (end == at_) fail(in_quotes(text_.substr(at_, 20)), "a name");
-    const std::string_view found = text_.substr(at_, end - at_);
-    at_ = end;
-    return found;
-  }
-
-  XmlElement element(int depth) {
-    if (depth > deepest_element) {
-      fail("elements nested more than " + std::to_string(deepest_element) + " deep", "fewer");
-    }
-    XmlElement result;
-    result.position = at_;
-    accept("<");
-    const std::string_view tag = name();
-    result.name = without_prefix(tag);
-    for (skip_blanks(); !accept(">"); skip_blanks()) {
-      if (accept("/>")) return result;
-      result.attributes.push_back(attribute());
-    }
-    if (result.name == "AppendedData" && result.attribute("encoding") == "raw") {
-      const std::size_t end = text_.rfind("</" + std::string(tag));
-      if (end == std::string_view::npos || end < at_) fail("no end of the data", "</AppendedData>");
-      result.text = text_.substr(at_, end - at_);
-      at_ = end;
-    }
-    content(result, depth);
-    const std::string_view closing = name();
-    if (closing != tag) {
-      fail("</" + std::string(closing) + ">", "</" + std::string(tag) + ">");
-    }
-    skip_blanks();
-    if (!accept(">")) fail(in_quotes(text_.substr(at_, 20)), ">");
-    return result;
-  }
-
-  std::pair<std::string, std::string> attribute() {
-    const std::string_view key = name();
-    skip_blanks();
-    if (!accept("=")) fail("the attribute " + in_quotes(key) + " without a value", "=\"...\"");
-    skip_blanks();
-    std::string value;
-    if (accept("\"")) {
-      append_resolved(value, until("\""));
-    } else if (accept("'")) {
-      append_resolved(value, until("'"));
+  for (const pugi::xml_node& child : node.children()) {
+    if (child.type() == pugi::node_element) {
+      element.children.push_back(element_of(file, raw, child, depth + 1));
     } else {
-      fail("the attribute " + in_quotes(key) + " without quotes", "=\"...\"");
-    }
-    return {std::string(key), std::move(value)};
-  }
-
-  /// Up to and with the "</" of the element's own end tag.
-  void content(XmlElement& element_of, int depth) {
-    for (;;) {
-      const std::size_t tag = text_.find('<', at_);
-      if (tag == std::string_view::npos) {
-        fail("no end tag before the end of the file", "</" + element_of.name + ">");
-      }
-      append_resolved(element_of.text, text_.substr(at_, tag - at_));
-      at_ = tag;
-      if (accept("</")) return;
-      if (accept("<!--")) {
-        until("-->");
-      } else if (accept("<![CDATA[")) {
-        element_of.text += until("]]>");
-      } else if (accept("<?")) {
-        until("?>");
-      } else {
-        element_of.children.push_back(element(depth + 1));
-      }
+      element.text += child.value();
     }
   }
-
-  void append_resolved(std::string& result, std::string_view raw) const {
-    constexpr std::array<std::pair<std::string_view, char>, 5> entities{
-        {{"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}}};
-    for (std::size_t i = raw.find('&'); i != std::string_view::npos; i = raw.find('&')) {
-      result += raw.substr(0, i);
-      const std::size_t end = raw.find(';', i);
-      if (end == std::string_view::npos) fail("an '&' without ';'", "&amp;");
-      const std::string_view entity = raw.substr(i + 1, end - i - 1);
-      const auto* known = std::find_if(entities.begin(), entities.end(),
-                                       [&](const auto& e) { return e.first == entity; });
-      if (known != entities.end()) {
-        result += known->second;
-      } else {
-        append_utf8(result, character(entity));
-      }
-      raw.remove_prefix(end + 1);
-    }
-    result += raw;
+  if (raw.begin < raw.end && element.name == appended_data) {
+    element.text = file.content.substr(raw.begin, raw.end - raw.begin);
   }
-
-  [[nodiscard]] std::uint32_t character(std::string_view entity) const {
-    constexpr std::uint32_t last_code = 0x10FFFF;
-    const bool hexadecimal = entity.starts_with("#x");
-    const std::string_view digits =
-        entity.substr(std::min<std::size_t>(entity.size(), hexadecimal ? 2 : 1));
-    std::uint32_t code = 0;
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), code, hexadecimal ? 16 : 10);
-    if (!entity.starts_with('#') || error != std::errc() || end != digits.data() + digits.size() ||
-        code > last_code) {
-      fail(in_quotes(entity) + " after an &", "a character reference or a known entity");
-    }
-    return code;
-  }
-
-  const FileBytes& file_;
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
+  return element;
+}
 
 }  // namespace
 
@@ -242,7 +115,29 @@ std::vector<const XmlElement*> XmlElement::all(std::string_view child_name) cons
   return found;
 }
 
-XmlElement parse_xml(const FileBytes& file) { return Parser(file).document(); }
+XmlElement parse_xml(const FileBytes& file) {
+  const RawData raw = raw_data(file);
+  std::string joined;
+  std::string_view text = file.content;
+  if (raw.begin < raw.end) {
+    joined.assign(text.substr(0, raw.begin)).append(text.substr(raw.end));
+    text = joined;
+  }
+  const std::size_t zero = text.find('\0');
+  if (zero != std::string_view::npos) fail_at(file, raw.in_file(zero), "a zero byte", "text");
+  // Blanks between comments keep numbers apart; a fragment's text beside the root is seen, not
+  // lost.
+  constexpr unsigned options = pugi::parse_default | pugi::parse_ws_pcdata | pugi::parse_fragment;
+  pugi::xml_document document;
+  const pugi::xml_parse_result result =
+      document.load_buffer(text.data(), text.size(), options, pugi::encoding_utf8);
+  if (!result) {
+    const std::size_t at = raw.in_file(static_cast<std::size_t>(result.offset));
+    fail_at(file, at, excerpt(file.content, at),
+            std::string("sound XML (") + result.description() + ")");
+  }
+  return element_of(file, raw, root_of(file, raw, document), 0);
+}
 
 void fail_at(const FileBytes& file, std::size_t position, std::string_view found,
              std::string_view needed) {

@@ -1,4 +1,4 @@
-// As much of XML as skeleton files need.
+// XML as skeleton files need it: names without prefixes, text in one piece, places for messages.
 #pragma once
 
 #include <string>
@@ -26,9 +26,9 @@ struct XmlElement {
   [[nodiscard]] std::vector<const XmlElement*> all(std::string_view child_name) const;
 };
 
-/// The root element. Elements, attributes, text, CDATA, comments, the five entities and character
-/// references; a DOCTYPE is passed over. VTK's <AppendedData encoding="raw">, which is no XML, is
-/// taken as the text up to its last end tag.
+/// The root element, as pugixml reads it: a DOCTYPE is passed over, and entities that it declares
+/// stay as they are written. VTK's <AppendedData encoding="raw">, which is no XML, is taken as the
+/// text up to its last end tag. No more than 64 elements may be nested.
 /// Throws Error(Fault::input) with the line. O(bytes).
 [[nodiscard]] XmlElement parse_xml(const FileBytes& file);
 

@@ -62,12 +62,17 @@ std::vector<Mark> marks_of(const CurveSkeleton& skeleton, const View& view, doub
 
   std::vector<Layer> layers;
   std::vector<int> degree(seen.size(), 0);
+  std::vector<double> nearest_end(seen.size(), -std::numeric_limits<double>::infinity());
   for (const auto& edge : skeleton.edges.rowwise()) {
     const Eigen::Vector3d& a = seen[static_cast<std::size_t>(edge(0))];
     const Eigen::Vector3d& b = seen[static_cast<std::size_t>(edge(1))];
     ++degree[static_cast<std::size_t>(edge(0))];
     ++degree[static_cast<std::size_t>(edge(1))];
     const double depth = (a.z() + b.z()) / 2;
+    for (const int node : edge) {
+      double& end = nearest_end[static_cast<std::size_t>(node)];
+      end = std::max(end, depth);
+    }
     const Colour colour =
         far_colour + (near_colour - far_colour) * static_cast<float>(nearness(depth));
     Mark stroke{a.head<2>(), b.head<2>(), width(a.z()), width(b.z()), colour, false};
@@ -84,7 +89,7 @@ std::vector<Mark> marks_of(const CurveSkeleton& skeleton, const View& view, doub
     const double size =
         unit * (junction ? junction_width : tip_width) * (0.8 + 0.2 * nearness(seen[node].z()));
     layers.push_back(
-        {seen[node].z() + size,
+        {std::max(seen[node].z() + size, nearest_end[node]),  // over the edges that end here
          {dot(seen[node], size, white),
           dot(seen[node], size - 2 * casing * unit, junction ? junction_colour : tip_colour)}});
   }

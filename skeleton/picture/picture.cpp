@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/view.hpp>
+#include "base/base64.hpp"
 #include "base/decimal.hpp"
 #include "skeleton/picture/image.hpp"
 #include "skeleton/picture/marks.hpp"
@@ -27,24 +28,6 @@ Image picture_of(const Surface& surface, const std::array<View, 2>& views,
 double width_unit(const PictureOptions& options) {
   constexpr double usual_side = 1200;
   return std::min(options.width, options.height) / usual_side;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned triple = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      triple = triple << 8U | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? digits[triple >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
-    }
-  }
-  return text;
 }
 
 /// A hundredth of a pixel is finer than anybody sees.
@@ -108,7 +91,7 @@ std::string svg_picture(const CurveSkeleton& skeleton, const Surface& surface,
       width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height + "\">\n";
   text += "<image width=\"" + width + "\" height=\"" + height +
           "\" xlink:href=\"data:image/png;base64," +
-          base64(png_from(picture_of(surface, views, options))) + "\"/>\n";
+          base64_of(png_from(picture_of(surface, views, options))) + "\"/>\n";
   for (const View& view : views) {
     text += "<g fill=\"none\">\n";
     for (const Mark& mark : marks_of(skeleton, view, width_unit(options))) append_mark(text, mark);

@@ -8,6 +8,8 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include "base/indices.hpp"
+#include "skeleton/graph/sequence_tree.hpp"
+#include "surface/spatial/morton.hpp"
 
 namespace curveskel {
 namespace {
@@ -43,6 +45,23 @@ struct PieceAsked {
   double extent = 0;
 };
 
+std::vector<std::int32_t> neighbours_together(const std::vector<PieceAsked>& pieces) {
+  Positions centres(static_cast<Eigen::Index>(pieces.size()), 3);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    centres.row(static_cast<Eigen::Index>(p)) = pieces[p].box.center().transpose();
+  }
+  return along_morton_curve(centres, 1);
+}
+
+SequenceTree boxes_in(const std::vector<std::int32_t>& order,
+                      const std::vector<PieceAsked>& pieces) {
+  std::vector<SequenceTree::Item> items;
+  items.reserve(order.size());
+  for (const std::int32_t p : order)
+    items.push_back({pieces[idx(p)].box.min(), pieces[idx(p)].box.max()});
+  return SequenceTree(std::move(items));
+}
+
 /// Of each node the component of its piece.
 std::vector<int> spread(const std::vector<int>& piece_of_node,
                         const std::vector<int>& component_of_piece) {
@@ -75,14 +94,15 @@ std::vector<int> component_by_place(const CurveSkeleton& skeleton,
   std::vector<PieceAsked> asked;
   asked.reserve(nodes.size());
   for (const auto& own : nodes) asked.emplace_back(skeleton.nodes(own, Eigen::all));
+  const std::vector<std::int32_t> order = neighbours_together(asked);
+  const SequenceTree boxes = boxes_in(order, asked);
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const Eigen::AlignedBox3d box = box_of(parts[c].surface.positions);
     std::optional<SurfaceTree> tree;
-    for (PieceAsked& one : asked) {
-      if (!box.intersects(one.box)) continue;
+    boxes.overlapping(box.min(), box.max(), [&](std::size_t i) {
       if (!tree) tree.emplace(parts[c].surface);
-      one.ask(*tree, static_cast<int>(c), box.diagonal().norm());
-    }
+      asked[idx(order[i])].ask(*tree, static_cast<int>(c), box.diagonal().norm());
+    });
   }
   std::vector<int> of_piece;
   of_piece.reserve(asked.size());

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "base/parallel.hpp"
+
 namespace curveskel {
 
 std::vector<std::int32_t> order_by_key(const std::vector<std::uint64_t>& keys, unsigned bits) {
@@ -28,6 +30,25 @@ std::vector<std::int32_t> order_by_key(const std::vector<std::uint64_t>& keys, u
   std::vector<std::int32_t> order(keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) order[i] = entries[i].index;
   return order;
+}
+
+std::vector<std::int32_t> along_morton_curve(const Positions& positions, int threads) {
+  constexpr unsigned bits_per_axis = 11;
+  constexpr std::size_t rows_per_range = 4096;
+  if (positions.rows() == 0) return {};
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
+  const double scale = extent > 0 ? ((1U << bits_per_axis) - 1) / extent : 0;
+  std::vector<std::uint64_t> keys(static_cast<std::size_t>(positions.rows()));
+  parallel_for(keys.size(), rows_per_range, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Eigen::RowVector3d cell = (positions.row(static_cast<Eigen::Index>(v)) - low) * scale;
+      keys[v] =
+          morton_key(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
+                     static_cast<std::uint64_t>(cell.z()));
+    }
+  });
+  return order_by_key(keys, 3 * bits_per_axis);
 }
 
 }  // namespace curveskel

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <curveskel/surface.hpp>
+
 namespace curveskel {
 
 /// Interleaves the low 21 bits of x, y and z, x leading.
@@ -24,5 +26,9 @@ namespace curveskel {
 /// Only the lowest `bits` bits count. Radix sort, O(#keys * bits / 11).
 [[nodiscard]] std::vector<std::int32_t> order_by_key(const std::vector<std::uint64_t>& keys,
                                                      unsigned bits);
+
+/// The rows in their order along the curve through a grid of 2048 cells per axis. Precondition:
+/// finite. O(#rows).
+[[nodiscard]] std::vector<std::int32_t> along_morton_curve(const Positions& positions, int threads);
 
 }  // namespace curveskel

@@ -45,7 +45,7 @@ Eigen::MatrixXf floats_of(const Chunks& chunks, int accessor, Eigen::Index width
   Eigen::MatrixXf rows(width, named["count"].get<Eigen::Index>());
   EXPECT_EQ(named["componentType"], 5126);
   EXPECT_EQ(view["byteLength"].get<std::size_t>(), idx(rows.size()) * sizeof(float));
-  const std::string bytes = chunks.numbers.substr(view["byteOffset"].get<std::size_t>(),
+  const std::string bytes = chunks.numbers.substr(view.value("byteOffset", std::size_t{0}),
                                                   view["byteLength"].get<std::size_t>());
   std::memcpy(rows.data(), bytes.data(), bytes.size());
   return rows.transpose();

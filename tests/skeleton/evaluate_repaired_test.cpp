@@ -9,6 +9,7 @@
 #include <curveskel/extract.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/topology.hpp>
+#include "base/indices.hpp"
 #include "meshes/shapes.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "surface/mesh/crosses_itself.hpp"
@@ -72,6 +73,32 @@ TEST(EvaluateRepaired, GivesPiecesToTheSmallestThatHoldsThem) {
   EXPECT_EQ(component_by_place(skeleton, split_components(all.surface, counted)), by_map);
   EXPECT_EQ(std::vector<int>(by_map).front(), 0);
   EXPECT_EQ(by_map.back(), 2);
+}
+
+/// A crowd of boxes apart from each other, each with its piece: 10^11 pairs that need no look.
+TEST(EvaluateRepaired, APieceAsksOnlyComponentsThatItsBoxMeets) {
+  constexpr int side = 68;
+  constexpr int count = side * side * side;
+  Component cube;
+  cube.surface = shapes::translated(shapes::ellipsoid({0.3, 0.3, 0.3}, 0), {0, 0, 0}).surface;
+  std::vector<Component> parts(count, cube);
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(2 * count, 3);
+  skeleton.edges.resize(count, 2);
+  for (int c = 0; c < count; ++c) {
+    const Eigen::RowVector3d place(c % side, c / side % side, c / side / side);
+    parts[idx(c)].surface.positions.rowwise() += place;
+    const int piece = static_cast<int>(7919L * c % count);
+    skeleton.nodes.row(2 * piece) = place;
+    skeleton.nodes.row(2 * piece + 1) = place + Eigen::RowVector3d(0, 0, 0.1);
+    skeleton.edges.row(piece) << 2 * piece, 2 * piece + 1;
+  }
+  const std::vector<int> found = component_by_place(skeleton, parts);
+  for (int c = 0; c < count; ++c) {
+    const int piece = static_cast<int>(7919L * c % count);
+    ASSERT_EQ(found[idx(2 * piece)], c);
+    ASSERT_EQ(found[idx(2 * piece + 1)], c);
+  }
 }
 
 TEST(CrossesItself, IsWhatNoiseOrAnotherPartDoesAndNothingElse) {

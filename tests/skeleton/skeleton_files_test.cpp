@@ -39,6 +39,12 @@ std::string failure_of(const std::string& name, std::string_view bytes) {
   }
 }
 
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  for (int k = 0; k < times; ++k) all += text;
+  return all;
+}
+
 CurveSkeleton round_trip(const CurveSkeleton& skeleton, const std::string& format,
                          const SkeletonContext& context = {nullptr, "made by a test", {}}) {
   return read_text("skeleton." + format,
@@ -177,6 +183,20 @@ TEST(SkeletonSwc, IsATreeWithPositiveRadiiAndOneCutPerLoop) {
     EXPECT_EQ(roots, graph_topology(skeleton).components) << name;
     EXPECT_EQ(cuts, graph_topology(skeleton).cycle_rank) << name;
   }
+}
+
+/// 400,000 nodes, each without a radius: 10^11 comparisons if each asked for the whole extent.
+TEST(SkeletonSwc, AsksOnceWhatStandsForUnknownRadii) {
+  constexpr int nodes = 400000;
+  CurveSkeleton line;
+  line.nodes.setZero(nodes, 3);
+  line.edges.resize(nodes - 1, 2);
+  for (int node = 0; node < nodes; ++node) line.nodes(node, 0) = node;
+  for (int edge = 0; edge + 1 < nodes; ++edge) line.edges.row(edge) << edge, edge + 1;
+  const CurveSkeleton back = round_trip(line, "swc");
+  EXPECT_EQ(back.radii.size(), 0);
+  EXPECT_TRUE(same(back.nodes, line.nodes));
+  EXPECT_TRUE(same(back.edges, line.edges));
 }
 
 TEST(SkeletonRoot, IsTheFirstSampleOfSwcAndChangesNothingElse) {
@@ -321,6 +341,21 @@ TEST(BadSkeletonFiles, AreNamedWithTheLineTheValueAndTheNeed) {
       {"a.graphml",
        "<graphml>\n<graph>\n<node id=\"a\"/>\n</graph></graphml>",
        {"line 3", "\"a\"", "x, y or z"}},
+      {"a.vtp",
+       "<VTKFile type=\"PolyData\"><PolyData/>\n<AppendedData encoding=\"raw\">_aaaa",
+       {"line 2", "</AppendedData>"}},
+      {"a.graphml", "<graphml>\n<graph id=x></graph></graphml>", {"line 2", "id=x"}},
+      {"a.graphml",
+       "<graphml>" + repeated("<a>", 100000) + repeated("</a>", 100000) + "</graphml>",
+       {"nested more than 64 deep"}},
+      {"a.graphml", "<graphml>\n" + repeated("<a>", 100000), {"line 2"}},
+      {"a.graphml", "<graphml/>\n<graphml/>", {"line 2", "nothing beside it"}},
+      {"a.graphml", std::string("<graphml>\n\0</graphml>", 21), {"line 2", "zero byte"}},
+      {"a.graphml",
+       "<!DOCTYPE graphml [<!ENTITY a \"1\"><!ENTITY b \"&a;&a;\">]>\n<graphml>"
+       "<key id=\"x\" attr.name=\"x\"/><graph>\n<node><data key=\"x\">&b;</data></node></graph>"
+       "</graphml>",
+       {"line 3", "&b;", "a finite number"}},
       {"a.svg", "<svg></svg>", {"svg", "obj, ply, cgal"}},
       {"a.png", "?", {"png", "does not hold the graph"}},
       {"a.unknown", "?", {"no known extension", "obj, ply, cgal"}},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <curveskel/advanced/inscribed_balls.hpp>
@@ -134,6 +135,31 @@ TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {
     const auto genus = genus_of_groups(shape.surface, *graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), graph->groups) << shape.name;
   }
+}
+
+/// Two tips joined to a ring of vertices: each merge changes the edges of a tip, and a candidate
+/// for each of its neighbours after each merge would be 10^9 of them and 30 GB.
+TEST(Surgery, TipsOfManyTrianglesTakeNoSquareOfTheirNumber) {
+  constexpr int around = 20000;
+  Surface spindle;
+  spindle.positions.resize(around + 2, 3);
+  spindle.triangles.resize(2 * around, 3);
+  for (int k = 0; k < around; ++k) {
+    const double angle = 2 * EIGEN_PI * k / around;
+    const double radius = 0.01 * (1 + 0.1 * std::sin(7 * angle) + 0.01 * std::sin(1e4 * k));
+    const int next = (k + 1) % around;
+    spindle.positions.row(k) << radius * std::cos(angle), radius * std::sin(angle), 0;
+    spindle.triangles.row(2 * k) << k, next, around;
+    spindle.triangles.row(2 * k + 1) << next, k, around + 1;
+  }
+  spindle.positions.row(around) << 0, 0, 0.5;
+  spindle.positions.row(around + 1) << 0, 0, -0.5;
+  Contraction contracted;
+  contracted.surface = spindle;
+  contracted.vertex_of_input = Eigen::VectorXi::LinSpaced(around + 2, 0, around + 1);
+  const auto graph = surgery(spindle, contracted, {}, {});
+  ASSERT_TRUE(graph.has_value());
+  EXPECT_EQ(cycle_rank(*graph), 0);
 }
 
 }  // namespace

@@ -92,6 +92,16 @@ void expect_same_skeleton(const CurveSkeleton& found, const CurveSkeleton& expec
   EXPECT_EQ(found.node_of_vertex, expected.node_of_vertex);
 }
 
+TEST(DurationText, HasThreeDigitsAndNoPointAtItsEnd) {
+  EXPECT_EQ(duration_text(0), "0.00 s");
+  EXPECT_EQ(duration_text(1.234), "1.23 s");
+  EXPECT_EQ(duration_text(9.996), "10.0 s");
+  EXPECT_EQ(duration_text(12.34), "12.3 s");
+  EXPECT_EQ(duration_text(99.96), "100 s");
+  EXPECT_EQ(duration_text(123.4), "123 s");
+  EXPECT_EQ(duration_text(7200), "7200 s");
+}
+
 TEST(Run, EndsWithWhatExtractGives) {
   for (const shapes::Shape& shape :
        {shapes::torus(3, 1, 10), shapes::linked_rings(3, 0.7, 8), shapes::cone(1, 4, 16)}) {

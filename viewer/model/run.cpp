@@ -1,5 +1,7 @@
 #include "viewer/model/run.hpp"
 
+#include <fmt/core.h>
+
 #include <exception>
 #include <new>
 #include <utility>
@@ -18,6 +20,11 @@ CurveSkeleton on_file_vertices(const RepairedSurface& repaired, const CurveSkele
 }
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  const int digits = seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f} s", seconds, digits);
+}
 
 Run::Run(std::shared_ptr<const PolygonSoup> soup, RunOptions options, Eigen::RowVector3d origin,
          std::shared_ptr<RunMemory> memory, bool paused)

@@ -45,6 +45,9 @@ struct RunResult {
   double seconds = 0;
 };
 
+/// "1.23 s", "12.3 s", "123 s": no more digits than a person reads.
+[[nodiscard]] std::string duration_text(double seconds);
+
 /// One run. Every function returns at once: the drawing thread never waits for the pipeline.
 class Run {
  public:

@@ -116,7 +116,7 @@ void Workbench::take_moments(std::vector<Moment> moments) {
 }
 
 void Workbench::take_result(RunResult result) {
-  say("extracted in " + std::to_string(result.seconds).substr(0, 4) + " s");
+  say("extracted in " + duration_text(result.seconds));
   for (const std::string& line : result.repaired->repairs.lines) say("repaired: " + line);
   for (const std::string& note : result.notes) say(note);
   scene->recording.settle(result.extraction->history);

@@ -42,26 +42,33 @@ class SurfacePartition {
   [[nodiscard]] int triples() const;
 
   /// Genus (2 - chi - cut curves) / 2 of the piece that merging would make; 0 = a sphere with
-  /// holes. Once positive it stays so for every larger piece. O(size of the two boundaries).
+  /// holes. Once positive it stays so for every larger piece. O(size of the shorter boundary) where
+  /// the two meet along one curve, else of both.
   [[nodiscard]] int genus_of_union(int a, int b);
 
-  /// Moves the vertices of `from` to `into`. O(size of the two boundaries and of `from`).
+  /// Moves the vertices of `from` to `into`. As `genus_of_union`, and the size of `from`.
   void merge(int from, int into);
 
  private:
   [[nodiscard]] std::array<int, 3> groups_at(int triangle) const;
+  [[nodiscard]] const std::vector<int>& shorter_boundary(int a, int b) const;
   [[nodiscard]] std::vector<int> touching(int a, int b) const;
-  [[nodiscard]] int euler_of_union(int a, int b, const std::vector<int>& touching) const;
-  [[nodiscard]] int circles_of_union(int a, int b, const std::vector<int>& touching);
+  [[nodiscard]] int euler_of_union(int a, int b) const;
+  /// The number of curves, open or closed, that the triangles' crossing edges are linked to.
+  template <typename Crosses>
+  [[nodiscard]] int curves_through(const std::vector<int>& triangles, const Crosses& crosses);
   int root(int edge);
 
   Triangles triangles_;
   EdgeIndex index_;
   std::vector<int> group_of_vertex_;
   std::vector<std::vector<int>> members_;
-  std::vector<std::vector<int>> boundary_;  // per group, ascending: triangles it shares with others
-  std::vector<int> euler_;                  // per group
-  std::vector<int> parent_;                 // union-find over edges, reset after each use
+  std::vector<std::vector<int>>
+      boundary_;             // per group: triangles it shares, or shared, with others
+  std::vector<int> inner_;   // per group: how many of these are its own by now
+  std::vector<int> euler_;   // per group
+  std::vector<int> genus_;   // per group
+  std::vector<int> parent_;  // union-find over edges, reset after each use
 };
 
 /// A graph whose first nodes are groups of the vertices of a surface, followed by one node for each

@@ -163,6 +163,7 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& op
     for (std::size_t s = 0; s < graph.arcs.size(); ++s) {
       Arc& arc = graph.arcs[s];
       if (!arc.alive || arc.from != arc.to || graph.degree(arc.from) != 2) continue;
+      if (arc.points.empty()) continue;
       turn_half_way_round(graph, arc);
       rest[s] = {};
     }

@@ -9,6 +9,7 @@
 #include "meshes/shapes.hpp"
 #include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel::relax_laws {
 namespace {
@@ -41,6 +42,20 @@ TEST(Relax, PlacesPointsHalfOfTheirRadiusApart) {
   for (std::size_t i = 0; i + 1 < dense.size(); ++i) {
     EXPECT_LT((dense[i + 1] - dense[i]).norm(), 1.01 * most_spacing / 4);
   }
+}
+
+/// Nothing to turn round: the next `keep_simple` gives such a curve its points.
+TEST(Relax, LeavesAClosedStrandWithoutPointsAsItIs) {
+  const SurfaceTree tree(shapes::torus(1, 0.3, 12).surface);
+  SkeletonGraph graph;
+  graph.nodes = {{{1, 0, 0}, {0}, true, {0}}};
+  graph.arcs.push_back({0, 0, {}, {0}});
+  RelaxOptions options;
+  options.rounds = 2;
+  HomologyGuard guard;
+  relax(graph, tree, options, guard, 1);
+  EXPECT_EQ(graph.nodes.front().position, Point(1, 0, 0));
+  EXPECT_TRUE(graph.arcs.front().points.empty());
 }
 
 }  // namespace
