@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include <curveskel/error.hpp>
+#include "base/graph.hpp"
 #include "meshes/level_set.hpp"
 #include "meshes/shapes.hpp"
 
@@ -15,38 +15,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-int root_of(std::vector<int>& parent, int i) {
-  while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
-  return i;
-}
-
-std::vector<int> node_degrees(const CurveSkeleton& graph) {
-  std::vector<int> degree(static_cast<std::size_t>(graph.nodes.rows()), 0);
-  for (Eigen::Index e = 0; e < graph.edges.size(); ++e)
-    ++degree[static_cast<std::size_t>(graph.edges.data()[e])];
-  return degree;
-}
-
-int components_of(Eigen::Index nodes, const Eigen::Ref<const Eigen::MatrixXi>& links) {
-  std::vector<int> parent(static_cast<std::size_t>(nodes));
-  std::iota(parent.begin(), parent.end(), 0);
-  auto count = static_cast<int>(nodes);
-  for (Eigen::Index e = 0; e < links.rows(); ++e) {
-    const int a = root_of(parent, links(e, 0));
-    const int b = root_of(parent, links(e, 1));
-    if (a == b) continue;
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    --count;
-  }
-  return count;
+template <typename Links>
+int components_of(Eigen::Index nodes, const Links& links) {
+  const std::vector<int> component = connected_components(nodes, links);
+  return component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
 }
 
 // Edges grouped by branch: those that share a node of degree 2 belong together.
 std::vector<std::vector<int>> edges_by_branch(const CurveSkeleton& graph) {
   const auto count = static_cast<int>(graph.edges.rows());
-  const std::vector<int> degree = node_degrees(graph);
-  std::vector<int> parent(static_cast<std::size_t>(count));
-  std::iota(parent.begin(), parent.end(), 0);
+  const std::vector<int> degree = degrees(graph.nodes.rows(), graph.edges);
+  UnionFind joined(count);
   std::vector<int> edge_at(degree.size(), -1);
   for (int e = 0; e < count; ++e) {
     for (int k = 0; k < 2; ++k) {
@@ -55,14 +34,12 @@ std::vector<std::vector<int>> edges_by_branch(const CurveSkeleton& graph) {
       if (edge_at[node] < 0) {
         edge_at[node] = e;
       } else {
-        const int a = root_of(parent, e);
-        const int b = root_of(parent, edge_at[node]);
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        joined.unite(e, edge_at[node]);
       }
     }
   }
   std::vector<std::vector<int>> groups(static_cast<std::size_t>(count));
-  for (int e = 0; e < count; ++e) groups[static_cast<std::size_t>(root_of(parent, e))].push_back(e);
+  for (int e = 0; e < count; ++e) groups[static_cast<std::size_t>(joined.root(e))].push_back(e);
   std::erase_if(groups, [](const auto& group) { return group.empty(); });
   return groups;
 }
@@ -150,7 +127,7 @@ Shape tube_union(std::string name, const CurveSkeleton& graph, const TubeUnionOp
   const double thinnest = graph.radii.minCoeff();
   std::vector<Vector3d> seeds;
   for (Eigen::Index i = 0; i < graph.nodes.rows(); ++i) seeds.emplace_back(graph.nodes.row(i));
-  const std::vector<int> degree = node_degrees(graph);
+  const std::vector<int> degree = degrees(graph.nodes.rows(), graph.edges);
 
   Shape shape;
   shape.name = std::move(name);

@@ -88,8 +88,9 @@ std::string outcome(const Contraction& contraction, int component) {
 
 int run_contract(const ContractArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
-  if (format_of(arguments.output, surface_formats) != SurfaceFormat::ply) {
-    throw UsageError(arguments.output + ": the contracted surface is written as ply");
+  const SurfaceFormat format = format_of(arguments.output, surface_formats);
+  if (format != SurfaceFormat::ply && format != SurfaceFormat::om) {
+    throw UsageError(arguments.output + ": the contracted surface is written as ply or om");
   }
   check_outputs({arguments.output}, arguments.mesh);
   if (!arguments.frames.empty()) make_folder(arguments.frames);
@@ -129,7 +130,7 @@ int run_contract(const ContractArguments& arguments, Session& session) {
       program_and_version() + ", " + arguments.mesh.filename().string() + ", contracted";
   auto files = arguments.frames.empty() ? std::vector<OutputFile>()
                                         : frame_files(frames, arguments.frames, provenance);
-  files.push_back({arguments.output, format_surface(written, SurfaceFormat::ply, provenance)});
+  files.push_back({arguments.output, format_surface(written, format, provenance)});
   write_outputs(files, session);
 
   if (!arguments.quiet) {

@@ -11,13 +11,14 @@
 
 namespace curveskel {
 
-enum class SurfaceFormat { obj, off, ply, stl, gltf, glb };
+enum class SurfaceFormat { obj, off, ply, stl, om, gltf, glb };
 
-inline constexpr NameTable<SurfaceFormat, 6> surface_formats{{
+inline constexpr NameTable<SurfaceFormat, 7> surface_formats{{
     {SurfaceFormat::obj, "obj", "Wavefront OBJ"},
     {SurfaceFormat::off, "off", "Object File Format (OFF, COFF, NOFF, ...)"},
     {SurfaceFormat::ply, "ply", "Stanford PLY, ASCII or binary"},
     {SurfaceFormat::stl, "stl", "Stereolithography, ASCII or binary"},
+    {SurfaceFormat::om, "om", "OpenMesh's OM, binary"},
     {SurfaceFormat::gltf, "gltf", "glTF 2.0, JSON with buffers beside it"},
     {SurfaceFormat::glb, "glb", "glTF 2.0, one binary file"},
 }};

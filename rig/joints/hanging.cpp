@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/graph.hpp"
 #include "base/indices.hpp"
 
 namespace curveskel {
@@ -37,11 +38,9 @@ double least_length(double apart, double radius, double other_radius) {
 class Hanging {
  public:
   Hanging(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii)
-      : skeleton_(skeleton), radii_(radii), neighbours_(idx(skeleton.nodes.rows())) {
-    for (const auto& edge : skeleton.edges.rowwise()) {
-      neighbours_[idx(edge[0])].push_back(edge[1]);
-      neighbours_[idx(edge[1])].push_back(edge[0]);
-    }
+      : skeleton_(skeleton),
+        radii_(radii),
+        graph_(graph_of(skeleton.nodes.rows(), skeleton.edges)) {
     directions_.resize(skeleton.nodes.rows(), 3);
     for (int node = 0; node < skeleton.nodes.rows(); ++node) {
       directions_.row(node) = direction(node).transpose();
@@ -75,12 +74,12 @@ class Hanging {
   [[nodiscard]] Eigen::Vector3d point(int node) const {
     return skeleton_.nodes.row(node).transpose();
   }
-  [[nodiscard]] std::size_t degree(int node) const { return neighbours_[idx(node)].size(); }
+  [[nodiscard]] int degree(int node) const { return graph_.degree(node); }
 
   /// The next node of a chain, -1 where it ends.
   [[nodiscard]] int beyond(int before, int node) const {
     if (degree(node) != 2) return -1;
-    const std::vector<int>& both = neighbours_[idx(node)];
+    const auto both = graph_.neighbours(node);
     return both[both[0] == before ? 1 : 0];
   }
 
@@ -99,9 +98,9 @@ class Hanging {
   /// Of the curve, none at a junction or where it is a point.
   [[nodiscard]] Eigen::Vector3d direction(int node) const {
     if (degree(node) == 0 || degree(node) > 2) return Eigen::Vector3d::Zero();
-    const Eigen::Vector3d from = place_beside(node, neighbours_[idx(node)].front());
+    const Eigen::Vector3d from = place_beside(node, graph_.neighbours(node).front());
     const Eigen::Vector3d to =
-        degree(node) == 1 ? point(node) : place_beside(node, neighbours_[idx(node)].back());
+        degree(node) == 1 ? point(node) : place_beside(node, graph_.neighbours(node).back());
     return (to - from).stableNormalized();
   }
 
@@ -109,7 +108,7 @@ class Hanging {
   [[nodiscard]] std::vector<Bunch> bunches(const std::vector<int>& component) {
     constexpr std::size_t most_nodes = 32;
     std::vector<Bunch> all;
-    seen_.resize(neighbours_.size());
+    seen_.resize(idx(graph_.nodes()));
     std::vector<int> open{component.front()};
     seen_[idx(component.front())] = true;
     while (!open.empty()) {
@@ -119,7 +118,7 @@ class Hanging {
       all.back().nodes.push_back(node);
       all.back().box.extend(point(node));
       all.back().radius = std::max(all.back().radius, radii_[node]);
-      for (const int other : neighbours_[idx(node)]) {
+      for (const int other : graph_.neighbours(node)) {
         if (!seen_[idx(other)]) open.push_back(other);
         seen_[idx(other)] = true;
       }
@@ -167,7 +166,7 @@ class Hanging {
     if (hinge.node < 0 || degree(hinge.node) != 2) return hinge;
     const int middle = hinge.node;
     double least = endless;
-    for (const int neighbour : neighbours_[idx(middle)]) {
+    for (const int neighbour : graph_.neighbours(middle)) {
       double way = 0;
       int before = middle;
       int node = neighbour;
@@ -188,7 +187,7 @@ class Hanging {
 
   const CurveSkeleton& skeleton_;
   const Eigen::VectorXd& radii_;
-  std::vector<std::vector<int>> neighbours_;
+  Graph graph_;
   Eigen::MatrixX3d directions_;  // by node
   std::vector<bool> seen_;       // by node
   std::vector<std::vector<Bunch>> parts_;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <queue>
 #include <utility>
 
 #include <curveskel/advanced/measures.hpp>
+#include "base/graph.hpp"
 #include "base/indices.hpp"
 #include "rig/joints/hanging.hpp"
 
@@ -19,17 +19,17 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 class Rooting {
  public:
   explicit Rooting(const CurveSkeleton& skeleton)
-      : skeleton_(skeleton), neighbours_(idx(skeleton.nodes.rows())), mass_(neighbours_.size()) {
+      : skeleton_(skeleton),
+        graph_(graph_of(skeleton.nodes.rows(), skeleton.edges)),
+        mass_(idx(skeleton.nodes.rows())),
+        paths_(skeleton.nodes.rows()) {
     for (const auto& edge : skeleton.edges.rowwise()) {
-      neighbours_[idx(edge[0])].push_back(edge[1]);
-      neighbours_[idx(edge[1])].push_back(edge[0]);
       const double half = 0.5 * length(edge[0], edge[1]);
       mass_[idx(edge[0])] += half * radius(edge[0]);
       mass_[idx(edge[1])] += half * radius(edge[1]);
     }
-    tree_.parent.assign(neighbours_.size(), -1);
-    tree_.children.resize(neighbours_.size());
-    distance_.assign(neighbours_.size(), nowhere);
+    tree_.parent.assign(mass_.size(), -1);
+    tree_.children.resize(mass_.size());
   }
 
   RootedTree grow(int wanted) {
@@ -50,8 +50,8 @@ class Rooting {
       tree_.above.push_back(hinges[component].above);
       walk(root, cut_at(nodes, root));
       for (const int node : nodes) {
-        if (tree_.parent[idx(node)] >= 0)
-          tree_.children[idx(tree_.parent[idx(node)])].push_back(node);
+        const int parent = tree_.parent[idx(node)] = paths_.before(node);
+        if (parent >= 0) tree_.children[idx(parent)].push_back(node);
       }
     }
     return std::move(tree_);
@@ -64,13 +64,13 @@ class Rooting {
   [[nodiscard]] double radius(int node) const {
     return skeleton_.radii.size() > 0 ? skeleton_.radii[node] : 1;
   }
-  [[nodiscard]] std::size_t degree(int node) const { return neighbours_[idx(node)].size(); }
+  [[nodiscard]] int degree(int node) const { return graph_.degree(node); }
 
   /// The heaviest first, of those as heavy (but for rounding) the one with the first node; nodes
   /// ascending.
   [[nodiscard]] std::vector<std::vector<int>> find_components() const {
     std::vector<std::pair<double, std::vector<int>>> components;
-    std::vector<bool> seen(neighbours_.size());
+    std::vector<bool> seen(mass_.size());
     for (std::size_t first = 0; first < seen.size(); ++first) {
       if (seen[first]) continue;
       seen[first] = true;
@@ -78,7 +78,7 @@ class Rooting {
       double weight = 0;
       for (std::size_t next = 0; next < nodes.size(); ++next) {
         weight += mass_[idx(nodes[next])];
-        for (const int other : neighbours_[idx(nodes[next])]) {
+        for (const int other : graph_.neighbours(nodes[next])) {
           if (!seen[idx(other)]) nodes.push_back(other);
           seen[idx(other)] = true;
         }
@@ -104,7 +104,7 @@ class Rooting {
   /// Each after the one that it hangs from.
   [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<std::vector<int>>& components,
                                                   const std::vector<Hinge>& hinges) const {
-    std::vector<std::size_t> component_of(neighbours_.size());
+    std::vector<std::size_t> component_of(mass_.size());
     for (std::size_t component = 0; component < components.size(); ++component) {
       for (const int node : components[component]) component_of[idx(node)] = component;
     }
@@ -132,7 +132,7 @@ class Rooting {
     for (const int junction : junctions) {
       walk(junction, {-1, -1});
       double sum = 0;
-      for (const int node : nodes) sum += mass_[idx(node)] * distance_[idx(node)];
+      for (const int node : nodes) sum += mass_[idx(node)] * paths_.distance(node);
       if (sum < least) {
         least = sum;
         best = junction;
@@ -177,53 +177,22 @@ class Rooting {
     const bool is_ring =
         std::all_of(nodes.begin(), nodes.end(), [this](int node) { return degree(node) == 2; });
     if (!is_ring) return {-1, -1};
-    return {root, neighbours_[idx(root)].back()};
+    return {root, graph_.neighbours(root).back()};
   }
 
-  /// Dijkstra (1959), without the edge `cut`; parents and distances of the root's component.
+  /// Shortest paths from the root without the edge `cut`.
   void walk(int root, std::pair<int, int> cut) {
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    forget(root);
-    distance_[idx(root)] = 0;
-    open.emplace(0, root);
-    while (!open.empty()) {
-      const double way = open.top().first;
-      const int node = open.top().second;
-      open.pop();
-      if (way > distance_[idx(node)]) continue;
-      for (const int other : neighbours_[idx(node)]) {
-        const bool is_cut = (node == cut.first && other == cut.second) ||
-                            (node == cut.second && other == cut.first);
-        const double longer = way + length(node, other);
-        if (is_cut || !(longer < distance_[idx(other)])) continue;
-        distance_[idx(other)] = longer;
-        tree_.parent[idx(other)] = node;
-        open.emplace(longer, other);
-      }
-    }
-  }
-
-  void forget(int root) {
-    std::vector<int> nodes{root};
-    distance_[idx(root)] = -1;
-    for (std::size_t next = 0; next < nodes.size(); ++next) {
-      for (const int other : neighbours_[idx(nodes[next])]) {
-        if (distance_[idx(other)] < 0) continue;
-        distance_[idx(other)] = -1;
-        nodes.push_back(other);
-      }
-    }
-    for (const int node : nodes) {
-      distance_[idx(node)] = nowhere;
-      tree_.parent[idx(node)] = -1;
-    }
+    paths_.search(graph_, root, ShortestPaths::no_target, [&](int node, int other, int /*edge*/) {
+      const bool is_cut =
+          (node == cut.first && other == cut.second) || (node == cut.second && other == cut.first);
+      return is_cut ? ShortestPaths::unreachable : length(node, other);
+    });
   }
 
   const CurveSkeleton& skeleton_;
-  std::vector<std::vector<int>> neighbours_;
-  std::vector<double> mass_;      // by node: length times radius of the curve nearest to it
-  std::vector<double> distance_;  // by node, from the root of the last walk
+  Graph graph_;
+  std::vector<double> mass_;  // by node: length times radius of what is nearest to it
+  ShortestPaths paths_;       // from the root of the last walk
   RootedTree tree_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/error.hpp>
+#include "base/graph.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
@@ -37,8 +38,7 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
   MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}};
   curve.diagonal = diagonal;
   curve.threads = options.threads;
-  curve.degree.assign(idx(skeleton.nodes.rows()), 0);
-  for (const std::int32_t node : skeleton.edges.reshaped()) ++curve.degree[idx(node)];
+  curve.degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   curve.clearance.setZero(skeleton.nodes.rows());
   for (int node = 0; node < skeleton.nodes.rows(); ++node) {
     if (!curve.is_junction(node)) continue;

@@ -4,15 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <queue>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/error.hpp>
+#include "base/graph.hpp"
 #include "base/indices.hpp"
 
 namespace curveskel {
@@ -21,31 +18,14 @@ namespace {
 constexpr int most_halvings = 20;
 constexpr Eigen::Index most_band_vertices = 4000000;  // after subdivision
 
-/// Shortest distances along edges (Dijkstra); ties by vertex.
+/// Shortest distances along edges.
 std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
-  const auto vertices = idx(surface.positions.rows());
-  std::vector<std::vector<std::pair<int, double>>> neighbours(vertices);
-  for (const auto& [a, b] : index.edges) {
-    const double length = (surface.positions.row(a) - surface.positions.row(b)).norm();
-    neighbours[idx(a)].emplace_back(b, length);
-    neighbours[idx(b)].emplace_back(a, length);
-  }
-  std::vector<double> distance(vertices, std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  distance[idx(source)] = 0;
-  queue.emplace(0, source);
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > distance[idx(v)]) continue;
-    for (const auto& [next, length] : neighbours[idx(v)]) {
-      if (d + length >= distance[idx(next)]) continue;
-      distance[idx(next)] = d + length;
-      queue.emplace(d + length, next);
-    }
-  }
-  return distance;
+  ShortestPaths paths(surface.positions.rows());
+  paths.search(graph_of(surface.positions.rows(), index.edges), source, ShortestPaths::no_target,
+               [&](int from, int to, int /*edge*/) {
+                 return (surface.positions.row(from) - surface.positions.row(to)).norm();
+               });
+  return paths.distances();
 }
 
 /// The cell of a vertex: a group, and a slice of its values.
@@ -53,23 +33,12 @@ using Cell = std::pair<int, long>;
 
 /// The connected components of the sets of vertices in one cell.
 Eigen::VectorXi components_of_cells(const EdgeIndex& index, const std::vector<Cell>& cell) {
-  std::vector<int> parent(cell.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[idx(v)] != v) {
-      parent[idx(v)] = parent[idx(parent[idx(v)])];
-      v = parent[idx(v)];
-    }
-    return v;
-  };
+  UnionFind joined(static_cast<std::int64_t>(cell.size()));
   for (const auto& [a, b] : index.edges) {
-    if (cell[idx(a)] != cell[idx(b)]) continue;
-    const int p = root(a);
-    const int q = root(b);
-    parent[idx(std::max(p, q))] = std::min(p, q);
+    if (cell[idx(a)] == cell[idx(b)]) joined.unite(a, b);
   }
   Eigen::VectorXi group(static_cast<Eigen::Index>(cell.size()));
-  for (Eigen::Index v = 0; v < group.size(); ++v) group[v] = root(static_cast<int>(v));
+  for (Eigen::Index v = 0; v < group.size(); ++v) group[v] = joined.root(static_cast<int>(v));
   return group;
 }
 

@@ -73,8 +73,7 @@ SurfacePartition::SurfacePartition(const Surface& surface)
   inner_.assign(vertices, 0);
   euler_.assign(vertices, 1);
   genus_.assign(vertices, 0);
-  parent_.resize(index_.edges.size());
-  std::iota(parent_.begin(), parent_.end(), 0);
+  linked_ = UnionFind(static_cast<std::int64_t>(index_.edges.size()));
 }
 
 std::array<int, 3> SurfacePartition::groups_at(int triangle) const {
@@ -152,14 +151,6 @@ int SurfacePartition::euler_of_union(int a, int b) const {
   return euler_[a] + euler_[b] - half_edges / 2 + faces;
 }
 
-int SurfacePartition::root(int edge) {
-  while (parent_[edge] != edge) {
-    parent_[edge] = parent_[parent_[edge]];
-    edge = parent_[edge];
-  }
-  return edge;
-}
-
 template <typename Crosses>
 int SurfacePartition::curves_through(const std::vector<int>& triangles, const Crosses& crosses) {
   std::vector<int> crossing;
@@ -173,16 +164,11 @@ int SurfacePartition::curves_through(const std::vector<int>& triangles, const Cr
     }
     crossing.insert(crossing.end(), edges.begin(), edges.begin() + count);
     if (count != 2) continue;
-    const int p = root(edges[0]);
-    const int q = root(edges[1]);
-    if (p != q) {
-      parent_[p] = q;
-      ++links;
-    }
+    links += linked_.unite(edges[0], edges[1]) ? 1 : 0;
   }
   std::sort(crossing.begin(), crossing.end());
   crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
-  for (const int edge : crossing) parent_[edge] = edge;
+  for (const int edge : crossing) linked_.isolate(edge);
   return static_cast<int>(crossing.size()) - links;
 }
 

@@ -1,5 +1,8 @@
 #include "skeleton/embed/skeleton_graph.hpp"
 
+#include "base/indices.hpp"
+#include "base/graph.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -170,13 +173,7 @@ int SkeletonGraph::add_leaf(int base, const Point& tip, std::vector<int> groups)
 SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
                                 const std::vector<Point>& positions) {
   const int pieces = partition.nodes();
-  std::vector<std::vector<int>> neighbours(idx(pieces));
-  for (Eigen::Index e = 0; e < partition.edges.rows(); ++e) {
-    const auto a = partition.edges(e, 0);
-    const auto b = partition.edges(e, 1);
-    neighbours[idx(a)].push_back(b);
-    neighbours[idx(b)].push_back(a);
-  }
+  const Graph adjacency = graph_of(pieces, partition.edges);
 
   SkeletonGraph graph;
   std::vector<int> node_of_piece(idx(pieces), -1);
@@ -195,7 +192,7 @@ SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
       arc.points.push_back(positions[idx(piece)]);
       arc.pieces.push_back(piece);
       // A chain piece has two neighbours; both are `previous` only in a two-piece cycle.
-      const auto& around = neighbours[idx(piece)];
+      const auto around = adjacency.neighbours(piece);
       const int following = around[0] == previous ? around[1] : around[0];
       previous = std::exchange(piece, following);
     }
@@ -207,19 +204,19 @@ SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
   };
 
   for (int piece = 0; piece < pieces; ++piece) {
-    if (neighbours[idx(piece)].size() != 2) make_node(piece);
+    if (adjacency.degree(piece) != 2) make_node(piece);
   }
   for (int piece = 0; piece < pieces; ++piece) {
     if (node_of_piece[idx(piece)] < 0) continue;
     // Circles have degree 2, so a neighbour is never a node itself.
-    for (const int next : neighbours[idx(piece)]) {
+    for (const int next : adjacency.neighbours(piece)) {
       if (used[idx(next)] == 0) trace(piece, next);
     }
   }
   for (int piece = 0; piece < partition.groups; ++piece) {
     if (used[idx(piece)] != 0 || node_of_piece[idx(piece)] >= 0) continue;
     make_node(piece);
-    trace(piece, neighbours[idx(piece)][0]);
+    trace(piece, adjacency.neighbours(piece)[0]);
   }
   return graph;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <curveskel/topology.hpp>
+#include "base/graph.hpp"
 #include "base/indices.hpp"
 #include "surface/mesh/handle_loops.hpp"
 
@@ -215,24 +216,20 @@ struct Forest {
 };
 
 Forest spanning_forest(const CurveSkeleton& skeleton) {
-  std::vector<std::vector<std::pair<int, int>>> around(idx(skeleton.nodes.rows()));
-  for (int e = 0; e < static_cast<int>(skeleton.edges.rows()); ++e) {
-    const int a = skeleton.edges(e, 0);
-    const int b = skeleton.edges(e, 1);
-    around[idx(a)].emplace_back(b, e);
-    around[idx(b)].emplace_back(a, e);
-  }
+  const Graph graph = graph_of(skeleton.nodes.rows(), skeleton.edges);
   Forest forest;
-  std::vector<char> reached(around.size(), 0);
+  std::vector<char> reached(idx(graph.nodes()), 0);
   std::vector<char> in_forest(idx(skeleton.edges.rows()), 0);
   std::vector<int> stack;
-  for (int root = 0; root < static_cast<int>(around.size()); ++root) {
+  for (int root = 0; root < graph.nodes(); ++root) {
     if (std::exchange(reached[idx(root)], 1) != 0) continue;
     stack.assign(1, root);
     while (!stack.empty()) {
       const int node = stack.back();
       stack.pop_back();
-      for (const auto& [next, edge] : around[idx(node)]) {
+      for (int i = graph.first[idx(node)]; i < graph.first[idx(node + 1)]; ++i) {
+        const int next = graph.neighbour[idx(i)];
+        const int edge = graph.edge[idx(i)];
         if (std::exchange(reached[idx(next)], 1) != 0) continue;
         in_forest[idx(edge)] = 1;
         forest.steps.push_back({node, next, edge});

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/union_find.hpp>
 #include "base/indices.hpp"
 #include "skeleton/certify/curve_samples.hpp"
 #include "skeleton/embed/contain/ball_chains.hpp"
@@ -168,23 +169,13 @@ class Threading {
     std::vector<std::size_t> order(arcs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_partition(order.begin(), order.end(), vanishes);
-    std::vector<int> tree(graph_.nodes.size());  // union-find
-    std::iota(tree.begin(), tree.end(), 0);
-    const auto root = [&](int node) {
-      while (tree[idx(node)] != node) node = tree[idx(node)] = tree[idx(tree[idx(node)])];
-      return node;
-    };
+    UnionFind tree(static_cast<std::int64_t>(graph_.nodes.size()));
     IndependentRows independent;
     std::vector<int> found;
     for (const std::size_t i : order) {
       const Arc& arc = graph_.arcs[idx(arcs[i])];
-      const int a = root(arc.from);
-      const int b = root(arc.to);
-      if (a != b) {
-        tree[idx(a)] = b;
-      } else if (independent.add(rows[i])) {
-        found.push_back(arcs[i]);
-      }
+      if (tree.unite(arc.from, arc.to)) continue;
+      if (independent.add(rows[i])) found.push_back(arcs[i]);
     }
     std::sort(found.begin(), found.end());
     return found;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/union_find.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 
@@ -28,27 +29,15 @@ Forest longest_forest(const CurveSkeleton& skeleton) {
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length(a) > length(b); });
 
-  std::vector<int> parent(nodes);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int node) {
-    while (parent[static_cast<std::size_t>(node)] != node) {
-      auto& above = parent[static_cast<std::size_t>(node)];
-      above = parent[static_cast<std::size_t>(above)];
-      node = above;
-    }
-    return node;
-  };
+  UnionFind joined(skeleton.nodes.rows());
   Forest forest{std::vector<std::vector<int>>(nodes), {}};
   for (const int e : order) {
     const int i = skeleton.edges(e, 0);
     const int j = skeleton.edges(e, 1);
-    const int a = root(i);
-    const int b = root(j);
-    if (a == b) {
+    if (!joined.unite(i, j)) {
       forest.cuts.emplace_back(i, j);
       continue;
     }
-    parent[static_cast<std::size_t>(a)] = b;
     forest.neighbours[static_cast<std::size_t>(i)].push_back(j);
     forest.neighbours[static_cast<std::size_t>(j)].push_back(i);
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/graph.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -61,13 +63,11 @@ std::vector<Mark> marks_of(const CurveSkeleton& skeleton, const View& view, doub
   };
 
   std::vector<Layer> layers;
-  std::vector<int> degree(seen.size(), 0);
   std::vector<double> nearest_end(seen.size(), -std::numeric_limits<double>::infinity());
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   for (const auto& edge : skeleton.edges.rowwise()) {
     const Eigen::Vector3d& a = seen[static_cast<std::size_t>(edge(0))];
     const Eigen::Vector3d& b = seen[static_cast<std::size_t>(edge(1))];
-    ++degree[static_cast<std::size_t>(edge(0))];
-    ++degree[static_cast<std::size_t>(edge(1))];
     const double depth = (a.z() + b.z()) / 2;
     for (const int node : edge) {
       double& end = nearest_end[static_cast<std::size_t>(node)];

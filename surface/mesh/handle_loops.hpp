@@ -19,7 +19,8 @@ struct HandleLoops {
 
 /// Spanning trees of the vertices and, across the other edges, of the faces leave some edges over.
 /// Each of these closes one loop through the former (Eppstein 2003). Both are breadth-first.
-/// Precondition: closed 2-manifold. O(#F + edges of all loops).
+/// Precondition: closed oriented 2-manifold; throws Error(Fault::input) for faces that are none,
+/// where there are handles. O(#F + edges of all loops).
 [[nodiscard]] HandleLoops handle_loops(const Surface& surface);
 
 }  // namespace curveskel

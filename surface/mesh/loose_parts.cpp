@@ -1,27 +1,22 @@
 #include "surface/mesh/loose_parts.hpp"
 
 #include <Eigen/Geometry>
-#include <numeric>
 #include <utility>
 
+#include <curveskel/advanced/union_find.hpp>
 #include "base/indices.hpp"
 
 namespace curveskel {
 
 LooseParts loose_parts(const Surface& surface) {
-  std::vector<int> parent(idx(surface.positions.rows()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int v) {
-    while (parent[idx(v)] != v) v = parent[idx(v)] = parent[idx(parent[idx(v)])];
-    return v;
-  };
+  UnionFind joined(surface.positions.rows());
   for (const auto& t : surface.triangles.rowwise()) {
-    for (int k = 1; k < 3; ++k) parent[idx(root(t(k)))] = root(t(0));
+    for (int k = 1; k < 3; ++k) joined.unite(t(0), t(k));
   }
   LooseParts parts;
-  std::vector<int> number(parent.size(), -1);
+  std::vector<int> number(idx(surface.positions.rows()), -1);
   for (const auto& t : surface.triangles.rowwise()) {
-    int& part = number[idx(root(t(0)))];
+    int& part = number[idx(joined.root(t(0)))];
     if (part < 0) {
       part = static_cast<int>(parts.areas.size());
       parts.areas.push_back(0);

@@ -4,40 +4,14 @@
 #include <cstddef>
 #include <numeric>
 
+#include <curveskel/advanced/union_find.hpp>
+
 namespace curveskel {
-namespace {
-
-// Union-find in which every parent has the smaller index, so the root is the smallest vertex.
-class Sets {
- public:
-  explicit Sets(Eigen::Index count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int vertex) {
-    while (parent(vertex) != vertex) {
-      parent(vertex) = parent(parent(vertex));
-      vertex = parent(vertex);
-    }
-    return vertex;
-  }
-  void unite(int a, int b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) parent(b) = a;
-    if (b < a) parent(a) = b;
-  }
-
- private:
-  int& parent(int vertex) { return parent_[static_cast<std::size_t>(vertex)]; }
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 Topology topology(const Surface& surface) {
   const Eigen::Index vertex_count = surface.positions.rows();
   const Triangles& triangles = surface.triangles;
-  Sets sets(vertex_count);
+  UnionFind sets(vertex_count);
   for (Eigen::Index face = 0; face < triangles.rows(); ++face) {
     sets.unite(triangles(face, 0), triangles(face, 1));
     sets.unite(triangles(face, 1), triangles(face, 2));

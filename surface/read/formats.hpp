@@ -13,6 +13,7 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_off(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_stl(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_om(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
 
 /// The work of `read_polygons` once the file is in memory.
@@ -23,6 +24,7 @@ namespace curveskel {
 [[nodiscard]] bool looks_like_off(const FileBytes& file);
 [[nodiscard]] bool looks_like_ply(const FileBytes& file);
 [[nodiscard]] bool looks_like_stl(const FileBytes& file);
+[[nodiscard]] bool looks_like_om(const FileBytes& file);
 [[nodiscard]] bool looks_like_gltf(const FileBytes& file);
 [[nodiscard]] bool looks_like_glb(const FileBytes& file);
 

@@ -26,6 +26,7 @@ std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
 
 std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
   if (looks_like_glb(file)) return SurfaceFormat::glb;
+  if (looks_like_om(file)) return SurfaceFormat::om;
   if (looks_like_ply(file)) return SurfaceFormat::ply;
   if (looks_like_off(file)) return SurfaceFormat::off;
   if (looks_like_gltf(file)) return SurfaceFormat::gltf;
@@ -44,6 +45,8 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
       return read_ply(file, monitor);
     case SurfaceFormat::stl:
       return read_stl(file, monitor);
+    case SurfaceFormat::om:
+      return read_om(file, monitor);
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
       return read_gltf(file, monitor);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include <curveskel/advanced/union_find.hpp>
 #include "base/indices.hpp"
 #include "surface/repair/weld.hpp"
 
@@ -71,20 +72,15 @@ void mark_copies(const Surface& surface, const Topology& counted, std::vector<Fa
 
 /// Groups components that have a position in common; each has the first one's number.
 std::vector<int> touching_groups(const Surface& surface, const Topology& counted) {
-  std::vector<int> group(idx(counted.components()));
-  std::iota(group.begin(), group.end(), 0);
-  const auto first_of = [&group](int c) {
-    while (group[idx(c)] != c) c = group[idx(c)] = group[idx(group[idx(c)])];
-    return c;
-  };
+  UnionFind joined(counted.components());
   const auto same = coincident_vertices(surface.positions,
                                         std::vector<bool>(idx(surface.positions.rows()), true));
   for (std::size_t v = 0; v < same.size(); ++v) {
-    const int a = first_of(counted.component_of_vertex[static_cast<Eigen::Index>(v)]);
-    const int b = first_of(counted.component_of_vertex[same[v]]);
-    group[idx(std::max(a, b))] = std::min(a, b);
+    joined.unite(counted.component_of_vertex[static_cast<Eigen::Index>(v)],
+                 counted.component_of_vertex[same[v]]);
   }
-  for (int c = 0; c < counted.components(); ++c) group[idx(c)] = first_of(c);
+  std::vector<int> group(idx(counted.components()));
+  for (int c = 0; c < counted.components(); ++c) group[idx(c)] = joined.root(c);
   return group;
 }
 

@@ -10,6 +10,7 @@
 #include <curveskel/error.hpp>
 #include "base/decimal.hpp"
 #include "surface/mesh/single_precision.hpp"
+#include "surface/write/write_om.hpp"
 
 namespace curveskel {
 namespace {
@@ -123,6 +124,8 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
       return format_ply(surface, provenance);
     case SurfaceFormat::stl:
       return format_stl(surface, provenance);
+    case SurfaceFormat::om:
+      return format_om(surface);
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
       break;

@@ -11,11 +11,11 @@
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include <curveskel/error.hpp>
+#include "base/graph.hpp"
 
 namespace curveskel::shapes::shapes_laws {
 namespace {
@@ -42,23 +42,15 @@ struct Count {
 };
 
 Count count_graph(Eigen::Index nodes, const std::vector<std::pair<int, int>>& edges) {
-  std::vector<int> parent(static_cast<std::size_t>(nodes));
-  std::vector<int> degree(parent.size(), 0);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
-    return i;
-  };
+  UnionFind joined(nodes);
+  const std::vector<int> degree = degrees(nodes, edges);
   Count count;
   count.components = static_cast<int>(nodes);
   for (const auto& [i, j] : edges) {
-    ++degree[static_cast<std::size_t>(i)];
-    ++degree[static_cast<std::size_t>(j)];
-    if (root(i) == root(j)) {
-      ++count.cycles;
-    } else {
-      parent[static_cast<std::size_t>(root(i))] = root(j);
+    if (joined.unite(i, j)) {
       --count.components;
+    } else {
+      ++count.cycles;
     }
   }
   for (const int d : degree) {

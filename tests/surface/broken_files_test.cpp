@@ -182,7 +182,7 @@ std::vector<Broken> broken_files() {
            std::string(100000, ']') + "}}",
        {"nested 100002 deep"}},
       {"gltf_nothing", "a.gltf", R"({"asset": {"version": "2.0"}})", {"0 vertices"}},
-      {"unknown", "a.xyz", "hello", {"\"hello\"", "obj, off, ply, stl, gltf, glb"}},
+      {"unknown", "a.xyz", "hello", {"\"hello\"", "obj, off, ply, stl, om, gltf, glb"}},
       {"gzip_truncated",
        "a.obj.gz",
        std::string("\x1f\x8b\x08\0\0\0\0\0\0\x03\x4b", 11),

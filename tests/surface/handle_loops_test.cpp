@@ -4,9 +4,11 @@
 
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
 
 namespace curveskel::handle_loops_laws {
@@ -47,6 +49,18 @@ TEST(HandleLoops, AreClosedAndRunAlongEdgesOfTheSurface) {
       EXPECT_FALSE(loop.empty());
       for (const auto& [vertex, count] : degree) EXPECT_EQ(count, 2) << vertex;
     }
+  }
+}
+
+TEST(HandleLoops, FacesThatDisagreeAreRefusedByNumber) {
+  Surface surface = shapes::torus(3, 1, 12).surface;
+  std::swap(surface.triangles(5, 0), surface.triangles(5, 1));
+  try {
+    (void)handle_loops(surface);
+    FAIL() << "no refusal";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    EXPECT_NE(std::string(error.what()).find("found face "), std::string::npos);
   }
 }
 

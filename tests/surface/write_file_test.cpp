@@ -136,7 +136,8 @@ Surface bipyramid() {
 
 TEST_F(WriteFile, SurfacesComeBackToTheLastBit) {
   const Surface surface = bipyramid();
-  for (const auto format : {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply}) {
+  for (const auto format :
+       {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply, SurfaceFormat::om}) {
     const fs::path file = folder / ("s." + std::string(name_of(surface_formats, format)));
     write_file(file, format_surface(surface, format, "made by a test"));
     const PolygonSoup soup = read_polygons(file, {});

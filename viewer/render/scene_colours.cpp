@@ -2,42 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "base/graph.hpp"
 
 namespace curveskel::viewer {
 namespace {
-
-/// Connected parts by union of sets, numbered in the order of their first members.
-class Parts {
- public:
-  explicit Parts(Eigen::Index count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int member) {
-    while (at(member) != member) member = at(member) = at(at(member));
-    return member;
-  }
-  void join(int a, int b) {
-    const std::pair<int, int> ordered = std::minmax({root(a), root(b)});
-    at(ordered.second) = ordered.first;
-  }
-  /// -1 for those that do not count.
-  std::vector<int> numbers(const std::vector<bool>& counts) {
-    std::vector<int> number(parent_.size(), -1);
-    int next = 0;
-    for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
-      if (!counts[static_cast<std::size_t>(i)]) continue;
-      const int first = root(i);
-      number[static_cast<std::size_t>(i)] =
-          first == i ? next++ : number[static_cast<std::size_t>(first)];
-    }
-    return number;
-  }
-
- private:
-  int& at(int member) { return parent_[static_cast<std::size_t>(member)]; }
-  std::vector<int> parent_;
-};
 
 /// The branch of every edge row; -1 for none.
 std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
@@ -64,15 +33,6 @@ std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
     ++number;
   }
   return branch;
-}
-
-std::vector<int> degrees_of(const CurveSkeleton& skeleton) {
-  std::vector<int> degree(static_cast<std::size_t>(skeleton.nodes.rows()), 0);
-  for (const auto& edge : skeleton.edges.rowwise()) {
-    ++degree[static_cast<std::size_t>(edge[0])];
-    ++degree[static_cast<std::size_t>(edge[1])];
-  }
-  return degree;
 }
 
 float share_of(const ColourScale& scale, double radius) {
@@ -235,20 +195,26 @@ std::vector<Rgba> colours_by_map(const CurveSkeleton& skeleton, const Look& look
 }  // namespace
 
 std::vector<int> components_of(const Surface& surface) {
-  Parts parts(surface.positions.rows());
+  UnionFind parts(surface.positions.rows());
   std::vector<bool> used(static_cast<std::size_t>(surface.positions.rows()), false);
   for (const auto& triangle : surface.triangles.rowwise()) {
-    parts.join(triangle[0], triangle[1]);
-    parts.join(triangle[1], triangle[2]);
+    parts.unite(triangle[0], triangle[1]);
+    parts.unite(triangle[1], triangle[2]);
     for (const int vertex : triangle) used[static_cast<std::size_t>(vertex)] = true;
   }
-  return parts.numbers(used);
+  std::vector<int> number(used.size(), -1);
+  int next = 0;
+  for (int vertex = 0; vertex < static_cast<int>(used.size()); ++vertex) {
+    if (!used[static_cast<std::size_t>(vertex)]) continue;
+    const int first = parts.root(vertex);
+    number[static_cast<std::size_t>(vertex)] =
+        first == vertex ? next++ : number[static_cast<std::size_t>(first)];
+  }
+  return number;
 }
 
 std::vector<int> components_of(const CurveSkeleton& skeleton) {
-  Parts parts(skeleton.nodes.rows());
-  for (const auto& edge : skeleton.edges.rowwise()) parts.join(edge[0], edge[1]);
-  return parts.numbers(std::vector<bool>(static_cast<std::size_t>(skeleton.nodes.rows()), true));
+  return component_of_node(skeleton);
 }
 
 std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton) {
@@ -272,7 +238,7 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
   const std::vector<int> lit_edges = in_order(highlights.edges);
   const std::vector<int> failed_edges = in_order(highlights.failed_edges);
   const std::vector<int> lit_nodes = in_order(highlights.nodes);
-  const std::vector<int> degree = degrees_of(skeleton);
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   const bool thick = look.skeleton == SkeletonStyle::balls;
   const std::vector<glm::vec3> mitres =
       thick ? std::vector<glm::vec3>(degree.size(), glm::vec3(0)) : mitres_of(skeleton, degree);

@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include <curveskel/advanced/union_find.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/surface.hpp>
 
@@ -57,7 +58,6 @@ class SurfacePartition {
   /// The number of curves, open or closed, that the triangles' crossing edges are linked to.
   template <typename Crosses>
   [[nodiscard]] int curves_through(const std::vector<int>& triangles, const Crosses& crosses);
-  int root(int edge);
 
   Triangles triangles_;
   EdgeIndex index_;
@@ -68,7 +68,7 @@ class SurfacePartition {
   std::vector<int> inner_;   // per group: how many of these are its own by now
   std::vector<int> euler_;   // per group
   std::vector<int> genus_;   // per group
-  std::vector<int> parent_;  // union-find over edges, reset after each use
+  UnionFind linked_;         // edges, each on its own again after each use
 };
 
 /// A graph whose first nodes are groups of the vertices of a surface, followed by one node for each

@@ -1,10 +1,7 @@
 #include "skeleton/embed/contain/ball_chains.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 #include <utility>
 
 #include "base/indices.hpp"
@@ -36,17 +33,12 @@ BallChains::BallChains(const Surface& surface, const InscribedBalls& balls,
     : surface_(surface), balls_(balls), partition_(partition) {}
 
 void BallChains::prepare() {
-  if (!neighbours_.empty()) return;
-  neighbours_.resize(idx(surface_.positions.rows()));
+  if (neighbours_.nodes() > 0) return;
+  neighbours_ = graph_of(surface_.positions.rows(), index_edges(surface_.triangles).edges);
+  paths_ = ShortestPaths(surface_.positions.rows());
   vertices_.resize(idx(partition_.groups));
   allowed_.assign(vertices_.size(), 0);
-  cost_.assign(neighbours_.size(), no_way);
-  previous_.assign(neighbours_.size(), -1);
-  for (const auto& [a, b] : index_edges(surface_.triangles).edges) {
-    neighbours_[idx(a)].push_back(b);
-    neighbours_[idx(b)].push_back(a);
-  }
-  for (int v = 0; v < static_cast<int>(neighbours_.size()); ++v) {
+  for (int v = 0; v < neighbours_.nodes(); ++v) {
     if (balls_.radii[v] > least_radius) vertices_[idx(partition_.group_of_vertex[v])].push_back(v);
   }
 }
@@ -70,13 +62,7 @@ std::vector<Point> BallChains::chain(const Point& p, const Point& q,
 std::vector<int> BallChains::way(int from, int to, const std::vector<int>& groups) {
   prepare();
   search(from, to, groups);
-  std::vector<int> vertices;
-  for (int v = std::isfinite(cost_[idx(to)]) ? to : -1; v >= 0; v = previous_[idx(v)]) {
-    vertices.push_back(v);
-  }
-  std::reverse(vertices.begin(), vertices.end());
-  forget();
-  return vertices;
+  return paths_.path_to(to);
 }
 
 std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& places,
@@ -85,15 +71,14 @@ std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& 
   std::vector<double> costs(places.size(), no_way);
   const int source = holder_of(p, groups);
   if (source < 0) return costs;
-  search(source, -1, groups);
+  search(source, ShortestPaths::no_target, groups);
   const auto from_ball = [&](const Point& place, int v) {
     return distance(place, v) / balls_.radii[v];
   };
   for (std::size_t i = 0; i < places.size(); ++i) {
     const int target = holder_of(places[i], groups);
-    costs[i] = from_ball(p, source) + cost_[idx(target)] + from_ball(places[i], target);
+    costs[i] = from_ball(p, source) + paths_.distance(target) + from_ball(places[i], target);
   }
-  forget();
   return costs;
 }
 
@@ -107,39 +92,15 @@ Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups)
   return best < 0 ? p : Point(balls_.centres.row(best));
 }
 
-/// Dijkstra's from one vertex through the groups until the other is reached, or all are.
+/// From one vertex through the groups until the other is reached, or all are.
 void BallChains::search(int source, int target, const std::vector<int>& groups) {
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const int group : groups) allowed_[idx(group)] = 1;
-  cost_[idx(source)] = 0;
-  reached_.push_back(source);
-  queue.emplace(0, source);
-  while (!queue.empty()) {
-    const auto [so_far, v] = queue.top();
-    queue.pop();
-    if (v == target) break;
-    if (so_far > cost_[idx(v)]) continue;
-    for (const int next : neighbours_[idx(v)]) {
-      if (!may_pass(next) || is_avoided(v, next)) continue;
-      const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
-      const double narrow = std::min(balls_.radii[v], balls_.radii[next]);
-      const double total = so_far + step / narrow;
-      if (total >= cost_[idx(next)]) continue;
-      if (previous_[idx(next)] < 0) reached_.push_back(next);
-      cost_[idx(next)] = total;
-      previous_[idx(next)] = v;
-      queue.emplace(total, next);
-    }
-  }
+  paths_.search(neighbours_, source, target, [&](int v, int next, int /*edge*/) {
+    if (!may_pass(next) || is_avoided(v, next)) return ShortestPaths::unreachable;
+    const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
+    return step / std::min(balls_.radii[v], balls_.radii[next]);
+  });
   for (const int group : groups) allowed_[idx(group)] = 0;
-}
-
-void BallChains::forget() {
-  for (const int v : std::exchange(reached_, {})) {
-    cost_[idx(v)] = no_way;
-    previous_[idx(v)] = -1;
-  }
 }
 
 bool BallChains::may_pass(int v) const {

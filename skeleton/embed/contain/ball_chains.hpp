@@ -8,6 +8,7 @@
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/surface.hpp>
+#include "base/graph.hpp"
 #include "skeleton/embed/skeleton_graph.hpp"
 
 namespace curveskel {
@@ -59,7 +60,6 @@ class BallChains {
  private:
   void prepare();
   void search(int source, int target, const std::vector<int>& groups);
-  void forget();
   [[nodiscard]] bool may_pass(int v) const;
   [[nodiscard]] bool is_avoided(int one, int other) const;
   [[nodiscard]] double distance(const Point& p, int v) const;
@@ -70,14 +70,11 @@ class BallChains {
   const Surface& surface_;
   const InscribedBalls& balls_;
   const PartitionGraph& partition_;
-  std::vector<std::vector<int>> neighbours_;
+  Graph neighbours_;                        // of the vertices along edges
   std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
   std::set<std::pair<int, int>> avoided_;   // lesser vertex first
-  // Left by one search for the next to clear.
-  std::vector<char> allowed_;  // per group
-  std::vector<double> cost_;
-  std::vector<int> previous_;
-  std::vector<int> reached_;
+  std::vector<char> allowed_;               // per group, while a search runs
+  ShortestPaths paths_;
 };
 
 }  // namespace curveskel

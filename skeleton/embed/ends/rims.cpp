@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <curveskel/advanced/measures.hpp>
+#include "base/graph.hpp"
 #include "base/indices.hpp"
 
 namespace curveskel {
@@ -68,15 +69,9 @@ void add_node(CurveSkeleton& skeleton, int neighbour, const Eigen::Vector3d& pos
 /// A tip's branch from the tip inwards.
 using Limb = std::vector<int>;
 
-std::vector<int> degrees_of(const CurveSkeleton& skeleton) {
-  std::vector<int> degree(idx(skeleton.nodes.rows()), 0);
-  for (const std::int32_t node : skeleton.edges.reshaped()) ++degree[idx(node)];
-  return degree;
-}
-
 /// A node on its own is a limb, too.
 std::vector<Limb> limbs_of(const CurveSkeleton& skeleton) {
-  const std::vector<int> degree = degrees_of(skeleton);
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   std::vector<Limb> limbs;
   for (Branch& branch : branches(skeleton)) {
     const bool from_back = degree[idx(branch.nodes.back())] == 1;
@@ -242,7 +237,7 @@ class Reaching {
     constexpr double least_width_of_side = 0.7;
     constexpr double least_length = 1.1;
     constexpr double junction_cost = 0.7;  // a rim near a junction hangs from it
-    const std::vector<int> degree = degrees_of(skeleton_);
+    const std::vector<int> degree = degrees(skeleton_.nodes.rows(), skeleton_.edges);
     for (std::size_t o = 0; o < rims_.size(); ++o) {
       if (reached_[o]) continue;
       int best = -1;
