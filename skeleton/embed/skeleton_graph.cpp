@@ -1,15 +1,13 @@
 #include "skeleton/embed/skeleton_graph.hpp"
 
-#include "base/indices.hpp"
-#include "base/graph.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "base/graph.hpp"
 #include "base/indices.hpp"
-#include "skeleton/partition/node_balls.hpp"
+#include "skeleton/graph/node_balls.hpp"
 
 namespace curveskel {
 namespace {
