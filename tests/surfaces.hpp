@@ -1,15 +1,13 @@
-// The surfaces that laws run over: the project's own families and, where they are, real ones.
+// The surfaces that laws run over: the project's own families and real ones.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <curveskel/clean.hpp>
 #include <curveskel/read.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/real_surfaces.hpp"
 
 namespace curveskel {
 
@@ -26,18 +24,11 @@ inline std::vector<NamedSurface> make_families() {
   return all;
 }
 
-/// The closed manifolds among the shared meshes, cleaned; empty where there are none.
-inline std::vector<NamedSurface> read_shared_meshes() {
-  const std::filesystem::path folder = CURVESKEL_SHARED_MESHES;
+/// The closed manifolds among the real surfaces, cleaned.
+inline std::vector<NamedSurface> read_real_surfaces() {
   std::vector<NamedSurface> all;
-  std::ifstream index(folder / "INDEX.csv");
-  for (std::string line; std::getline(index, line);) {
-    std::vector<std::string> cells;
-    std::istringstream cut(line);
-    for (std::string cell; cells.size() < 9 && std::getline(cut, cell, ',');) cells.push_back(cell);
-    if (cells.size() < 9 || cells[0].starts_with("defects/")) continue;
-    if (cells[6] != "y" || cells[7] != "y" || cells[8] != "y") continue;  // closed, manifold, ...
-    all.push_back({cells[0], clean(read_polygons(folder / cells[0], {}), {}).surface});
+  for (const auto& file : closed_real_surfaces()) {
+    all.push_back({file, clean(read_polygons(*real_surface(file), {}), {}).surface});
   }
   return all;
 }
@@ -47,8 +38,8 @@ inline const std::vector<NamedSurface>& families() {
   return all;
 }
 
-inline const std::vector<NamedSurface>& shared_meshes() {
-  static const std::vector<NamedSurface> all = read_shared_meshes();
+inline const std::vector<NamedSurface>& real_surfaces() {
+  static const std::vector<NamedSurface> all = read_real_surfaces();
   return all;
 }
 

@@ -33,8 +33,8 @@ int become_viewer(const std::vector<std::string>& arguments) {
   pointers.push_back(nullptr);
   execv(program.c_str(), pointers.data());
   throw Error(Fault::device, program + " cannot be started (" + std::strerror(errno) +
-                                 "); build the target curveskel-view, or install it beside "
-                                 "curveskel");
+                                 "); `./run view` builds it in a checkout, the package "
+                                 "curveskel-view has it");
 }
 
 }  // namespace

@@ -25,4 +25,4 @@ if [ ${#names[@]} -eq 0 ]; then
   done
 fi
 joined=$(IFS='|'; echo "${names[*]}")
-ctest --test-dir "build/$preset" -j "$(nproc)" --output-on-failure -R "^($joined)\$"
+ctest --test-dir "build/$preset" -j "$(nproc)" --output-on-failure -R "^($joined)(\.collection)?\$"

@@ -9,8 +9,7 @@ cmake --preset tidy -DCURVESKEL_BUILD_BENCH="$([ "$only" = bench ] && echo ON ||
   >/dev/null 2>&1
 ninja -C build/tidy kernels/sources.cpp viewer/shaders.cpp >/dev/null
 
-# The largest first, so that no core ends up with a long one alone. Files that the build compiles
-# alone, as CGAL's headers take so much memory, share a unit here; a main of a few lines is left to
+# The largest first, so that no core ends up with a long one alone; a main of a few lines is left to
 # the compiler, as its headers would take a minute.
 units() {
   python3 - <<'PYTHON'
@@ -25,20 +24,7 @@ def size(unit):
 def weight(unit):
     return any("#include <CGAL/" in open(source).read() for source in sources(unit)), size(unit)
 
-database = "build/tidy/compile_commands.json"
-entries = json.load(open(database))
-alone = [entry for entry in entries if "/surface/" in entry["file"] and entry["file"].endswith(".cpp")
-         and "/build/" not in entry["file"]]
-if alone:
-    together = os.path.abspath("build/tidy/surface_alone.cxx")
-    with open(together, "w") as unit:
-        unit.writelines(f'#include "{entry["file"]}"\n' for entry in alone)
-    first = alone[0]
-    command = first["command"].replace(first["file"], together)
-    entries = [entry for entry in entries if entry not in alone]
-    entries.append({"directory": first["directory"], "command": command, "file": together})
-    json.dump(entries, open(database, "w"), indent=1)
-
+entries = json.load(open("build/tidy/compile_commands.json"))
 units = {entry["file"] for entry in entries}
 if os.environ["only"]:
     units = {unit for unit in units if f"/{os.environ['only']}/" in unit}
@@ -52,7 +38,7 @@ PYTHON
 tidy() {
   local checks=()
   [[ $1 == */build/tidy/tests/* || $1 == */build/tidy/bench/* || $1 == */contraction/solvers/viennacl/* ||
-    $1 == */surface_alone.cxx ]] &&
+    $1 == */units/CGAL.cpp ]] &&
     checks=(--checks=-clang-analyzer-\*)
   clang-tidy-14 -quiet -p build/tidy "${checks[@]}" "$1" 2>/dev/null
 }

@@ -3,11 +3,13 @@
 import gzip
 import os
 import resource
+import shutil
+import subprocess
 import unittest
 
-from program import TORUS, Y, CommandLineTest, run
+from program import PROGRAM, TORUS, Y, CommandLineTest, run
 
-USAGE, INPUT, OUTPUT = 2, 3, 6
+USAGE, INPUT, DEVICE, OUTPUT = 2, 3, 4, 6
 
 
 class Help(CommandLineTest):
@@ -24,6 +26,15 @@ class Help(CommandLineTest):
 
     def test_version(self):
         self.assertRegex(self.run_ok("--version").out.decode(), r"^curveskel \d+\.\d+\.\d+\n$")
+
+
+class View(CommandLineTest):
+    def test_says_how_to_get_the_window_where_it_is_not_installed(self):
+        alone = shutil.copy(PROGRAM, self.folder / "curveskel")
+        result = subprocess.run([alone, "view", Y], capture_output=True, text=True)
+        self.assertEqual(result.returncode, DEVICE, result.stderr)
+        for word in ("curveskel-view", "./run view"):
+            self.assertIn(word, result.stderr)
 
 
 class WrongArguments(CommandLineTest):

@@ -1,7 +1,6 @@
 // Laws of the local flow over patches of more than one ring, and by a QR per vertex.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include <curveskel/clean.hpp>
@@ -11,6 +10,7 @@
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/patch_solution.hpp"
 #include "tests/contraction/faired.hpp"
+#include "tests/real_surfaces.hpp"
 
 namespace curveskel::fair_rings_laws {
 namespace {
@@ -311,9 +311,9 @@ TEST(LocalAgainstGlobal, OnlyTheGlobalFlowContractsAShape) {
 }
 
 TEST(LocalAgainstGlobal, OnlyTheGlobalFlowContractsARealSurface) {
-  const auto path = std::filesystem::path(CURVESKEL_SHARED_MESHES) / "spot-3k.obj";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no collection of real meshes at " << path;
-  expect_only_the_global_flow_contracts("spot", clean(read_polygons(path, {}), {}).surface);
+  const auto path = real_surface("spot-3k.obj");
+  ASSERT_TRUE(path);
+  expect_only_the_global_flow_contracts("spot", clean(read_polygons(*path, {}), {}).surface);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::extract_repaired_laws {
@@ -166,14 +166,13 @@ TEST(ExtractRepaired, SheetsHaveNoMoreNodesThanOthers) {
 }
 
 TEST(ExtractRepaired, KitsThatAreWrappedAsAWholeHaveTheirCurveInside) {
-  const std::filesystem::path folder = CURVESKEL_SHARED_MESHES;
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes at " << folder;
   RepairOptions options;
   options.wrap = Wrapping::all;
-  for (const char* file : {"defects/soup-spider-ascii.stl", "defects/messy-office-chair.obj",
-                           "rigs/quaternius-horse-1k.ply"}) {
+  for (const auto& file :
+       present_among({"defects/soup-spider-ascii.stl", "defects/messy-office-chair.obj",
+                      "rigs/quaternius-horse-1k.ply"})) {
     SCOPED_TRACE(file);
-    const RepairedSurface repaired = repair(read_polygons(folder / file, {}), options, {});
+    const RepairedSurface repaired = repair(read_polygons(*real_surface(file), {}), options, {});
     const Certificate found = extract_repaired(repaired, options, {}, {}).extraction.certificate;
     EXPECT_TRUE(found.topology_correct());
     EXPECT_GT(found.genus, 0) << "handles as fine as the gaps between parts";

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +24,7 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/topology.hpp>
 #include "surface/resample/canonical.hpp"
+#include "tests/real_surfaces.hpp"
 #include "tests/skeleton/shortfalls.hpp"
 #include "tests/soups.hpp"
 
@@ -40,27 +41,6 @@ constexpr std::array known{
     Shortfall{"botijo-41k.ply", "reach behind CGAL's", 0.001},
 };
 
-const std::filesystem::path meshes = CURVESKEL_SHARED_MESHES;
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream cut(line);
-  for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-/// The closed, manifold, orientable surfaces that the index lists outside defects/.
-std::vector<std::string> listed_meshes() {
-  std::vector<std::string> files;
-  std::ifstream index(meshes / "INDEX.csv");
-  for (std::string line; std::getline(index, line);) {
-    const auto cells = cells_of(line);
-    if (cells.size() < 9 || cells[0].starts_with("defects/")) continue;
-    if (cells[6] == "y" && cells[7] == "y" && cells[8] == "y") files.push_back(cells[0]);
-  }
-  return files;
-}
-
 /// A row of cgal_baseline.csv: what `evaluate` says of CGAL's mean curvature flow skeleton. Each
 /// figure is the median of five runs, between which they vary by up to 5 %.
 using Baseline = std::map<std::string, double>;
@@ -70,10 +50,10 @@ std::optional<Baseline> baseline_of(const std::string& mesh) {
                       "tests/skeleton/cgal_baseline.csv");
   std::string line;
   std::getline(table, line);
-  const auto columns = cells_of(line);
+  const auto columns = fields(line);
   const std::string file = std::filesystem::path(mesh).filename().string();
   while (std::getline(table, line)) {
-    const auto cells = cells_of(line);
+    const auto cells = fields(line);
     if (cells.empty() || std::filesystem::path(cells[0]).filename() != file) continue;
     Baseline row;
     for (std::size_t c = 1; c < std::min(cells.size(), columns.size()); ++c) {
@@ -98,7 +78,7 @@ class RealMesh : public testing::TestWithParam<std::string> {
     const auto [found, is_new] = cases.try_emplace(GetParam());
     if (is_new) {
       Case& fresh = found->second;
-      fresh.surface = clean(read_polygons(meshes / GetParam(), {}), {}).surface;
+      fresh.surface = clean(read_polygons(real_surface(GetParam()).value(), {}), {}).surface;
       fresh.topology = topology(fresh.surface);
       fresh.extraction = extract(fresh.surface, {}, {});
     }
@@ -197,35 +177,40 @@ std::string identifier(const testing::TestParamInfo<std::string>& entry) {
   std::replace_if(name.begin(), name.end(), is_other, '_');
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(Shared, RealMesh, testing::ValuesIn(listed_meshes()), identifier);
+INSTANTIATE_TEST_SUITE_P(Listed, RealMesh, testing::ValuesIn(closed_real_surfaces()), identifier);
 
 // A short leaf is no spur as long as it can be prolonged: a thumb was lost that way.
-TEST(RealMeshes, TheArmadilloKeepsEveryFinger) {
-  const auto file = meshes / "armadillo-43k.ply";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
-  const Surface surface = clean(read_polygons(file, {}), {}).surface;
-  EXPECT_GE(extract(surface, {}, {}).certificate.tips, 18);
+TEST(RealMeshes, KeepEveryLimbAndFinger) {
+  for (const auto& [name, tips] :
+       {std::pair{"humanoid-10k.ply", 7}, std::pair{"armadillo-43k.ply", 18}}) {
+    const auto file = real_surface(name);
+    if (!file && !collection_folder()) continue;
+    const Surface surface = clean(read_polygons(file.value(), {}), {}).surface;
+    EXPECT_GE(extract(surface, {}, {}).certificate.tips, tips) << name;
+  }
 }
 
 // What sticks out is judged by the surface, not by where the surgery happened to cut it: with the
 // same foot cut elsewhere the jug lost it at each of these.
-TEST(RealMeshes, TheJugKeepsItsFootWithFewerVertices) {
-  const auto file = meshes / "botijo-41k.ply";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
-  const Surface surface = clean(read_polygons(file, {}), {}).surface;
-  for (const int share : {1, 2, 4}) {
-    CoarsenOptions options;
-    options.target_vertices = static_cast<int>(surface.positions.rows()) / share;
-    EXPECT_EQ(extract(coarsen(surface, options, {}).surface, {}, {}).certificate.tips, 5)
-        << "1 / " << share << " of the vertices";
+TEST(RealMeshes, KeepTheirTipsWithFewerVertices) {
+  for (const auto& [name, tips] : {std::pair{"spot-3k.obj", 9}, std::pair{"botijo-41k.ply", 5}}) {
+    const auto file = real_surface(name);
+    if (!file && !collection_folder()) continue;
+    const Surface surface = clean(read_polygons(file.value(), {}), {}).surface;
+    for (const int share : {1, 2, 4}) {
+      CoarsenOptions options;
+      options.target_vertices = static_cast<int>(surface.positions.rows()) / share;
+      EXPECT_EQ(extract(coarsen(surface, options, {}).surface, {}, {}).certificate.tips, tips)
+          << name << ", 1 / " << share << " of the vertices";
+    }
   }
 }
 
 // Between the balls of vertices far apart a curve had no way: a horse's ran outside of its belly.
 TEST(RealMeshes, StayInsideHoweverFewTheirVertices) {
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
   for (const char* name : {"quaternius-horse-1k.ply", "quaternius-trex-1k.ply"}) {
-    const Surface surface = clean(read_polygons(meshes / "rigs" / name, {}), {}).surface;
+    const Surface surface =
+        clean(read_polygons(real_surface("rigs/" + std::string(name)).value(), {}), {}).surface;
     for (const int share : {2, 3, 4, 5}) {
       CoarsenOptions options;
       options.target_vertices = static_cast<int>(surface.positions.rows()) / share;
@@ -239,9 +224,9 @@ TEST(RealMeshes, StayInsideHoweverFewTheirVertices) {
 // This neuron's surface meets itself: some steps from one ball to the next lead outside, and where
 // the cheapest chain took one of them, 0.2 % of the curve was.
 TEST(RealMeshes, StayInsideWhereTheyMeetThemselves) {
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
-  const auto file = meshes / "neuron-722817260-18k.ply";
-  const Extraction found = extract(repair(read_polygons(file, {}), {}, {}).surface, {}, {});
+  const auto file = real_surface("neuron-722817260-18k.ply");
+  ASSERT_TRUE(file);
+  const Extraction found = extract(repair(read_polygons(*file, {}), {}, {}).surface, {}, {});
   EXPECT_GE(found.certificate.inside_fraction, 0.99999);
   EXPECT_TRUE(found.certificate.topology_correct());
   EXPECT_FALSE(is_kept(found.history, try_faired));
@@ -250,12 +235,13 @@ TEST(RealMeshes, StayInsideWhereTheyMeetThemselves) {
 // The tip in a blunt muzzle was in one of its corners, 0.1 D off, and the way into a head went
 // through a cheek, beside the hollow of the mouth, 0.04 D off.
 TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
   for (const auto& [name, axis] :
        {std::pair{"spot-3k.obj", 0}, std::pair{"rigs/quaternius-horse-1k.ply", 0},
         std::pair{"rigs/cesium-man-2k.ply", 1},
         std::pair{"rigs/makehuman-body-13k-quads.obj", 0}}) {
-    const Surface surface = clean(read_polygons(meshes / name, {}), {}).surface;
+    const auto file = real_surface(name);
+    if (!file && !collection_folder()) continue;
+    const Surface surface = clean(read_polygons(file.value(), {}), {}).surface;
     const CurveSkeleton curve = extract(surface, {}, {}).skeleton;
     CurveSkeleton mirrored = curve;
     auto across = mirrored.nodes.col(axis);
@@ -267,8 +253,7 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
 
 // No branch led to the waist, so one leg turned back to it and left its own opening alone.
 TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
-  PolygonSoup figure = read_polygons(meshes / "humanoid-10k.ply", {});
+  PolygonSoup figure = read_polygons(real_surface("humanoid-10k.ply").value(), {});
   const auto heights = figure.positions.col(1);
   const double least = heights.minCoeff();
   const double height = heights.maxCoeff() - least;
@@ -305,8 +290,7 @@ TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
 
 // The way to an opening left the body between the places that were asked about.
 TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirOpenings) {
-  if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no shared meshes at " << meshes;
-  PolygonSoup figure = read_polygons(meshes / "humanoid-10k.ply", {});
+  PolygonSoup figure = read_polygons(real_surface("humanoid-10k.ply").value(), {});
   Eigen::Index axis = 0;
   const Eigen::RowVector3d low = figure.positions.colwise().minCoeff();
   const Eigen::RowVector3d high = figure.positions.colwise().maxCoeff();
@@ -332,9 +316,10 @@ TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirOpenings) {
 }
 
 TEST(RealMeshes, AreThere) {
-  if (!std::filesystem::exists(meshes / "INDEX.csv"))
-    GTEST_SKIP() << "no shared meshes at " << meshes << ": nothing of the real kind was tested";
-  EXPECT_GE(listed_meshes().size(), 30U);
+  const auto collection = collection_folder();
+  std::cout << "[ SURFACES ] meshes/free"
+            << (collection ? " and " + collection->string() : std::string(" alone")) << '\n';
+  EXPECT_GE(closed_real_surfaces().size(), collection ? 30U : 5U);
 }
 
 }  // namespace

@@ -91,13 +91,12 @@ void expect_same_after_motions(const std::vector<NamedSurface>& surfaces) {
 
 TEST(Canonical, ScaledMovedAndTurnedFamiliesAreTheSame) { expect_same_after_motions(families()); }
 
-TEST(Canonical, ScaledMovedAndTurnedSharedMeshesAreTheSame) {
-  if (shared_meshes().empty()) GTEST_SKIP() << "no meshes in " << CURVESKEL_SHARED_MESHES;
-  expect_same_after_motions(shared_meshes());
+TEST(Canonical, ScaledMovedAndTurnedRealSurfacesAreTheSame) {
+  expect_same_after_motions(real_surfaces());
 }
 
 TEST(Canonical, RenumberedCopyIsTheSameToTheLastBit) {
-  for (const auto* surfaces : {&families(), &shared_meshes()}) {
+  for (const auto* surfaces : {&families(), &real_surfaces()}) {
     for (const auto& [name, surface] : *surfaces) {
       const Canonical original = canonical_form(surface);
       const Canonical other = canonical_form(
@@ -109,7 +108,7 @@ TEST(Canonical, RenumberedCopyIsTheSameToTheLastBit) {
 }
 
 TEST(Canonical, TheWayBackLeadsToTheModel) {
-  for (const auto* surfaces : {&families(), &shared_meshes()}) {
+  for (const auto* surfaces : {&families(), &real_surfaces()}) {
     for (const auto& [name, surface] : *surfaces) {
       const Surface moved = motions()[2].change(turned(surface, 3));
       const Canonical canonical = canonical_form(moved);

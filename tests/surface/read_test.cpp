@@ -17,6 +17,7 @@
 #include <curveskel/clean.hpp>
 #include "surface/read/formats.hpp"
 #include "tests/own_folder.hpp"
+#include "tests/real_surfaces.hpp"
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"
 
@@ -180,49 +181,44 @@ TEST(Reading, StopsWhenAsked) {
 
 // ---- Real files ---------------------------------------------------------------------------------
 
-class SharedMeshes : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << "no folder " << folder_;
-  }
-  std::filesystem::path folder_ = CURVESKEL_SHARED_MESHES;
-};
-
-TEST_F(SharedMeshes, BrokenOnesAreRefused) {
-  for (const char* name : {"badindex-too-large.off",
-                           "badindex-zero.obj",
-                           "comments-only.obj",
-                           "empty.obj",
-                           "empty.off",
-                           "empty.ply",
-                           "empty.stl",
-                           "garbage.ply",
-                           "header-lies-huge-count.off",
-                           "header-lies-huge-count.ply",
-                           "header-only-0-0.off",
-                           "inf-coordinate.off",
-                           "nan-coordinates.obj",
-                           "nan-coordinates.ply",
-                           "negative-index.off",
-                           "not-numbers.off",
-                           "one-vertex.obj",
-                           "pointcloud-crab-14k.ply",
-                           "truncated-ascii.off",
-                           "truncated-binary.ply",
-                           "truncated-binary.stl",
-                           "truncated.glb",
-                           "wrong-extension.obj"}) {
-    EXPECT_NE(refusal(folder_ / "defects" / name).find(name), std::string::npos) << name;
+TEST(RealSurfaces, BrokenOnesAreRefused) {
+  for (const auto& file : present_among({"defects/badindex-too-large.off",
+                                         "defects/badindex-zero.obj",
+                                         "defects/comments-only.obj",
+                                         "defects/empty.obj",
+                                         "defects/empty.off",
+                                         "defects/empty.ply",
+                                         "defects/empty.stl",
+                                         "defects/garbage.ply",
+                                         "defects/header-lies-huge-count.off",
+                                         "defects/header-lies-huge-count.ply",
+                                         "defects/header-only-0-0.off",
+                                         "defects/inf-coordinate.off",
+                                         "defects/nan-coordinates.obj",
+                                         "defects/nan-coordinates.ply",
+                                         "defects/negative-index.off",
+                                         "defects/not-numbers.off",
+                                         "defects/one-vertex.obj",
+                                         "defects/pointcloud-crab-14k.ply",
+                                         "defects/truncated-ascii.off",
+                                         "defects/truncated-binary.ply",
+                                         "defects/truncated-binary.stl",
+                                         "defects/truncated.glb",
+                                         "defects/wrong-extension.obj"})) {
+    const std::string name = real_surface(file)->filename().string();
+    EXPECT_NE(refusal(*real_surface(file)).find(name), std::string::npos) << name;
   }
 }
 
-TEST_F(SharedMeshes, GltfRigsAreTheirWeldedMeshes) {
+TEST(RealSurfaces, GltfRigsAreTheirWeldedMeshes) {
   for (const auto& [scene, mesh] :
        {std::pair{"CesiumMan.gltf", "cesium-man-2k.ply"},
         std::pair{"quaternius-horse-1k.glb", "quaternius-horse-1k.ply"},
         std::pair{"quaternius-trex-1k.glb", "quaternius-trex-1k.ply"}}) {
-    const auto positions = [&](const char* name) {
-      const CleanSurface result = clean(read_polygons(folder_ / "rigs" / name, {}), {});
+    if (!collection_folder() && !real_surface("rigs/" + std::string(scene))) continue;
+    const auto positions = [&](const std::string& name) {
+      const CleanSurface result =
+          clean(read_polygons(real_surface("rigs/" + name).value(), {}), {});
       std::vector<std::array<float, 3>> points;
       for (const auto& p : result.surface.positions.rowwise()) {
         points.push_back(

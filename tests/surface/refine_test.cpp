@@ -38,7 +38,7 @@ bool closed(const Surface& surface) {
 }
 
 TEST(Refine, NoEdgeIsLongerThanAskedForAndTheSurfaceStaysWhereItIs) {
-  for (const auto* surfaces : {&families(), &shared_meshes()}) {
+  for (const auto* surfaces : {&families(), &real_surfaces()}) {
     for (const auto& [name, surface] : *surfaces) {
       if (surface.positions.rows() > 30000) continue;
       const double bound = longest_edge(surface) / 2.5;
@@ -54,7 +54,7 @@ TEST(Refine, NoEdgeIsLongerThanAskedForAndTheSurfaceStaysWhereItIs) {
 }
 
 TEST(Refine, EnoughVerticesButNotFarTooMany) {
-  for (const auto* surfaces : {&families(), &shared_meshes()}) {
+  for (const auto* surfaces : {&families(), &real_surfaces()}) {
     for (const auto& [name, surface] : *surfaces) {
       const auto before = static_cast<int>(surface.positions.rows());
       if (before > 20000) continue;

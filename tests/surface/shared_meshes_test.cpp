@@ -1,9 +1,7 @@
-// The collection of real surfaces, cleaned: as its index says that they are.
+// The real surfaces, cleaned: as their index says that they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,25 +9,11 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/topology.hpp>
+#include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::shared_meshes_laws {
 namespace {
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> result(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      result.emplace_back();
-    } else if (c != '\r') {
-      result.back() += c;
-    }
-  }
-  return result;
-}
 
 struct IndexRow {
   std::string file;
@@ -43,13 +27,11 @@ struct IndexRow {
 };
 
 std::vector<IndexRow> index_rows() {
-  std::ifstream file(std::string(CURVESKEL_SHARED_MESHES) + "/INDEX.csv");
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = fields(line);
+  const auto lines = real_surface_index();
+  const std::vector<std::string>& names = lines.at(0);
   std::vector<IndexRow> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> values = fields(line);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string>& values = lines[i];
     const auto value = [&](const std::string& name) {
       const auto column = std::find(names.begin(), names.end(), name) - names.begin();
       return values.at(static_cast<std::size_t>(column));
@@ -75,38 +57,29 @@ std::vector<IndexRow> index_rows() {
   return rows;
 }
 
-class SharedMeshesCleaned : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(folder_ / "INDEX.csv")) GTEST_SKIP() << "no folder " << folder_;
-    rows_ = index_rows();
-  }
-  [[nodiscard]] CleanSurface cleaned(const std::string& file) const {
-    return clean(read_polygons(folder_ / file, {}), {});
-  }
-  std::filesystem::path folder_ = CURVESKEL_SHARED_MESHES;
-  std::vector<IndexRow> rows_;
-};
+CleanSurface cleaned(const std::string& file) {
+  return clean(read_polygons(real_surface(file).value(), {}), {});
+}
 
-TEST_F(SharedMeshesCleaned, AreReadWithTheVerticesAndFacesOfTheIndex) {
+TEST(RealSurfacesCleaned, AreReadWithTheVerticesAndFacesOfTheIndex) {
   int checked = 0;
-  for (const IndexRow& row : rows_) {
+  for (const IndexRow& row : index_rows()) {
     // Without counts, without faces, or with numbers that are none: refused, see the read test.
     if (row.faces <= 0 || row.file.find("nan-") != std::string::npos ||
         row.file.find("inf-") != std::string::npos) {
       continue;
     }
-    const PolygonSoup soup = read_polygons(folder_ / row.file, {});
+    const PolygonSoup soup = read_polygons(real_surface(row.file).value(), {});
     EXPECT_EQ(soup.positions.rows(), row.vertices) << row.file;
     EXPECT_EQ(soup.offsets.size() - 1, static_cast<std::size_t>(row.faces)) << row.file;
     ++checked;
   }
-  EXPECT_GT(checked, 80);
+  EXPECT_GT(checked, collection_folder() ? 80 : 10);
 }
 
-TEST_F(SharedMeshesCleaned, ThatAreClosedKeepTheirComponentsAndGenus) {
+TEST(RealSurfacesCleaned, ThatAreClosedKeepTheirComponentsAndGenus) {
   int checked = 0;
-  for (const IndexRow& row : rows_) {
+  for (const IndexRow& row : index_rows()) {
     const bool flat = row.file.find("collinear") != std::string::npos ||
                       row.file.find("coincident") != std::string::npos ||
                       row.file.find("flattened") != std::string::npos;
@@ -137,7 +110,7 @@ TEST_F(SharedMeshesCleaned, ThatAreClosedKeepTheirComponentsAndGenus) {
     }
     ++checked;
   }
-  EXPECT_GT(checked, 50);
+  EXPECT_GT(checked, collection_folder() ? 50 : 4);
 }
 
 struct Mended {
@@ -146,7 +119,7 @@ struct Mended {
   int components;
 };
 
-TEST_F(SharedMeshesCleaned, ThatAreSoupsOrDoubledAreMended) {
+TEST(RealSurfacesCleaned, ThatAreSoupsOrDoubledAreMended) {
   for (const Mended& mended :
        {Mended{"format-binary-starts-with-solid.stl", 620, 1},
         Mended{"format-two-solids-ascii.stl", 1240, 2}, Mended{"soup-gears-19k.stl", 9723, 7},
@@ -155,7 +128,9 @@ TEST_F(SharedMeshesCleaned, ThatAreSoupsOrDoubledAreMended) {
         Mended{"nonmanifold-vertex-cow-3k.obj", 2904, 1},
         Mended{"nonmanifold-hourglass.obj", 24, 2}, Mended{"uvseam-cut-camel-2k.obj", 1790, 1}}) {
     SCOPED_TRACE(mended.file);
-    const CleanSurface result = cleaned(std::string("defects/") + mended.file);
+    const std::string file = std::string("defects/") + mended.file;
+    if (!collection_folder() && !real_surface(file)) continue;
+    const CleanSurface result = cleaned(file);
     EXPECT_EQ(result.surface.positions.rows(), mended.vertices);
     EXPECT_EQ(topology(result.surface).components(), mended.components);
     EXPECT_FALSE(result.changes.lines.empty());
@@ -163,31 +138,32 @@ TEST_F(SharedMeshesCleaned, ThatAreSoupsOrDoubledAreMended) {
   }
 }
 
-TEST_F(SharedMeshesCleaned, ThatEncloseNothingAreRefused) {
-  for (const char* name : {"all-vertices-coincident.off",
-                           "collinear.off",
-                           "concave-ngon.obj",
-                           "flattened.ply",
-                           "messy-office-chair.obj",
-                           "nonmanifold-dragon-23k.ply",
-                           "nonmanifold-fan3.obj",
-                           "nonmanifold-hole.ply",
-                           "nonorientable-klein.off",
-                           "nonorientable-moebius-quads.obj",
-                           "nonorientable-shark-15parts.ply",
-                           "one-quad.obj",
-                           "one-triangle.off",
-                           "open-bunny-scan-36k.ply",
-                           "open-elephant-106-holes.off",
-                           "open-rangescan-44k.ply",
-                           "polygons-suzanne-open.obj",
-                           "sheet-plane.off",
-                           "soup-spider-ascii.stl",
-                           "tjunctions.ply",
-                           "tristrips-hippo-23k.ply",
-                           "two-triangles.off",
-                           "unwelded-jittered.ply"}) {
-    expect_said(refusal(read_polygons(folder_ / "defects" / name, {})), {name, "needed"});
+TEST(RealSurfacesCleaned, ThatEncloseNothingAreRefused) {
+  for (const auto& file : present_among({"defects/all-vertices-coincident.off",
+                                         "defects/collinear.off",
+                                         "defects/concave-ngon.obj",
+                                         "defects/flattened.ply",
+                                         "defects/messy-office-chair.obj",
+                                         "defects/nonmanifold-dragon-23k.ply",
+                                         "defects/nonmanifold-fan3.obj",
+                                         "defects/nonmanifold-hole.ply",
+                                         "defects/nonorientable-klein.off",
+                                         "defects/nonorientable-moebius-quads.obj",
+                                         "defects/nonorientable-shark-15parts.ply",
+                                         "defects/one-quad.obj",
+                                         "defects/one-triangle.off",
+                                         "defects/open-bunny-scan-36k.ply",
+                                         "defects/open-elephant-106-holes.off",
+                                         "defects/open-rangescan-44k.ply",
+                                         "defects/polygons-suzanne-open.obj",
+                                         "defects/sheet-plane.off",
+                                         "defects/soup-spider-ascii.stl",
+                                         "defects/tjunctions.ply",
+                                         "defects/tristrips-hippo-23k.ply",
+                                         "defects/two-triangles.off",
+                                         "defects/unwelded-jittered.ply"})) {
+    const auto path = real_surface(file).value();
+    expect_said(refusal(read_polygons(path, {})), {path.filename().string(), "needed"});
   }
 }
 
