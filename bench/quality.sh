@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # usage: bench/quality.sh BUILD_DIR
 # Makes docs/quality.md and its pictures anew: this program beside CGAL's mean curvature flow
-# skeletonization on every closed surface of ../shared/meshes, and what small changes do to the
-# skeletons, and CGAL's. Six minutes on an idle machine.
+# skeletonization on every closed surface of ../shared/meshes, and the effect of small changes on the
+# skeletons of both. Six minutes on an idle machine.
 set -euo pipefail
 build=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -61,7 +61,7 @@ TEXT
   cat "$work/surgeries.md"
   printf '\n## Small changes\n'
   cat <<'TEXT'
-Tips and junctions after a small change of the surface, and the Hausdorff distance of the skeletons over *D*. What comes and goes is mostly one short, blunt branch whose slenderness lies near the limit, or a branch that the surgery did not make; or two junctions become one.
+Tips and junctions after a small change of the surface, and the Hausdorff distance of the skeletons over *D*. Most differences are one short, blunt branch whose prominence lies near the limit, a branch that the surgery did not make, or two junctions that become one.
 
 TEXT
   cat "$work/stability.md"
