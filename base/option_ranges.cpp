@@ -10,7 +10,7 @@ namespace curveskel {
 namespace {
 
 /// As few digits as say the number; whole ones without an exponent.
-std::string digits(double value) {
+std::string plain_number(double value) {
   if (value == std::floor(value) && std::abs(value) < 1e9) {
     return std::to_string(static_cast<long long>(value));
   }
@@ -29,13 +29,13 @@ bool lies_within(double value, const OptionRange& range) {
 std::string range_words(const OptionRange& range) {
   const bool endless = range.most == std::numeric_limits<double>::max();
   if (range.above_least) {
-    return "above " + digits(range.least) + (endless ? "" : " and up to " + digits(range.most));
+    return "above " + plain_number(range.least) + (endless ? "" : " and up to " + plain_number(range.most));
   }
-  return digits(range.least) + (endless ? " or more" : ".." + digits(range.most));
+  return plain_number(range.least) + (endless ? " or more" : ".." + plain_number(range.most));
 }
 
 void OptionCheck::number(std::string_view option, double value, const OptionRange& range) const {
-  if (!lies_within(value, range)) refuse(option, digits(value), range_words(range));
+  if (!lies_within(value, range)) refuse(option, plain_number(value), range_words(range));
 }
 
 void OptionCheck::number(std::string_view option, int value, const OptionRange& range) const {
