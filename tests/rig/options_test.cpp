@@ -155,7 +155,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   }
   {
     using O = SurgeryOptions;
-    [[maybe_unused]] const auto& [a, b] = O{};
+    [[maybe_unused]] const auto& [method, a, b] = O{};
     expect_ranges<O>(
         "SurgeryOptions",
         {option("shape_weight", &O::shape_weight, "0..1000000", {0, 1e6}, {-1e-9, 2e6}),
@@ -163,7 +163,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   }
   {
     using O = EmbedOptions;
-    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j] = O{};
+    [[maybe_unused]] const auto& [method, a, b, c, d, e, f, g, h, i, j] = O{};
     const std::string radii = "0..1000";
     const std::string rounds = "0..1000000";
     expect_ranges<O>(

@@ -37,12 +37,12 @@ std::vector<double> random_lengths(std::size_t edges, unsigned seed) {
 /// Bellman and Ford's way: lengths are lowered until none can be.
 std::vector<double> distances_by_relaxing(int nodes, const EdgeList& edges,
                                           const std::vector<double>& lengths, int source) {
-  std::vector<double> distance(at(nodes), ShortestPaths::unreachable);
-  distance[at(source)] = 0;
+  std::vector<double> distance(idx(nodes), ShortestPaths::unreachable);
+  distance[idx(source)] = 0;
   for (int round = 0; round < nodes; ++round) {
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      double& a = distance[at(edges[e][0])];
-      double& b = distance[at(edges[e][1])];
+      double& a = distance[idx(edges[e][0])];
+      double& b = distance[idx(edges[e][1])];
       a = std::min(a, b + lengths[e]);
       b = std::min(b, a + lengths[e]);
     }
@@ -84,8 +84,8 @@ TEST(Graph, DegreesSumToTwiceTheEdges) {
   const std::vector<int> degree = degrees(40, edges);
   std::size_t sum = 0;
   for (int node = 0; node < 40; ++node) {
-    EXPECT_EQ(graph.degree(node), degree[at(node)]);
-    sum += at(degree[at(node)]);
+    EXPECT_EQ(graph.degree(node), degree[idx(node)]);
+    sum += idx(degree[idx(node)]);
   }
   EXPECT_EQ(sum, 2 * edges.size());
 }
@@ -98,12 +98,12 @@ TEST(ConnectedComponents, AreWhatCanBeReachedNumberedByTheirLowestNodes) {
     ShortestPaths paths(40);
     int components = 0;
     for (int node = 0; node < 40; ++node) {
-      EXPECT_LE(component[at(node)], components);
-      if (component[at(node)] == components) ++components;
+      EXPECT_LE(component[idx(node)], components);
+      if (component[idx(node)] == components) ++components;
       paths.search(graph, node, ShortestPaths::no_target, [](int, int, int) { return 1.0; });
       for (int other = 0; other < 40; ++other) {
         EXPECT_EQ(paths.distance(other) < ShortestPaths::unreachable,
-                  component[at(node)] == component[at(other)]);
+                  component[idx(node)] == component[idx(other)]);
       }
     }
   }
@@ -116,7 +116,7 @@ TEST(ShortestPaths, AreAsShortAsRelaxingEveryEdgeFinds) {
     const std::vector<double> lengths = random_lengths(edges.size(), seed);
     const Graph graph = graph_of(50, edges);
     paths.search(graph, int(seed), ShortestPaths::no_target,
-                 [&](int, int, int edge) { return lengths[at(edge)]; });
+                 [&](int, int, int edge) { return lengths[idx(edge)]; });
     EXPECT_EQ(paths.distances(), distances_by_relaxing(50, edges, lengths, int(seed)));
     for (int node = 0; node < 50; ++node) {
       const std::vector<int> path = paths.path_to(node);
@@ -129,7 +129,7 @@ TEST(ShortestPaths, AreAsShortAsRelaxingEveryEdgeFinds) {
         const std::array step{std::min(path[i - 1], path[i]), std::max(path[i - 1], path[i])};
         const auto edge = std::find(edges.begin(), edges.end(), step);
         ASSERT_NE(edge, edges.end());
-        length += lengths[at(edge - edges.begin())];
+        length += lengths[idx(edge - edges.begin())];
       }
       EXPECT_EQ(length, paths.distance(node));
     }
@@ -140,7 +140,7 @@ TEST(ShortestPaths, AreTheSameWhereTheSearchEndsAtItsTarget) {
   const EdgeList edges = random_edges(60, 150, 5);
   const std::vector<double> lengths = random_lengths(edges.size(), 5);
   const Graph graph = graph_of(60, edges);
-  const auto length = [&](int, int, int edge) { return lengths[at(edge)]; };
+  const auto length = [&](int, int, int edge) { return lengths[idx(edge)]; };
   ShortestPaths whole(60);
   ShortestPaths part(60);
   whole.search(graph, 0, ShortestPaths::no_target, length);
