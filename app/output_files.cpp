@@ -5,7 +5,7 @@
 #include <set>
 
 #include <curveskel/error.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 
 namespace curveskel {
 

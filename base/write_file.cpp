@@ -1,4 +1,4 @@
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>

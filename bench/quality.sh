@@ -55,7 +55,7 @@ PYTHON
   cat "$work/table.md"
   printf '\n## Two surgeries\n'
   cat <<'TEXT'
-The same contraction of each surface, handed to the surgery of this program and to CGAL's (`--surgery cgal`), with the embedding and without (`--embed none`); no second tries, no wraps. *Cut*: 1st = the first contraction did, 2nd = a gentler one, bands = neither, so that the surface was cut into bands; CGAL alone has one contraction and no bands. Components and cycles: of the skeleton / of the surface. Seconds of the extraction without reading and repair. Without the embedding the curve is where the contracted vertices are: nothing keeps it inside, and spurs stay.
+The same contraction of each surface, handed to the surgery of this program and to CGAL's (`--surgery cgal`), with the embedding and without (`--embed none`); no second tries, no wraps. *Cut*: 1st = the first contraction did, 2nd = a gentler one, level sets = neither, so that level sets cut the surface; CGAL alone has one contraction and no level sets. Components and cycles: of the skeleton / of the surface. Seconds of the extraction without reading and repair. Without the embedding the curve is where the contracted vertices are: nothing keeps it inside, and spurs stay.
 
 TEXT
   cat "$work/surgeries.md"

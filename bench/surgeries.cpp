@@ -41,16 +41,13 @@ struct Run {
   std::string cut;  ///< how the graph came about
 };
 
-/// "1st", or by what the components' surgeries had to be helped.
-std::string cut_of(const std::vector<ComponentRecord>& components) {
-  const auto count = [&](auto is) {
-    return std::count_if(components.begin(), components.end(), is);
-  };
-  const auto bands = count([](const ComponentRecord& c) { return c.bands; });
-  const auto gentler = count([](const ComponentRecord& c) { return !c.bands && c.attempts > 1; });
-  if (bands == 0 && gentler == 0) return "1st";
-  return fmt::format("{}{}{}", bands > 0 ? "bands" : "", bands > 0 && gentler > 0 ? ", " : "",
-                     gentler > 0 ? "2nd" : "");
+/// "1st", or the tries that components' cuts needed beyond the first.
+std::string cut_of(const std::vector<Try>& history) {
+  const bool level_sets = is_kept(history, try_level_sets);
+  const bool gentler = is_kept(history, try_gentler);
+  if (!level_sets && !gentler) return "1st";
+  return fmt::format("{}{}{}", level_sets ? "level sets" : "", level_sets && gentler ? ", " : "",
+                     gentler ? "2nd" : "");
 }
 
 Run run(const Surface& surface, const Way& way, int threads) {
@@ -62,7 +59,7 @@ Run run(const Surface& surface, const Way& way, int threads) {
   const auto start = std::chrono::steady_clock::now();
   const Extraction found = extract(surface, options, {});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return {found.certificate, taken.count(), cut_of(found.components)};
+  return {found.certificate, taken.count(), cut_of(found.history)};
 }
 
 std::string row(const std::string& file, const Way& way, const Run& run) {

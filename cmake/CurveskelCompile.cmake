@@ -12,10 +12,10 @@ function(curveskel_compile_settings target)
   target_compile_options(${target} PRIVATE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
   # Matrices cross the border of the library, so both sides must allocate them alike whatever
-  # instruction set (-march=native) each is compiled for: the same way of allocating from 32 up, and
-  # the same layout of structs. surface/surface.hpp holds every user to it.
+  # instruction set (-march=native) each is compiled for: by plain malloc, as Eigen does without, and
+  # the same layout of structs. <curveskel/surface.hpp> holds every user to it.
   target_compile_definitions(${target} PUBLIC
-    EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+    EIGEN_MALLOC_ALREADY_ALIGNED=1 EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
   # Same bytes on every machine of the same kind: no contraction of a*b+c into one rounding.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(CURVESKEL_SANITIZE)

@@ -5,9 +5,10 @@ set(CURVESKEL_PUBLIC_BASE
   include/curveskel/advanced/union_find.hpp
   include/curveskel/error.hpp
   include/curveskel/monitor.hpp
-  include/curveskel/write_file.hpp
+  include/curveskel/advanced/write_file.hpp
 )
 set(CURVESKEL_PUBLIC_SURFACE
+  include/curveskel/advanced/closed_manifold.hpp
   include/curveskel/advanced/coarsen.hpp
   include/curveskel/advanced/inscribed_balls.hpp
   include/curveskel/advanced/measures.hpp

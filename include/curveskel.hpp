@@ -40,6 +40,5 @@
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>
 #include <curveskel/view.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/write_surface.hpp>
-#include "surface/mesh/closed_manifold.hpp"

@@ -8,7 +8,7 @@
 #include "base/option_ranges.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/restore_volume.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

@@ -15,7 +15,7 @@
 #include "base/option_ranges.hpp"
 #include "contraction/flow/contracting_surface.hpp"
 #include "contraction/flow/flow_system.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

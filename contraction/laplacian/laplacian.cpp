@@ -6,7 +6,7 @@
 
 #include "contraction/laplacian/assemble.hpp"
 #include "contraction/laplacian/intrinsic_delaunay.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 

@@ -13,7 +13,7 @@
 #include "rig/joints/sides.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

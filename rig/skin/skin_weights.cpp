@@ -18,7 +18,7 @@
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

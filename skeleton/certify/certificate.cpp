@@ -18,7 +18,7 @@
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/homology/homology_classes.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

@@ -17,7 +17,7 @@
 #include "base/option_ranges.hpp"
 #include "skeleton/cut/cgal_surgery.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

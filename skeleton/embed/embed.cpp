@@ -9,7 +9,7 @@
 #include "base/option_ranges.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/steps.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

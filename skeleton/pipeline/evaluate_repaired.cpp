@@ -8,7 +8,7 @@
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/wrap_components.hpp"
 

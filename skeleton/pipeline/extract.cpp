@@ -19,7 +19,7 @@
 #include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

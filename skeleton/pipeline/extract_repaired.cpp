@@ -12,6 +12,7 @@
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
+#include "skeleton/pipeline/wraps_hold.hpp"
 #include "surface/repair/wrap_components.hpp"
 #include "surface/repair/wrap_solid.hpp"
 
@@ -112,24 +113,6 @@ std::vector<FailingComponent> failing_of(const Surface& surface, const Extractio
                             component_by_map(extraction.skeleton, counted), options, monitor);
 }
 
-/// A wrap's certificate held while it was alone, which does not make it hold beside the others.
-bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap>& wraps,
-                const CertificateOptions& options, const Monitor& monitor) {
-  if (found.extraction.certificate.holds()) return true;
-  const auto failing = failing_of(found.wrapped->surface, found.extraction, options, monitor);
-  int added = 0;  // components so far that wraps have beyond one each
-  for (const ComponentWrap& one : wraps) {
-    const int first = one.component + added;
-    const int own = topology(one.wrap.surface).components();
-    const bool fails = std::any_of(failing.begin(), failing.end(), [&](const auto& component) {
-      return component.number >= first && component.number < first + own;
-    });
-    if (fails) return false;
-    added += own - 1;
-  }
-  return true;
-}
-
 Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOptions& as_repaired,
                                const ExtractOptions& options, const Plan<Extracted>::Room& given) {
   const auto start = std::chrono::steady_clock::now();
@@ -180,6 +163,23 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
 }
 
 }  // namespace
+
+bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap>& wraps,
+                const CertificateOptions& options, const Monitor& monitor) {
+  if (found.extraction.certificate.holds()) return true;
+  const auto failing = failing_of(found.wrapped->surface, found.extraction, options, monitor);
+  int added = 0;  // components so far that wraps have beyond one each
+  for (const ComponentWrap& one : wraps) {
+    const int first = one.component + added;
+    const int own = topology(one.wrap.surface).components();
+    const bool fails = std::any_of(failing.begin(), failing.end(), [&](const auto& component) {
+      return component.number >= first && component.number < first + own;
+    });
+    if (fails) return false;
+    added += own - 1;
+  }
+  return true;
+}
 
 RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                     const RepairOptions& as_repaired, const ExtractOptions& options,

@@ -1,4 +1,4 @@
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@
 
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "surface/resample/collapse.hpp"
 #include "surface/spatial/morton.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include "base/parallel.hpp"
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "surface/mesh/closed_manifold.hpp"
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/wide_tree.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <curveskel/skeleton_files.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {

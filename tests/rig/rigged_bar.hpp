@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "tests/surface/encodings.hpp"
 
 namespace curveskel {

@@ -15,7 +15,7 @@
 #include <tuple>
 
 #include <curveskel/error.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/skeleton/skeleton_samples.hpp"
 

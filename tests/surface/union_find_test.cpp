@@ -18,7 +18,7 @@ class Relabelled {
     for (std::size_t i = 0; i < label_.size(); ++i) label_[i] = static_cast<int>(i);
   }
   bool unite(int a, int b) {
-    const auto [low, high] = std::minmax(of(a), of(b));
+    const auto [low, high] = std::minmax({of(a), of(b)});
     if (low == high) return false;
     std::replace(label_.begin(), label_.end(), int{high}, int{low});
     return true;

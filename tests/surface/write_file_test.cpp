@@ -1,5 +1,5 @@
 // Laws of writing: the whole file or none of it, and surfaces come back as they were.
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <curveskel/error.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 
 namespace curveskel::viewer {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include <curveskel/error.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "app/command_line.hpp"
 #include "viewer/headless/screenshot.hpp"
 #include "viewer/software/panel_changes.hpp"

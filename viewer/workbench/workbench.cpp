@@ -10,7 +10,7 @@
 #include <curveskel/error.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/topology.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "app/report.hpp"
 #include "viewer/software/priority.hpp"
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <curveskel/rig_files.hpp>
-#include <curveskel/write_file.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include "app/report.hpp"
 #include "viewer/model/rigging.hpp"
 #include "viewer/software/priority.hpp"
