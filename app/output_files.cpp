@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include <curveskel/error.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 

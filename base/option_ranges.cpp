@@ -29,7 +29,8 @@ bool lies_within(double value, const OptionRange& range) {
 std::string range_words(const OptionRange& range) {
   const bool endless = range.most == std::numeric_limits<double>::max();
   if (range.above_least) {
-    return "above " + plain_number(range.least) + (endless ? "" : " and up to " + plain_number(range.most));
+    return "above " + plain_number(range.least) +
+           (endless ? "" : " and up to " + plain_number(range.most));
   }
   return plain_number(range.least) + (endless ? " or more" : ".." + plain_number(range.most));
 }

@@ -17,6 +17,7 @@
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/advanced/skin_weights.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/contract.hpp>
@@ -40,5 +41,4 @@
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>
 #include <curveskel/view.hpp>
-#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/write_surface.hpp>

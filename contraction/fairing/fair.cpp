@@ -3,12 +3,12 @@
 #include <cmath>
 #include <string>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include "base/option_ranges.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/restore_volume.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

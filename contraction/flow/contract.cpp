@@ -10,12 +10,12 @@
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include "base/option_ranges.hpp"
 #include "contraction/flow/contracting_surface.hpp"
 #include "contraction/flow/flow_system.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

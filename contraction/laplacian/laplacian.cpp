@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "contraction/laplacian/assemble.hpp"
 #include "contraction/laplacian/intrinsic_delaunay.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
@@ -18,7 +19,6 @@
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

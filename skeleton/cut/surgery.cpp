@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/error.hpp>
 #include "base/option_ranges.hpp"
 #include "skeleton/cut/cgal_surgery.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

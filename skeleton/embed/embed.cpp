@@ -4,12 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
 #include "base/indices.hpp"
 #include "base/option_ranges.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/steps.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

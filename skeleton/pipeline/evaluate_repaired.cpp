@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/wrap_components.hpp"
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
@@ -19,7 +20,6 @@
 #include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 
 namespace curveskel {
 namespace {

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
-#include <curveskel/advanced/closed_manifold.hpp>
 #include "surface/resample/collapse.hpp"
 #include "surface/spatial/morton.hpp"
 

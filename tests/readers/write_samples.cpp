@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include <curveskel/skeleton_files.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/skeleton_files.hpp>
 #include "tests/skeleton/skeleton_samples.hpp"
 
 namespace {

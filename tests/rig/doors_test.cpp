@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <curveskel.hpp>
+#include <curveskel/advanced/closed_manifold.hpp>
 #include "meshes/shapes.hpp"
 
 namespace curveskel::doors_laws {

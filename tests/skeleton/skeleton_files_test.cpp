@@ -14,8 +14,8 @@
 #include <string>
 #include <tuple>
 
-#include <curveskel/error.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/skeleton/skeleton_samples.hpp"
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include <curveskel/error.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel::viewer {
 namespace {

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include <curveskel/error.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 #include "app/command_line.hpp"
 #include "viewer/headless/screenshot.hpp"
 #include "viewer/software/panel_changes.hpp"

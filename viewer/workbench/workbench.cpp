@@ -7,10 +7,10 @@
 #include <utility>
 
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/topology.hpp>
-#include <curveskel/advanced/write_file.hpp>
 #include "app/report.hpp"
 #include "viewer/software/priority.hpp"
 

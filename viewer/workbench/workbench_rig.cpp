@@ -2,8 +2,8 @@
 #include <exception>
 #include <utility>
 
-#include <curveskel/rig_files.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/rig_files.hpp>
 #include "app/report.hpp"
 #include "viewer/model/rigging.hpp"
 #include "viewer/software/priority.hpp"

@@ -48,8 +48,8 @@ void require_valid(const EmbedOptions& options);
 /// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge
 /// inside the surface of `full_tree`, prunes spurs there and smooths once more.
 /// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
-/// surface itself, `full_tree` gives a tree over the one that it was coarsened from, or `tree`. It is
-/// called once, half-way, so that the tree may grow till then. Radii are the distances to its
+/// surface itself, `full_tree` gives a tree over the one that it was coarsened from, or `tree`. It
+/// is called once, half-way, so that the tree may grow till then. Radii are the distances to its
 /// surface. Most of the time is spent in rays against `tree`: a coarse surface pays. Seconds of
 /// its steps go to `steps`, if there is one.
 [[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,

@@ -64,11 +64,11 @@ class SurfacePartition {
   std::vector<int> group_of_vertex_;
   std::vector<std::vector<int>> members_;
   std::vector<std::vector<int>>
-      boundary_;             // per group: triangles it shares, or shared, with others
-  std::vector<int> inner_;   // per group: how many of these are its own by now
-  std::vector<int> euler_;   // per group
-  std::vector<int> genus_;   // per group
-  UnionFind linked_;         // edges, each on its own again after each use
+      boundary_;            // per group: triangles it shares, or shared, with others
+  std::vector<int> inner_;  // per group: how many of these are its own by now
+  std::vector<int> euler_;  // per group
+  std::vector<int> genus_;  // per group
+  UnionFind linked_;        // edges, each on its own again after each use
 };
 
 /// A graph whose first nodes are groups of the vertices of a surface, followed by one node for each

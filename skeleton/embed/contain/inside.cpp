@@ -10,8 +10,8 @@
 #include "base/indices.hpp"
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
-#include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/place/shorten.hpp"
+#include "skeleton/embed/place/spacing.hpp"
 
 namespace curveskel {
 namespace {
