@@ -1,11 +1,13 @@
 # What a user of the library gets: public headers, the CMake package, the program and a .deb of all.
 # Third-party headers never appear in these (std and Eigen only); tests/checks holds them to it.
 set(CURVESKEL_PUBLIC_BASE
+  include/curveskel/advanced/graph.hpp
   include/curveskel/advanced/names.hpp
   include/curveskel/advanced/union_find.hpp
+  include/curveskel/advanced/write_file.hpp
   include/curveskel/error.hpp
   include/curveskel/monitor.hpp
-  include/curveskel/advanced/write_file.hpp
+  include/curveskel/surface.hpp
 )
 set(CURVESKEL_PUBLIC_SURFACE
   include/curveskel/advanced/closed_manifold.hpp
@@ -16,7 +18,6 @@ set(CURVESKEL_PUBLIC_SURFACE
   include/curveskel/clean.hpp
   include/curveskel/read.hpp
   include/curveskel/repair.hpp
-  include/curveskel/surface.hpp
   include/curveskel/topology.hpp
   include/curveskel/write_surface.hpp
 )

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/error.hpp>
-#include "base/graph.hpp"
 #include "meshes/level_set.hpp"
 #include "meshes/shapes.hpp"
 

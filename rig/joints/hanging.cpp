@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 #include "base/indices.hpp"
 
 namespace curveskel {

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/error.hpp>
-#include "base/graph.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/error.hpp>
-#include "base/graph.hpp"
 #include "base/indices.hpp"
 
 namespace curveskel {

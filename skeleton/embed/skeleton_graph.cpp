@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 #include "base/indices.hpp"
 #include "skeleton/graph/node_balls.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 
 namespace curveskel {
 

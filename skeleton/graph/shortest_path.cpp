@@ -1,5 +1,5 @@
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/edit.hpp>
-#include "base/graph.hpp"
 #include "skeleton/graph/draft.hpp"
 
 namespace curveskel {

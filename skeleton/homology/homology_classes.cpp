@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/topology.hpp>
-#include "base/graph.hpp"
 #include "base/indices.hpp"
 #include "surface/mesh/handle_loops.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 
 namespace curveskel {
 namespace {

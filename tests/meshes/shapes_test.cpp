@@ -14,8 +14,8 @@
 #include <set>
 #include <utility>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/error.hpp>
-#include "base/graph.hpp"
 
 namespace curveskel::shapes::shapes_laws {
 namespace {

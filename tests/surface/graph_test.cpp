@@ -1,4 +1,4 @@
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/graph.hpp"
+#include <curveskel/advanced/graph.hpp>
 
 namespace curveskel::viewer {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/surface.hpp>
-#include "base/graph.hpp"
 #include "skeleton/embed/skeleton_graph.hpp"
 
 namespace curveskel {

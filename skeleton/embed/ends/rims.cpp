@@ -6,8 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include "base/graph.hpp"
 #include "base/indices.hpp"
 
 namespace curveskel {
