@@ -2,6 +2,7 @@
 # Third-party headers never appear in these (std and Eigen only); tests/checks holds them to it.
 set(CURVESKEL_PUBLIC_BASE
   include/curveskel/advanced/graph.hpp
+  include/curveskel/advanced/indices.hpp
   include/curveskel/advanced/names.hpp
   include/curveskel/advanced/union_find.hpp
   include/curveskel/advanced/write_file.hpp

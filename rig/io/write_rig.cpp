@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
-#include "base/indices.hpp"
 #include "rig/joints/bone_axes.hpp"
 #include "surface/mesh/single_precision.hpp"
 

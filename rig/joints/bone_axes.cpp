@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include <curveskel/advanced/graph.hpp>
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

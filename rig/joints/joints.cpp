@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "base/option_ranges.hpp"
 #include "rig/joints/rooted_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"

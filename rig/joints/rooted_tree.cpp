@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include "base/indices.hpp"
 #include "rig/joints/hanging.hpp"
 
 namespace curveskel {

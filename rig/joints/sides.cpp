@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include "base/indices.hpp"
 #include "rig/joints/mirror_images.hpp"
 
 namespace curveskel {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/certificate.hpp>
-#include "base/indices.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/certify/curve_samples.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

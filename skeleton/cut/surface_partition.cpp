@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 

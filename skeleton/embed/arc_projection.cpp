@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "base/option_ranges.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/steps.hpp"

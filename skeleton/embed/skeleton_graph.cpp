@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/graph/node_balls.hpp"
 
 namespace curveskel {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/arc_projection.hpp"
 #include "skeleton/embed/branches/grow_branches.hpp"
 #include "skeleton/embed/branches/prune.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "surface/spatial/morton.hpp"
 
 namespace curveskel {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "surface/mesh/handle_loops.hpp"
 
 namespace curveskel {

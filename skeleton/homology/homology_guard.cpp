@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/place/shorten.hpp"
 
 namespace curveskel {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
-#include "base/indices.hpp"
 #include "skeleton/certify/curve_samples.hpp"
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"

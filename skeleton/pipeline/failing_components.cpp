@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include "base/indices.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "surface/spatial/morton.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <new>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/pipeline/try_loop.hpp"
 
 namespace curveskel {

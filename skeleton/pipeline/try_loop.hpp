@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/tries.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 

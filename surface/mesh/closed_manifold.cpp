@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "surface/mesh/whole.hpp"
 
 namespace curveskel {

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

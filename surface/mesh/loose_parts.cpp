@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
 #include "surface/mesh/half_edges.hpp"
 

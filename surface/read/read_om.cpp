@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "surface/read/formats.hpp"
 
 namespace curveskel {

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/whole.hpp"

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "surface/repair/hole_triangulation.hpp"
 
 namespace curveskel {

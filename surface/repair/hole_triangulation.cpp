@@ -9,8 +9,8 @@
 #include <map>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/monitor.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

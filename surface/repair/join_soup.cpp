@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "surface/mesh/half_edges.hpp"
 #include "surface/repair/weld.hpp"
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "base/option_ranges.hpp"
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/loose_parts.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
-#include "base/indices.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include <curveskel/advanced/indices.hpp>
 #include "base/buckets.hpp"
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

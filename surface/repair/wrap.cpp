@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "base/memory.hpp"
 #include "surface/repair/join_soup.hpp"
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/describe_repairs.hpp"
 #include "surface/repair/wrap_solid.hpp"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "surface/repair/join_soup.hpp"
 #include "surface/repair/select_components.hpp"
 #include "surface/repair/wrap.hpp"

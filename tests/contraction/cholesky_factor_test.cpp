@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "meshes/shapes.hpp"
 
 namespace curveskel::cholesky_factor_laws {

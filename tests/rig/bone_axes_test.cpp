@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "meshes/random.hpp"
 
 namespace curveskel::bone_axes_laws {

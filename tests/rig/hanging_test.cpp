@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/joints.hpp>
-#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::hanging_laws {

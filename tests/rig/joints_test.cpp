@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "rig/joints/rooted_tree.hpp"
 #include "tests/rig/rig_subjects.hpp"
 

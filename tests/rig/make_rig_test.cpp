@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::make_rig_laws {

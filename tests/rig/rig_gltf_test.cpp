@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/rig_files.hpp>
-#include "base/indices.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/encodings.hpp"
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::skin_weights_laws {

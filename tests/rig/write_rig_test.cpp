@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
-#include "base/indices.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/topology.hpp>
-#include "base/indices.hpp"
 #include "meshes/shapes.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "surface/mesh/crosses_itself.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "contraction/device/opencl.hpp"
 #include "contraction/solvers/study/iteration.hpp"
 #include "contraction/solvers/study/spectrum.hpp"

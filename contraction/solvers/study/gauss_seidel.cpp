@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "contraction/device/opencl.hpp"
 #include "contraction/solvers/study/iteration.hpp"
 #include "kernels/sources.hpp"

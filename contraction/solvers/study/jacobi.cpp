@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
 #include "contraction/solvers/study/iteration.hpp"
 #include "contraction/solvers/study/spectrum.hpp"

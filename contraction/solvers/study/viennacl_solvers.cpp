@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
-#include "base/indices.hpp"
 #include "contraction/device/opencl.hpp"
 #include "contraction/solvers/least_squares_backend.hpp"
 #include "contraction/solvers/viennacl/dense_qr.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 

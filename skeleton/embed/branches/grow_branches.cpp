@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/arc_projection.hpp"
 #include "skeleton/embed/branches/prominence.hpp"
 

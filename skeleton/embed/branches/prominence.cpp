@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/laplacian.hpp>
-#include "base/indices.hpp"
 #include "skeleton/embed/branches/prominence.hpp"
 
 namespace curveskel {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
 #include "skeleton/embed/place/shorten.hpp"

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include "base/indices.hpp"
 
 namespace curveskel {
 namespace {

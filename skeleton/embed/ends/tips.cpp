@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/place/cross_section.hpp"
 
 namespace curveskel {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {

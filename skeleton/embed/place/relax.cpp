@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/embed/ends/tips.hpp"
 #include "skeleton/embed/place/axes.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/indices.hpp"
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
