@@ -4,15 +4,16 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace curveskel {
-
 // Matrices cross the border of the library, where one side frees what the other has allocated. By
 // itself Eigen allocates in another way for each instruction set that is compiled for.
-static_assert(EIGEN_MALLOC_ALREADY_ALIGNED == 1 && EIGEN_MAX_ALIGN_BYTES == 16 &&
-                  EIGEN_MAX_STATIC_ALIGN_BYTES == 16,
-              "curveskel needs matrices that are allocated as its own: link the CMake target "
-              "curveskel::curveskel, or compile everything with -DEIGEN_MALLOC_ALREADY_ALIGNED=1 "
-              "-DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16");
+#if !EIGEN_MALLOC_ALREADY_ALIGNED || EIGEN_MAX_ALIGN_BYTES != 16 || \
+    EIGEN_MAX_STATIC_ALIGN_BYTES != 16
+#error "curveskel needs matrices that are allocated as its own: link the CMake target \
+curveskel::curveskel, or compile everything with -DEIGEN_MALLOC_ALREADY_ALIGNED=1 \
+-DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16"
+#endif
+
+namespace curveskel {
 
 /// #V by 3 vertex positions, one per row, in model units.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;

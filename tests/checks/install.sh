@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # usage: install.sh SOURCE_DIR BUILD_DIR
 # Installs the library and builds programs against it, as its users do: for any processor and for
-# this one, whose wider registers have Eigen allocate in another way.
+# this one, whose wider registers would have Eigen allocate in another way.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -12,12 +12,13 @@ for flags in "" -march=native; do
   cmake --build "$work/build$flags"
   "$work/build$flags/torus"
 done
-# Who does not take the flags of the CMake target is told at compile time, not by a crash.
-if echo '#include <surface/surface.hpp>' | "${CXX:-c++}" -std=c++20 -fsyntax-only -x c++ - \
-  -I"$work/prefix/include/curveskel" $(pkg-config --cflags eigen3) 2>"$work/messages"; then
-  echo "compiles without the alignment that the library was built with" >&2
+# Who compiles for wider registers without the flags of the CMake target is told by the compiler,
+# not by a crash.
+if echo '#include <curveskel/surface.hpp>' | "${CXX:-c++}" -std=c++20 -fsyntax-only -x c++ - -mavx \
+  -I"$work/prefix/include" $(pkg-config --cflags eigen3) 2>"$work/messages"; then
+  echo "compiles without the allocation that the library was built with" >&2
   exit 1
 fi
-grep -q "EIGEN_MAX_ALIGN_BYTES=32" "$work/messages"
+grep -q "EIGEN_MALLOC_ALREADY_ALIGNED=1" "$work/messages"
 # The installed program finds the installed library.
 "$work/prefix/bin/curveskel" --version

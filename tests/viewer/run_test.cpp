@@ -164,7 +164,7 @@ TEST(Run, ShowsEachTryByItself) {
   RunOptions options;
   options.extract.certificate.inside_needed = 2;  // more than any curve has: a second try
   options.repair.wrap = Wrapping::never;
-  Watched watched(small_surface(), false, options);
+  Watched watched(shapes::torus(3, 1, 30).surface, false, options);
   ASSERT_TRUE(watched.wait_for(State::finished));
   const std::vector<Try>& history = watched.result->extraction->history;
   int curves = 0;
