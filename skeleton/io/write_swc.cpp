@@ -13,13 +13,13 @@
 namespace curveskel {
 namespace {
 
-struct Forest {
+struct SpanningForest {
   std::vector<std::vector<int>> neighbours;  ///< per node, over the edges kept
   std::vector<std::pair<int, int>> cuts;     ///< the edges left out, sorted
 };
 
 /// Kruskal's algorithm, the longest edges first.
-Forest longest_forest(const CurveSkeleton& skeleton) {
+SpanningForest longest_forest(const CurveSkeleton& skeleton) {
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
   std::vector<int> order(static_cast<std::size_t>(skeleton.edges.rows()));
   std::iota(order.begin(), order.end(), 0);
@@ -30,7 +30,7 @@ Forest longest_forest(const CurveSkeleton& skeleton) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length(a) > length(b); });
 
   UnionFind joined(skeleton.nodes.rows());
-  Forest forest{std::vector<std::vector<int>>(nodes), {}};
+  SpanningForest forest{std::vector<std::vector<int>>(nodes), {}};
   for (const int e : order) {
     const int i = skeleton.edges(e, 0);
     const int j = skeleton.edges(e, 1);
@@ -53,8 +53,8 @@ struct SwcSample {
 
 /// Depth first, so that the samples of a branch follow each other; a component's root is its
 /// thickest node, but `chosen` (-1 = none) is one and comes first.
-std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton, const Forest& forest,
-                                           int chosen) {
+std::vector<SwcSample> depth_first_samples(const CurveSkeleton& skeleton,
+                                           const SpanningForest& forest, int chosen) {
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
   std::vector<int> roots(nodes);
   std::iota(roots.begin(), roots.end(), 0);
@@ -99,7 +99,7 @@ std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   text += "# id type x y z radius parent\n";
   if (skeleton.nodes.rows() == 0) return text;
 
-  const Forest forest = longest_forest(skeleton);
+  const SpanningForest forest = longest_forest(skeleton);
   const std::vector<SwcSample> samples = depth_first_samples(skeleton, forest, context.root);
   std::vector<int> id_of_node(samples.size());
   std::string unknown;

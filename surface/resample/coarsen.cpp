@@ -40,7 +40,7 @@ std::vector<Index> vertices_along_curve(const Positions& positions) {
   return order_by_key(keys, 33);
 }
 
-void add_planes(Patch& patch, const std::array<Index, 3>& face) {
+void add_planes(CollapsingPatch& patch, const std::array<Index, 3>& face) {
   const auto& p = patch.vertices[static_cast<std::size_t>(face[0])].position;
   const auto& q = patch.vertices[static_cast<std::size_t>(face[1])].position;
   const auto& r = patch.vertices[static_cast<std::size_t>(face[2])].position;
@@ -55,9 +55,9 @@ void add_planes(Patch& patch, const std::array<Index, 3>& face) {
 }
 
 // The surface with its vertices in this order, its faces sorted by their smallest vertex.
-Patch patch_in_order(const Surface& surface, const std::vector<Index>& order,
-                     const std::vector<Index>& rank) {
-  Patch patch;
+CollapsingPatch patch_in_order(const Surface& surface, const std::vector<Index>& order,
+                               const std::vector<Index>& rank) {
+  CollapsingPatch patch;
   patch.vertices.resize(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     patch.vertices[i].position = surface.positions.row(order[i]).transpose();
@@ -94,12 +94,12 @@ Patch patch_in_order(const Surface& surface, const std::vector<Index>& order,
 
 // A first stage for far too fine surfaces: stretches of the curve are collapsed each on its own,
 // the vertices between them fixed. Returns the place of each vertex after.
-std::vector<Index> coarsen_parts(Patch& whole, std::size_t target, int threads,
+std::vector<Index> coarsen_parts(CollapsingPatch& whole, std::size_t target, int threads,
                                  const Monitor& monitor) {
   const std::size_t count = whole.vertices.size();
   const std::size_t parts = (count + part_size - 1) / part_size;
   const auto part_of = [](Index v) { return static_cast<std::size_t>(v) / part_size; };
-  std::vector<Patch> patches(parts);
+  std::vector<CollapsingPatch> patches(parts);
   std::vector<std::array<Index, 3>> between;
   for (std::size_t i = 0; i < parts; ++i) {
     const auto begin = whole.vertices.begin() + static_cast<std::ptrdiff_t>(i * part_size);
@@ -126,7 +126,7 @@ std::vector<Index> coarsen_parts(Patch& whole, std::size_t target, int threads,
   std::atomic<std::size_t> done{0};
   std::vector<std::vector<Index>> places(parts);
   parallel_for(parts, 1, threads, [&](std::size_t i, std::size_t) {
-    Patch& patch = patches[i];
+    CollapsingPatch& patch = patches[i];
     for (const auto& face : patch.faces) add_planes(patch, face);
     const auto fixed = static_cast<std::size_t>(
         std::count(patch.fixed.begin(), patch.fixed.end(), std::uint8_t{1}));
@@ -165,7 +165,7 @@ std::vector<Index> coarsen_parts(Patch& whole, std::size_t target, int threads,
   return place;
 }
 
-Surface surface_of(const Patch& patch) {
+Surface surface_of(const CollapsingPatch& patch) {
   Surface surface;
   surface.positions.resize(static_cast<Eigen::Index>(patch.vertices.size()), 3);
   for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
@@ -213,7 +213,7 @@ Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const M
   for (std::size_t i = 0; i < count; ++i) {
     place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
   }
-  Patch patch = patch_in_order(surface, order, place);
+  CollapsingPatch patch = patch_in_order(surface, order, place);
   const auto follow = [&place](const std::vector<Index>& next) {
     for (Index& v : place) v = next[static_cast<std::size_t>(v)];
   };

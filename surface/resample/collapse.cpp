@@ -34,9 +34,9 @@ struct Merged {
   float cost;
 };
 
-Merged merge(const Patch& patch, Index a, Index b) {
-  const Patch::Vertex& first = patch.vertices[static_cast<std::size_t>(a)];
-  const Patch::Vertex& second = patch.vertices[static_cast<std::size_t>(b)];
+Merged merge(const CollapsingPatch& patch, Index a, Index b) {
+  const CollapsingPatch::Vertex& first = patch.vertices[static_cast<std::size_t>(a)];
+  const CollapsingPatch::Vertex& second = patch.vertices[static_cast<std::size_t>(b)];
   const Eigen::Vector3f edge = (patch.scale * (second.position - first.position)).cast<float>();
   const Eigen::Vector3f half = 0.5F * edge;
   Quadric sum = first.quadric.moved(half);
@@ -50,7 +50,7 @@ Merged merge(const Patch& patch, Index a, Index b) {
 
 class Pass {
  public:
-  Pass(Patch& patch, const CollapseOptions& options)
+  Pass(CollapsingPatch& patch, const CollapseOptions& options)
       : patch_(patch),
         options_(options),
         into_(patch.vertices.size(), dead),
@@ -249,7 +249,7 @@ class Pass {
     return true;
   }
 
-  Patch& patch_;
+  CollapsingPatch& patch_;
   const CollapseOptions& options_;
   std::vector<Index> into_;
   std::vector<std::uint8_t> locked_;
@@ -262,7 +262,7 @@ class Pass {
 
 }  // namespace
 
-std::vector<Index> collapse_edges(Patch& patch, const CollapseOptions& options,
+std::vector<Index> collapse_edges(CollapsingPatch& patch, const CollapseOptions& options,
                                   const std::function<void(std::size_t)>& between_passes) {
   const auto target = static_cast<std::size_t>(options.target_vertices);
   std::vector<std::vector<Index>> places;

@@ -12,10 +12,10 @@
 namespace curveskel {
 
 /// Part of a surface on its way to fewer vertices.
-struct Patch {
+struct CollapsingPatch {
   struct Vertex {
     Eigen::Vector3d position;
-    Quadric quadric;  ///< about `position`, lengths times `Patch::scale`
+    Quadric quadric;  ///< about `position`, lengths times `CollapsingPatch::scale`
   };
   std::vector<Vertex> vertices;
   std::vector<std::array<std::int32_t, 3>> faces;
@@ -32,7 +32,7 @@ struct CollapseOptions {
 /// edges, then takes them in the order of cost and locks the two ends of each that it collapses.
 /// Returns, per vertex of the patch as given, the vertex of the patch as left.
 /// `between_passes` is called with the number of vertices left.
-std::vector<std::int32_t> collapse_edges(Patch& patch, const CollapseOptions& options,
+std::vector<std::int32_t> collapse_edges(CollapsingPatch& patch, const CollapseOptions& options,
                                          const std::function<void(std::size_t)>& between_passes);
 
 }  // namespace curveskel
