@@ -7,7 +7,7 @@
 namespace curveskel {
 namespace {
 
-constexpr std::string_view digits =
+constexpr std::string_view base64_digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 constexpr std::uint8_t no_digit = 64;
@@ -15,13 +15,13 @@ constexpr std::uint8_t no_digit = 64;
 constexpr std::array<std::uint8_t, 256> value_of_digit = [] {
   std::array<std::uint8_t, 256> values{};
   values.fill(no_digit);
-  for (std::uint8_t value = 0; value < digits.size(); ++value) {
-    values.at(static_cast<unsigned char>(digits[value])) = value;
+  for (std::uint8_t value = 0; value < base64_digits.size(); ++value) {
+    values.at(static_cast<unsigned char>(base64_digits[value])) = value;
   }
   return values;
 }();
 
-/// Four digits, the last ones perhaps '='. False where the text has no whole group.
+/// Four base64_digits, the last ones perhaps '='. False where the text has no whole group.
 bool append_group(std::string& bytes, std::string_view& text) {
   std::uint32_t bits = 0;
   unsigned known = 0;
@@ -54,7 +54,8 @@ std::string base64_of(std::string_view bytes) {
       triple = triple << 8U | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? digits[triple >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
+      text +=
+          k <= count ? base64_digits[triple >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
     }
   }
   return text;

@@ -9,6 +9,6 @@ namespace curveskel {
 /// A SkeletonGraph of the partition, its points in the middle of the inscribed balls, without blunt
 /// ends and inside the surface. Where straight lines between the partition's nodes, kept inside as
 /// they are, lead a cycle off its handle, cycles go along the surface.
-[[nodiscard]] SkeletonGraph first_course(const Setting& setting);
+[[nodiscard]] SkeletonGraph first_course(const Setting& in);
 
 }  // namespace curveskel

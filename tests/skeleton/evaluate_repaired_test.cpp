@@ -83,19 +83,20 @@ TEST(EvaluateRepaired, APieceAsksOnlyComponentsThatItsBoxMeets) {
   cube.surface = shapes::translated(shapes::ellipsoid({0.3, 0.3, 0.3}, 0), {0, 0, 0}).surface;
   std::vector<Component> parts(count, cube);
   CurveSkeleton skeleton;
-  skeleton.nodes.resize(2 * count, 3);
+  skeleton.nodes.resize(Eigen::Index{2} * count, 3);
   skeleton.edges.resize(count, 2);
   for (int c = 0; c < count; ++c) {
-    const Eigen::RowVector3d place(c % side, c / side % side, c / side / side);
+    const Eigen::Vector3i cell(c % side, c / side % side, c / side / side);
+    const Eigen::RowVector3d place = cell.cast<double>().transpose();
     parts[idx(c)].surface.positions.rowwise() += place;
-    const int piece = static_cast<int>(7919L * c % count);
+    const Eigen::Index piece = 7919L * c % count;
     skeleton.nodes.row(2 * piece) = place;
     skeleton.nodes.row(2 * piece + 1) = place + Eigen::RowVector3d(0, 0, 0.1);
-    skeleton.edges.row(piece) << 2 * piece, 2 * piece + 1;
+    skeleton.edges.row(piece) << static_cast<int>(2 * piece), static_cast<int>(2 * piece + 1);
   }
   const std::vector<int> found = component_by_place(skeleton, parts);
   for (int c = 0; c < count; ++c) {
-    const int piece = static_cast<int>(7919L * c % count);
+    const Eigen::Index piece = 7919L * c % count;
     ASSERT_EQ(found[idx(2 * piece)], c);
     ASSERT_EQ(found[idx(2 * piece + 1)], c);
   }

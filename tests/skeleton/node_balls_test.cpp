@@ -47,6 +47,7 @@ std::vector<Eigen::Vector3d> points_around(int count) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> anywhere(-4, 4);
   std::vector<Eigen::Vector3d> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     points.emplace_back(anywhere(random), anywhere(random), 4 + anywhere(random));
   }
@@ -72,7 +73,8 @@ TEST(NodeBalls, OfEquallyNearOnesTheFirstIsTaken) {
   grid.nodes = grid.nodes.colwise().reverse().eval();
   const NodeBalls balls(grid);
   for (int k = 0; k < 1000; ++k) {
-    const Eigen::Vector3d between(0.5 * (k / 100), 0.5 * (k / 10 % 10), 0.5 * (k % 10));
+    const Eigen::Vector3i halves(k / 100, k / 10 % 10, k % 10);
+    const Eigen::Vector3d between = 0.5 * halves.cast<double>();
     EXPECT_EQ(balls.nearest(between), nearest_of_all(grid, between));
   }
   grid.nodes.resize(0, 3);

@@ -140,17 +140,19 @@ TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {
 /// Two tips joined to a ring of vertices: each merge changes the edges of a tip, and a candidate
 /// for each of its neighbours after each merge would be 10^9 of them and 30 GB.
 TEST(Surgery, TipsOfManyTrianglesTakeNoSquareOfTheirNumber) {
-  constexpr int around = 20000;
+  constexpr Eigen::Index around = 20000;
   Surface spindle;
   spindle.positions.resize(around + 2, 3);
   spindle.triangles.resize(2 * around, 3);
-  for (int k = 0; k < around; ++k) {
-    const double angle = 2 * EIGEN_PI * k / around;
-    const double radius = 0.01 * (1 + 0.1 * std::sin(7 * angle) + 0.01 * std::sin(1e4 * k));
-    const int next = (k + 1) % around;
+  for (Eigen::Index k = 0; k < around; ++k) {
+    const double angle = 2 * EIGEN_PI * static_cast<double>(k) / around;
+    const double radius =
+        0.01 * (1 + 0.1 * std::sin(7 * angle) + 0.01 * std::sin(1e4 * static_cast<double>(k)));
+    const Eigen::Index next = (k + 1) % around;
     spindle.positions.row(k) << radius * std::cos(angle), radius * std::sin(angle), 0;
-    spindle.triangles.row(2 * k) << k, next, around;
-    spindle.triangles.row(2 * k + 1) << next, k, around + 1;
+    const auto corner = [](Eigen::Index v) { return static_cast<std::int32_t>(v); };
+    spindle.triangles.row(2 * k) << corner(k), corner(next), corner(around);
+    spindle.triangles.row(2 * k + 1) << corner(next), corner(k), corner(around + 1);
   }
   spindle.positions.row(around) << 0, 0, 0.5;
   spindle.positions.row(around + 1) << 0, 0, -0.5;

@@ -15,12 +15,12 @@ std::atomic<int> threads_started{0};
 }
 
 /// Stands before the system's, so that each thread which the library starts is counted.
-extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
-                              void* (*body)(void*), void* argument) noexcept {
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attr,
+                              void* (*start_routine)(void*), void* arg) noexcept {
   using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
   static const auto create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
   ++threads_started;
-  return create(thread, attributes, body, argument);
+  return create(thread, attr, start_routine, arg);
 }
 
 namespace curveskel::threads_laws {

@@ -128,7 +128,8 @@ class ShownWatch {
       for (int at = number; at >= 0; at = history[static_cast<std::size_t>(at)].part_of) {
         const std::string& own = history[static_cast<std::size_t>(at)].name;
         if (own == try_as_asked || path.starts_with(own)) continue;
-        path = path.empty() ? own : own + ", " + path;
+        path.insert(0, path.empty() ? "" : ", ");
+        path.insert(0, own);
       }
       EXPECT_EQ(name, path.empty() ? "as asked" : path);
       const bool of_component = history[static_cast<std::size_t>(number)].component >= 0;

@@ -31,16 +31,16 @@ std::vector<FairMethod> fair_methods_on(const Device& device, bool double_precis
 
 std::size_t fairing_device(const FairOptions& options) {
   std::string purpose = "the method " + std::string(name_of(fair_methods, options.method));
-  std::string remedy = "use the method host";
+  std::string instead = "use the method host";
   if (options.double_precision) {
     purpose += " in double precision";
-    remedy = "use single precision or the method host";
+    instead = "use single precision or the method host";
   }
   if (options.method == FairMethod::opencl_interop) {
-    remedy = "use the method opencl, which gives the same result without OpenGL, or host";
+    instead = "use the method opencl, which gives the same result without OpenGL, or host";
   }
   return choose_device(devices(), fair_needs(options.method, options.double_precision), purpose,
-                       remedy);
+                       instead);
 }
 
 }  // namespace curveskel

@@ -54,7 +54,7 @@ void require_valid(const EmbedOptions& options);
 /// its steps go to `steps`, if there is one.
 [[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
                                   const std::function<const SurfaceTree&()>& full_tree,
-                                  const InscribedBalls& balls, const PartitionGraph& graph,
+                                  const InscribedBalls& balls, const PartitionGraph& partition,
                                   const EmbedOptions& options, int threads, const Monitor& monitor,
                                   StepClock* steps = nullptr);
 
