@@ -145,7 +145,7 @@ TEST(Surgery, TipsOfManyTrianglesTakeNoSquareOfTheirNumber) {
   spindle.positions.resize(around + 2, 3);
   spindle.triangles.resize(2 * around, 3);
   for (Eigen::Index k = 0; k < around; ++k) {
-    const double angle = 2 * EIGEN_PI * static_cast<double>(k) / around;
+    const double angle = static_cast<double>(2 * EIGEN_PI) * static_cast<double>(k) / around;
     const double radius =
         0.01 * (1 + 0.1 * std::sin(7 * angle) + 0.01 * std::sin(1e4 * static_cast<double>(k)));
     const Eigen::Index next = (k + 1) % around;
