@@ -8,7 +8,8 @@
 // itself Eigen allocates in another way for each instruction set that is compiled for.
 #if !EIGEN_MALLOC_ALREADY_ALIGNED || EIGEN_MAX_ALIGN_BYTES != 16 || \
     EIGEN_MAX_STATIC_ALIGN_BYTES != 16
-#error "curveskel needs matrices that are allocated as its own: link the CMake target \
+#error \
+    "curveskel needs matrices that are allocated as its own: link the CMake target \
 curveskel::curveskel, or compile everything with -DEIGEN_MALLOC_ALREADY_ALIGNED=1 \
 -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16"
 #endif
