@@ -11,7 +11,7 @@
 
 namespace curveskel {
 
-/// What a number may be, ends included; always finite.
+/// The range of a number, ends included; always finite.
 struct OptionRange {
   double least = 0;
   double most = std::numeric_limits<double>::max();

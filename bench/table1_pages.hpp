@@ -26,7 +26,7 @@ struct Row {
   std::vector<Cell> cells;  ///< one for each of table_sizes
 };
 
-/// What `csv` wrote. Throws Error(Fault::input) where a line is not one of its, or a cell is
+/// Reads what `csv` wrote. Throws Error(Fault::input) where a line is not one of its, or a cell is
 /// missing.
 [[nodiscard]] std::vector<Row> read_rows(const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@
 namespace curveskel {
 namespace {
 
-/// Where the viewer stands if it is installed: beside this program.
+/// Path of the viewer if it is installed: beside this program.
 std::filesystem::path viewer_program() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "curveskel-view";

@@ -1,4 +1,4 @@
-// What a surface must be for the stages to end and to stay within their arrays, checked at the
+// Demands on a surface, for the stages to end and to stay within their arrays, checked at the
 // door.
 #pragma once
 

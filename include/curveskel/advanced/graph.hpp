@@ -48,7 +48,7 @@ template <typename Edges>
   return degree;
 }
 
-/// What lies around each node, in the order of the edges.
+/// Neighbours of each node, in the order of the edges.
 struct Graph {
   std::vector<int> first{0};   ///< nodes + 1: where a node's part of the other two begins
   std::vector<int> neighbour;  ///< 2 #E: the node at the other end
