@@ -16,13 +16,9 @@ namespace {
 
 /// The graph's points as nodes, with their inscribed radii and the vertices that they stand for.
 CurveSkeleton finished(const SkeletonGraph& graph, const Setting& in) {
-  EmbeddedNodes nodes = skeleton_of(graph, in.partition.groups);
-  CurveSkeleton& skeleton = nodes.skeleton;
-  skeleton.node_of_vertex = nearest_nodes(nodes, in.partition.group_of_vertex, in.balls.centres);
-  skeleton.radii.resize(skeleton.nodes.rows());
-  for (Eigen::Index n = 0; n < skeleton.nodes.rows(); ++n) {
-    skeleton.radii[n] = std::max(0.0, in.tree.inscribed_radius(skeleton.nodes.row(n)));
-  }
+  EmbeddedNodes nodes = skeleton_of(graph, in.partition.groups, &in.tree);
+  nodes.skeleton.node_of_vertex =
+      nearest_nodes(nodes, in.partition.group_of_vertex, in.balls.centres);
   return std::move(nodes.skeleton);
 }
 
@@ -76,6 +72,7 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
              {surface, tree, balls, partition, options, tuning, spacing, threads, guard}, clock,
              monitor);
   const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
+  graph.forget_radii();
   const Setting at_last{surface, *full, balls, partition, options, tuning, spacing, threads, guard};
   run_phases(phases_on_full_surface(), graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });

@@ -24,6 +24,17 @@ void attach(Node& node, int arc) {
 
 void detach(Node& node, int arc) { std::erase(node.arcs, arc); }
 
+/// The value `of` each point of an arc, nodes included, in order.
+template <typename Of>
+auto along(const SkeletonGraph& graph, const Arc& arc, const Of& of) {
+  std::vector<decltype(of(CurvePoint()))> values;
+  values.reserve(arc.points.size() + 2);
+  values.push_back(of(graph.nodes[idx(arc.from)].point));
+  for (const CurvePoint& point : arc.points) values.push_back(of(point));
+  values.push_back(of(graph.nodes[idx(arc.to)].point));
+  return values;
+}
+
 }  // namespace
 
 int SkeletonGraph::degree(int node) const {
@@ -44,13 +55,28 @@ int SkeletonGraph::living_arcs() const {
       std::count_if(arcs.begin(), arcs.end(), [](const Arc& s) { return s.alive; }));
 }
 
+const Point& SkeletonGraph::place(int node) const { return nodes[idx(node)].point.place(); }
+
 std::vector<Point> SkeletonGraph::polyline(const Arc& arc) const {
-  std::vector<Point> line;
-  line.reserve(arc.points.size() + 2);
-  line.push_back(nodes[idx(arc.from)].position);
-  append(line, arc.points);
-  line.push_back(nodes[idx(arc.to)].position);
-  return line;
+  return along(*this, arc, [](const CurvePoint& point) { return point.place(); });
+}
+
+std::vector<double> SkeletonGraph::radii_along(const Arc& arc, const SurfaceTree& tree) const {
+  return along(*this, arc, [&](const CurvePoint& point) { return point.radius(tree); });
+}
+
+std::vector<CurvePoint> SkeletonGraph::points_along(const Arc& arc, const SurfaceTree& tree) const {
+  return along(*this, arc, [&](const CurvePoint& point) {
+    point.radius(tree);
+    return point;
+  });
+}
+
+void SkeletonGraph::forget_radii() {
+  for (Node& node : nodes) node.point.forget_radius();
+  for (Arc& arc : arcs) {
+    for (CurvePoint& point : arc.points) point.forget_radius();
+  }
 }
 
 double SkeletonGraph::length(const Arc& arc) const {
@@ -81,14 +107,14 @@ void SkeletonGraph::prune(int arc) {
   if (degree(base) == 2) dissolve(base);
 }
 
-void SkeletonGraph::collapse(int arc, int into, const Point& position) {
+void SkeletonGraph::collapse(int arc, int into, const CurvePoint& point) {
   Arc& s = arcs[idx(arc)];
   const int gone = s.from == into ? s.to : s.from;
   append(nodes[idx(into)].pieces, s.pieces);
   append(nodes[idx(into)].pieces, nodes[idx(gone)].pieces);
   s.alive = false;
   nodes[idx(gone)].alive = false;
-  nodes[idx(into)].position = position;
+  nodes[idx(into)].point = point;
   detach(nodes[idx(into)], arc);
   detach(nodes[idx(gone)], arc);
   for (const int other : nodes[idx(gone)].arcs) {
@@ -106,7 +132,7 @@ void SkeletonGraph::dissolve(int node) {
   Arc& first = arcs[idx(around[0])];
   Arc& second = arcs[idx(around[1])];
   if (first.to != node) orient_from(around[0], first.to);
-  first.points.push_back(nodes[idx(node)].position);
+  first.points.push_back(nodes[idx(node)].point);
   append(first.points, second.points);
   append(first.pieces, nodes[idx(node)].pieces);
   append(first.pieces, second.pieces);
@@ -119,22 +145,21 @@ void SkeletonGraph::dissolve(int node) {
 }
 
 void SkeletonGraph::end_in_ring(int arc, std::size_t cut, std::vector<Point> way,
-                                std::vector<Point> ring) {
+                                const std::vector<Point>& ring) {
   const auto node = static_cast<int>(nodes.size());
   const auto closed = static_cast<int>(arcs.size());
   nodes.push_back({way.back(), {}});
   way.pop_back();
   Arc& s = arcs[idx(arc)];
   const int end = std::exchange(s.to, node);
-  s.points = std::move(way);
+  s.points.assign(way.begin(), way.end());
   const auto first = s.pieces.begin() + static_cast<std::ptrdiff_t>(cut);
   std::vector<int> pieces(first, s.pieces.end());
   s.pieces.erase(first, s.pieces.end());
   if (s.from != end) detach(nodes[idx(end)], arc);
   attach(nodes[idx(node)], arc);
   attach(nodes[idx(node)], closed);
-  ring.erase(ring.begin());
-  arcs.push_back({node, node, std::move(ring), std::move(pieces)});
+  arcs.push_back({node, node, {ring.begin() + 1, ring.end()}, std::move(pieces)});
 }
 
 int SkeletonGraph::split(int arc, std::size_t segment, const Point& place) {
@@ -219,15 +244,15 @@ SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
   return graph;
 }
 
-EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups) {
+EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups, const SurfaceTree* tree) {
   EmbeddedNodes result;
-  std::vector<Point> points;
+  std::vector<const CurvePoint*> points;
   std::vector<std::array<std::int32_t, 2>> edges;
   std::vector<int> row_of_node(graph.nodes.size(), -1);
   for (std::size_t h = 0; h < graph.nodes.size(); ++h) {
     if (!graph.nodes[h].alive) continue;
     row_of_node[h] = static_cast<int>(points.size());
-    points.push_back(graph.nodes[h].position);
+    points.push_back(&graph.nodes[h].point);
   }
   result.nodes_of_group.resize(idx(groups));
   const auto claim = [&](const std::vector<int>& pieces, const std::vector<int>& line) {
@@ -238,9 +263,9 @@ EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups) {
   for (const Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
     std::vector<int> line{row_of_node[idx(arc.from)]};
-    for (const Point& point : arc.points) {
+    for (const CurvePoint& point : arc.points) {
       line.push_back(static_cast<int>(points.size()));
-      points.push_back(point);
+      points.push_back(&point);
     }
     line.push_back(row_of_node[idx(arc.to)]);
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -262,7 +287,13 @@ EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups) {
   CurveSkeleton& skeleton = result.skeleton;
   skeleton.nodes.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    skeleton.nodes.row(static_cast<Eigen::Index>(i)) = points[i];
+    skeleton.nodes.row(static_cast<Eigen::Index>(i)) = points[i]->place();
+  }
+  if (tree != nullptr) {
+    skeleton.radii.resize(skeleton.nodes.rows());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      skeleton.radii[static_cast<Eigen::Index>(i)] = std::max(0.0, points[i]->radius(*tree));
+    }
   }
   skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
   for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -47,11 +47,12 @@ bool same_ends(const Arc& a, const Arc& b) {
   return a.alive && b.alive && a.from == b.from && a.to == b.to;
 }
 
-/// The place of an arc's point k, counted along its polyline.
-Point& point_of(SkeletonGraph& graph, int arc, std::size_t k) {
-  Arc& s = graph.arcs[idx(arc)];
-  if (k == 0) return graph.nodes[idx(s.from)].position;
-  if (k == s.points.size() + 1) return graph.nodes[idx(s.to)].position;
+/// An arc's point k, counted along its polyline.
+template <typename Graph>
+auto& point_of(Graph& graph, int arc, std::size_t k) {
+  auto& s = graph.arcs[idx(arc)];
+  if (k == 0) return graph.nodes[idx(s.from)].point;
+  if (k == s.points.size() + 1) return graph.nodes[idx(s.to)].point;
   return s.points[k - 1];
 }
 
@@ -62,8 +63,8 @@ bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line) {
   return false;
 }
 
-bool put_back(Point& now, const Point& before) {
-  if (now == before) return false;
+bool put_back(CurvePoint& now, const CurvePoint& before) {
+  if (now.place() == before.place()) return false;
   now = before;
   return true;
 }
@@ -97,8 +98,8 @@ void HomologyGuard::restore_arcs(const SkeletonGraph& before, SkeletonGraph& gra
           classes_->homologous(was, is) && (!any_crosses(tree, is) || any_crosses(tree, was));
       if (stays) continue;
       arc.points = old.points;
-      graph.nodes[idx(arc.from)].position = was.front();
-      graph.nodes[idx(arc.to)].position = was.back();
+      graph.nodes[idx(arc.from)].point = before.nodes[idx(arc.from)].point;
+      graph.nodes[idx(arc.to)].point = before.nodes[idx(arc.to)].point;
       changed = true;
     }
   }
@@ -107,12 +108,11 @@ void HomologyGuard::restore_arcs(const SkeletonGraph& before, SkeletonGraph& gra
 void HomologyGuard::pull_taut(SkeletonGraph& graph, const SurfaceTree& tree) {
   constexpr double clearance = 0.5;
   constexpr int places = 16;  // along a chord
-  const auto line_of_sight = [&](const std::vector<Point>& way) {
+  const auto line_of_sight = [&](const std::vector<Point>& way, double clear) {
     const Point& from = way.front();
     const Point& to = way.back();
     if (crosses(tree, from, to)) return false;
-    const double least =
-        clearance * std::min(tree.inscribed_radius(from), tree.inscribed_radius(to));
+    const double least = clearance * clear;
     for (int k = 1; k < places; ++k) {
       const double share = static_cast<double>(k) / places;
       if (tree.inscribed_radius(from + share * (to - from)) < least) return false;
@@ -122,19 +122,21 @@ void HomologyGuard::pull_taut(SkeletonGraph& graph, const SurfaceTree& tree) {
   for (const int s : core(graph)) {
     Arc& arc = graph.arcs[idx(s)];
     const auto line = graph.polyline(arc);
+    const auto radii = graph.radii_along(arc, tree);
     const auto taut = shortened(line, [&](std::size_t first, std::size_t last) {
       const auto begin = line.begin();
       return line_of_sight({begin + static_cast<std::ptrdiff_t>(first),
-                            begin + static_cast<std::ptrdiff_t>(last + 1)});
+                            begin + static_cast<std::ptrdiff_t>(last + 1)},
+                           std::min(radii[first], radii[last]));
     });
     const std::size_t fewest = arc.from == arc.to ? 4 : 2;  // a closed one stays a polygon
     if (taut.size() >= fewest) arc.points.assign(taut.begin() + 1, taut.end() - 1);
   }
 }
 
-void HomologyGuard::collapse(SkeletonGraph& graph, int arc, int into, const Point& position) {
+void HomologyGuard::collapse(SkeletonGraph& graph, int arc, int into, const CurvePoint& point) {
   if (!has_handles()) {
-    graph.collapse(arc, into, position);
+    graph.collapse(arc, into, point);
     return;
   }
   graph.orient_from(arc, into);
@@ -143,7 +145,7 @@ void HomologyGuard::collapse(SkeletonGraph& graph, int arc, int into, const Poin
   std::array<std::vector<Point>, 2> way;  // from either end of the arc to the new place
   way[0] = {line.front()};
   way[1].assign(line.rbegin(), line.rend());
-  if (position == line.back()) {
+  if (point.place() == line.back()) {
     way[0] = line;
     way[1] = {line.back()};
   }
@@ -165,12 +167,12 @@ void HomologyGuard::collapse(SkeletonGraph& graph, int arc, int into, const Poin
         std::vector<Point> old{at_begin ? course[1] : course[course.size() - 2]};
         const Point next = old.front();
         old.insert(old.end(), to_new_place.begin(), to_new_place.end());
-        if (classes_->homologous(old, {next, position})) continue;
+        if (classes_->homologous(old, {next, point.place()})) continue;
         ends.push_back({s, at_begin, {to_new_place.begin(), to_new_place.end() - 1}});
       }
     }
   }
-  graph.collapse(arc, into, position);
+  graph.collapse(arc, into, point);
   for (auto& [s, at_begin, points] : ends) {
     auto& inner = graph.arcs[idx(s)].points;
     if (at_begin) std::reverse(points.begin(), points.end());
@@ -196,8 +198,8 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
         const bool stays = classes_->homologous({was[k], was[k + 1]}, {is[k], is[k + 1]}) &&
                            (!crosses(tree, is[k], is[k + 1]) || crosses(tree, was[k], was[k + 1]));
         if (stays) continue;
-        here = put_back(point_of(graph, s, k), was[k]) || here;
-        here = put_back(point_of(graph, s, k + 1), was[k + 1]) || here;
+        here = put_back(point_of(graph, s, k), point_of(before, s, k)) || here;
+        here = put_back(point_of(graph, s, k + 1), point_of(before, s, k + 1)) || here;
       }
       if (here) restored.push_back(s);
       changed = changed || here;

@@ -46,9 +46,9 @@ class HomologyGuard {
   std::vector<int> restore_points(const SkeletonGraph& before, SkeletonGraph& graph,
                                   const SurfaceTree& tree);
 
-  /// Shrinks an arc to its node `into` at `position`, which must be there or at its other node.
+  /// Shrinks an arc to its node `into` at `point`, which must be there or at its other node.
   /// Arcs that ended at the other node first go along the arc if the short way is not homologous.
-  void collapse(SkeletonGraph& graph, int arc, int into, const Point& position);
+  void collapse(SkeletonGraph& graph, int arc, int into, const CurvePoint& point);
 
  private:
   std::optional<HomologyClasses> classes_;

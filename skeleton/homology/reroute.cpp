@@ -117,7 +117,7 @@ class Threading {
   [[nodiscard]] int middle_of(int node) {
     const Node& given = graph_.nodes[idx(node)];
     int& middle = middle_[idx(node)];
-    if (middle < 0) middle = chains_.nearest_vertex(given.position, {given.pieces.front()});
+    if (middle < 0) middle = chains_.nearest_vertex(given.point.place(), {given.pieces.front()});
     return middle;
   }
 
@@ -148,8 +148,8 @@ class Threading {
     const auto vertices = way(middle_of(arc.from), course(arc), middle_of(arc.to));
     const auto points = curves_.deep(vertices);
     if (points.size() < 2) return;
-    graph_.nodes[idx(arc.from)].position = points.front();
-    graph_.nodes[idx(arc.to)].position = points.back();
+    graph_.nodes[idx(arc.from)].point = points.front();
+    graph_.nodes[idx(arc.to)].point = points.back();
     arc.points.assign(points.begin() + 1, points.end() - 1);
   }
 
@@ -221,11 +221,11 @@ class Threading {
     if (half.way.empty()) return;
     const int circle = graph_.arcs[idx(s)].pieces[half.place];
     auto way = curves_.deep(half.way);
-    graph_.nodes[idx(graph_.arcs[idx(s)].from)].position = way.front();
+    graph_.nodes[idx(graph_.arcs[idx(s)].from)].point = way.front();
     if (way.size() > 1) way.erase(way.begin());
     auto round = curves_.deep(ring(circle, half.group));
     round.pop_back();
-    graph_.end_in_ring(s, half.place, std::move(way), std::move(round));
+    graph_.end_in_ring(s, half.place, std::move(way), round);
   }
 
   SkeletonGraph& graph_;

@@ -59,7 +59,7 @@ class Growth {
   [[nodiscard]] int node_at(const ArcProjection& projection, double radius) const {
     const Arc& arc = graph_.arcs[idx(projection.arc)];
     for (const int node : {arc.from, arc.to}) {
-      const double distance = (graph_.nodes[idx(node)].position - projection.place).norm();
+      const double distance = (graph_.place(node) - projection.place).norm();
       if (distance == 0 || (graph_.degree(node) == 1 && distance <= radius)) return node;
     }
     return -1;
@@ -129,8 +129,8 @@ class Growth {
   }
 
   [[nodiscard]] Apex extension(int v, int tip) {
-    const Point& base = graph_.nodes[idx(tip)].position;
-    const SurfaceTree::Ball root{base, tree_.inscribed_radius(base)};
+    const Point& base = graph_.place(tip);
+    const SurfaceTree::Ball root{base, graph_.nodes[idx(tip)].point.radius(tree_)};
     if ((place(v) - base).norm() < tuning_.least_extension * root.radius) return {};
     return made(v, tip, root, protrusion(base, v), tuning_.least_extension_prominence,
                 tuning_.least_extension_ball);
@@ -142,7 +142,7 @@ class Growth {
     Point base = projection.place;
     const Arc& arc = graph_.arcs[idx(projection.arc)];
     for (const int end : {arc.from, arc.to}) {
-      const Point& junction = graph_.nodes[idx(end)].position;
+      const Point& junction = graph_.place(end);
       if (graph_.degree(end) < 3) continue;
       if ((junction - projection.place).norm() > tuning_.least_branch * radius) continue;
       const Protrusion here = protrusion(junction, v);

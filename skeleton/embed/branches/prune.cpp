@@ -85,14 +85,14 @@ void prune_blunt(SkeletonGraph& graph, const Surface& surface, const PartitionGr
     const Arc& arc = graph.arcs[idx(s)];
     const Node& base = graph.nodes[idx(base_of(graph, arc))];
     const auto own = nodes_of(graph, arc);
-    const int apex = farthest(surface, base.position, vertices, own);
+    const int apex = farthest(surface, base.point.place(), vertices, own);
     if (apex < 0) return 0.0;
     for (const std::vector<int>* nodes : {&own, &base.pieces}) {
       for (const int node : *nodes) is_own[idx(node)] = 1;
     }
     const double found =
         prominence(
-            base.position, apex,
+            base.point.place(), apex,
             [&](int v) { return is_own[idx(partition.group_of_vertex[v])] != 0; }, limit)
             .prominence;
     for (const std::vector<int>* nodes : {&own, &base.pieces}) {
@@ -108,8 +108,8 @@ void prune_blunt(SkeletonGraph& graph, const Surface& surface, const PartitionGr
 bool prune_spurs(SkeletonGraph& graph, const SurfaceTree& tree, double factor) {
   return prune_below(graph, factor, [&](int s) {
     const Arc& arc = graph.arcs[idx(s)];
-    const Point& junction = graph.nodes[idx(base_of(graph, arc))].position;
-    const double radius = std::max(0.0, tree.inscribed_radius(junction));
+    const CurvePoint& junction = graph.nodes[idx(base_of(graph, arc))].point;
+    const double radius = std::max(0.0, junction.radius(tree));
     return radius > 0 ? graph.length(arc) / radius : std::numeric_limits<double>::max();
   });
 }

@@ -9,7 +9,6 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/contain/ball_chains.hpp"
-#include "skeleton/embed/place/spacing.hpp"
 
 namespace curveskel {
 namespace {
@@ -37,20 +36,25 @@ std::ptrdiff_t offset(std::size_t index) { return static_cast<std::ptrdiff_t>(in
 
 /// A polyline with inscribed radii and the cost of the way up to each point.
 struct Course {
-  std::vector<Point> points;
+  std::vector<CurvePoint> points;
+  std::vector<Point> places;
   std::vector<double> radii;
   std::vector<double> cost;
 
-  Course(std::vector<Point> line, const SurfaceTree& tree)
-      : points(std::move(line)), radii(radii_at(tree, points)), cost(points.size(), 0) {
-    for (double& radius : radii) radius = std::max(radius, least_radius);
+  Course(std::vector<CurvePoint> line, const SurfaceTree& tree)
+      : points(std::move(line)), cost(points.size(), 0) {
+    for (const CurvePoint& point : points) {
+      places.push_back(point.place());
+      radii.push_back(std::max(point.radius(tree), least_radius));
+    }
     for (std::size_t i = 1; i < points.size(); ++i) {
-      cost[i] = cost[i - 1] + (points[i] - points[i - 1]).norm() / std::min(radii[i - 1], radii[i]);
+      cost[i] = cost[i - 1] + step(i) / std::min(radii[i - 1], radii[i]);
     }
   }
+  [[nodiscard]] double step(std::size_t i) const { return (places[i] - places[i - 1]).norm(); }
   [[nodiscard]] double length() const {
     double sum = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+    for (std::size_t i = 1; i < points.size(); ++i) sum += step(i);
     return sum;
   }
   [[nodiscard]] double narrowest(std::size_t first, std::size_t last) const {
@@ -107,7 +111,7 @@ class Rerouting {
     for (int s = 0; s < static_cast<int>(graph_.arcs.size()); ++s) {
       const Arc& arc = graph_.arcs[idx(s)];
       if (!arc.alive || arc.from == arc.to) continue;
-      const Course course(graph_.polyline(arc), tree_);
+      const Course course(graph_.points_along(arc, tree_), tree_);
       const auto narrow = around_the_narrowest(course, tuning_.wider);
       if (narrow && is_bridge(graph_, s) && replace(graph_.arcs[idx(s)], course, *narrow)) {
         ++count;
@@ -122,8 +126,9 @@ class Rerouting {
     const Gain gain = most_to_gain(course, around, groups);
     if (gain.ratio < tuning_.cheaper) return false;
     const auto [first, last] = gain.ends;
-    std::vector<Point> points(course.points.begin(), course.points.begin() + offset(first) + 1);
-    const auto between = chains_.chain(course.points[first], course.points[last], groups);
+    std::vector<CurvePoint> points(course.points.begin(),
+                                   course.points.begin() + offset(first) + 1);
+    const auto between = chains_.chain(course.places[first], course.places[last], groups);
     points.insert(points.end(), between.begin(), between.end());
     points.insert(points.end(), course.points.begin() + offset(last), course.points.end());
     const Course found(std::move(points), tree_);
@@ -139,7 +144,7 @@ class Rerouting {
     double ratio = 0;
     for (const bool first : {false, true, false}) {
       const std::size_t fixed = first ? ends.last : ends.first;
-      const auto costs = chains_.costs(course.points[fixed], course.points, groups);
+      const auto costs = chains_.costs(course.places[fixed], course.places, groups);
       double most = 0;
       const std::size_t begin = first ? 0 : ends.first + 1;
       const std::size_t end = first ? ends.last : course.points.size();

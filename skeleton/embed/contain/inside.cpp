@@ -20,16 +20,21 @@ constexpr double least_spacing = SpacingTuning{}.least;
 constexpr int deepest = 10;
 
 /// Inside and away from the surface, or moved there if that can be done nearby.
-Point pulled_inside(const SurfaceTree& tree, const Point& p) {
-  const double radius = tree.inscribed_radius(p);
+CurvePoint pulled_inside(const SurfaceTree& tree, const CurvePoint& p) {
+  const double radius = p.radius(tree);
   if (radius >= least_radius) return p;
-  const auto nearest = tree.nearest(p);
-  Point inward = radius < 0 ? Point(nearest.point - p) : Point(p - nearest.point);
+  const auto nearest = tree.nearest(p.place());
+  Point inward = radius < 0 ? Point(nearest.point - p.place()) : Point(p.place() - nearest.point);
   if (inward.norm() == 0) return p;
   inward.normalize();
   const auto ball = tree.inscribed_ball(nearest.point, inward);
-  if (!std::isfinite(ball.radius) || tree.inscribed_radius(ball.centre) <= radius) return p;
-  return ball.centre;
+  if (!std::isfinite(ball.radius)) return p;
+  const CurvePoint moved = ball.centre;
+  return moved.radius(tree) > radius ? moved : p;
+}
+
+bool sees_straight(const SurfaceTree& tree, const CurvePoint& p, const CurvePoint& q) {
+  return p.radius(tree) > 0 && q.radius(tree) > 0 && !crosses(tree, p.place(), q.place());
 }
 
 /// Appends the points that have to come between p and q, straight where that stays inside, bent
@@ -38,43 +43,38 @@ class Cover {
  public:
   Cover(const SurfaceTree& tree, bool may_bend) : tree_(tree), may_bend_(may_bend) {}
 
-  bool between(const Point& p, const Point& q, std::vector<Point>& inserted) const {
-    return between(p, tree_.inscribed_radius(p), q, tree_.inscribed_radius(q), 0, inserted);
+  bool between(const CurvePoint& p, const CurvePoint& q, std::vector<CurvePoint>& inserted,
+               int depth = 0) const {
+    const double length = (q.place() - p.place()).norm();
+    const bool both_inside = p.radius(tree_) > 0 && q.radius(tree_) > 0;
+    if (both_inside && length <= p.radius(tree_) + q.radius(tree_)) return true;
+    // In a sheet balls would be as many as it is wide in its thicknesses.
+    if (both_inside && length <= least_spacing && !crosses(tree_, p.place(), q.place()))
+      return true;
+    if (depth == deepest || !both_inside) return false;
+    CurvePoint middle = Point(0.5 * (p.place() + q.place()));
+    if (middle.radius(tree_) < least_radius) {
+      if (!may_bend_) return false;
+      const CurvePoint moved = pulled_inside(tree_, middle);
+      // A centre far from both ends belongs to another part of the surface.
+      if ((moved.place() - middle.place()).norm() > length) return false;
+      middle = moved;
+    }
+    if (!between(p, middle, inserted, depth + 1)) return false;
+    inserted.push_back(middle);
+    return between(middle, q, inserted, depth + 1);
   }
 
  private:
-  bool between(const Point& p, double p_radius, const Point& q, double q_radius, int depth,
-               std::vector<Point>& inserted) const {
-    const double length = (q - p).norm();
-    const bool both_inside = p_radius > 0 && q_radius > 0;
-    if (both_inside && length <= p_radius + q_radius) return true;
-    // In a sheet balls would be as many as it is wide in its thicknesses.
-    if (both_inside && length <= least_spacing && !crosses(tree_, p, q)) return true;
-    if (depth == deepest || !both_inside) return false;
-    Point middle = 0.5 * (p + q);
-    double radius = tree_.inscribed_radius(middle);
-    if (radius < least_radius) {
-      if (!may_bend_) return false;
-      const Point moved = pulled_inside(tree_, middle);
-      // A centre far from both ends belongs to another part of the surface.
-      if ((moved - middle).norm() > length) return false;
-      middle = moved;
-      radius = tree_.inscribed_radius(middle);
-    }
-    if (!between(p, p_radius, middle, radius, depth + 1, inserted)) return false;
-    inserted.push_back(middle);
-    return between(middle, radius, q, q_radius, depth + 1, inserted);
-  }
-
   const SurfaceTree& tree_;
   bool may_bend_;
 };
 
 /// Leaves out the points of a chain that a straight line inside makes needless.
-std::vector<Point> shortcut(const std::vector<Point>& chain, const SurfaceTree& tree) {
+std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const SurfaceTree& tree) {
   const Cover straight(tree, false);
   return shortened(chain, [&](std::size_t first, std::size_t last) {
-    std::vector<Point> unused;
+    std::vector<CurvePoint> unused;
     return straight.between(chain[first], chain[last], unused);
   });
 }
@@ -94,10 +94,10 @@ class Keeper {
   int run() {
     for (Node& node : graph_.nodes) {
       if (!node.alive) continue;
-      node.position = pulled_inside(tree_, node.position);
-      if (tree_.inscribed_radius(node.position) < least_radius) {
-        node.position =
-            chains_.nearest_centre(node.position, groups_among(node.pieces, partition_));
+      node.point = pulled_inside(tree_, node.point);
+      if (node.point.radius(tree_) < least_radius) {
+        node.point =
+            chains_.nearest_centre(node.point.place(), groups_among(node.pieces, partition_));
       }
     }
     std::vector<char> on_cycle(graph_.arcs.size(), 0);
@@ -111,45 +111,48 @@ class Keeper {
   }
 
  private:
-  void cover_arc(Arc& arc, bool on_cycle) {
+  void pull_inside(Arc& arc, bool on_cycle) {
     const auto given = graph_.polyline(arc);
     for (std::size_t k = 1; k + 1 < given.size(); ++k) {
-      const Point moved = pulled_inside(tree_, given[k]);
-      const Point& before = k == 1 ? given.front() : arc.points[k - 2];
-      if (on_cycle && moved != given[k] &&
-          !handles_.homologous({before, given[k], given[k + 1]}, {before, moved, given[k + 1]})) {
+      CurvePoint& point = arc.points[k - 1];
+      const CurvePoint moved = pulled_inside(tree_, point);
+      const Point& before = k == 1 ? given.front() : arc.points[k - 2].place();
+      if (on_cycle && moved.place() != given[k] &&
+          !handles_.homologous({before, given[k], given[k + 1]},
+                               {before, moved.place(), given[k + 1]})) {
         continue;
       }
-      arc.points[k - 1] = moved;
+      point = moved;
     }
-    const auto line = graph_.polyline(arc);
-    const auto radii = radii_at(tree_, line);
-    std::vector<Point> points;
+  }
+
+  void cover_arc(Arc& arc, bool on_cycle) {
+    pull_inside(arc, on_cycle);
+    const auto line = graph_.points_along(arc, tree_);
+    std::vector<CurvePoint> points;
     std::size_t i = 0;
     while (i + 1 < line.size()) {
       std::size_t next = i + 1;
-      std::vector<Point> between;
+      std::vector<CurvePoint> between;
       const auto keeps_handle = [&] {
         if (!on_cycle || (between.empty() && next == i + 1)) return true;
-        const auto first = line.begin() + static_cast<std::ptrdiff_t>(i);
-        between.insert(between.begin(), line[i]);
-        between.push_back(line[next]);
-        const bool homologous = handles_.homologous(
-            {first, first + static_cast<std::ptrdiff_t>(next - i + 1)}, between);
-        between.erase(between.begin());
-        between.pop_back();
-        return homologous;
+        std::vector<Point> is{line[i].place()};
+        for (const CurvePoint& point : between) is.push_back(point.place());
+        is.push_back(line[next].place());
+        std::vector<Point> was;
+        for (std::size_t k = i; k <= next; ++k) was.push_back(line[k].place());
+        return handles_.homologous(was, is);
       };
       if (!is_covered(line[i], line[next], between) || !keeps_handle()) {
         // From the last point that is inside to the next one.
-        while (next + 1 < line.size() && radii[next] < least_radius) ++next;
+        while (next + 1 < line.size() && line[next].radius(tree_) < least_radius) ++next;
         const int uncovered_before = uncovered_;
         between = detour(arc, line[i], line[next]);
         if (!keeps_handle()) {
           next = i + 1;
           between.clear();
           uncovered_ = uncovered_before;
-          if (crosses(tree_, line[i], line[next])) ++uncovered_;
+          if (crosses(tree_, line[i].place(), line[next].place())) ++uncovered_;
         }
       }
       points.insert(points.end(), between.begin(), between.end());
@@ -161,16 +164,19 @@ class Keeper {
 
   /// True if nothing needs to come between two points, or those that have to do. No straight line
   /// between two points inside that meets no surface leaves it, however small their balls.
-  bool is_covered(const Point& p, const Point& q, std::vector<Point>& between) const {
+  bool is_covered(const CurvePoint& p, const CurvePoint& q,
+                  std::vector<CurvePoint>& between) const {
     if (Cover(tree_, true).between(p, q, between)) return true;
     between.clear();
-    return tree_.inscribed_radius(p) > 0 && tree_.inscribed_radius(q) > 0 && !crosses(tree_, p, q);
+    return sees_straight(tree_, p, q);
   }
 
-  bool sees(const Point& p, const Point& q) const {
-    std::vector<Point> unused;
+  bool sees(const CurvePoint& p, const CurvePoint& q) const {
+    std::vector<CurvePoint> unused;
     return is_covered(p, q, unused);
   }
+
+  CurvePoint centre(int vertex) const { return Point(balls_.centres.row(vertex)); }
 
   /// A point of the vertex' ball close to the vertex.
   Point under(int vertex) const {
@@ -232,44 +238,46 @@ class Keeper {
 
   /// The vertices of a chain of balls. The ball that holds an end best may not be seen from it;
   /// the chain then goes on to the ball whose centre is nearest.
-  std::vector<int> balls_between(const Point& p, const Point& q, const std::vector<int>& groups) {
-    std::vector<int> vertices = chains_.way_between(p, q, groups);
+  std::vector<int> balls_between(const CurvePoint& p, const CurvePoint& q,
+                                 const std::vector<int>& groups) {
+    std::vector<int> vertices = chains_.way_between(p.place(), q.place(), groups);
     if (vertices.empty()) return {};
-    if (!sees(p, balls_.centres.row(vertices.front()))) {
-      auto way = chains_.way(chains_.nearest_vertex(p, groups), vertices.front(), groups);
+    if (!sees(p, centre(vertices.front()))) {
+      auto way = chains_.way(chains_.nearest_vertex(p.place(), groups), vertices.front(), groups);
       if (!way.empty()) vertices.insert(vertices.begin(), way.begin(), way.end() - 1);
     }
-    if (!sees(balls_.centres.row(vertices.back()), q)) {
-      const auto way = chains_.way(vertices.back(), chains_.nearest_vertex(q, groups), groups);
+    if (!sees(centre(vertices.back()), q)) {
+      const auto way =
+          chains_.way(vertices.back(), chains_.nearest_vertex(q.place(), groups), groups);
       if (!way.empty()) vertices.insert(vertices.end(), way.begin() + 1, way.end());
     }
     return vertices;
   }
 
   struct Detour {
-    std::vector<Point> points;
+    std::vector<CurvePoint> points;
     int uncovered = 0;
     std::vector<std::pair<int, int>> hidden;  ///< steps between two balls
   };
 
   /// From ball to ball, but just below the surface where no way between two of them is found.
-  Detour detour_by(const std::vector<int>& vertices, const Point& p, const Point& q) {
+  Detour detour_by(const std::vector<int>& vertices, const CurvePoint& p, const CurvePoint& q) {
     Detour made;
-    std::vector<Point> chain{p};
+    std::vector<CurvePoint> chain{p};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Point centre = balls_.centres.row(vertices[i]);
-      if (i > 0 && !sees(chain.back(), centre)) {
+      const CurvePoint next = centre(vertices[i]);
+      if (i > 0 && !sees(chain.back(), next)) {
         const auto step = way_below(vertices[i - 1], vertices[i]);
         if (step.empty()) made.hidden.emplace_back(vertices[i - 1], vertices[i]);
         chain.insert(chain.end(), step.begin(), step.end());
       }
-      chain.push_back(centre);
+      chain.push_back(next);
     }
     chain.push_back(q);
     chain = shortcut(chain, tree_);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       if (i > 0) made.points.push_back(chain[i]);
-      std::vector<Point> between;
+      std::vector<CurvePoint> between;
       if (!is_covered(chain[i], chain[i + 1], between)) ++made.uncovered;
       made.points.insert(made.points.end(), between.begin(), between.end());
     }
@@ -277,7 +285,7 @@ class Keeper {
   }
 
   /// The way between two points; round the steps that lead outside, if the surface meets itself.
-  std::vector<Point> detour(const Arc& arc, const Point& p, const Point& q) {
+  std::vector<CurvePoint> detour(const Arc& arc, const CurvePoint& p, const CurvePoint& q) {
     const auto groups = groups_along(graph_, arc, partition_);
     std::optional<Detour> best;
     while (true) {
@@ -292,7 +300,7 @@ class Keeper {
     }
     chains_.allow_all();
     uncovered_ += best ? best->uncovered : 1;
-    return best ? std::move(best->points) : std::vector<Point>{};
+    return best ? std::move(best->points) : std::vector<CurvePoint>{};
   }
 
   /// Made when first asked for, as there is mostly another way.

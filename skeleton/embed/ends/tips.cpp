@@ -32,9 +32,9 @@ bool turns_away(const Point& step, const Point& heading) {
 void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double reach,
              const TipTuning& tuning) {
   const auto line = graph.polyline(arc);
-  const double tip_radius = tree.inscribed_radius(line.back());
+  const double tip_radius = graph.nodes[idx(arc.to)].point.radius(tree);
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const double radius = tree.inscribed_radius(line[i]);
+    const double radius = arc.points[i - 1].radius(tree);
     const auto rest_within = [&](double distance) {
       return std::none_of(line.begin() + static_cast<std::ptrdiff_t>(i), line.end(),
                           [&](const Point& p) { return (p - line[i]).norm() > distance; });
@@ -47,7 +47,7 @@ void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double rea
       return rest_within(reach * radius) && tree.ray(line[i], ahead, reach * radius).triangle >= 0;
     };
     if (!curls && !is_blunt()) continue;
-    graph.nodes[idx(arc.to)].position = line[i];
+    graph.nodes[idx(arc.to)].point = arc.points[i - 1];
     arc.points.resize(i - 1);
     return;
   }
@@ -59,15 +59,16 @@ void retract(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double rea
 void extend_tip(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double gap,
                 const TipTuning& tuning) {
   auto line = graph.polyline(arc);
-  double radius = tree.inscribed_radius(line.back());
+  std::vector<CurvePoint> added{graph.nodes[idx(arc.to)].point};  // from the old tip on
+  double radius = added.front().radius(tree);
   const Point first_heading = heading(line, line.size() - 1, radius);
   double nearest = std::numeric_limits<double>::infinity();  // in inscribed radii
-  std::size_t kept = line.size();
+  std::size_t kept = 1;
   for (int step = 0; step < most_steps && radius >= tuning.least_radius; ++step) {
     const Point& tip = line.back();
     const Point direction = heading(line, line.size() - 1, radius);
     const double left = tree.ray(tip, direction).distance;
-    if (left <= tuning.tolerance * nearest * radius) kept = line.size();
+    if (left <= tuning.tolerance * nearest * radius) kept = added.size();
     nearest = std::min(nearest, left / radius);
     if (left <= gap * radius || !std::isfinite(left)) break;
     const Point guess = tip + std::min(0.5 * radius, left - radius) * direction;
@@ -81,10 +82,11 @@ void extend_tip(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double 
     if (radius < tuning.least_radius) break;
     if (turns_away(next - tip, first_heading)) break;
     line.push_back(next);
+    added.emplace_back(next, radius);
   }
-  line.resize(kept);
-  graph.nodes[idx(arc.to)].position = line.back();
-  arc.points.assign(line.begin() + 1, line.end() - 1);
+  graph.nodes[idx(arc.to)].point = added[kept - 1];
+  arc.points.insert(arc.points.end(), added.begin(),
+                    added.begin() + static_cast<std::ptrdiff_t>(kept - 1));
 }
 
 }  // namespace
@@ -110,15 +112,16 @@ void lengthen_short_leaves(SkeletonGraph& graph, const SurfaceTree& tree, const 
     graph.orient_from(s, graph.degree(from) == 1 ? graph.arcs[idx(s)].to : from);
     Arc& arc = graph.arcs[idx(s)];
     auto line = graph.polyline(arc);
-    const double junction_radius = tree.inscribed_radius(line.front());
+    const double junction_radius = graph.nodes[idx(arc.from)].point.radius(tree);
     const double missing = tuning.leaf_margin * junction_radius - graph.length(arc);
     if (missing <= 0 || graph.length(arc) < 0.25 * junction_radius) continue;
-    const Point ahead = heading(line, line.size() - 1, tree.inscribed_radius(line.back()));
-    const Point tip = line.back() + missing * ahead;
-    if (tree.inscribed_radius(tip) < tuning.leaf_narrowest * junction_radius) continue;
+    CurvePoint& end = graph.nodes[idx(arc.to)].point;
+    const Point ahead = heading(line, line.size() - 1, end.radius(tree));
+    const CurvePoint tip = Point(line.back() + missing * ahead);
+    if (tip.radius(tree) < tuning.leaf_narrowest * junction_radius) continue;
     if (tree.ray(line.back(), ahead, missing).triangle >= 0) continue;
-    arc.points.push_back(line.back());
-    graph.nodes[idx(arc.to)].position = tip;
+    arc.points.push_back(end);
+    end = tip;
   }
 }
 
@@ -130,7 +133,7 @@ std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTr
     auto line = graph.polyline(arc);
     for (const int node : {arc.from, arc.to}) {
       if (graph.degree(node) == 1) {
-        const double radius = tree.inscribed_radius(line.front());
+        const double radius = graph.nodes[idx(node)].point.radius(tree);
         const auto before = [&](double way) {
           const auto leaves = [&](const Point& p) { return (line.front() - p).norm() >= way; };
           return *std::find_if(line.begin(), line.end() - 1, leaves);
@@ -147,10 +150,10 @@ std::vector<TipHeading> tip_headings(const SkeletonGraph& graph, const SurfaceTr
 void centre_tips(SkeletonGraph& graph, const SurfaceTree& tree,
                  const std::vector<TipHeading>& headings, const RelaxTuning& tuning) {
   for (const auto& [node, direction, first_radius] : headings) {
-    Point& tip = graph.nodes[idx(node)].position;
-    const double radius = tree.inscribed_radius(tip);
-    const Point candidate = 0.5 * (tip + cross_section_centre(tree, tip, direction, radius));
-    if (tree.inscribed_radius(candidate) >= tuning.tip_keep * first_radius) tip = candidate;
+    CurvePoint& tip = graph.nodes[idx(node)].point;
+    const Point centre = cross_section_centre(tree, tip.place(), direction, tip.radius(tree));
+    const CurvePoint candidate = Point(0.5 * (tip.place() + centre));
+    if (candidate.radius(tree) >= tuning.tip_keep * first_radius) tip = candidate;
   }
 }
 

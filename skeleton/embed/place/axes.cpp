@@ -48,16 +48,16 @@ std::vector<Axis> axes_at(const SkeletonGraph& graph, int node, double radius) {
 /// The inner point or node that follows on a node along one of its arcs.
 const Point& next_to(const SkeletonGraph& graph, const Arc& arc, int node) {
   if (arc.from == node) {
-    return arc.points.empty() ? graph.nodes[idx(arc.to)].position : arc.points.front();
+    return arc.points.empty() ? graph.place(arc.to) : arc.points.front().place();
   }
-  return arc.points.empty() ? graph.nodes[idx(arc.from)].position : arc.points.back();
+  return arc.points.empty() ? graph.place(arc.from) : arc.points.back().place();
 }
 
 }  // namespace
 
 Point meeting_of_axes(const SkeletonGraph& graph, int node, double radius,
                       const RelaxTuning& tuning) {
-  const Point& here = graph.nodes[idx(node)].position;
+  const Point& here = graph.place(node);
   const auto axes = axes_at(graph, node, radius);
   const double held = tuning.axes_hold * static_cast<double>(axes.size());
   Eigen::Matrix3d sum = held * Eigen::Matrix3d::Identity();
@@ -71,16 +71,18 @@ Point meeting_of_axes(const SkeletonGraph& graph, int node, double radius,
   return sum.ldlt().solve(right);
 }
 
-bool makes_spur(const SkeletonGraph& graph, int node, const SurfaceTree::Ball& from,
-                const SurfaceTree::Ball& to, const RelaxTuning& tuning) {
+bool makes_spur(const SkeletonGraph& graph, int node, const CurvePoint& to, const SurfaceTree& tree,
+                const RelaxTuning& tuning) {
+  const CurvePoint& from = graph.nodes[idx(node)].point;
   const auto& arcs = graph.nodes[idx(node)].arcs;
   return std::any_of(arcs.begin(), arcs.end(), [&](int s) {
     const Arc& arc = graph.arcs[idx(s)];
     if (!graph.is_leaf(arc)) return false;
     const Point& next = next_to(graph, arc, node);
     const double before = graph.length(arc);
-    const double after = before - (next - from.centre).norm() + (next - to.centre).norm();
-    return after < tuning.spur_margin * to.radius && after * from.radius < before * to.radius;
+    const double after = before - (next - from.place()).norm() + (next - to.place()).norm();
+    return after < tuning.spur_margin * to.radius(tree) &&
+           after * from.radius(tree) < before * to.radius(tree);
   });
 }
 

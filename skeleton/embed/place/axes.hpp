@@ -14,8 +14,8 @@ namespace curveskel {
                                     const RelaxTuning& tuning = {});
 
 /// True if a leaf arc would come nearer to being a spur, and hardly be longer than the inscribed
-/// radius at its junction, if the junction moved from the ball `from` to the ball `to`.
-[[nodiscard]] bool makes_spur(const SkeletonGraph& graph, int node, const SurfaceTree::Ball& from,
-                              const SurfaceTree::Ball& to, const RelaxTuning& tuning = {});
+/// radius at its junction, if the junction moved to the point `to`.
+[[nodiscard]] bool makes_spur(const SkeletonGraph& graph, int node, const CurvePoint& to,
+                              const SurfaceTree& tree, const RelaxTuning& tuning = {});
 
 }  // namespace curveskel

@@ -14,16 +14,16 @@ void centre_junctions(SkeletonGraph& graph, const SurfaceTree& tree) {
   for (int h = 0; h < static_cast<int>(graph.nodes.size()); ++h) {
     Node& node = graph.nodes[static_cast<std::size_t>(h)];
     if (!node.alive || graph.degree(h) < 3) continue;
-    const Point start = node.position;
-    const double first_radius = tree.inscribed_radius(start);
-    double radius = first_radius;
-    for (int step = 0; step < steps && radius > 0; ++step) {
-      const Point away = (node.position - tree.nearest(node.position).point).normalized();
-      const Point candidate = node.position + 0.1 * radius * away;
-      const double larger = tree.inscribed_radius(candidate);
-      if (larger <= radius || (candidate - start).norm() > first_radius) break;
-      node.position = candidate;
-      radius = larger;
+    const double first_radius = node.point.radius(tree);
+    const Point start = node.point.place();
+    for (int step = 0; step < steps && node.point.radius(tree) > 0; ++step) {
+      const Point& here = node.point.place();
+      const double radius = node.point.radius(tree);
+      const Point away = (here - tree.nearest(here).point).normalized();
+      const CurvePoint candidate = Point(here + 0.1 * radius * away);
+      if (candidate.radius(tree) <= radius) break;
+      if ((candidate.place() - start).norm() > first_radius) break;
+      node.point = candidate;
     }
   }
 }
@@ -34,8 +34,8 @@ void merge_junctions(SkeletonGraph& graph, const SurfaceTree& tree, HomologyGuar
   const auto ratio_of = [&](const Arc& arc) {
     if (!arc.alive || arc.from == arc.to) return never;
     if (graph.degree(arc.from) < 3 || graph.degree(arc.to) < 3) return never;
-    const double radius = std::max(tree.inscribed_radius(graph.nodes[idx(arc.from)].position),
-                                   tree.inscribed_radius(graph.nodes[idx(arc.to)].position));
+    const double radius = std::max(graph.nodes[idx(arc.from)].point.radius(tree),
+                                   graph.nodes[idx(arc.to)].point.radius(tree));
     return radius > 0 ? graph.length(arc) / radius : never;
   };
   std::vector<double> ratio;
@@ -45,11 +45,10 @@ void merge_junctions(SkeletonGraph& graph, const SurfaceTree& tree, HomologyGuar
     if (least == ratio.end() || !(*least < factor)) return;
     const auto best = static_cast<int>(least - ratio.begin());
     const Arc& arc = graph.arcs[idx(best)];
-    const Point a = graph.nodes[idx(arc.from)].position;
-    const Point b = graph.nodes[idx(arc.to)].position;
-    const bool keep_from = tree.inscribed_radius(a) >= tree.inscribed_radius(b);
+    const bool keep_from = graph.nodes[idx(arc.from)].point.radius(tree) >=
+                           graph.nodes[idx(arc.to)].point.radius(tree);
     const int into = keep_from ? arc.from : arc.to;
-    guard.collapse(graph, best, into, keep_from ? a : b);
+    guard.collapse(graph, best, into, CurvePoint(graph.nodes[idx(into)].point));
     *least = never;
     for (const int s : graph.nodes[idx(into)].arcs) {
       ratio[idx(s)] = ratio_of(graph.arcs[idx(s)]);
@@ -59,8 +58,8 @@ void merge_junctions(SkeletonGraph& graph, const SurfaceTree& tree, HomologyGuar
 
 void straighten_at_junctions(SkeletonGraph& graph, const SurfaceTree& tree, double share,
                              bool covered) {
-  const auto overlaps = [&](const Point& junction, double radius, const Point& p) {
-    return (p - junction).norm() <= radius + tree.inscribed_radius(p);
+  const auto overlaps = [&](const Point& junction, double radius, const CurvePoint& p) {
+    return (p.place() - junction).norm() <= radius + p.radius(tree);
   };
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
@@ -68,11 +67,13 @@ void straighten_at_junctions(SkeletonGraph& graph, const SurfaceTree& tree, doub
     auto& points = arc.points;
     for (const int node : {arc.from, arc.to}) {
       if (graph.degree(node) >= 3) {
-        const Point& junction = graph.nodes[idx(node)].position;
-        const double radius = std::max(0.0, tree.inscribed_radius(junction));
+        const Point& junction = graph.place(node);
+        const double radius = std::max(0.0, graph.nodes[idx(node)].point.radius(tree));
         const std::size_t most = points.size() - std::min(least, points.size());
         std::size_t within = 0;
-        while (within < most && (points[within] - junction).norm() < share * radius) ++within;
+        while (within < most && (points[within].place() - junction).norm() < share * radius) {
+          ++within;
+        }
         if (covered) {
           while (within > 0 && !overlaps(junction, radius, points[within])) --within;
         }

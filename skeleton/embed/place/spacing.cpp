@@ -11,8 +11,8 @@ namespace curveskel {
 namespace {
 
 /// Points along a polyline, half of the radius there apart, ends left out; `radii` per vertex.
-std::vector<Point> spaced(const std::vector<Point>& line, const std::vector<double>& radii,
-                          const Spacing& spacing, int fewest) {
+std::vector<CurvePoint> spaced(const std::vector<Point>& line, const std::vector<double>& radii,
+                               const Spacing& spacing, int fewest) {
   std::vector<double> steps{0};  // from the beginning
   steps.reserve(line.size());
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -20,7 +20,7 @@ std::vector<Point> spaced(const std::vector<Point>& line, const std::vector<doub
     steps.push_back(steps.back() + (line[i] - line[i - 1]).norm() / step);
   }
   const int inner = std::max(fewest, static_cast<int>(std::lround(steps.back())) - 1);
-  std::vector<Point> points;
+  std::vector<CurvePoint> points;
   points.reserve(idx(inner));
   std::size_t i = 1;
   for (int k = 1; k <= inner; ++k) {
@@ -28,7 +28,7 @@ std::vector<Point> spaced(const std::vector<Point>& line, const std::vector<doub
     while (i + 1 < line.size() && steps[i] < place) ++i;
     const double length = steps[i] - steps[i - 1];
     const double t = length > 0 ? (place - steps[i - 1]) / length : 0;
-    points.push_back(line[i - 1] + t * (line[i] - line[i - 1]));
+    points.emplace_back(line[i - 1] + t * (line[i] - line[i - 1]));
   }
   return points;
 }
@@ -48,18 +48,11 @@ Spacing spacing_on(const Surface& surface, const SpacingTuning& tuning) {
   return {tuning.least, std::max(tuning.most, tuning.of_edge * sum / edges)};
 }
 
-std::vector<double> radii_at(const SurfaceTree& tree, const std::vector<Point>& points) {
-  std::vector<double> radii(points.size());
-  std::transform(points.begin(), points.end(), radii.begin(),
-                 [&](const Point& p) { return tree.inscribed_radius(p); });
-  return radii;
-}
-
 void space_evenly(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing) {
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
     const auto line = graph.polyline(arc);
-    auto radii = radii_at(tree, line);
+    auto radii = graph.radii_along(arc, tree);
     const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
     std::nth_element(radii.begin(), middle, radii.end());
     radii.assign(line.size(), *middle);
@@ -71,7 +64,7 @@ void space_by_radius(SkeletonGraph& graph, const SurfaceTree& tree, const Spacin
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
     const auto line = graph.polyline(arc);
-    arc.points = spaced(line, radii_at(tree, line), spacing, fewest_points(arc));
+    arc.points = spaced(line, graph.radii_along(arc, tree), spacing, fewest_points(arc));
   }
 }
 
@@ -79,8 +72,8 @@ void thin_out(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spac
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
     const auto line = graph.polyline(arc);
-    auto radius = radii_at(tree, line);
-    std::vector<Point> kept;
+    const auto radius = graph.radii_along(arc, tree);
+    std::vector<CurvePoint> kept;
     std::size_t last = 0;
     const std::size_t least = arc.from == arc.to ? 2 : 1;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
@@ -90,7 +83,7 @@ void thin_out(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spac
           (gap <= radius[last] + radius[i + 1] || !crosses(tree, line[last], line[i + 1]))) {
         continue;
       }
-      kept.push_back(line[i]);
+      kept.push_back(arc.points[i - 1]);
       last = i;
     }
     arc.points = std::move(kept);
@@ -101,8 +94,8 @@ void cut_detours(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxTunin
   for (Arc& arc : graph.arcs) {
     if (!arc.alive || arc.from == arc.to || arc.points.size() < 2) continue;
     const auto line = graph.polyline(arc);
-    const auto radii = radii_at(tree, line);
-    std::vector<Point> kept;
+    const auto radii = graph.radii_along(arc, tree);
+    std::vector<CurvePoint> kept;
     std::size_t here = 0;
     while (here + 1 < line.size()) {
       std::size_t next = here + 1;
@@ -115,7 +108,7 @@ void cut_detours(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxTunin
         if (in_both && length > tuning.detour_length * chord) next = there;
       }
       here = next;
-      if (here + 1 < line.size()) kept.push_back(line[here]);
+      if (here + 1 < line.size()) kept.push_back(arc.points[here - 1]);
     }
     arc.points = std::move(kept);
   }
@@ -127,10 +120,10 @@ void keep_simple(SkeletonGraph& graph) {
     const std::size_t least = arc.from == arc.to ? 2 : 1;
     while (arc.points.size() < least) {
       const auto line = graph.polyline(arc);
-      std::vector<Point> points;
+      std::vector<CurvePoint> points;
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        if (i > 0) points.push_back(line[i]);
-        points.push_back(0.5 * (line[i] + line[i + 1]));
+        if (i > 0) points.push_back(arc.points[i - 1]);
+        points.emplace_back(0.5 * (line[i] + line[i + 1]));
       }
       arc.points = std::move(points);
     }

@@ -20,10 +20,6 @@ struct Spacing {
 /// coarse, so that the curve is not sampled more finely than the limb. O(#F).
 [[nodiscard]] Spacing spacing_on(const Surface& surface, const SpacingTuning& tuning);
 
-/// The inscribed radius at each point, negative outside.
-[[nodiscard]] std::vector<double> radii_at(const SurfaceTree& tree,
-                                           const std::vector<Point>& points);
-
 /// Places the inner points of each arc evenly, half of its median inscribed radius apart.
 void space_evenly(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing);
 

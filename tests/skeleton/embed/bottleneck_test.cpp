@@ -33,7 +33,7 @@ Surface hollow_bar(double bottom) {
 
 SkeletonGraph arcs(const std::vector<std::vector<Point>>& between) {
   SkeletonGraph graph;
-  graph.nodes = {{{-half_length, 0, 0}, {0}}, {{half_length, 0, 0}, {0}}};
+  graph.nodes = {{Point(-half_length, 0, 0), {0}}, {Point(half_length, 0, 0), {0}}};
   for (const auto& points : between) {
     const auto s = static_cast<int>(graph.arcs.size());
     graph.arcs.push_back({0, 1, points, {0}});
@@ -59,7 +59,7 @@ TEST(WiderWays, LeadPastAHollowWhereThereIsRoom) {
   for (const double side : {-1.75, 1.75}) {
     SkeletonGraph graph = arcs({beside(side)});
     ASSERT_EQ(taken(graph, hollow_bar(0)), 1);
-    for (const Point& p : graph.arcs[0].points) {
+    for (const Point& p : graph.polyline(graph.arcs[0])) {
       if (std::abs(p.x()) < 1) {
         EXPECT_LT(p.z(), -0.5);
         EXPECT_LT(std::abs(p.y()), 0.5);

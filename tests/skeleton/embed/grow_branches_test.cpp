@@ -58,7 +58,7 @@ TEST(Growth, GivesEachArmLeftOutItsBranch) {
     for (int arm = 2; arm < arms; ++arm) {
       double nearest = 100;
       for (const Node& node : graph.nodes) {
-        nearest = std::min(nearest, (node.position - star.end(arm)).norm());
+        nearest = std::min(nearest, (node.point.place() - star.end(arm)).norm());
       }
       EXPECT_LT(nearest, 0.6) << "arm " << arm << " of " << arms;
     }
@@ -98,7 +98,7 @@ Surface blunt_bar() {
 TEST(Growth, EndsInTheMiddleOfABluntEnd) {
   SkeletonGraph graph = one_arc({{0, 0, -2.2}, {0, 0, 0}, {0, 0, 0.7}});
   ASSERT_EQ(grown(graph, blunt_bar()), 1);
-  const Point& tip = graph.nodes.back().position;
+  const Point& tip = graph.nodes.back().point.place();
   EXPECT_LT(std::hypot(tip.x(), tip.y()), 0.1);
   EXPECT_GT(tip.z(), 1.5);
 }

@@ -32,7 +32,7 @@ TEST(Relax, PlacesPointsHalfOfTheirRadiusApart) {
   SkeletonGraph graph = arc_of(line);
   space_by_radius(graph, tree, {1.0 / 400, 1});
   const auto spaced = graph.polyline(graph.arcs.front());
-  const auto radii = radii_at(tree, spaced);
+  const auto radii = graph.radii_along(graph.arcs.front(), tree);
   for (std::size_t i = 0; i + 1 < spaced.size(); ++i) {
     const double share = 2 * (spaced[i + 1] - spaced[i]).norm() / (radii[i] + radii[i + 1]);
     EXPECT_NEAR(share, 0.5, 0.05) << "at " << spaced[i].x();
@@ -48,13 +48,13 @@ TEST(Relax, PlacesPointsHalfOfTheirRadiusApart) {
 TEST(Relax, LeavesAClosedStrandWithoutPointsAsItIs) {
   const SurfaceTree tree(shapes::torus(1, 0.3, 12).surface);
   SkeletonGraph graph;
-  graph.nodes = {{{1, 0, 0}, {0}, true, {0}}};
+  graph.nodes = {{Point(1, 0, 0), {0}, true, {0}}};
   graph.arcs.push_back({0, 0, {}, {0}});
   RelaxOptions options;
   options.rounds = 2;
   HomologyGuard guard;
   relax(graph, tree, options, guard, 1);
-  EXPECT_EQ(graph.nodes.front().position, Point(1, 0, 0));
+  EXPECT_EQ(graph.nodes.front().point.place(), Point(1, 0, 0));
   EXPECT_TRUE(graph.arcs.front().points.empty());
 }
 

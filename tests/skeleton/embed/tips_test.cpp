@@ -46,7 +46,7 @@ TEST(Tips, GoOnFromTheNeckIntoTheHead) {
   for (const double end : {0.5, 1.0, 1.5, 2.0, 2.5}) {
     SkeletonGraph graph = arc_along(along_x(-5, end, 0.2));
     shape_tips(graph, tree, reach, gap);
-    const Point tip = graph.nodes[1].position;
+    const Point tip = graph.place(1);
     EXPECT_GT(tree.inscribed_radius(tip), 1.5) << "from " << end;
     EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.1) << "from " << end;
   }
@@ -64,7 +64,7 @@ TEST(Tips, ThatCurlIntoACornerAreStraightened) {
     }
     SkeletonGraph graph = arc_along(line);
     shape_tips(graph, tree, reach, gap);
-    const Point tip = graph.nodes[1].position;
+    const Point tip = graph.place(1);
     EXPECT_GT(tip.x(), 4.7) << angle << " degrees";
     EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.15) << angle << " degrees";
   }
@@ -82,7 +82,7 @@ TEST(Tips, InTheCornerOfAWideEndComeBack) {
   ASSERT_GT(tree.inscribed_radius(line.back()), 0);
   SkeletonGraph graph = arc_along(line);
   shape_tips(graph, tree, reach, gap);
-  const Point tip = graph.nodes[1].position;
+  const Point tip = graph.place(1);
   EXPECT_GT(tip.x(), 4.7);
   EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.3);
 }
@@ -104,12 +104,12 @@ TEST(Tips, InACornerMoveIntoTheMiddle) {
       SkeletonGraph graph = arc_along(line);
       const auto headings = tip_headings(graph, tree);
       ASSERT_EQ(headings.size(), 2U);
-      const double least = 0.95 * tree.inscribed_radius(graph.nodes[1].position);
+      const double least = 0.95 * tree.inscribed_radius(graph.place(1));
       for (int round = 0; round < 30; ++round) {
         centre_tips(graph, tree, headings);
-        ASSERT_GE(tree.inscribed_radius(graph.nodes[1].position), least);
+        ASSERT_GE(tree.inscribed_radius(graph.place(1)), least);
       }
-      const Point tip = graph.nodes[1].position;
+      const Point tip = graph.place(1);
       EXPECT_LT(std::hypot(tip.y(), tip.z()), 0.05) << off << ", thickness " << thickness;
       EXPECT_GT(tip.x(), 5) << off << ", thickness " << thickness;
     }
@@ -121,7 +121,7 @@ TEST(Tips, LookOutward) {
   const SurfaceTree tree(limb(1));
   const SkeletonGraph stick = arc_along(along_x(-5, 5.01, 0.2));
   for (const TipHeading& tip : tip_headings(stick, tree)) {
-    const Point position = stick.nodes[static_cast<std::size_t>(tip.node)].position;
+    const Point position = stick.place(tip.node);
     EXPECT_NEAR(tip.direction.x(), position.x() < 0 ? -1 : 1, 1e-12);
     EXPECT_EQ(tip.radius, tree.inscribed_radius(position));
   }
