@@ -18,7 +18,7 @@
 #include "skeleton/certify/measured_curve.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include "skeleton/homology/homology_classes.hpp"
+#include "skeleton/homology/homology_rank.hpp"
 
 namespace curveskel {
 namespace {

@@ -14,10 +14,10 @@ CurveSkeleton skeleton_of(const PartitionGraph& graph, const Positions& position
   return {middles_of_groups(graph, positions), graph.edges, {}, graph.group_of_vertex};
 }
 
-SkeletonAsContracted skeleton_of_bands(const Surface& surface, const Monitor& monitor) {
-  const LevelSetGraph bands = level_set_graph(surface, monitor);
-  CurveSkeleton skeleton = skeleton_of(bands.graph, bands.surface.positions);
-  const Eigen::VectorXi of_input = skeleton.node_of_vertex(bands.vertex_of_input);
+SkeletonAsContracted skeleton_of_level_sets(const Surface& surface, const Monitor& monitor) {
+  const LevelSetGraph level_sets = level_set_graph(surface, monitor);
+  CurveSkeleton skeleton = skeleton_of(level_sets.graph, level_sets.surface.positions);
+  const Eigen::VectorXi of_input = skeleton.node_of_vertex(level_sets.vertex_of_input);
   skeleton.node_of_vertex = of_input;
   return {std::move(skeleton), true};
 }
@@ -28,7 +28,7 @@ SkeletonAsContracted skeleton_as_contracted(const Surface& surface, const Contra
                                             const SurgeryOptions& options, const Monitor& monitor) {
   if (options.method == SurgeryMethod::cgal) return {cgal_surgery(contraction)};
   const auto graph = surgery(surface, contraction, options, monitor);
-  if (!graph) return skeleton_of_bands(surface, monitor);
+  if (!graph) return skeleton_of_level_sets(surface, monitor);
   return {
       skeleton_of(*graph, contraction.surface.positions(contraction.vertex_of_input, Eigen::all))};
 }

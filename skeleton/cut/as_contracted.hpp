@@ -11,13 +11,13 @@
 namespace curveskel {
 
 struct SkeletonAsContracted {
-  CurveSkeleton skeleton;  ///< `node_of_vertex` by the vertices of `surface`; no radii
-  bool bands = false;      ///< the surgery gave up, see level_set_graph
+  CurveSkeleton skeleton;   ///< `node_of_vertex` by the vertices of `surface`; no radii
+  bool level_sets = false;  ///< the surgery gave up, see level_set_graph
 };
 
 /// Nothing is centred, pruned or kept inside. SurgeryMethod::cgal gives CGAL's graph as it is, with
 /// the cycles that it has; `own` the graph of `surgery`, each node in the mean of its group or
-/// cut curve, or, where the surgery gives up, that of the bands of the surface that is not
+/// cut curve, or, where the surgery gives up, the level-set graph of the surface that is not
 /// contracted. Precondition: `contraction` is of `surface`, one closed component.
 [[nodiscard]] SkeletonAsContracted skeleton_as_contracted(const Surface& surface,
                                                           const Contraction& contraction,

@@ -16,7 +16,7 @@ namespace curveskel {
 namespace {
 
 constexpr int most_halvings = 20;
-constexpr Eigen::Index most_band_vertices = 4000000;  // after subdivision
+constexpr Eigen::Index most_sliced_vertices = 4000000;  // after subdivision
 
 /// Shortest distances along edges.
 std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
@@ -207,11 +207,11 @@ LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
   for (int halvings = 0; halvings <= most_halvings; ++halvings) {
     monitor.report("surgery", halvings / (most_halvings + 1.0));
     const double width = std::ldexp(sliced.first_width, -halvings);
-    while (sliced.surface.positions.rows() <= most_band_vertices &&
+    while (sliced.surface.positions.rows() <= most_sliced_vertices &&
            split_steep(sliced, wanted, width)) {
       monitor.report("surgery", halvings / (most_halvings + 1.0));
     }
-    if (sliced.surface.positions.rows() > most_band_vertices) break;
+    if (sliced.surface.positions.rows() > most_sliced_vertices) break;
     sliced.width = width;
     PartitionGraph graph = cut(sliced, wanted);
     const auto genus = genus_of_groups(sliced.surface, graph);

@@ -7,20 +7,20 @@
 
 namespace curveskel {
 
-/// A surface with the graph of its bands.
+/// A surface with its level-set Reeb graph.
 struct LevelSetGraph {
   Surface surface;                  ///< the input, its edges split where handles are too fine
   Eigen::VectorXi vertex_of_input;  ///< #V of the input: the same vertex in `surface`
   PartitionGraph graph;             ///< of `surface`
 };
 
-/// Cuts the surface where the edge distance d from an extreme vertex passes k w + w/2. Along an
-/// edge d changes by less than w, so no triangle meets three bands, and the connected components of
-/// the bands are pieces that meet along cut curves: a discrete Reeb graph (Reeb 1946). Where a
-/// component has a handle of its own, w is too wide: its edges are split until d changes by less
-/// than w/2 along each, and it alone is cut again, and so on. Precondition: one closed oriented
-/// component. Throws Error(Fault::solver) if a piece keeps a handle after twenty halvings or when
-/// there are four million vertices.
+/// Cuts the surface into slices, where the edge distance d from an extreme vertex passes k w + w/2.
+/// Along an edge d changes by less than w, so no triangle meets three slices, and the connected
+/// components of the slices are pieces that meet along cut curves: a discrete Reeb graph (Reeb
+/// 1946). Where a piece has a handle of its own, w is too wide: the piece's edges are split until d
+/// changes by less than w/2 along each, and that piece alone is cut again, and so on. Precondition:
+/// one closed oriented component. Throws Error(Fault::solver) if a piece keeps a handle after
+/// twenty halvings or when there are four million vertices.
 [[nodiscard]] LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor);
 
 /// Genus of each group's piece of surface, (2 - chi - cut curves) / 2.

@@ -173,7 +173,7 @@ int SurfacePartition::curves_through(const std::vector<int>& triangles, const Cr
 }
 
 int SurfacePartition::genus_of_union(int a, int b) {
-  // Pieces that meet along one arc or cut curve: genera add up.
+  // Pieces that meet along one curve, open or closed: genera add up.
   const int contacts = curves_through(shorter_boundary(a, b), [&](int p, int q) {
     return (p == a && q == b) || (p == b && q == a);
   });

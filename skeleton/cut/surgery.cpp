@@ -61,13 +61,13 @@ struct Candidate {
 /// take the square of their number.
 constexpr std::size_t many_neighbours = 1000;
 
-/// Of a group with many neighbours: what its candidates were last made from.
-struct Hub {
-  double edge_sum = 0;
+/// The sum of the lengths of a group's edges, kept for a while if the group has many neighbours.
+struct EdgeSum {
+  double length = 0;
   std::size_t neighbours = 0;
-  std::size_t changes = 0;  ///< of its neighbours since then
-  /// An eighth of them: the sum is out by about as much, and all candidates in all are made from
-  /// no more than nine times the neighbours that there ever were.
+  std::size_t changes = 0;  ///< of the neighbours since the sum was made
+  /// An eighth of the neighbours: the sum is out by about as much, and all candidates in all are
+  /// made from no more than nine times the neighbours that there ever were.
   [[nodiscard]] bool current() const {
     return neighbours > many_neighbours && 8 * changes < neighbours;
   }
@@ -81,7 +81,7 @@ class Surgeon {
     version_.assign(vertices, 0);
     alive_.assign(vertices, true);
     quadrics_.resize(vertices);
-    hubs_.resize(vertices);
+    edge_sums_.resize(vertices);
     for (int v = 0; v < vertices; ++v) {
       for (const int neighbour : neighbours(v)) {
         const Eigen::Vector3d edge = positions_.row(neighbour) - positions_.row(v);
@@ -116,17 +116,17 @@ class Surgeon {
     return groups_.triple_neighbours(group);
   }
 
-  /// Sum of the lengths of a group's edges; that of a hub is made anew now and then.
+  /// Sum of the lengths of a group's edges, for many neighbours made anew now and then only.
   double edge_sum(int group) {
-    Hub& hub = hubs_[group];
-    ++hub.changes;
-    return hub.current() ? hub.edge_sum : edge_sum(group, neighbours(group));
+    EdgeSum& kept = edge_sums_[group];
+    ++kept.changes;
+    return kept.current() ? kept.length : edge_sum(group, neighbours(group));
   }
 
   double edge_sum(int group, const std::vector<int>& around) {
     double sum = 0;
     for (const int other : around) sum += (positions_.row(other) - positions_.row(group)).norm();
-    hubs_[group] = {sum, around.size(), 0};
+    edge_sums_[group] = {sum, around.size(), 0};
     return sum;
   }
 
@@ -147,8 +147,8 @@ class Surgeon {
   }
 
   void merge(int from, int into) {
-    ++hubs_[into].changes;
-    const bool as_before = hubs_[into].current();
+    ++edge_sums_[into].changes;
+    const bool as_before = edge_sums_[into].current();
     const std::vector<int> gained = as_before ? neighbours(from) : std::vector<int>{};
     groups_.merge(from, into);
     quadrics_[into].add(quadrics_[from]);
@@ -160,7 +160,7 @@ class Surgeon {
     }
     for (const int other : gained) {
       if (other == into) continue;
-      push(into, other, hubs_[into].edge_sum);
+      push(into, other, edge_sums_[into].length);
       push(other, into, edge_sum(other));
     }
   }
@@ -171,7 +171,7 @@ class Surgeon {
   std::vector<int> version_;
   std::vector<char> alive_;
   std::vector<LineQuadric> quadrics_;
-  std::vector<Hub> hubs_;  // per group
+  std::vector<EdgeSum> edge_sums_;  // per group
   std::priority_queue<Candidate> heap_;
 };
 

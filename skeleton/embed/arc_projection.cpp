@@ -9,11 +9,11 @@ namespace curveskel {
 namespace {
 
 /// The place from which a vertex looks for its nearest arc.
-Point seat_of(int v, const Surface& surface, const InscribedBalls& balls) {
+Point starting_place(int v, const WorkingSurface& working) {
   constexpr double touching = 1.2;
-  const Point vertex = surface.positions.row(v);
-  const Point ball = balls.centres.row(v);
-  return (ball - vertex).norm() <= touching * balls.radii[v] ? ball : vertex;
+  const Point vertex = working.place(v);
+  const Point ball = working.balls().centres.row(v);
+  return (ball - vertex).norm() <= touching * working.balls().radii[v] ? ball : vertex;
 }
 
 std::vector<std::vector<int>> arcs_of_groups(const SkeletonGraph& graph, int groups) {
@@ -35,17 +35,17 @@ std::vector<std::vector<int>> arcs_of_groups(const SkeletonGraph& graph, int gro
 
 }  // namespace
 
-std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph, const Surface& surface,
-                                           const InscribedBalls& balls,
+std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph,
+                                           const WorkingSurface& working,
                                            const PartitionGraph& partition) {
   const auto arcs = arcs_of_groups(graph, partition.groups);
   std::vector<std::vector<Point>> lines;
   for (const Arc& arc : graph.arcs) {
     lines.push_back(arc.alive ? graph.polyline(arc) : std::vector<Point>{});
   }
-  std::vector<ArcProjection> projections(idx(surface.positions.rows()));
+  std::vector<ArcProjection> projections(idx(working.vertices()));
   for (int v = 0; v < static_cast<int>(projections.size()); ++v) {
-    const Point from = seat_of(v, surface, balls);
+    const Point from = starting_place(v, working);
     double nearest = std::numeric_limits<double>::infinity();
     for (const int s : arcs[idx(partition.group_of_vertex[v])]) {
       const auto& line = lines[idx(s)];

@@ -18,7 +18,7 @@ namespace {
 CurveSkeleton finished(const SkeletonGraph& graph, const Setting& in) {
   EmbeddedNodes nodes = skeleton_of(graph, in.partition.groups, &in.tree);
   nodes.skeleton.node_of_vertex =
-      nearest_nodes(nodes, in.partition.group_of_vertex, in.balls.centres);
+      nearest_nodes(nodes, in.partition.group_of_vertex, in.working.balls().centres);
   return std::move(nodes.skeleton);
 }
 
@@ -66,14 +66,14 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
                           StepClock& clock, const Monitor& monitor) {
   monitor.report("embed", 0);
   HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface); });
+  const WorkingSurface working(surface, balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   SkeletonGraph graph;
   run_phases(phases_on_working_surface(), graph,
-             {surface, tree, balls, partition, options, tuning, spacing, threads, guard}, clock,
-             monitor);
+             {working, tree, partition, options, tuning, spacing, threads, guard}, clock, monitor);
   const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
   graph.forget_radii();
-  const Setting at_last{surface, *full, balls, partition, options, tuning, spacing, threads, guard};
+  const Setting at_last{working, *full, partition, options, tuning, spacing, threads, guard};
   run_phases(phases_on_full_surface(), graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/advanced/laplacian.hpp>
 #include "skeleton/embed/branches/prune.hpp"
 #include "skeleton/embed/contain/inside.hpp"
 #include "skeleton/homology/reroute.hpp"
@@ -15,14 +14,14 @@ namespace {
 
 /// Each group at the area-weighted mean of its vertices' ball centres, each cut curve at that of
 /// the ends of the edges that it crosses.
-std::vector<Point> positions_from_balls(const Surface& surface, const InscribedBalls& balls,
+std::vector<Point> positions_from_balls(const WorkingSurface& working,
                                         const PartitionGraph& partition) {
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd& areas = working.vertex_areas();
   std::vector<Point> sum(idx(partition.nodes()), Point::Zero());
   std::vector<double> weight(idx(partition.nodes()), 0);
   const auto add = [&](int node, int vertex) {
     const double w = std::max(areas[vertex], std::numeric_limits<double>::min());
-    sum[idx(node)] += w * balls.centres.row(vertex).transpose();
+    sum[idx(node)] += w * working.balls().centres.row(vertex).transpose();
     weight[idx(node)] += w;
   };
   for (int v = 0; v < static_cast<int>(partition.group_of_vertex.size()); ++v) {
@@ -43,17 +42,17 @@ std::vector<Point> positions_from_balls(const Surface& surface, const InscribedB
 SkeletonGraph first_course(const Setting& in) {
   const double limit = prominence_limit(in.options.detail);
   const SkeletonGraph whole =
-      skeleton_graph_of(in.partition, positions_from_balls(in.surface, in.balls, in.partition));
+      skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
   SkeletonGraph graph = whole;
-  prune_blunt(graph, in.surface, in.partition, limit);
+  prune_blunt(graph, in.working, in.partition, limit);
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet
-  const int uncovered = keep_inside(graph, in.surface, in.balls, in.partition, in.tree, anywhere);
+  const int uncovered = keep_inside(graph, in.working, in.partition, in.tree, anywhere);
   if (!in.guard.has_handles()) return graph;
-  if (uncovered == 0 && goes_round_all_handles(graph, in.partition, in.surface)) return graph;
+  if (uncovered == 0 && in.guard.finds_all_handles(graph, in.partition)) return graph;
   graph = whole;
-  reroute_around_handles(graph, in.surface, in.tree, in.balls, in.partition, in.guard);
-  prune_blunt(graph, in.surface, in.partition, limit);
-  keep_inside(graph, in.surface, in.balls, in.partition, in.tree, in.guard);
+  reroute_around_handles(graph, in.working, in.tree, in.partition, in.guard);
+  prune_blunt(graph, in.working, in.partition, limit);
+  keep_inside(graph, in.working, in.partition, in.tree, in.guard);
   in.guard.pull_taut(graph, in.tree);
   return graph;
 }

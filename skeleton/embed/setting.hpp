@@ -2,22 +2,19 @@
 #pragma once
 
 #include <curveskel/advanced/embed.hpp>
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/tuning.hpp"
+#include "skeleton/embed/working_surface.hpp"
 #include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
 
-/// One closed component with D = 1. The balls are its vertices'; the partition is the source of the
-/// graph.
+/// One closed component with D = 1; the partition is the source of the graph.
 struct Setting {
-  const Surface& surface;
+  const WorkingSurface& working;
   const SurfaceTree& tree;
-  const InscribedBalls& balls;
   const PartitionGraph& partition;
   const EmbedOptions& options;
   const EmbedTuning& tuning;

@@ -71,7 +71,7 @@ bool prune(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool stay_inside(SkeletonGraph& graph, const Setting& in) {
-  return keep_inside(graph, in.surface, in.balls, in.partition, in.tree, in.guard) == 0;
+  return keep_inside(graph, in.working, in.partition, in.tree, in.guard) == 0;
 }
 
 /// Takes a change only if it makes something to which a way inside is found.
@@ -85,8 +85,7 @@ bool change_inside(SkeletonGraph& graph, const Setting& in, const Change& change
 
 bool widen_bottlenecks(SkeletonGraph& graph, const Setting& in) {
   return change_inside(graph, in, [&in](SkeletonGraph& changed) {
-    return reroute_bottlenecks(changed, in.surface, in.balls, in.partition, in.tree,
-                               in.tuning.bottleneck);
+    return reroute_bottlenecks(changed, in.working, in.partition, in.tree, in.tuning.bottleneck);
   });
 }
 
@@ -94,8 +93,7 @@ bool grow(SkeletonGraph& graph, const Setting& in) {
   const double limit =
       std::max(in.tuning.growth.least_prominence, prominence_limit(in.options.detail));
   return change_inside(graph, in, [&in, limit](SkeletonGraph& changed) {
-    return grow_branches(changed, in.surface, in.tree, in.balls, in.partition, limit,
-                         in.tuning.growth);
+    return grow_branches(changed, in.working, in.tree, in.partition, limit, in.tuning.growth);
   });
 }
 
@@ -116,9 +114,9 @@ bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
   centring.meet = true;
   centring.tips = true;
   centring.keep_junction = 1;
-  const auto projections = project_on_arcs(graph, in.surface, in.balls, in.partition);
+  const auto projections = project_on_arcs(graph, in.working, in.partition);
   centring.is_own = [&](int triangle, int arc) {
-    const auto corners = in.surface.triangles.row(triangle);
+    const auto corners = in.working.surface().triangles.row(triangle);
     return std::any_of(corners.begin(), corners.end(),
                        [&](int vertex) { return projections[idx(vertex)].arc == arc; });
   };

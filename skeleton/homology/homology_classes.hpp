@@ -1,4 +1,4 @@
-// Do a skeleton's cycles go round the handles?
+// Curves inside a surface that go round the same handles.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,25 +12,8 @@
 
 namespace curveskel {
 
-/// The number of the skeleton's cycles that are independent in the enclosed solid: the rank of its
-/// homology there (coefficients in Z/2). A cycle that goes along a handle and comes back, or lies
-/// in a ball, counts nothing; two that go round the same handle count once. For a skeleton inside
-/// it is at most the surface's genus.
-///
-/// Loops on the surface generate the homology of the outside, and linking numbers pair that
-/// perfectly with the homology inside (Alexander duality). So it is the rank of the matrix of the
-/// linking numbers of cycles with loops, counted as crossings in a projection.
-/// Precondition: surface closed, no position NaN or infinite. O(#F) and, with g handles and loops
-/// of n edges, O(g n + (#N + cycles g) g / 64).
-[[nodiscard]] int homology_rank(const Surface& surface, const CurveSkeleton& skeleton);
-
 /// A row of numbers in Z/2, 64 to a word.
 using BitRow = std::vector<std::uint64_t>;
-
-/// The linking numbers of closed polygons (the last point is joined to the first) with the loops
-/// that generate the homology outside: a row for each, zero where the polygon goes round no handle.
-[[nodiscard]] std::vector<BitRow> linking_numbers(
-    const Surface& surface, const std::vector<std::vector<Eigen::Vector3d>>& polygons);
 
 /// Rows that were added, each reduced by those before it, to tell independent rows.
 class IndependentRows {
@@ -57,6 +40,15 @@ class HomologyClasses {
   /// no handle. Precondition: neither is empty. O(points), with short edges.
   [[nodiscard]] bool homologous(const std::vector<Eigen::Vector3d>& there,
                                 const std::vector<Eigen::Vector3d>& back);
+
+  /// The linking numbers of closed polygons (the last point is joined to the first) with the loops
+  /// that generate the homology outside: a row for each, zero where the polygon goes round no
+  /// handle.
+  [[nodiscard]] std::vector<BitRow> linking_numbers(
+      const std::vector<std::vector<Eigen::Vector3d>>& polygons) const;
+
+  /// See homology_rank. Precondition: the surface is one component.
+  [[nodiscard]] int rank(const CurveSkeleton& skeleton) const;
 
  private:
   struct Implementation;

@@ -208,10 +208,10 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
   return restored;
 }
 
-bool goes_round_all_handles(const SkeletonGraph& graph, const PartitionGraph& partition,
-                            const Surface& surface) {
+bool HomologyGuard::finds_all_handles(const SkeletonGraph& graph,
+                                      const PartitionGraph& partition) const {
   const CurveSkeleton skeleton = skeleton_of(graph, partition.groups).skeleton;
-  return homology_rank(surface, skeleton) == graph_topology(skeleton).cycle_rank;
+  return classes_->rank(skeleton) == graph_topology(skeleton).cycle_rank;
 }
 
 }  // namespace curveskel

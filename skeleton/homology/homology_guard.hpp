@@ -33,6 +33,16 @@ class HomologyGuard {
     return classes_->homologous(there, back);
   }
 
+  /// A row for each closed polygon, see HomologyClasses. Precondition: the surface has handles.
+  [[nodiscard]] std::vector<BitRow> linking_numbers(
+      const std::vector<std::vector<Point>>& polygons) const {
+    return classes_->linking_numbers(polygons);
+  }
+
+  /// True if each handle has a cycle of the graph. Precondition: the surface has handles.
+  [[nodiscard]] bool finds_all_handles(const SkeletonGraph& graph,
+                                       const PartitionGraph& partition) const;
+
   /// Pulls the arcs on cycles taut: of each way the chord stays, as far as it can be drawn round
   /// the same handles with half of the clearance at its ends or more.
   void pull_taut(SkeletonGraph& graph, const SurfaceTree& tree);
@@ -53,9 +63,5 @@ class HomologyGuard {
  private:
   std::optional<HomologyClasses> classes_;
 };
-
-/// True if each handle has a cycle of its own.
-[[nodiscard]] bool goes_round_all_handles(const SkeletonGraph& graph,
-                                          const PartitionGraph& partition, const Surface& surface);
 
 }  // namespace curveskel

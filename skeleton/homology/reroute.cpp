@@ -23,9 +23,8 @@ namespace {
 /// different sides of a tunnel.
 class InnerCurves {
  public:
-  InnerCurves(const Surface& surface, const SurfaceTree& tree, const InscribedBalls& balls,
-              HomologyGuard& guard)
-      : below_(surface), tree_(tree), balls_(balls), guard_(guard) {}
+  InnerCurves(const WorkingSurface& working, const SurfaceTree& tree, HomologyGuard& guard)
+      : below_(working), tree_(tree), balls_(working.balls()), guard_(guard) {}
 
   [[nodiscard]] const BelowSurface& below() const { return below_; }
 
@@ -56,13 +55,13 @@ class InnerCurves {
 
 class Threading {
  public:
-  Threading(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-            const InscribedBalls& balls, const PartitionGraph& partition, HomologyGuard& guard)
+  Threading(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+            const PartitionGraph& partition, HomologyGuard& guard)
       : graph_(graph),
-        surface_(surface),
         partition_(partition),
-        curves_(surface, tree, balls, guard),
-        chains_(surface, balls, partition),
+        guard_(guard),
+        curves_(working, tree, guard),
+        chains_(working, partition),
         middle_(graph.nodes.size(), -1) {}
 
   void run() {
@@ -162,7 +161,7 @@ class Threading {
     for (const int s : arcs) {
       rings.push_back(curves_.below().round(edges_across(graph_.arcs[idx(s)].pieces.front())));
     }
-    const auto rows = linking_numbers(surface_, rings);
+    const auto rows = guard_.linking_numbers(rings);
     const auto vanishes = [&](std::size_t i) {
       return std::all_of(rows[i].begin(), rows[i].end(), [](auto word) { return word == 0; });
     };
@@ -229,8 +228,8 @@ class Threading {
   }
 
   SkeletonGraph& graph_;
-  const Surface& surface_;
   const PartitionGraph& partition_;
+  const HomologyGuard& guard_;
   InnerCurves curves_;
   BallChains chains_;
   std::vector<int> middle_;  // per node
@@ -238,10 +237,10 @@ class Threading {
 
 }  // namespace
 
-void reroute_around_handles(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                            const InscribedBalls& balls, const PartitionGraph& partition,
+void reroute_around_handles(SkeletonGraph& graph, const WorkingSurface& working,
+                            const SurfaceTree& tree, const PartitionGraph& partition,
                             HomologyGuard& guard) {
-  Threading(graph, surface, tree, balls, partition, guard).run();
+  Threading(graph, working, tree, partition, guard).run();
 }
 
 }  // namespace curveskel

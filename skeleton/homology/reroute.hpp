@@ -1,10 +1,10 @@
 // Cycles that go round the handles, where straight lines between a partition's nodes do not.
 #pragma once
 
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/working_surface.hpp"
 #include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
@@ -18,8 +18,8 @@ namespace curveskel {
 /// inside a basis becomes rings; the other cycles are dual to discs, so all together are as many
 /// independent cycles inside as the surface has handles. Precondition: the graph is as
 /// `skeleton_graph_of` made it.
-void reroute_around_handles(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                            const InscribedBalls& balls, const PartitionGraph& partition,
+void reroute_around_handles(SkeletonGraph& graph, const WorkingSurface& working,
+                            const SurfaceTree& tree, const PartitionGraph& partition,
                             HomologyGuard& guard);
 
 }  // namespace curveskel

@@ -8,8 +8,8 @@
 namespace curveskel {
 
 /// Values of a DataArray: as text ("ascii"), base64 ("binary") or in the file's AppendedData (raw
-/// or base64); compressed with zlib or not; either byte order; integers and floating point
-/// homologous (integers past 2^53 lose digits). Throws Error(Fault::input) with the line. O(bytes).
+/// or base64); compressed with zlib or not; either byte order; integers as well as floating point
+/// (integers past 2^53 lose digits). Throws Error(Fault::input) with the line. O(bytes).
 [[nodiscard]] std::vector<double> vtk_values(const FileBytes& file, const XmlElement& vtk_file,
                                              const XmlElement& data_array);
 

@@ -181,18 +181,18 @@ class Pipeline {
 
   Cut cut_by_level_sets(const Coarsened& working, const Shared<WorkingBalls>& balls,
                         const Monitor& monitor) {
-    const Shared<Bands> bands = stage_("surgery", kept_.bands, {balls}, [&] {
-      Bands made;
+    const Shared<LevelSets> level_sets = stage_("surgery", kept_.level_sets, {balls}, [&] {
+      LevelSets made;
       made.cut = level_set_graph(working.surface, monitor);
       made.vertex_of_input = made.cut.vertex_of_input(working.vertex_of_input);
       made.balls = inscribed_balls(made.cut.surface, balls->near, options_.threads);
       if (monitor.curve) show_curve(made.cut.graph, made.cut.surface.positions, monitor);
       return made;
     });
-    return {{bands, &bands->cut.graph},
-            {bands, &bands->cut.surface},
-            {bands, &bands->balls},
-            {bands, &bands->vertex_of_input}};
+    return {{level_sets, &level_sets->cut.graph},
+            {level_sets, &level_sets->cut.surface},
+            {level_sets, &level_sets->balls},
+            {level_sets, &level_sets->vertex_of_input}};
   }
 
   /// Without embedding: one contraction, and balls only where its flow is drawn to them.
@@ -217,7 +217,7 @@ class Pipeline {
         });
     record.steps = contracted->steps;
     record.stop = contracted->stop;
-    if (operated->bands) monitor.say("the surgery gave up, so level sets cut the surface");
+    if (operated->level_sets) monitor.say("the surgery gave up, so level sets cut the surface");
     return stage_("embed", kept.skeleton, {operated}, [&] {
       CurveSkeleton skeleton = operated->skeleton;
       skeleton.radii = inscribed_radii(skeleton.nodes, *fine_.get());

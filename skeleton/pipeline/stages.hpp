@@ -67,7 +67,7 @@ struct WorkingBalls {
 };
 
 /// The level-set Reeb graph, made if the surgery gave up.
-struct Bands {
+struct LevelSets {
   LevelSetGraph cut;
   Eigen::VectorXi vertex_of_input;  ///< canonical vertex -> vertex of the cut surface
   InscribedBalls balls;
@@ -94,7 +94,7 @@ struct ComponentStages {
   Kept<std::tuple<Shared<Surface>, WorkingSize>, Coarsened> working;
   Kept<std::tuple<Shared<Coarsened>>, WorkingBalls> balls;
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
-  Kept<std::tuple<Shared<WorkingBalls>>, Bands> bands;
+  Kept<std::tuple<Shared<WorkingBalls>>, LevelSets> level_sets;
   Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions>, CurveSkeleton> skeleton;
   StagesAsContracted as_contracted;
 };

@@ -1,4 +1,5 @@
 #include "skeleton/homology/homology_classes.hpp"
+#include "skeleton/homology/homology_rank.hpp"
 
 #include <gtest/gtest.h>
 

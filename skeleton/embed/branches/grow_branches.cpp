@@ -24,22 +24,21 @@ struct Apex {
 
 class Growth {
  public:
-  Growth(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-         const InscribedBalls& balls, const PartitionGraph& partition, const GrowthTuning& tuning)
+  Growth(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+         const PartitionGraph& partition, const GrowthTuning& tuning)
       : graph_(graph),
-        surface_(surface),
+        working_(working),
         tree_(tree),
-        balls_(balls),
         partition_(partition),
         tuning_(tuning),
-        sweep_(surface),
-        projections_(idx(surface.positions.rows())),
+        sweep_(working),
+        projections_(idx(working.vertices())),
         grown_(projections_.size(), 0) {}
 
   int run(double limit) {
     int count = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
-      projections_ = project_on_arcs(graph_, surface_, balls_, partition_);
+      projections_ = project_on_arcs(graph_, working_, partition_);
       const int before = count;
       touched_.clear();
       for (const Apex& apex : apices(limit)) count += grow(apex) ? 1 : 0;
@@ -49,7 +48,7 @@ class Growth {
   }
 
  private:
-  [[nodiscard]] Point place(int v) const { return surface_.positions.row(v); }
+  [[nodiscard]] Point place(int v) const { return working_.place(v); }
   [[nodiscard]] double height(int v) const {
     return (place(v) - projections_[idx(v)].place).norm();
   }
@@ -83,7 +82,7 @@ class Growth {
   /// Vertices from which no edge leads farther away from the graph.
   [[nodiscard]] std::vector<int> farthest_around() const {
     std::vector<char> lower(projections_.size(), 0);
-    for (const auto& t : surface_.triangles.rowwise()) {
+    for (const auto& t : working_.surface().triangles.rowwise()) {
       for (int k = 0; k < 3; ++k) {
         const int a = t(k);
         const int b = t((k + 1) % 3);
@@ -198,9 +197,8 @@ class Growth {
   }
 
   SkeletonGraph& graph_;
-  const Surface& surface_;
+  const WorkingSurface& working_;
   const SurfaceTree& tree_;
-  const InscribedBalls& balls_;
   const PartitionGraph& partition_;
   const GrowthTuning& tuning_;
   ProminenceSweep sweep_;
@@ -211,10 +209,9 @@ class Growth {
 
 }  // namespace
 
-int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                  const InscribedBalls& balls, const PartitionGraph& partition, double limit,
-                  const GrowthTuning& tuning) {
-  return Growth(graph, surface, tree, balls, partition, tuning).run(limit);
+int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning) {
+  return Growth(graph, working, tree, partition, tuning).run(limit);
 }
 
 }  // namespace curveskel

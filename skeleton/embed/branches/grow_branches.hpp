@@ -1,12 +1,11 @@
 // Branches that the surgery did not make, and limbs that it left short.
 #pragma once
 
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
 #include "skeleton/embed/tuning.hpp"
+#include "skeleton/embed/working_surface.hpp"
 
 namespace curveskel {
 
@@ -19,8 +18,7 @@ namespace curveskel {
 /// is measured may be noise. It ends where the part's cap has its middle, not in the corner that
 /// the apex of a blunt end is. The new points may lie outside.
 /// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
-int grow_branches(SkeletonGraph& graph, const Surface& surface, const SurfaceTree& tree,
-                  const InscribedBalls& balls, const PartitionGraph& partition, double limit,
-                  const GrowthTuning& tuning = {});
+int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning = {});
 
 }  // namespace curveskel

@@ -1,6 +1,7 @@
 #include "skeleton/embed/branches/prominence.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -21,23 +22,17 @@ Vector3d place(const Surface& surface, int vertex) { return surface.positions.ro
 
 }  // namespace
 
-ProminenceSweep::ProminenceSweep(const Surface& surface)
-    : surface_(surface),
-      first_triangle_(idx(surface.positions.rows() + 1), 0),
-      triangles_(idx(3 * surface.triangles.rows())),
-      depth_(idx(surface.positions.rows()), -1),
-      taken_(idx(surface.positions.rows()), 0),
-      taken_corners_(idx(surface.triangles.rows()), 0) {
-  for (const auto& triangle : surface.triangles.rowwise()) {
-    for (const int v : triangle) ++first_triangle_[idx(v + 1)];
-  }
-  for (std::size_t v = 1; v < first_triangle_.size(); ++v) {
-    first_triangle_[v] += first_triangle_[v - 1];
-  }
-  std::vector<int> next(first_triangle_.begin(), first_triangle_.end() - 1);
-  for (int t = 0; t < surface.triangles.rows(); ++t) {
-    for (const int v : surface.triangles.row(t)) triangles_[idx(next[idx(v)]++)] = t;
-  }
+ProminenceSweep::ProminenceSweep(const WorkingSurface& working)
+    : surface_(working.surface()),
+      triangles_around_(working.triangles_around()),
+      depth_(idx(surface_.positions.rows()), -1),
+      taken_(idx(surface_.positions.rows()), 0),
+      taken_corners_(idx(surface_.triangles.rows()), 0) {}
+
+std::span<const std::int32_t> ProminenceSweep::around(int vertex) const {
+  const auto first = idx(triangles_around_.offsets[idx(vertex)]);
+  const auto end = idx(triangles_around_.offsets[idx(vertex) + 1]);
+  return std::span(triangles_around_.values).subspan(first, end - first);
 }
 
 Protrusion ProminenceSweep::operator()(const Vector3d& base, int apex,
@@ -62,8 +57,8 @@ Protrusion ProminenceSweep::operator()(const Vector3d& base, int apex,
       shore.pop();
       own = is_own(v);
       take(v);
-      for (int i = first_triangle_[idx(v)]; i < first_triangle_[idx(v + 1)]; ++i) {
-        for (const int other : surface_.triangles.row(triangles_[idx(i)])) see(other);
+      for (const std::int32_t t : around(v)) {
+        for (const int other : surface_.triangles.row(t)) see(other);
       }
     }
     if (own && sphere >= first_sphere && part_.size() >= least_vertices) {
@@ -81,8 +76,7 @@ Protrusion ProminenceSweep::operator()(const Vector3d& base, int apex,
 void ProminenceSweep::take(int vertex) {
   taken_[idx(vertex)] = 1;
   part_.push_back(vertex);
-  for (int i = first_triangle_[idx(vertex)]; i < first_triangle_[idx(vertex + 1)]; ++i) {
-    const int t = triangles_[idx(i)];
+  for (const std::int32_t t : around(vertex)) {
     if (taken_corners_[idx(t)]++ == 0) touched_.push_back(t);
   }
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
-#include <curveskel/surface.hpp>
+#include "skeleton/embed/working_surface.hpp"
 
 namespace curveskel {
 
@@ -17,10 +19,10 @@ struct Protrusion {
   Eigen::Vector3d cap_centre = Eigen::Vector3d::Zero();  ///< by area
 };
 
-/// Sweeps the surface from a apex towards a base. Keeps its memory from sweep to sweep.
+/// Sweeps the surface from an apex towards a base. Keeps its memory from sweep to sweep.
 class ProminenceSweep {
  public:
-  explicit ProminenceSweep(const Surface& surface);  ///< kept by reference
+  explicit ProminenceSweep(const WorkingSurface& working);  ///< kept by reference
 
   /// Spheres about `base` cut off what lies farther out, together with the vertex `apex`. The
   /// prominence is the largest height of such a part, from the middle of its rim, over the mean
@@ -38,14 +40,14 @@ class ProminenceSweep {
     double radius = 0;  ///< mean distance from the centre, by length
   };
   void take(int vertex);
+  [[nodiscard]] std::span<const std::int32_t> around(int vertex) const;
   [[nodiscard]] Rim rim_at(double depth) const;
   [[nodiscard]] Protrusion protrusion_at(double depth) const;
   [[nodiscard]] Eigen::Vector3d cap_centre(const Protrusion& part) const;
   void forget();
 
   const Surface& surface_;
-  std::vector<int> first_triangle_;  // per vertex and one more, into triangles_
-  std::vector<int> triangles_;       // around each vertex
+  const Buckets<std::int32_t>& triangles_around_;
   std::vector<double> depth_;        // per vertex, below the apex's sphere; < 0 = not seen
   std::vector<char> taken_;          // per vertex
   std::vector<char> taken_corners_;  // per triangle

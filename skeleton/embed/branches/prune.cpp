@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/advanced/laplacian.hpp>
 #include "skeleton/embed/branches/prominence.hpp"
 
 namespace curveskel {
@@ -64,13 +63,13 @@ bool prune_below(SkeletonGraph& graph, double limit, const Measure& measure) {
 
 }  // namespace
 
-void prune_blunt(SkeletonGraph& graph, const Surface& surface, const PartitionGraph& partition,
-                 double limit) {
+void prune_blunt(SkeletonGraph& graph, const WorkingSurface& working,
+                 const PartitionGraph& partition, double limit) {
   std::vector<std::vector<int>> vertices(idx(partition.groups));
   for (int v = 0; v < static_cast<int>(partition.group_of_vertex.size()); ++v) {
     vertices[idx(partition.group_of_vertex[v])].push_back(v);
   }
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd& areas = working.vertex_areas();
   const double all = areas.sum();
   const auto share_of_area = [&](const std::vector<int>& nodes) {
     double sum = 0;
@@ -80,12 +79,12 @@ void prune_blunt(SkeletonGraph& graph, const Surface& surface, const PartitionGr
     return sum / all;
   };
   std::vector<char> is_own(idx(partition.nodes()));
-  ProminenceSweep prominence(surface);
+  ProminenceSweep prominence(working);
   prune_below(graph, limit, [&](int s) {
     const Arc& arc = graph.arcs[idx(s)];
     const Node& base = graph.nodes[idx(base_of(graph, arc))];
     const auto own = nodes_of(graph, arc);
-    const int apex = farthest(surface, base.point.place(), vertices, own);
+    const int apex = farthest(working.surface(), base.point.place(), vertices, own);
     if (apex < 0) return 0.0;
     for (const std::vector<int>* nodes : {&own, &base.pieces}) {
       for (const int node : *nodes) is_own[idx(node)] = 1;

@@ -28,17 +28,15 @@ std::vector<int> groups_along(const SkeletonGraph& graph, const Arc& arc,
   return groups_among(std::move(nodes), partition);
 }
 
-BallChains::BallChains(const Surface& surface, const InscribedBalls& balls,
-                       const PartitionGraph& partition)
-    : surface_(surface), balls_(balls), partition_(partition) {}
+BallChains::BallChains(const WorkingSurface& working, const PartitionGraph& partition)
+    : working_(working), balls_(working.balls()), partition_(partition) {}
 
 void BallChains::prepare() {
-  if (neighbours_.nodes() > 0) return;
-  neighbours_ = graph_of(surface_.positions.rows(), index_edges(surface_.triangles).edges);
-  paths_ = ShortestPaths(surface_.positions.rows());
+  if (!vertices_.empty()) return;
+  paths_ = ShortestPaths(working_.vertices());
   vertices_.resize(idx(partition_.groups));
   allowed_.assign(vertices_.size(), 0);
-  for (int v = 0; v < neighbours_.nodes(); ++v) {
+  for (int v = 0; v < working_.vertices(); ++v) {
     if (balls_.radii[v] > least_radius) vertices_[idx(partition_.group_of_vertex[v])].push_back(v);
   }
 }
@@ -95,7 +93,7 @@ Point BallChains::nearest_centre(const Point& p, const std::vector<int>& groups)
 /// From one vertex through the groups until the other is reached, or all are.
 void BallChains::search(int source, int target, const std::vector<int>& groups) {
   for (const int group : groups) allowed_[idx(group)] = 1;
-  paths_.search(neighbours_, source, target, [&](int v, int next, int /*edge*/) {
+  paths_.search(working_.neighbours(), source, target, [&](int v, int next, int /*edge*/) {
     if (!may_pass(next) || is_avoided(v, next)) return ShortestPaths::unreachable;
     const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
     return step / std::min(balls_.radii[v], balls_.radii[next]);

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <curveskel/advanced/graph.hpp>
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/working_surface.hpp"
 
 namespace curveskel {
 
@@ -30,7 +29,7 @@ inline constexpr double least_radius = 1e-5;
 class BallChains {
  public:
   /// Kept by reference.
-  BallChains(const Surface& surface, const InscribedBalls& balls, const PartitionGraph& partition);
+  BallChains(const WorkingSurface& working, const PartitionGraph& partition);
 
   /// From the vertex whose ball holds p best to that of q, through vertices of the given groups;
   /// empty if there is no way.
@@ -67,10 +66,9 @@ class BallChains {
   template <typename Value>
   [[nodiscard]] int least_of(const std::vector<int>& groups, const Value& value) const;
 
-  const Surface& surface_;
+  const WorkingSurface& working_;
   const InscribedBalls& balls_;
   const PartitionGraph& partition_;
-  Graph neighbours_;                        // of the vertices along edges
   std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
   std::set<std::pair<int, int>> avoided_;   // lesser vertex first
   std::vector<char> allowed_;               // per group, while a search runs

@@ -7,15 +7,8 @@
 
 namespace curveskel {
 
-BelowSurface::BelowSurface(const Surface& surface)
-    : surface_(surface),
-      half_(
-          pair_half_edges(surface.triangles, static_cast<std::int32_t>(surface.positions.rows()))),
-      out_(idx(surface.positions.rows()), -1) {
-  for (auto h = static_cast<std::int32_t>(half_.twin.size()) - 1; h >= 0; --h) {
-    out_[idx(origin(h))] = h;
-  }
-}
+BelowSurface::BelowSurface(const WorkingSurface& working)
+    : surface_(working.surface()), half_(working.half_edges()), out_(working.leaving()) {}
 
 std::vector<Point> BelowSurface::round(const std::vector<std::array<int, 2>>& edges) const {
   std::vector<Point> points;

@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
-#include "surface/mesh/half_edges.hpp"
+#include "skeleton/embed/working_surface.hpp"
 
 namespace curveskel {
 
@@ -16,7 +15,7 @@ namespace curveskel {
 /// meets itself, or comes as near to itself as that. Precondition: closed, oriented, D = 1.
 class BelowSurface {
  public:
-  explicit BelowSurface(const Surface& surface);  ///< kept by reference
+  explicit BelowSurface(const WorkingSurface& working);  ///< kept by reference
 
   /// Across edges, given by their ends, of which each shares a triangle with the next, the last one
   /// with the first.
@@ -44,8 +43,8 @@ class BelowSurface {
   [[nodiscard]] Point below_edge(std::int32_t h) const;
 
   const Surface& surface_;
-  HalfEdges half_;
-  std::vector<std::int32_t> out_;  // per vertex, one half-edge that leaves it
+  const HalfEdges& half_;
+  const std::vector<std::int32_t>& out_;  // per vertex, one half-edge that leaves it
 };
 
 }  // namespace curveskel

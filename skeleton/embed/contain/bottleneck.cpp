@@ -97,14 +97,13 @@ struct Gain {
 
 class Rerouting {
  public:
-  Rerouting(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
-            const PartitionGraph& partition, const SurfaceTree& tree,
-            const BottleneckTuning& tuning)
+  Rerouting(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
+            const SurfaceTree& tree, const BottleneckTuning& tuning)
       : graph_(graph),
         partition_(partition),
         tree_(tree),
         tuning_(tuning),
-        chains_(surface, balls, partition) {}
+        chains_(working, partition) {}
 
   int run() {
     int count = 0;
@@ -169,10 +168,10 @@ class Rerouting {
 
 }  // namespace
 
-int reroute_bottlenecks(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+int reroute_bottlenecks(SkeletonGraph& graph, const WorkingSurface& working,
                         const PartitionGraph& partition, const SurfaceTree& tree,
                         const BottleneckTuning& tuning) {
-  return Rerouting(graph, surface, balls, partition, tree, tuning).run();
+  return Rerouting(graph, working, partition, tree, tuning).run();
 }
 
 }  // namespace curveskel

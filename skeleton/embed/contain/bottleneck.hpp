@@ -1,12 +1,11 @@
 // Curves that do not squeeze past a hollow where there is more room on its other side.
 #pragma once
 
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
 #include "skeleton/embed/tuning.hpp"
+#include "skeleton/embed/working_surface.hpp"
 
 namespace curveskel {
 
@@ -16,7 +15,7 @@ namespace curveskel {
 /// of the cheek, beside a hollow mouth. At least a third of the arc's length stays. The new
 /// points may lie outside. Returns the number of ways taken. D = 1. O(n log n) where such a place
 /// is.
-int reroute_bottlenecks(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+int reroute_bottlenecks(SkeletonGraph& graph, const WorkingSurface& working,
                         const PartitionGraph& partition, const SurfaceTree& tree,
                         const BottleneckTuning& tuning = {});
 

@@ -81,15 +81,15 @@ std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const Sur
 
 class Keeper {
  public:
-  Keeper(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
-         const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles)
+  Keeper(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
+         const SurfaceTree& tree, HomologyGuard& handles)
       : graph_(graph),
-        surface_(surface),
-        balls_(balls),
+        working_(working),
+        balls_(working.balls()),
         partition_(partition),
         tree_(tree),
         handles_(handles),
-        chains_(surface, balls, partition) {}
+        chains_(working, partition) {}
 
   int run() {
     for (Node& node : graph_.nodes) {
@@ -181,7 +181,7 @@ class Keeper {
   /// A point of the vertex' ball close to the vertex.
   Point under(int vertex) const {
     constexpr double share = 0.02;  // of the radius
-    const Point top = surface_.positions.row(vertex);
+    const Point top = working_.place(vertex);
     return top + share * (Point(balls_.centres.row(vertex)) - top);
   }
 
@@ -193,7 +193,7 @@ class Keeper {
   /// From below a vertex to where its steps begin, by the first of its triangles whose corner there
   /// is seen, and from that one round the vertex. Empty if none is.
   std::vector<Point> way_down(int vertex) {
-    const Point top = surface_.positions.row(vertex);
+    const Point top = working_.place(vertex);
     const Point start = under(vertex);
     const auto around = below().around(vertex);
     for (std::size_t k = 0; k < around.size(); k += 2) {
@@ -305,12 +305,12 @@ class Keeper {
 
   /// Made when first asked for, as there is mostly another way.
   const BelowSurface& below() {
-    if (!below_) below_.emplace(surface_);
+    if (!below_) below_.emplace(working_);
     return *below_;
   }
 
   SkeletonGraph& graph_;
-  const Surface& surface_;
+  const WorkingSurface& working_;
   const InscribedBalls& balls_;
   const PartitionGraph& partition_;
   const SurfaceTree& tree_;
@@ -323,9 +323,9 @@ class Keeper {
 
 }  // namespace
 
-int keep_inside(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles) {
-  return Keeper(graph, surface, balls, partition, tree, handles).run();
+  return Keeper(graph, working, partition, tree, handles).run();
 }
 
 }  // namespace curveskel

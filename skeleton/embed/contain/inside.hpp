@@ -1,11 +1,10 @@
 // A skeleton that never leaves its surface.
 #pragma once
 
-#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/working_surface.hpp"
 #include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
@@ -20,7 +19,7 @@ namespace curveskel {
 /// that meets no triangle counts as covered, too.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
 /// edges that are still not covered. Precondition: D = 1.
-int keep_inside(SkeletonGraph& graph, const Surface& surface, const InscribedBalls& balls,
+int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles);
 
 }  // namespace curveskel

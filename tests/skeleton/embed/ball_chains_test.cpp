@@ -37,7 +37,8 @@ class BallChainsOfATube : public testing::Test {
   const SurfaceTree tree_{surface_};
   const InscribedBalls balls_ = inscribed_balls(surface_, tree_, 1);
   PartitionGraph graph_;
-  BallChains chains_{surface_, balls_, graph_};
+  WorkingSurface working_{surface_, balls_};
+  BallChains chains_{working_, graph_};
   int first_ = 0;
   int last_ = 0;
 };

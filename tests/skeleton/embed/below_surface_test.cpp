@@ -32,7 +32,9 @@ TEST(BelowSurface, StepsLieInsideAndMeetNoSurface) {
   for (const auto& [name, surface] : surfaces()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
-    const BelowSurface below(surface);
+    const InscribedBalls none;
+    const WorkingSurface working(surface, none);
+    const BelowSurface below(working);
     for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 3) {
       const auto way = below.step(surface.triangles(t, 0), surface.triangles(t, 1));
       for (std::size_t i = 0; i < way.size(); ++i) {
@@ -45,7 +47,9 @@ TEST(BelowSurface, StepsLieInsideAndMeetNoSurface) {
 
 TEST(BelowSurface, StepsJoin) {
   for (const auto& [name, surface] : surfaces()) {
-    const BelowSurface below(surface);
+    const InscribedBalls none;
+    const WorkingSurface working(surface, none);
+    const BelowSurface below(working);
     for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 5) {
       const auto first = below.step(surface.triangles(t, 0), surface.triangles(t, 1));
       const auto second = below.step(surface.triangles(t, 1), surface.triangles(t, 2));
@@ -58,7 +62,9 @@ TEST(BelowSurface, RoundAVertexLiesInsideAndBeginsWhereItsStepsDo) {
   for (const auto& [name, surface] : surfaces()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
-    const BelowSurface below(surface);
+    const InscribedBalls none;
+    const WorkingSurface working(surface, none);
+    const BelowSurface below(working);
     for (Eigen::Index t = 0; t < surface.triangles.rows(); t += 5) {
       const int vertex = surface.triangles(t, 0);
       const auto around = below.around(vertex);

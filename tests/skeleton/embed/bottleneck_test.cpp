@@ -52,7 +52,8 @@ int taken(SkeletonGraph& graph, const Surface& surface) {
   PartitionGraph partition;
   partition.groups = 1;
   partition.group_of_vertex = Eigen::VectorXi::Zero(surface.positions.rows());
-  return reroute_bottlenecks(graph, surface, inscribed_balls(surface, tree, 1), partition, tree);
+  const InscribedBalls balls = inscribed_balls(surface, tree, 1);
+  return reroute_bottlenecks(graph, {surface, balls}, partition, tree);
 }
 
 TEST(WiderWays, LeadPastAHollowWhereThereIsRoom) {

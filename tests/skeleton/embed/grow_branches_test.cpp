@@ -27,7 +27,8 @@ int grown(SkeletonGraph& graph, const Surface& surface, double limit = 1.15) {
   PartitionGraph partition;
   partition.groups = 1;
   partition.group_of_vertex = Eigen::VectorXi::Zero(surface.positions.rows());
-  return grow_branches(graph, surface, tree, inscribed_balls(surface, tree, 1), partition, limit);
+  const InscribedBalls balls = inscribed_balls(surface, tree, 1);
+  return grow_branches(graph, {surface, balls}, tree, partition, limit);
 }
 
 int hubs_of_degree(const SkeletonGraph& graph, int degree) {
