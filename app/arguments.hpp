@@ -1,4 +1,4 @@
-// Arguments of verbs, declared so that all verbs behave homologous.
+// Arguments of verbs, declared so that all verbs behave the same way.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -166,7 +166,8 @@ Json to_json(const Try& one, bool with_times) {
 Json to_json(const StageTime& time) {
   Json json = {{"stage", time.stage}, {"seconds", time.seconds}};
   for (const StepTime& step : time.steps) {
-    json["steps"].push_back({{"step", step.step}, {"seconds", step.seconds}});
+    json["steps"].push_back(
+        {{"step", step.step}, {"seconds", step.seconds}, {"outside", step.outside}});
   }
   return json;
 }

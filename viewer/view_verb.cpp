@@ -20,7 +20,7 @@ namespace {
 constexpr int largest_picture = 16384;
 
 constexpr NameTable<SkeletonFormat, 1> picture_formats{{
-    {SkeletonFormat::png, "png", "Portable SkeletonGraph Graphics"},
+    {SkeletonFormat::png, "png", "Portable Network Graphics"},
 }};
 
 std::string set_size(ViewOptions& options, const std::string& text) {

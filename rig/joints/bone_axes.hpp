@@ -14,7 +14,7 @@ namespace curveskel {
 /// longest; of equals the first). A joint without a side (".L", ".R", see `name_sides`) points to
 /// children without one, else to the middle of a pair: a chest to the neck, not to an arm. Its
 /// parent's axes, turned by the least angle, so that limbs that mirror each other are turned
-/// homologous. O(joints), and of a joint's children those of the left times those of the right.
+/// alike. O(joints), and of a joint's children those of the left times those of the right.
 [[nodiscard]] std::vector<Eigen::Quaterniond> bone_axes(const Rig& rig);
 
 }  // namespace curveskel

@@ -226,7 +226,7 @@ std::optional<PartitionGraph> surgery(const Surface& surface, const Contraction&
   surgeon.run(monitor);
   if (surgeon.groups().triples() > 0) return std::nullopt;
 
-  // Collapses under the link condition keep cut curves circles, so the groups may be read off the
+  // Collapses under the link condition keep cut curves closed, so the groups may be read off the
   // surface before its contraction.
   Eigen::VectorXi group_of_vertex(surface.positions.rows());
   for (Eigen::Index v = 0; v < group_of_vertex.size(); ++v) {

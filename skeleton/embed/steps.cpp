@@ -218,6 +218,19 @@ constexpr std::array settling{
 };
 constexpr std::array full_phases{EmbedPhase{settling, true, 0.9}};
 
+/// The radii stay with the points, so that the next step need not ask.
+int points_outside(const SkeletonGraph& graph, const SurfaceTree& tree) {
+  int count = 0;
+  const auto add = [&](const CurvePoint& point) { count += point.radius(tree) < 0 ? 1 : 0; };
+  for (const Node& node : graph.nodes) {
+    if (node.alive) add(node.point);
+  }
+  for (const Arc& arc : graph.arcs) {
+    if (arc.alive) std::for_each(arc.points.begin(), arc.points.end(), add);
+  }
+  return count;
+}
+
 bool run_step(const EmbedStep& one, SkeletonGraph& graph, const Setting& in, StepClock& clock,
               const Monitor& monitor) {
   if (monitor.stop.stop_requested()) throw Cancelled();
@@ -225,6 +238,7 @@ bool run_step(const EmbedStep& one, SkeletonGraph& graph, const Setting& in, Ste
     return one.guarded ? step::keep_handles(graph, in, [&] { return one.apply(graph, in); })
                        : one.apply(graph, in);
   });
+  clock.found_outside(one.name, points_outside(graph, in.tree));
   if (goes_on) {
     for (const EmbedStep& next : one.then) run_step(next, graph, in, clock, monitor);
   }

@@ -57,9 +57,9 @@ void mark_copies(const Surface& surface, const Topology& counted, std::vector<Fa
                    high.y() + 0.0,
                    high.z() + 0.0};
   }
-  std::map<std::array<double, 8>, std::vector<int>> homologous;
-  for (int c = 0; c < counted.components(); ++c) homologous[key[idx(c)]].push_back(c);
-  for (const auto& [same, group] : homologous) {
+  std::map<std::array<double, 8>, std::vector<int>> alike;
+  for (int c = 0; c < counted.components(); ++c) alike[key[idx(c)]].push_back(c);
+  for (const auto& [same, group] : alike) {
     std::map<PositionList, int> seen;
     if (group.size() < 2) continue;
     for (const int c : group) {

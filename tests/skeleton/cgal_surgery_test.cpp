@@ -117,7 +117,7 @@ TEST(AsContracted, NodesStayWhereTheSurgeryLeavesThem) {
       SurgeryOptions options;
       options.method = method;
       const auto found = skeleton_as_contracted(shape.surface, contraction, options, {});
-      EXPECT_FALSE(found.bands);
+      EXPECT_FALSE(found.level_sets);
       EXPECT_EQ(graph_topology(found.skeleton).cycle_rank, shape.cycles);
       // A mean of contracted vertices lies in their box.
       const Positions& all = contraction.surface.positions;
@@ -148,14 +148,14 @@ TEST(AsContracted, ExtractionHasRadiiAVertexMapAndNoBallsItDoesNotNeed) {
   }
 }
 
-TEST(AsContracted, WhereTheSurgeryGivesUpItIsTheBands) {
+TEST(AsContracted, WhereTheSurgeryGivesUpItIsTheLevelSets) {
   const Shape sieve = shapes::sieve(3);
   ContractionOptions still;
   still.max_iterations = 0;
   const Contraction as_it_is = contracted(sieve.surface, still);
   ASSERT_FALSE(surgery(sieve.surface, as_it_is, {}, {}).has_value());
   const auto found = skeleton_as_contracted(sieve.surface, as_it_is, {}, {});
-  EXPECT_TRUE(found.bands);
+  EXPECT_TRUE(found.level_sets);
   EXPECT_EQ(graph_topology(found.skeleton).cycle_rank, sieve.genus);
   EXPECT_EQ(found.skeleton.node_of_vertex.size(), sieve.surface.positions.rows());
 }

@@ -474,9 +474,9 @@ TEST(Findings, AgreeWithTheCertificateWhateverWasDoneToTheSkeleton) {
       for (int step = 0; step < 15; ++step) {
         skeleton = RandomEdit(skeleton, random, nullptr).make().after;
       }
-      const int hub = static_cast<int>(random.index(static_cast<std::size_t>(nodes_of(skeleton))));
-      const Eigen::Vector3d nearby = skeleton.nodes.row(hub).array() + 0.01 * diagonal;
-      skeleton = add_node(skeleton, hub, nearby, &tree);
+      const int node = static_cast<int>(random.index(static_cast<std::size_t>(nodes_of(skeleton))));
+      const Eigen::Vector3d nearby = skeleton.nodes.row(node).array() + 0.01 * diagonal;
+      skeleton = add_node(skeleton, node, nearby, &tree);
       expect_findings_agree(subject, tree, skeleton);
       const Findings found = findings(tree, diagonal, skeleton, {}, {});
       exits += static_cast<int>(found.exits.size());

@@ -212,11 +212,11 @@ TEST_P(Arms, LeaveTheirJunctionWithoutAHook) {
   int checked = 0;
   for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
     for (int end = 0; end < 2; ++end) {
-      const int hub = skeleton.edges(e, end);
-      if (degree[static_cast<std::size_t>(hub)] < 3) continue;
+      const int junction = skeleton.edges(e, end);
+      if (degree[static_cast<std::size_t>(junction)] < 3) continue;
       const int next = skeleton.edges(e, 1 - end);
-      const double length = (skeleton.nodes.row(hub) - skeleton.nodes.row(next)).norm();
-      EXPECT_GE(length, 0.89 * skeleton.radii[hub]) << "edge " << e;
+      const double length = (skeleton.nodes.row(junction) - skeleton.nodes.row(next)).norm();
+      EXPECT_GE(length, 0.89 * skeleton.radii[junction]) << "edge " << e;
       ++checked;
     }
   }
@@ -470,6 +470,7 @@ TEST(Times, OfTheEmbeddingAreThoseOfItsStepsSummedOverTheComponents) {
   for (const StepTime& step : embed->steps) {
     EXPECT_GE(step.seconds, 0);
     EXPECT_TRUE(names.insert(step.step).second) << step.step << " twice";
+    if (step.step == "lengthen leaves") EXPECT_EQ(step.outside, 0);
     sum += step.seconds;
   }
   EXPECT_GT(sum, 0);

@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Extraction, Cached, testing::Bool(), [](const auto& eac
   return std::string(each.param ? "Faired" : "AsItIs");
 });
 
-TEST(CachedSurface, IsFreshThroughSecondContractionsAndBands) {
+TEST(CachedSurface, IsFreshThroughSecondContractionsAndLevelSets) {
   const Surface sieve = shapes::sieve(2).surface;
   const auto options_with = [](double weight, double collapse, double shape, double detail) {
     ExtractOptions options;

@@ -90,32 +90,33 @@ TEST(Groups, HalvesOfATorusMeetInTwoCircles) {
   }
 }
 
-TEST(Bands, CycleRankIsTheGenusOfEveryShape) {
+TEST(LevelSets, CycleRankIsTheGenusOfEveryShape) {
   for (const auto& shape : connected_shapes()) {
-    const LevelSetGraph bands = level_set_graph(shape.surface, {});
-    EXPECT_EQ(cycle_rank(bands.graph), shape.genus) << shape.name;
-    const auto genus = genus_of_groups(bands.surface, bands.graph);
-    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups) << shape.name;
+    const LevelSetGraph level_sets = level_set_graph(shape.surface, {});
+    EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus) << shape.name;
+    const auto genus = genus_of_groups(level_sets.surface, level_sets.graph);
+    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), level_sets.graph.groups) << shape.name;
   }
 }
 
-TEST(Bands, HandlesFinerThanABandAreFoundBySubdividing) {
+TEST(LevelSets, HandlesFinerThanASliceAreFoundBySubdividing) {
   // A torus of three by three rings: any cut by distance needs finer triangles first.
   const auto torus = shapes::torus(1, 0.6, 3);
   EXPECT_EQ(cycle_rank(level_set_graph(torus.surface, {}).graph), 1);
 }
 
-TEST(Bands, AreAsNarrowAsNeededWhereTheyAreNeededOnly) {
+TEST(LevelSets, SlicesAreAsNarrowAsNeededWhereTheyAreNeededOnly) {
   for (const double ratio : {10.0, 1e3, 1e5}) {
     SCOPED_TRACE(ratio);
     const auto shape = dwindling_rings(8, ratio);
-    const LevelSetGraph bands = level_set_graph(shape.surface, {});
-    EXPECT_EQ(cycle_rank(bands.graph), shape.genus);
-    const auto genus = genus_of_groups(bands.surface, bands.graph);
-    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), bands.graph.groups);
-    EXPECT_LT(bands.surface.positions.rows(), 3 * shape.surface.positions.rows());
-    EXPECT_EQ(bands.surface.positions(bands.vertex_of_input, Eigen::all), shape.surface.positions);
-    const Topology counted = topology(bands.surface);
+    const LevelSetGraph level_sets = level_set_graph(shape.surface, {});
+    EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus);
+    const auto genus = genus_of_groups(level_sets.surface, level_sets.graph);
+    EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), level_sets.graph.groups);
+    EXPECT_LT(level_sets.surface.positions.rows(), 3 * shape.surface.positions.rows());
+    EXPECT_EQ(level_sets.surface.positions(level_sets.vertex_of_input, Eigen::all),
+              shape.surface.positions);
+    const Topology counted = topology(level_sets.surface);
     EXPECT_EQ(counted.components(), 1);
     EXPECT_EQ(counted.total_genus(), shape.genus);
   }
@@ -137,8 +138,8 @@ TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {
   }
 }
 
-/// Two tips joined to a ring of vertices: each merge changes the edges of a tip, and a candidate
-/// for each of its neighbours after each merge would be 10^9 of them and 30 GB.
+/// Two tips joined to a ring of vertices: each merge changes the edges of a tip, and a new
+/// candidate for each of the tip's neighbours after each merge would fill the memory.
 TEST(Surgery, TipsOfManyTrianglesTakeNoSquareOfTheirNumber) {
   constexpr Eigen::Index around = 20000;
   Surface spindle;

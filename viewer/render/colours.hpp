@@ -20,7 +20,7 @@ enum class ColourMap { viridis, magma, cividis };
 inline constexpr NameTable<ColourMap, 3> colour_maps{{
     {ColourMap::viridis, "viridis", "dark blue to yellow"},
     {ColourMap::magma, "magma", "black over purple to cream"},
-    {ColourMap::cividis, "cividis", "blue to yellow, homologous for colour-blind eyes"},
+    {ColourMap::cividis, "cividis", "blue to yellow, safe for colour-blind eyes"},
 }};
 
 /// Perceptually uniform; `value` is clamped to 0..1, NaN is grey.

@@ -1,5 +1,4 @@
-// Draws surfaces and a skeleton into a picture of its own; the window and the screenshot use this
-// homologous.
+// Draws surfaces and a skeleton into a picture of its own, for the window and for screenshots.
 #pragma once
 
 #include <array>

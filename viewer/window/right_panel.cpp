@@ -103,6 +103,34 @@ void certificate(Workbench& bench) {
   line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
 }
 
+/// Seconds of the stages, of the embedding also of its steps.
+void times(const Workbench& bench) {
+  if (bench.result() == nullptr || !bench.result()->extraction) {
+    ImGui::TextDisabled("not there yet");
+    return;
+  }
+  const float column = ImGui::GetContentRegionAvail().x * 0.6F;
+  const auto seconds = [column](double value) {
+    ImGui::SameLine(column);
+    ImGui::TextUnformatted(fmt::format("{:.3f} s", value).c_str());
+  };
+  for (const StageTime& time : bench.result()->extraction->times) {
+    const ImGuiTreeNodeFlags leaf = time.steps.empty() ? ImGuiTreeNodeFlags_Leaf : 0;
+    const bool open = ImGui::TreeNodeEx(time.stage.c_str(), leaf);
+    seconds(time.seconds);
+    if (!open) continue;
+    for (const StepTime& step : time.steps) {
+      ImGui::TextUnformatted(step.step.c_str());
+      seconds(step.seconds);
+      if (step.outside == 0) continue;
+      ImGui::SameLine();
+      ImGui::TextDisabled("%d outside", step.outside);
+      tip("points of the curve outside the surface after the step");
+    }
+    ImGui::TreePop();
+  }
+}
+
 /// Repairs that were made, or could not be.
 void input_defects(Workbench& bench) {
   const Defects& found = *bench.defects();
@@ -212,6 +240,7 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
+  if (ImGui::CollapsingHeader("Times")) times(bench);
   const auto rig = bench.scene->rig();
   panels.outline.show(rig);
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {

@@ -14,7 +14,7 @@ namespace curveskel {
 struct PositionMemory {
   std::shared_ptr<void> gl;  ///< the OpenGL context, if there is one; it outlives all else
   opencl::Session session;
-  opencl::Buffer now, next;  ///< homologous to begin with
+  opencl::Buffer now, next;  ///< equal to begin with
 };
 
 /// On the device of `fairing_device`; throws as that does, and Error(Fault::device) where

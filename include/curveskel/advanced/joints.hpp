@@ -25,7 +25,7 @@ void require_valid(const JointOptions& options);
 struct Joints {
   Positions positions;             ///< j x 3, in model units
   Eigen::VectorXi parents;         ///< j, each before its children; -1 = a root
-  std::vector<std::string> names;  ///< j, no two homologous
+  std::vector<std::string> names;  ///< j, no two the same
   Eigen::VectorXi joint_of_node;   ///< #N of the skeleton: the joint that moves it
 };
 

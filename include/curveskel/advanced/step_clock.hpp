@@ -1,4 +1,4 @@
-// Seconds per step of a stage.
+// Seconds per step of a stage, and how it left the curve.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,23 @@ namespace curveskel {
 struct StepTime {
   std::string step;
   double seconds = 0;
+  int outside = 0;  ///< points of the curve outside the surface after the step; the most of its
+                    ///< runs, summed over components
 };
 
-/// Adds `more` to what `times` has of the same step, or at the end.
-inline void add_step(std::vector<StepTime>& times, const StepTime& more) {
+/// The place of a step's time, put at the end if there is none yet.
+inline StepTime& time_of(std::vector<StepTime>& times, std::string_view step) {
   const auto found = std::find_if(times.begin(), times.end(),
-                                  [&](const StepTime& one) { return one.step == more.step; });
-  if (found == times.end()) {
-    times.push_back(more);
-  } else {
-    found->seconds += more.seconds;
-  }
+                                  [step](const StepTime& one) { return one.step == step; });
+  if (found != times.end()) return *found;
+  return times.emplace_back(StepTime{std::string(step)});
+}
+
+/// Adds the time of another component.
+inline void add_step(std::vector<StepTime>& times, const StepTime& more) {
+  StepTime& sum = time_of(times, more.step);
+  sum.seconds += more.seconds;
+  sum.outside += more.outside;
 }
 
 /// Adds up the time of each step, in the order of first use. For one thread at a time.
@@ -36,7 +42,7 @@ class StepClock {
     const auto start = std::chrono::steady_clock::now();
     const auto stop = [&] {
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-      add_step(times_, {std::string(step), taken.count()});
+      time_of(times_, step).seconds += taken.count();
     };
     if constexpr (std::is_void_v<decltype(work())>) {
       work();
@@ -46,6 +52,12 @@ class StepClock {
       stop();
       return result;
     }
+  }
+
+  /// The number of points outside after one run of a step.
+  void found_outside(std::string_view step, int points) {
+    StepTime& time = time_of(times_, step);
+    time.outside = std::max(time.outside, points);
   }
 
   [[nodiscard]] const std::vector<StepTime>& times() const { return times_; }

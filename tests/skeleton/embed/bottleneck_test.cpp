@@ -36,7 +36,7 @@ SkeletonGraph arcs(const std::vector<std::vector<Point>>& between) {
   graph.nodes = {{Point(-half_length, 0, 0), {0}}, {Point(half_length, 0, 0), {0}}};
   for (const auto& points : between) {
     const auto s = static_cast<int>(graph.arcs.size());
-    graph.arcs.push_back({0, 1, points, {0}});
+    graph.arcs.push_back({0, 1, {points.begin(), points.end()}, {0}});
     for (Node& node : graph.nodes) node.arcs.push_back(s);
   }
   return graph;

@@ -137,10 +137,9 @@ TEST(SkeletonGraph, SplitKeepsTheLineAndWhatBelongsToIt) {
 
 TEST(SkeletonGraph, SplitOpensAClosedStrand) {
   SkeletonGraph ring;
-  ring.nodes = {{Point::Zero(), {0}}};
-  ring.nodes[0].arcs = {0};
-  ring.arcs = {{0, 0, {{1, 0, 0}, {1, 1, 0}}, {0}}};
-  const int node = ring.split(0, 1, {1, 0.5, 0});
+  ring.nodes = {{Point(0, 0, 0), {0}, true, {0}}};
+  ring.arcs = {{0, 0, {Point(1, 0, 0), Point(1, 1, 0)}, {0}}};
+  const int node = ring.split(0, 1, Point(1, 0.5, 0));
   EXPECT_EQ(ring.degree(0), 2);
   EXPECT_EQ(ring.degree(node), 2);
   ring.add_leaf(node, {3, 0.5, 0}, {0});

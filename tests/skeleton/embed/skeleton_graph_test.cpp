@@ -9,7 +9,7 @@ namespace {
 TEST(SkeletonGraph, GivesVerticesOfAGroupWithoutNodesTheNearestOfAll) {
   SkeletonGraph graph;
   graph.nodes = {{Point(0, 0, 0), {0}, true, {0}}, {Point(4, 0, 0), {2}, true, {0}}};
-  graph.arcs.push_back({0, 1, {{2, 0, 0}}, {}});
+  graph.arcs.push_back({0, 1, {Point(2, 0, 0)}, {}});
   const EmbeddedNodes nodes = skeleton_of(graph, 3);
   ASSERT_TRUE(nodes.nodes_of_group[1].empty());
   Positions places(4, 3);
