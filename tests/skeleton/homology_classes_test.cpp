@@ -1,15 +1,17 @@
 #include "skeleton/homology/homology_classes.hpp"
-#include "skeleton/homology/homology_rank.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/homology/homology_rank.hpp"
+#include "skeleton/homology/linking.hpp"
 
 namespace curveskel::homology_classes_laws {
 namespace {
@@ -117,6 +119,14 @@ TEST(HomologyClasses, TellTheTwoWaysRoundARingApart) {
   EXPECT_FALSE(classes.homologous(arc(0, 2 * pi), {on_ring(0)}));
   EXPECT_TRUE(classes.homologous(there_and_back(), {on_ring(0)}));
   EXPECT_FALSE(HomologyClasses(shapes::ellipsoid({1, 1, 1}, 2).surface).has_handles());
+}
+
+TEST(HomologyRank, OfCopiedLoopsNeedsNoSource) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  auto source = std::make_unique<linking::SeenLoops>(ring.surface);
+  linking::SeenLoops copy = *source;
+  source.reset();
+  EXPECT_EQ(homology_rank(copy, closed({once_round()})), 1);
 }
 
 TEST(IndependentRows, AreThoseThatAreNoSumOfOthers) {
