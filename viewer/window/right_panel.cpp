@@ -112,13 +112,16 @@ void times(const Workbench& bench) {
   const float column = ImGui::GetContentRegionAvail().x * 0.6F;
   const auto seconds = [column](double value) {
     ImGui::SameLine(column);
-    ImGui::TextUnformatted(fmt::format("{:.3f} s", value).c_str());
+    const std::string text =
+        value < 1 ? fmt::format("{:.1f} ms", 1e3 * value) : fmt::format("{:.2f} s", value);
+    ImGui::TextUnformatted(text.c_str());
   };
   for (const StageTime& time : bench.result()->extraction->times) {
     const ImGuiTreeNodeFlags leaf = time.steps.empty() ? ImGuiTreeNodeFlags_Leaf : 0;
     const bool open = ImGui::TreeNodeEx(time.stage.c_str(), leaf);
     seconds(time.seconds);
     if (!open) continue;
+    ImGui::Indent();
     for (const StepTime& step : time.steps) {
       ImGui::TextUnformatted(step.step.c_str());
       seconds(step.seconds);
@@ -127,6 +130,7 @@ void times(const Workbench& bench) {
       ImGui::TextDisabled("%d outside", step.outside);
       tip("points of the curve outside the surface after the step");
     }
+    ImGui::Unindent();
     ImGui::TreePop();
   }
 }
