@@ -29,7 +29,7 @@ Json to_json(const Certificate& c) {
           {"tips", c.tips},
           {"junctions", c.junctions},
           {"length", c.length},
-          {"turning", c.turning}};
+          {"total_curvature", c.total_curvature}};
 }
 
 Json to_json(const CertificateOptions& o) {

@@ -31,7 +31,7 @@ void expect_equal(const Certificate& a, const Certificate& b) {
   EXPECT_EQ(a.coverage, b.coverage);
   EXPECT_EQ(a.reach, b.reach);
   EXPECT_EQ(a.spurs, b.spurs);
-  EXPECT_EQ(a.turning, b.turning);
+  EXPECT_EQ(a.total_curvature, b.total_curvature);
   EXPECT_EQ(a.inside_enough, b.inside_enough);
 }
 
