@@ -230,7 +230,7 @@ LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
                   std::to_string(sliced.surface.positions.rows()) +
                   " vertices; the surface has handles far smaller than its edges: raise "
                   "--resolution, repair the surface or, if it was wrapped, choose a wider "
-                  "--wrap-opening");
+                  "--wrap-gap");
 }
 
 }  // namespace curveskel
