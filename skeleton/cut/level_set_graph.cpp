@@ -182,7 +182,7 @@ Sliced uncut(const Surface& surface) {
 
 std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& graph) {
   std::vector<int> euler(idx(graph.groups), 0);
-  std::vector<int> circles(idx(graph.groups), 0);
+  std::vector<int> curves(idx(graph.groups), 0);
   const auto& group = graph.group_of_vertex;
   for (Eigen::Index v = 0; v < group.size(); ++v) ++euler[idx(group[v])];
   for (const auto& [a, b] : index_edges(surface.triangles).edges) {
@@ -193,11 +193,11 @@ std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& g
     const int g = group[corner[0]];
     if (g == group[corner[1]] && g == group[corner[2]]) ++euler[idx(g)];
   }
-  for (const auto& circle : graph.cut_curves) {
-    for (const int end : circle.front()) ++circles[idx(group[end])];
+  for (const auto& cut_curve : graph.cut_curves) {
+    for (const int end : cut_curve.front()) ++curves[idx(group[end])];
   }
   std::vector<int> genus(idx(graph.groups));
-  for (std::size_t g = 0; g < genus.size(); ++g) genus[g] = (2 - euler[g] - circles[g]) / 2;
+  for (std::size_t g = 0; g < genus.size(); ++g) genus[g] = (2 - euler[g] - curves[g]) / 2;
   return genus;
 }
 

@@ -143,7 +143,7 @@ void input_defects(Workbench& bench) {
     if (ImGui::SmallButton("show")) bench.show_faces(faces);
     ImGui::PopID();
   };
-  line("open", found.open, "with an edge that no other face has: at a hole or a rim");
+  line("open", found.open, "with an edge that no other face has: at a hole or a border");
   line("non-manifold", found.non_manifold, "with an edge that three faces or more have");
   line("flipped", found.flipped, "facing the other way than a neighbour");
   line("degenerate", found.degenerate, "with a corner twice, or no area");
