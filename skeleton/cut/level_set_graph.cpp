@@ -109,10 +109,10 @@ void append_split(const Sliced& sliced, Eigen::Index t, const std::array<int, 3>
 
 /// Splits the edges with an end in a `wanted` group along which the value changes by more than
 /// `width`, once; whether there were any. The old vertices come first, a new one belongs to the
-/// group of the end that is in its slice of `sliced.width`. What is not split is as steep as
-/// before, so the vertices grow with the range of the values over `width`, not with its square. New
-/// values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in one
-/// vertex never comes apart otherwise.
+/// group of the end that is in its slice of `sliced.width`. Edges that are not split are as steep
+/// as before, so the vertices grow with the range of the values over `width`, not with its square.
+/// New values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in
+/// one vertex never comes apart otherwise.
 bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) {
   const Eigen::Index old_vertices = sliced.surface.positions.rows();
   std::vector<int> middle_of(sliced.index.edges.size(), -1);

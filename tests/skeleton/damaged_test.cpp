@@ -1,4 +1,4 @@
-// What becomes of surfaces that were open or noisy: the whole way from repair to certificate.
+// Surfaces that were open or noisy, on the whole way from repair to certificate.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

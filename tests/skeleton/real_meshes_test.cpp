@@ -1,4 +1,4 @@
-// What the skeletons of real surfaces must show, mesh by mesh and property by property.
+// The properties that skeletons of real surfaces must have, mesh by mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -190,8 +190,8 @@ TEST(RealMeshes, KeepEveryLimbAndFinger) {
   }
 }
 
-// What sticks out is judged by the surface, not by where the surgery happened to cut it: with the
-// same foot cut elsewhere the jug lost it at each of these.
+// Protrusions are judged by the surface, not by where the surgery happened to cut it: with the same
+// foot cut elsewhere the jug lost it at each of these.
 TEST(RealMeshes, KeepTheirTipsWithFewerVertices) {
   for (const auto& [name, tips] : {std::pair{"spot-3k.obj", 9}, std::pair{"botijo-41k.ply", 5}}) {
     const auto file = real_surface(name);
