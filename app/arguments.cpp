@@ -22,13 +22,14 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
              "components with less area, of the largest one's, are left out");
   add_choice(parser, "--wrap", options.wrap, wrappings,
              "what is wrapped (closed by shrinking a surface onto it): never, needed or all");
-  add_number(parser, "--wrap-opening", options.wrap_opening, 0.0, 0.5,
+  add_number(parser, "--wrap-gap", options.wrap_gap, 0.0, 0.5,
              "gaps up to this are spanned by a wrap, of the diagonal of what is wrapped; 0 = "
              "chosen; below "
              "about 0.001 the wrap is too large to be made");
+  add_number(parser, "--wrap-opening", options.wrap_gap, 0.0, 0.5, "its former name")->group("");
   parser.parse_complete_callback([&options] {
-    if (options.wrap == Wrapping::never && options.wrap_opening > 0) {
-      throw CLI::ValidationError("--wrap-opening", "needs a wrap, so not --wrap never");
+    if (options.wrap == Wrapping::never && options.wrap_gap > 0) {
+      throw CLI::ValidationError("--wrap-gap", "needs a wrap, so not --wrap never");
     }
   });
 }

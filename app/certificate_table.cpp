@@ -31,7 +31,7 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
       fmt::format("  tips             {:>10}\n  junctions        {:>10}\n", c.tips, c.junctions);
   text += fmt::format("  spurs            {:>10}\n", c.spurs);
   text += fmt::format("  length           {:>10.3f} D\n", c.length);
-  text += fmt::format("  turning          {:>10.1f} rad per D\n", c.turning);
+  text += fmt::format("  total curvature  {:>10.1f} rad per D\n", c.total_curvature);
   return text;
 }
 

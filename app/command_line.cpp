@@ -39,8 +39,8 @@ int exit_code(Fault fault) {
 /// A remedy, by the verb's own options, for a surface that is too much for the verb.
 std::string remedy_of(const CLI::App& parser) {
   std::string remedy;
-  const CLI::Option* const opening = parser.get_option_no_throw("--wrap-opening");
-  if (opening != nullptr && opening->count() > 0) remedy = "choose a wider --wrap-opening, or ";
+  const CLI::Option* const gap = parser.get_option_no_throw("--wrap-gap");
+  if (gap != nullptr && gap->count() > 0) remedy = "choose a wider --wrap-gap, or ";
   const bool has_resolution = parser.get_option_no_throw("--resolution") != nullptr;
   if (has_resolution) remedy += "choose a coarser --resolution, or ";
   return remedy + "decimate the surface first";

@@ -29,7 +29,7 @@ Json to_json(const Certificate& c) {
           {"tips", c.tips},
           {"junctions", c.junctions},
           {"length", c.length},
-          {"turning", c.turning}};
+          {"total_curvature", c.total_curvature}};
 }
 
 Json to_json(const CertificateOptions& o) {
@@ -65,17 +65,20 @@ Json to_json(const Repairs& r) {
           {"faces_wrapped", r.faces_wrapped},
           {"wrapped_as_asked", r.wrapped_as_asked},
           {"components_wrapped", r.components_wrapped},
-          {"wrap_opening", r.wrap_opening},
+          {"wrap_gap", r.wrap_gap},
           {"wrap_distance", r.wrap_distance},
           {"wrap_mean_distance", r.wrap_mean_distance},
           {"lines", r.lines}};
 }
 
 Json to_json(const RepairOptions& o) {
-  return {{"join_distance", o.join_distance}, {"least_area", o.least_area},
-          {"components", o.components},       {"most_added_area", o.most_added_area},
-          {"least_crumb", o.least_crumb},     {"wrap", name_of(wrappings, o.wrap)},
-          {"wrap_opening", o.wrap_opening}};
+  return {{"join_distance", o.join_distance},
+          {"least_area", o.least_area},
+          {"components", o.components},
+          {"most_added_area", o.most_added_area},
+          {"least_crumb", o.least_crumb},
+          {"wrap", name_of(wrappings, o.wrap)},
+          {"wrap_gap", o.wrap_gap}};
 }
 
 Json to_json(const ContractionOptions& o) {

@@ -19,7 +19,8 @@ void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Starts work() beside the caller's own, or, with `threads` = 1, leaves it until its result is
-/// asked for. What it refers to must outlive the future, which waits for it on destruction.
+/// asked for. Everything that the work refers to must outlive the future, which waits for the work
+/// on destruction.
 template <typename Work>
 [[nodiscard]] auto in_background(int threads, Work&& work) {
   return std::async(threads == 1 ? std::launch::deferred : std::launch::async,

@@ -122,8 +122,8 @@ Run run_cgal(const fs::path& file, const Surface& surface, const Options& option
 
 constexpr const char* columns =
     "file,components,cycle_rank,inside_fraction,deepest_exit,centredness_median,centredness_p90,"
-    "coverage,reach,spurs,turning,seconds,nodes,edges,processor_seconds,program,common_share,"
-    "common_centredness";
+    "coverage,reach,spurs,total_curvature,seconds,nodes,edges,processor_seconds,program,"
+    "common_share,common_centredness";
 
 std::string csv_row(const Run& run) {
   const Certificate& c = run.certificate;
@@ -131,7 +131,7 @@ std::string csv_row(const Run& run) {
   row << std::setprecision(6) << run.file << ',' << c.components << ',' << c.cycle_rank << ','
       << c.inside_fraction << ',' << c.deepest_exit << ',' << c.centredness_median << ','
       << c.centredness_p90 << ',' << c.coverage << ',' << c.reach << ',' << c.spurs << ','
-      << c.turning << ',' << run.seconds << ',' << run.nodes << ',' << run.edges << ','
+      << c.total_curvature << ',' << run.seconds << ',' << run.nodes << ',' << run.edges << ','
       << run.processor_seconds << ',' << run.program << (run.failure.empty() ? "" : " (failed)")
       << ',' << run.common.share << ',' << run.common.centredness_median;
   return row.str();
@@ -157,7 +157,7 @@ std::string markdown_row(const Run& run, double ratio, const Options& options) {
       << c.inside_fraction << " | " << c.deepest_exit << " | " << std::setprecision(3)
       << c.centredness_median << " | " << c.centredness_p90 << " | "
       << run.common.centredness_median << " | " << c.coverage << " | " << std::setprecision(4)
-      << c.reach << " | " << c.spurs << " | " << std::setprecision(1) << c.turning << " | "
+      << c.reach << " | " << c.spurs << " | " << std::setprecision(1) << c.total_curvature << " | "
       << std::setprecision(3) << run.seconds << " | ";
   if (ratio > 0) row << std::setprecision(1) << ratio;
   row << " |";
@@ -166,8 +166,8 @@ std::string markdown_row(const Run& run, double ratio, const Options& options) {
 
 constexpr const char* markdown_head =
     "| file | program | topology | inside | deepest exit / D | centredness, median | 90th "
-    "percentile | where both run | coverage | reach / D | spurs | turning per D | seconds | ratio "
-    "|\n"
+    "percentile | where both run | coverage | reach / D | spurs | total curvature per D | seconds "
+    "| ratio |\n"
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
 void print(const Run& run) {
@@ -185,7 +185,7 @@ void print(const Run& run) {
             << ' ' << c.centredness_p90 << "  (where both run " << run.common.centredness_median
             << ")  coverage " << c.coverage << std::setprecision(4) << "  reach " << c.reach
             << "  tips " << c.tips << "  junctions " << c.junctions << "  spurs " << c.spurs
-            << std::setprecision(2) << "  turning " << c.turning << '\n';
+            << std::setprecision(2) << "  total curvature " << c.total_curvature << '\n';
 }
 
 void compare(const Options& options) {

@@ -35,7 +35,7 @@ both = [f for f in ours if f in peer]
 print("| mean over", len(both), "surfaces | curveskel | CGAL | better, worse on |\n|---|---|---|---|")
 for column, name, sign in (("coverage", "coverage", 1), ("centredness_median", "centredness, median", -1),
                            ("common_centredness", "the same where both run", -1),
-                           ("reach", "reach / D", -1), ("turning", "turning per D", -1),
+                           ("reach", "reach / D", -1), ("total_curvature", "total curvature per D", -1),
                            ("inside_fraction", "inside", 1), ("spurs", "spurs", -1)):
     a = [float(ours[f][column]) for f in both]
     b = [float(peer[f][column]) for f in both]

@@ -117,7 +117,7 @@ const Row* row_of(const std::vector<Row>& rows, const std::string& name) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// How many times as fast as the paper's; 0 where there is no figure.
+/// The paper's value over ours, so above 1 where ours is faster; 0 where there is no figure.
 double times_as_fast(const Cell& ours, const Cell& theirs, double Cell::*value) {
   if (!ours.failure.empty() || !(ours.*value > 0)) return 0;
   return theirs.*value / (ours.*value);

@@ -200,7 +200,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     RepairOptions as_it_is;
     as_it_is.wrap = Wrapping::never;  // a wrap takes seconds and is no smaller for small surfaces
     const RepairedSurface repaired = repair(spoiled({data, size}), as_it_is, {}, 1);
-    options.openings = repaired.openings;
+    options.rims = repaired.rims;
     const Extraction found = extract(repaired.surface, options, {});
     check(repaired.surface, found);
     RigOptions rig;

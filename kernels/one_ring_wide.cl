@@ -17,8 +17,8 @@ typedef struct {
   float16 centre, first, second;
 } corners;
 
-// What the second pass needs of a row: its position, and w = right + following times the next
-// row's w + last times the last row's w.
+// The parts of a row that the second pass needs: its position, and w = right + following times the
+// next row's w + last times the last row's w.
 typedef struct {
   vectors position;
   complex right, following, last;

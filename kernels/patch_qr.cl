@@ -155,7 +155,7 @@ __kernel void patch_qr(__global const real4* now, __global real4* next,
   next[vertices[0]] = (real4)(moved, 0);
 }
 
-// What was computed elsewhere: next[vertices[i]] = values[i].
+// Puts values that were computed elsewhere in their places: next[vertices[i]] = values[i].
 __kernel void place(__global real4* next, __global const int* vertices,
                     __global const real4* values, const int count) {
   const int i = get_global_id(0);

@@ -93,7 +93,7 @@ inline std::string refusal(const PolygonSoup& soup) {
   return "";
 }
 
-/// What every cleaned surface promises.
+/// The promises of every cleaned surface.
 inline void expect_closed_outward_manifold(const Surface& surface) {
   std::map<std::pair<int, int>, int> half_edges;
   std::vector<int> faces_at(static_cast<std::size_t>(surface.positions.rows()), 0);

@@ -43,8 +43,8 @@ struct Certificate {
                                   ///< nearest inscribed ball of the curve / D
   int tips = 0;
   int junctions = 0;
-  int spurs = 0;       ///< leaf branches shorter than the inscribed radius at their junction
-  double turning = 0;  ///< total turning in radians at scale D/100, per D of length
+  int spurs = 0;  ///< leaf branches shorter than the inscribed radius at their junction
+  double total_curvature = 0;  ///< the sum of the turns at scale D/100, radians per D of length
   [[nodiscard]] bool topology_correct() const {
     return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
   }

@@ -30,9 +30,9 @@ struct ExtractOptions {
   /// of the stage's own options says.
   int threads = 0;
   bool fairing = false;  ///< clean the input by `fair` first
-  /// Vertices round each hole that was closed (RepairedSurface::openings): where a tip faces one,
+  /// Vertices round each hole that was closed (RepairedSurface::rims): where a tip faces one,
   /// the curve goes on to it, see `reach_rims`.
-  std::vector<std::vector<std::int32_t>> openings;
+  std::vector<std::vector<std::int32_t>> rims;
   FairOptions fair;
   /// If the certificate finds too much outside: extract once more with thirty iterations of
   /// fairing, and keep the better one.

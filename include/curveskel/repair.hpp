@@ -41,7 +41,7 @@ struct RepairOptions {
   /// Of D of what is wrapped: gaps up to this are spanned, and some up to twice as wide. 0 =
   /// chosen among 1/100, 1/40 and 1/15: the narrowest that encloses something, or after an
   /// extraction the one whose skeleton explains most.
-  double wrap_opening = 0;
+  double wrap_gap = 0;
 
   [[nodiscard]] bool operator==(const RepairOptions&) const = default;
 };
@@ -67,7 +67,7 @@ struct Repairs {
   std::int64_t faces_wrapped = 0;       ///< that a wrap stands for
   bool wrapped_as_asked = false;        ///< see Wrapping::all
   std::int64_t components_wrapped = 0;  ///< whose certificate failed, see `extract_repaired`
-  double wrap_opening = 0;              ///< gaps up to this are spanned, of D
+  double wrap_gap = 0;                  ///< gaps up to this are spanned, of D
   double wrap_distance = 0;       ///< greatest distance from the wrap to the faces given, of D
   double wrap_mean_distance = 0;  ///< mean over the wrap's area, of D
   std::vector<std::string> lines;
@@ -81,7 +81,7 @@ struct RepairedSurface {
   Changes changes;
   Repairs repairs;
   /// The vertices of the surface round each hole that was closed, in order.
-  std::vector<std::vector<std::int32_t>> openings;
+  std::vector<std::vector<std::int32_t>> rims;
 };
 
 /// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is

@@ -19,8 +19,8 @@ struct RootedTree {
 /// Lengths are measured in these: nodes outside have none, a bone needs some.
 [[nodiscard]] Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton);
 
-/// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. How roots are
-/// chosen and cycles cut: see `place_joints`; the links of components: `hang_components`.
+/// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. The choice of
+/// roots and the cutting of cycles: see `place_joints`; the links of components: `hang_components`.
 [[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted);
 
 }  // namespace curveskel

@@ -25,8 +25,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double turning_scale = 1.0 / 100;  // of D
-constexpr double coverage_factor = 1.5;      // of the local radius
+constexpr double curvature_scale = 1.0 / 100;  // of D
+constexpr double coverage_factor = 1.5;        // of the local radius
 constexpr Eigen::Index most_vertices = 20000;
 
 void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
@@ -106,7 +106,7 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
 }
 
 // Sum of the angles between successive chords of about `step`.
-double turning_of(const MeasuredCurve& subject, const Branch& branch, double step) {
+double total_curvature_of(const MeasuredCurve& subject, const Branch& branch, double step) {
   const auto line = polyline(subject.skeleton, branch);
   const double length = polyline_length(line);
   const int chords = static_cast<int>(std::lround(length / step));
@@ -117,24 +117,24 @@ double turning_of(const MeasuredCurve& subject, const Branch& branch, double ste
   const bool cycle =
       branch.nodes.front() == branch.nodes.back() && !subject.is_junction(branch.nodes.front());
   if (cycle) points.push_back(points[1]);
-  double turning = 0;
+  double angles = 0;
   for (std::size_t k = 2; k < points.size(); ++k) {
     const Vector3d a = points[k - 1] - points[k - 2];
     const Vector3d b = points[k] - points[k - 1];
-    turning += std::atan2(a.cross(b).norm(), a.dot(b));
+    angles += std::atan2(a.cross(b).norm(), a.dot(b));
   }
-  return turning;
+  return angles;
 }
 
 void measure_shape(const MeasuredCurve& subject, Certificate& certificate) {
   double length = 0;
-  double turning = 0;
+  double angles = 0;
   for (const Branch& branch : subject.branches) {
     length += polyline_length(polyline(subject.skeleton, branch));
-    turning += turning_of(subject, branch, turning_scale * subject.diagonal);
+    angles += total_curvature_of(subject, branch, curvature_scale * subject.diagonal);
   }
   certificate.length = length / subject.diagonal;
-  certificate.turning = length > 0 ? turning / certificate.length : 0;
+  certificate.total_curvature = length > 0 ? angles / certificate.length : 0;
   certificate.spurs = static_cast<int>(spurs_of(subject).size());
 }
 

@@ -109,10 +109,10 @@ void append_split(const Sliced& sliced, Eigen::Index t, const std::array<int, 3>
 
 /// Splits the edges with an end in a `wanted` group along which the value changes by more than
 /// `width`, once; whether there were any. The old vertices come first, a new one belongs to the
-/// group of the end that is in its slice of `sliced.width`. What is not split is as steep as
-/// before, so the vertices grow with the range of the values over `width`, not with its square. New
-/// values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in one
-/// vertex never comes apart otherwise.
+/// group of the end that is in its slice of `sliced.width`. Edges that are not split are as steep
+/// as before, so the vertices grow with the range of the values over `width`, not with its square.
+/// New values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in
+/// one vertex never comes apart otherwise.
 bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) {
   const Eigen::Index old_vertices = sliced.surface.positions.rows();
   std::vector<int> middle_of(sliced.index.edges.size(), -1);
@@ -182,7 +182,7 @@ Sliced uncut(const Surface& surface) {
 
 std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& graph) {
   std::vector<int> euler(idx(graph.groups), 0);
-  std::vector<int> circles(idx(graph.groups), 0);
+  std::vector<int> curves(idx(graph.groups), 0);
   const auto& group = graph.group_of_vertex;
   for (Eigen::Index v = 0; v < group.size(); ++v) ++euler[idx(group[v])];
   for (const auto& [a, b] : index_edges(surface.triangles).edges) {
@@ -193,11 +193,11 @@ std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& g
     const int g = group[corner[0]];
     if (g == group[corner[1]] && g == group[corner[2]]) ++euler[idx(g)];
   }
-  for (const auto& circle : graph.cut_curves) {
-    for (const int end : circle.front()) ++circles[idx(group[end])];
+  for (const auto& cut_curve : graph.cut_curves) {
+    for (const int end : cut_curve.front()) ++curves[idx(group[end])];
   }
   std::vector<int> genus(idx(graph.groups));
-  for (std::size_t g = 0; g < genus.size(); ++g) genus[g] = (2 - euler[g] - circles[g]) / 2;
+  for (std::size_t g = 0; g < genus.size(); ++g) genus[g] = (2 - euler[g] - curves[g]) / 2;
   return genus;
 }
 
@@ -230,7 +230,7 @@ LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
                   std::to_string(sliced.surface.positions.rows()) +
                   " vertices; the surface has handles far smaller than its edges: raise "
                   "--resolution, repair the surface or, if it was wrapped, choose a wider "
-                  "--wrap-opening");
+                  "--wrap-gap");
 }
 
 }  // namespace curveskel

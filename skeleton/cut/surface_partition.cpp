@@ -179,9 +179,9 @@ int SurfacePartition::genus_of_union(int a, int b) {
   });
   if (contacts == 1) return genus_[a] + genus_[b];
   // A triangle on the boundary has exactly two edges that cross it; linking them closes cut curves.
-  const int circles = curves_through(
+  const int curves = curves_through(
       touching(a, b), [&](int p, int q) { return (p == a || p == b) != (q == a || q == b); });
-  return (2 - euler_of_union(a, b) - circles) / 2;
+  return (2 - euler_of_union(a, b) - curves) / 2;
 }
 
 void SurfacePartition::merge(int from, int into) {
@@ -263,11 +263,11 @@ PartitionGraph partition_graph(const Surface& surface, const Eigen::VectorXi& gr
   for (std::size_t first = 0; first < index.edges.size(); ++first) {
     if (crossings.next[first][0] < 0 || seen[first] != 0) continue;
     const int node = graph.groups + static_cast<int>(graph.cut_curves.size());
-    auto& circle = graph.cut_curves.emplace_back();
+    auto& cut_curve = graph.cut_curves.emplace_back();
     for (int edge = static_cast<int>(first); seen[static_cast<std::size_t>(edge)] == 0;) {
       const auto e = static_cast<std::size_t>(edge);
       seen[e] = 1;
-      circle.push_back(index.edges[e]);
+      cut_curve.push_back(index.edges[e]);
       const auto& next = crossings.next[e];
       edge = seen[static_cast<std::size_t>(next[0])] == 0 ? next[0] : next[1];
     }

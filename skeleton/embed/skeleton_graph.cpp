@@ -231,7 +231,7 @@ SkeletonGraph skeleton_graph_of(const PartitionGraph& partition,
   }
   for (int piece = 0; piece < pieces; ++piece) {
     if (node_of_piece[idx(piece)] < 0) continue;
-    // Circles have degree 2, so a neighbour is never a node itself.
+    // Cut curves have degree 2, so a neighbour is never a node itself.
     for (const int next : adjacency.neighbours(piece)) {
       if (used[idx(next)] == 0) trace(piece, next);
     }

@@ -87,9 +87,8 @@ struct SkeletonGraph {
   /// Joins the two arcs at a node of degree 2 into one; nothing to do at a closed curve's node.
   void dissolve(int node);
   /// Cuts an arc loose from its `to` and lets it end where a new, closed arc begins: `way`
-  /// goes on from its `from` to there, `ring` from there once round. What belongs to the arc
-  /// from piece `cut` on belongs to the closed one. The old `to` may be left with two arcs or
-  /// none.
+  /// goes on from its `from` to there, `ring` from there once round. The pieces of the arc
+  /// from `cut` on belong to the closed one. The old `to` may be left with two arcs or none.
   void end_in_ring(int arc, std::size_t cut, std::vector<Point> way,
                    const std::vector<Point>& ring);
   /// A new node at a place on the arc's segment (counted along its polyline); both parts belong

@@ -5,7 +5,7 @@
 
 namespace curveskel {
 
-/// How far apart the points of an arc lie. D = 1.
+/// Bounds of the distance between neighbouring points of an arc. D = 1.
 struct SpacingTuning {
   double least = 1.0 / 400;  ///< points need not be nearer, however thin the limb
   double most = 1.0 / 60;

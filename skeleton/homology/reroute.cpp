@@ -53,10 +53,10 @@ class InnerCurves {
   HomologyGuard& guard_;
 };
 
-class Threading {
+class HandleReroute {
  public:
-  Threading(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
-            const PartitionGraph& partition, HomologyGuard& guard)
+  HandleReroute(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+                const PartitionGraph& partition, HomologyGuard& guard)
       : graph_(graph),
         partition_(partition),
         guard_(guard),
@@ -67,7 +67,7 @@ class Threading {
   void run() {
     const auto tunnels = arcs_along_tunnels();
     for (const int s : core(graph_)) {
-      if (!std::binary_search(tunnels.begin(), tunnels.end(), s)) thread(graph_.arcs[idx(s)]);
+      if (!std::binary_search(tunnels.begin(), tunnels.end(), s)) reroute(graph_.arcs[idx(s)]);
     }
     std::vector<int> ends;
     ends.reserve(2 * tunnels.size());
@@ -75,7 +75,7 @@ class Threading {
       ends.push_back(graph_.arcs[idx(s)].from);
       ends.push_back(graph_.arcs[idx(s)].to);
     }
-    for (const int s : tunnels) turn_round(s);
+    for (const int s : tunnels) end_in_ring_at_cut_curve(s);
     for (const int node : ends) {
       if (!graph_.nodes[idx(node)].alive) continue;
       if (graph_.degree(node) == 2) graph_.dissolve(node);
@@ -91,8 +91,8 @@ class Threading {
     std::size_t place = 0;  // of the cut curve, along the arc's pieces
   };
 
-  [[nodiscard]] const std::vector<std::array<int, 2>>& edges_across(int circle) const {
-    return partition_.cut_curves[idx(circle - partition_.groups)];
+  [[nodiscard]] const std::vector<std::array<int, 2>>& edges_across(int cut_curve) const {
+    return partition_.cut_curves[idx(cut_curve - partition_.groups)];
   }
 
   [[nodiscard]] int end_in(int group, const std::array<int, 2>& edge) const {
@@ -100,14 +100,14 @@ class Threading {
   }
 
   /// The vertex on a group's side of the edge where a cut curve is crossed.
-  [[nodiscard]] int gate(int circle, int group) const {
-    return end_in(group, edges_across(circle).front());
+  [[nodiscard]] int gate(int cut_curve, int group) const {
+    return end_in(group, edges_across(cut_curve).front());
   }
 
   /// Round a cut curve on a group's side, from the gate to the gate.
-  [[nodiscard]] std::vector<int> ring(int circle, int group) const {
+  [[nodiscard]] std::vector<int> ring(int cut_curve, int group) const {
     std::vector<int> vertices;
-    for (const auto& edge : edges_across(circle)) vertices.push_back(end_in(group, edge));
+    for (const auto& edge : edges_across(cut_curve)) vertices.push_back(end_in(group, edge));
     vertices.push_back(vertices.front());
     return vertices;
   }
@@ -143,7 +143,7 @@ class Threading {
     return vertices;
   }
 
-  void thread(Arc& arc) {
+  void reroute(Arc& arc) {
     const auto vertices = way(middle_of(arc.from), course(arc), middle_of(arc.to));
     const auto points = curves_.deep(vertices);
     if (points.size() < 2) return;
@@ -199,7 +199,7 @@ class Threading {
   }
 
   /// The arc ends at one of its cut curves, and a closed one goes round that.
-  void turn_round(int s) {
+  void end_in_ring_at_cut_curve(int s) {
     const auto half_from = [&](int node) {
       graph_.orient_from(s, node);
       return half_of(graph_.arcs[idx(s)]);
@@ -218,11 +218,11 @@ class Threading {
       graph_.orient_from(s, to);
     }
     if (half.way.empty()) return;
-    const int circle = graph_.arcs[idx(s)].pieces[half.place];
+    const int cut_curve = graph_.arcs[idx(s)].pieces[half.place];
     auto way = curves_.deep(half.way);
     graph_.nodes[idx(graph_.arcs[idx(s)].from)].point = way.front();
     if (way.size() > 1) way.erase(way.begin());
-    auto round = curves_.deep(ring(circle, half.group));
+    auto round = curves_.deep(ring(cut_curve, half.group));
     round.pop_back();
     graph_.end_in_ring(s, half.place, std::move(way), round);
   }
@@ -240,7 +240,7 @@ class Threading {
 void reroute_around_handles(SkeletonGraph& graph, const WorkingSurface& working,
                             const SurfaceTree& tree, const PartitionGraph& partition,
                             HomologyGuard& guard) {
-  Threading(graph, working, tree, partition, guard).run();
+  HandleReroute(graph, working, tree, partition, guard).run();
 }
 
 }  // namespace curveskel

@@ -9,7 +9,7 @@
 
 namespace curveskel {
 
-/// Leads the arcs on cycles along the surface itself, group by group and cut curve by circle,
+/// Leads the arcs on cycles along the surface itself, group by group and cut curve by cut curve,
 /// through its vertices' inscribed balls, after those along tunnels have become rings round them.
 ///
 /// An arc whose cut curves bound no disc inside runs along a tunnel, and its cycle goes round no

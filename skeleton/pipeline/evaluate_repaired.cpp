@@ -16,20 +16,20 @@ namespace curveskel {
 namespace {
 
 /// The narrowest wrap of a component for which its own skeleton holds.
-std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, double opening,
+std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, double gap,
                                              const CertificateOptions& options,
                                              const Monitor& monitor) {
-  for (const double one : wrap_openings) {
+  for (const double one : wrap_gaps) {
     std::optional<WrappedSolid> agreeing;
     const auto try_to = [&] {
-      auto wrapped = wrap_solid(failing.surface, opening > 0 ? opening : one, monitor);
+      auto wrapped = wrap_solid(failing.surface, gap > 0 ? gap : one, monitor);
       if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).holds()) {
         agreeing = std::move(wrapped);
       }
     };
     const bool failed = failure_of(try_to).has_value();  // too large to be wrapped
     if (agreeing && !failed) return agreeing;
-    if (opening > 0) break;
+    if (gap > 0) break;
   }
   return std::nullopt;
 }
@@ -57,7 +57,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   for (const FailingComponent& failing :
        failing_components(surface, counted, skeleton, owners, options, monitor)) {
     if (!crosses_itself(failing.surface)) continue;
-    auto wrap = wrap_that_agrees(failing, as_repaired.wrap_opening, options, monitor);
+    auto wrap = wrap_that_agrees(failing, as_repaired.wrap_gap, options, monitor);
     if (wrap) wraps.push_back({failing.number, std::move(*wrap)});
   }
   if (wraps.empty()) return result;

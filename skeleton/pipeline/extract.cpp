@@ -67,7 +67,7 @@ SurfaceStages::CertifiedFrom certified_from(const std::vector<ComponentResult>& 
   std::vector<Shared<CurveSkeleton>> skeletons;
   skeletons.reserve(results.size());
   for (const ComponentResult& one : results) skeletons.push_back(one.skeleton);
-  return {std::move(skeletons), options.openings, what_counts(options.certificate)};
+  return {std::move(skeletons), options.rims, what_counts(options.certificate)};
 }
 
 /// The tree for the certificate of several components grows in the background; a single component
@@ -145,7 +145,7 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
       stage("certify", stages.certified, certified_from(results, options), [&] {
         CertifiedSkeleton made{joined(results, parts->components, surface.positions.rows()), {}};
         const SurfaceTree& tree = tree_of_all.get(results);
-        reach_rims(made.skeleton, surface, tree, options.openings);
+        reach_rims(made.skeleton, surface, tree, options.rims);
         made.certificate = evaluate({surface, tree, bounding_box_diagonal(surface.positions),
                                      parts->counted.components(), parts->counted.total_genus()},
                                     made.skeleton, options.certificate, monitor);
@@ -173,10 +173,10 @@ void require_valid(const ExtractOptions& options) {
 ExtractOptions admitted(const Surface& surface, const ExtractOptions& options) {
   require_valid(options);
   require_closed_manifold(surface, "extract", options.threads);
-  for (const auto& opening : options.openings) {
-    for (const std::int32_t vertex : opening) {
+  for (const auto& rim : options.rims) {
+    for (const std::int32_t vertex : rim) {
       if (vertex >= 0 && vertex < surface.positions.rows()) continue;
-      throw Error(Fault::usage, "ExtractOptions::openings has vertex " + std::to_string(vertex) +
+      throw Error(Fault::usage, "ExtractOptions::rims has vertex " + std::to_string(vertex) +
                                     ", needed 0.." + std::to_string(surface.positions.rows() - 1));
     }
   }

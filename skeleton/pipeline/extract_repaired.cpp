@@ -36,7 +36,7 @@ bool better(const Certificate& wider, const Certificate& narrower, int genus) {
 /// Options with which one component alone is extracted as it will be among the others.
 ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) {
   ExtractOptions one = options;
-  one.openings.clear();
+  one.rims.clear();
   if (options.resolution > 0) {
     one.resolution =
         std::max(1, static_cast<int>(std::lround(options.resolution * share_of_vertices)));
@@ -44,19 +44,19 @@ ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) 
   return one;
 }
 
-std::string why_wrapped(double opening) {
+std::string why_wrapped(double gap) {
   std::ostringstream words;
   words.precision(3);
-  words << "the component's certificate failed; gaps of up to " << opening
+  words << "the component's certificate failed; gaps of up to " << gap
         << " of its extent are wrapped over";
   return words.str();
 }
 
-Plan<Attempt> wrap_plan(const FailingComponent& failing, double opening,
+Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
                         const ExtractOptions& options) {
-  return {try_wrapped, [opening](const auto&) { return why_wrapped(opening); },
-          [&failing, opening, &options](const Plan<Attempt>::Room& room) {
-            auto wrapped = wrap_solid(failing.surface, opening, room.monitor);
+  return {try_wrapped, [gap](const auto&) { return why_wrapped(gap); },
+          [&failing, gap, &options](const Plan<Attempt>::Room& room) {
+            auto wrapped = wrap_solid(failing.surface, gap, room.monitor);
             if (!wrapped) throw GaveUp("the wrap encloses next to nothing");
             const Certificate found = extract_once(wrapped->surface, options, room.monitor, nullptr,
                                                    room.log, room.number)
@@ -68,12 +68,12 @@ Plan<Attempt> wrap_plan(const FailingComponent& failing, double opening,
 }
 
 /// From narrow to wide the best of those whose certificate holds.
-std::optional<Attempt> best_wrap(const FailingComponent& failing, double opening,
+std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
                                  const ExtractOptions& options, const Plan<Extracted>::Room& room) {
   std::vector<Plan<Attempt>> plans;
-  for (const double one : wrap_openings) {
-    plans.push_back(wrap_plan(failing, opening > 0 ? opening : one, options));
-    if (opening > 0) break;
+  for (const double one : wrap_gaps) {
+    plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, options));
+    if (gap > 0) break;
   }
   const auto takes = [&](const Attempt& wider, const Attempt* best) {
     return wider.certificate.holds() &&
@@ -86,13 +86,13 @@ std::optional<Attempt> best_wrap(const FailingComponent& failing, double opening
 }
 
 /// For each component that fails the best of its wraps, if one has a certificate that holds.
-std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing, double opening,
+std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing, double gap,
                                     Eigen::Index vertices, const ExtractOptions& options,
                                     const Plan<Extracted>::Room& room) {
   std::vector<ComponentWrap> wraps;
   for (const FailingComponent& one : failing) {
     const double share = double(one.surface.positions.rows()) / double(vertices);
-    auto best = best_wrap(one, opening, for_one(options, share), room);
+    auto best = best_wrap(one, gap, for_one(options, share), room);
     if (best) wraps.push_back({one.number, std::move(best->wrap)});
   }
   return wraps;
@@ -122,11 +122,11 @@ Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOpti
   const Extraction& failed = given.so_far.best->found.extraction;
   const auto failing = failing_of(repaired.surface, failed, options.certificate, silent);
   const auto wraps =
-      wraps_of(failing, as_repaired.wrap_opening, repaired.surface.positions.rows(), options, room);
+      wraps_of(failing, as_repaired.wrap_gap, repaired.surface.positions.rows(), options, room);
   if (wraps.empty()) throw GaveUp("no wrap has a certificate that holds");
   auto wrapped = with_wraps(repaired, wraps, silent);
   ExtractOptions from_wraps = options;
-  from_wraps.openings = wrapped.openings;
+  from_wraps.rims = wrapped.rims;
   RepairedExtraction found{
       extract_once(wrapped.surface, from_wraps, silent, nullptr, room.log, room.number),
       std::move(wrapped)};
@@ -146,9 +146,9 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
                              const ExtractOptions& options, const Monitor& monitor,
                              ExtractionCache::Implementation* kept) {
   require_valid(as_repaired);
-  ExtractOptions with_openings = options;
-  with_openings.openings = repaired.openings;
-  const ExtractOptions its = admitted(repaired.surface, with_openings);
+  ExtractOptions with_rims = options;
+  with_rims.rims = repaired.rims;
+  const ExtractOptions its = admitted(repaired.surface, with_rims);
   auto plans = extraction_plans(repaired.surface, its, kept);
   const auto why = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;

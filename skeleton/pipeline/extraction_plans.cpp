@@ -62,7 +62,7 @@ Plan<Extracted> as_asked(const Surface& surface, const ExtractOptions& options,
           }};
 }
 
-/// What is as thin as the coarsened triangles are long has other handles there.
+/// Parts as thin as the coarsened triangles are long have other handles there.
 Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
                                   ExtractionCache::Implementation* kept) {
   const auto why = [&surface, &options](const SoFar& so_far) -> std::optional<std::string> {

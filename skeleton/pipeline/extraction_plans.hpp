@@ -11,7 +11,7 @@
 
 namespace curveskel {
 
-/// What one try of a whole surface ends in.
+/// The outcome of one try of a whole surface.
 struct Extracted {
   RepairedExtraction found;
   std::string note;  ///< for the user, if it is the result

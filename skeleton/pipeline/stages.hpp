@@ -138,7 +138,7 @@ class StageRun {
            bool keep)
       : clock(times), reused_(reused), monitor_(monitor), keep_(keep) {}
 
-  /// work makes the value from `key`, see StageClock. What is kept stays until the new value is
+  /// work makes the value from `key`, see StageClock. The value kept stays until the new one is
   /// there, so that a cancelled run takes nothing away. Throws Cancelled if a stop was requested.
   template <typename Key, typename Value, typename Work>
   Shared<Value> operator()(const char* stage, Kept<Key, Value>& kept, std::type_identity_t<Key> key,

@@ -70,7 +70,7 @@ struct Plan {
   std::function<Value(const Room&)> make;  ///< a failure is thrown
 };
 
-/// What the tries are of.
+/// The subject of the tries: the whole surface, or one of its components.
 struct TriesOf {
   int component = -1;
   int part_of = -1;

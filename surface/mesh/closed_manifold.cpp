@@ -13,7 +13,7 @@
 namespace curveskel {
 namespace {
 
-/// How often something is wrong, and where first.
+/// The number of places where something is wrong, and the first of them.
 struct Defect {
   std::int64_t count = 0;
   std::string first;

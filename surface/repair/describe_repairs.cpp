@@ -16,7 +16,7 @@ std::string share_words(double share) {
 }
 
 std::string wrap_words(const Repairs& repairs) {
-  return "the wrap spans gaps up to " + share_words(repairs.wrap_opening) + " D and lies " +
+  return "the wrap spans gaps up to " + share_words(repairs.wrap_gap) + " D and lies " +
          share_words(repairs.wrap_mean_distance) + " D from them in the mean, " +
          share_words(repairs.wrap_distance) + " D at most";
 }

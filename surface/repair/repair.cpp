@@ -182,7 +182,7 @@ class VertexMap {
 
   /// A part outside the wrap and farther from the wrap than the wrap spans is none of it.
   void add_wrapped(const Surface& sheets, const WrappedSolid& wrapped, std::int32_t first_vertex) {
-    const double farthest = (wrapped.opening + wrapped.offset) * extent_of_faces(sheets);
+    const double farthest = (wrapped.gap + wrapped.offset) * extent_of_faces(sheets);
     const SurfaceTree tree(wrapped.surface);
     for (const std::int32_t v : sheets.triangles.reshaped()) {
       if (of_joined_[idx(v)] >= 0) continue;
@@ -222,14 +222,14 @@ void append_surface(Surface& surface, const Surface& more) {
 void count_holes(const ClosedParts& closed, const JudgedParts& judged,
                  const std::vector<std::int32_t>& number, RepairedSurface& result) {
   for (const auto& hole : closed.holes) {
-    std::vector<std::int32_t> opening;
-    opening.reserve(hole.size());
-    for (const std::int32_t v : hole) opening.push_back(number[idx(v)]);
-    if (std::find(opening.begin(), opening.end(), -1) != opening.end()) continue;
+    std::vector<std::int32_t> rim;
+    rim.reserve(hole.size());
+    for (const std::int32_t v : hole) rim.push_back(number[idx(v)]);
+    if (std::find(rim.begin(), rim.end(), -1) != rim.end()) continue;
     ++result.repairs.holes_closed;
     result.repairs.longest_hole =
-        std::max(result.repairs.longest_hole, static_cast<std::int64_t>(opening.size()));
-    result.openings.push_back(std::move(opening));
+        std::max(result.repairs.longest_hole, static_cast<std::int64_t>(rim.size()));
+    result.rims.push_back(std::move(rim));
   }
   for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
     const bool in_body = judged.parts[idx(judged.orientation.component_of_face[f])].is_body;
@@ -252,7 +252,7 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
 }
 
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
-  repairs.wrap_opening = wrapped.opening;
+  repairs.wrap_gap = wrapped.gap;
   repairs.wrap_distance = wrapped.distance;
   repairs.wrap_mean_distance = wrapped.mean_distance;
 }
@@ -307,13 +307,13 @@ std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOpt
       joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
   const Surface given = what_to_wrap(joined.surface, options, result.repairs);
   std::optional<WrappedSolid> wrapped;
-  if (options.wrap_opening > 0) {
-    wrapped = wrap_solid(given, options.wrap_opening, monitor);
+  if (options.wrap_gap > 0) {
+    wrapped = wrap_solid(given, options.wrap_gap, monitor);
   } else {  // a wide one may have webs between limbs where a narrow one has none
-    const double narrowest = narrowest_opening(given) / extent_of_faces(given);
-    for (std::size_t i = 0; i < wrap_openings.size() && !wrapped; ++i) {
-      if (wrap_openings[i] < narrowest && i + 1 < wrap_openings.size()) continue;
-      wrapped = wrap_solid(given, wrap_openings[i], monitor);
+    const double narrowest = narrowest_gap(given) / extent_of_faces(given);
+    for (std::size_t i = 0; i < wrap_gaps.size() && !wrapped; ++i) {
+      if (wrap_gaps[i] < narrowest && i + 1 < wrap_gaps.size()) continue;
+      wrapped = wrap_solid(given, wrap_gaps[i], monitor);
     }
   }
   if (!wrapped) return std::nullopt;
@@ -352,7 +352,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   std::optional<WrappedSolid> wrapped;
   if (options.wrap != Wrapping::never &&
       (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0)) {
-    wrapped = wrap_solid(sheets.surface, options.wrap_opening, monitor);
+    wrapped = wrap_solid(sheets.surface, options.wrap_gap, monitor);
   }
   if (wrapped) {
     result.repairs.faces_wrapped = sheets.surface.triangles.rows();
@@ -388,11 +388,11 @@ void leave_out(RepairedSurface& result, const SelectionRules& rules) {
     }
   }
   for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  std::erase_if(result.openings, [&](const auto& opening) {
-    return fates[idx(counted.component_of_vertex[opening[0]])] != Fate::kept;
+  std::erase_if(result.rims, [&](const auto& rim) {
+    return fates[idx(counted.component_of_vertex[rim[0]])] != Fate::kept;
   });
-  for (auto& opening : result.openings) {
-    for (std::int32_t& v : opening) v = number[idx(v)];
+  for (auto& rim : result.rims) {
+    for (std::int32_t& v : rim) v = number[idx(v)];
   }
 }
 
@@ -444,7 +444,7 @@ Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options, cons
     throw Error(Fault::input,
                 (soup.file.empty() ? "surface" : soup.file.string()) +
                     ": found nothing that a wrap encloses more of than its own thickness; try a "
-                    "wider --wrap-opening, or " +
+                    "wider --wrap-gap, or " +
                     instead_of_wrap(soup, options, monitor, threads));
   }
   describe_changes(wrapped->changes, monitor);
@@ -455,7 +455,7 @@ Mended wrapped_whole(const PolygonSoup& soup, const RepairOptions& options, cons
 
 void require_valid(const RepairOptions& options) {
   constexpr OptionRange distance{0, 0.1};
-  constexpr OptionRange opening{0, 0.5};
+  constexpr OptionRange gap{0, 0.5};
   const OptionCheck check("RepairOptions");
   check.number("join_distance", options.join_distance, distance);
   check.number("least_area", options.least_area, share_range);
@@ -463,7 +463,7 @@ void require_valid(const RepairOptions& options) {
   check.number("most_added_area", options.most_added_area, share_range);
   check.number("least_crumb", options.least_crumb, share_range);
   check.choice("wrap", options.wrap, wrappings);
-  check.number("wrap_opening", options.wrap_opening, opening);
+  check.number("wrap_gap", options.wrap_gap, gap);
 }
 
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,

@@ -25,8 +25,8 @@ using WrapKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using WrapMesh = CGAL::Surface_mesh<WrapKernel::Point_3>;
 
 /// By the area: on sheets there are more, which have two sides.
-double expected_vertices(const Surface& triangles, double opening) {
-  return area(triangles) / (opening * opening);
+double expected_vertices(const Surface& triangles, double gap) {
+  return area(triangles) / (gap * gap);
 }
 
 /// Lets a stop out of CGAL's loop, and how far it is into the monitor. CGAL copies it.
@@ -63,25 +63,25 @@ std::string share_at_least(double share) {
   return text.data();
 }
 
-void require_room(const Surface& triangles, double opening) {
-  const double narrowest = narrowest_opening(triangles);
-  if (opening >= narrowest) return;
+void require_room(const Surface& triangles, double gap) {
+  const double narrowest = narrowest_gap(triangles);
+  if (gap >= narrowest) return;
   const double extent = extent_of_faces(triangles);
   std::array<char, 160> found{};
   std::snprintf(found.data(), found.size(),
                 "a wrap that spans gaps up to %.2g D would have about %.1e vertices; ",
-                opening / extent, expected_vertices(triangles, opening));
+                gap / extent, expected_vertices(triangles, gap));
   throw Error(Fault::input,
-              found.data() + (narrowest < extent
-                                  ? "needed is --wrap-opening " +
-                                        share_at_least(narrowest / extent) + " or wider"
-                                  : std::string("there is no memory for any; decimate the surface "
-                                                "first")));
+              found.data() +
+                  (narrowest < extent
+                       ? "needed is --wrap-gap " + share_at_least(narrowest / extent) + " or wider"
+                       : std::string("there is no memory for any; decimate the surface "
+                                     "first")));
 }
 
 }  // namespace
 
-double narrowest_opening(const Surface& triangles) {
+double narrowest_gap(const Surface& triangles) {
   constexpr double most_vertices = 1e6;
   // As measured: the hierarchy over the faces, and a triangulation with the wrap's vertices.
   const double for_faces = 600.0 * double(triangles.triangles.rows());
@@ -91,7 +91,7 @@ double narrowest_opening(const Surface& triangles) {
 }
 
 Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor& monitor) {
-  require_room(triangles, options.opening);
+  require_room(triangles, options.gap);
   monitor.report("wrap", 0);
   std::vector<WrapKernel::Point_3> points;
   points.reserve(idx(triangles.positions.rows()));
@@ -102,8 +102,8 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor
     faces.push_back({idx(t(0)), idx(t(1)), idx(t(2))});
 
   WrapMesh mesh;
-  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.opening));
-  CGAL::alpha_wrap_3(points, faces, options.opening, options.offset, mesh,
+  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.gap));
+  CGAL::alpha_wrap_3(points, faces, options.gap, options.offset, mesh,
                      CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
 
   Surface result;

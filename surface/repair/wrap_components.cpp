@@ -52,7 +52,7 @@ class Assembly {
 /// The record's entries about wrapping, lengths in D of the whole surface.
 void note(Repairs& repairs, const WrappedSolid& wrapped, double share_of_diagonal) {
   ++repairs.components_wrapped;
-  repairs.wrap_opening = std::max(repairs.wrap_opening, wrapped.opening * share_of_diagonal);
+  repairs.wrap_gap = std::max(repairs.wrap_gap, wrapped.gap * share_of_diagonal);
   repairs.wrap_distance = std::max(repairs.wrap_distance, wrapped.distance * share_of_diagonal);
   repairs.wrap_mean_distance =
       std::max(repairs.wrap_mean_distance, wrapped.mean_distance * share_of_diagonal);
@@ -90,11 +90,11 @@ RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<Co
           first + nearest_vertex(wrapped->surface, tree, surface.positions.row(std::int64_t(v)));
     }
   }
-  std::erase_if(result.openings, [&](const auto& hole) {
-    return wrap_of[idx(counted.component_of_vertex[hole[0]])] != nullptr;
+  std::erase_if(result.rims, [&](const auto& rim) {
+    return wrap_of[idx(counted.component_of_vertex[rim[0]])] != nullptr;
   });
-  for (auto& hole : result.openings) {
-    for (std::int32_t& v : hole) v = number[idx(v)];
+  for (auto& rim : result.rims) {
+    for (std::int32_t& v : rim) v = number[idx(v)];
   }
   for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
   result.surface = assembly.whole();

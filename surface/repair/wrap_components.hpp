@@ -17,7 +17,7 @@ struct ComponentWrap {
 };
 
 /// The surface with the wraps in the place of their components. A wrapped vertex has the nearest
-/// one of its wrap; openings that were closed there are openings no more. Counted and said in
+/// one of its wrap; the rims of its holes are rims no more. Counted and said in
 /// `repairs`. Precondition: each component at most once.
 [[nodiscard]] RepairedSurface with_wraps(const RepairedSurface& repaired,
                                          const std::vector<ComponentWrap>& wraps,

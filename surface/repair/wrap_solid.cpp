@@ -34,8 +34,8 @@ Surface solid_components(const Surface& wrapped, double offset, double given_are
   return kept;
 }
 
-WrappedSolid measured(Surface surface, double opening, const Surface& faces, double extent) {
-  WrappedSolid result{std::move(surface), opening, offset_of_wraps, 0, 0};
+WrappedSolid measured(Surface surface, double gap, const Surface& faces, double extent) {
+  WrappedSolid result{std::move(surface), gap, offset_of_wraps, 0, 0};
   const SurfaceTree tree(faces);
   const auto away = [&](const Eigen::RowVector3d& p) {
     const double distance = tree.nearest(p.transpose()).distance / extent;
@@ -60,8 +60,7 @@ WrappedSolid measured(Surface surface, double opening, const Surface& faces, dou
 
 }  // namespace
 
-std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
-                                       const Monitor& monitor) {
+std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const Monitor& monitor) {
   const double extent = extent_of_faces(faces);
   const double offset = offset_of_wraps * extent;
   const double given_area = area(faces);
@@ -70,12 +69,12 @@ std::optional<WrappedSolid> wrap_solid(const Surface& faces, double opening,
     return solid_components(wrap(faces, {share * extent, offset}, monitor), offset, given_area);
   };
   // The widest costs least, and no other encloses more.
-  const double widest = opening > 0 ? opening : wrap_openings.back();
+  const double widest = gap > 0 ? gap : wrap_gaps.back();
   Surface solid = solid_at(widest);
   if (solid.triangles.rows() == 0) return std::nullopt;
-  for (const double narrower : wrap_openings) {
-    if (opening > 0 || narrower == widest) break;
-    if (narrower * extent < narrowest_opening(faces)) continue;
+  for (const double narrower : wrap_gaps) {
+    if (gap > 0 || narrower == widest) break;
+    if (narrower * extent < narrowest_gap(faces)) continue;
     Surface closer = solid_at(narrower);
     if (closer.triangles.rows() > 0) return measured(std::move(closer), narrower, faces, extent);
   }

@@ -154,6 +154,7 @@ class Repair(CommandLineTest):
     def test_parts_become_one_body(self):
         report = self.folder / "r.json"
         for arguments, components in (((), 2), (("--wrap", "never"), 2), (("--wrap", "all"), 2),
+                                      (("--wrap", "all", "--wrap-gap", "0.25"), 1),
                                       (("--wrap", "all", "--wrap-opening", "0.25"), 1)):
             self.run_ok("extract", LINKED_RINGS, "-o", "x.json", "--report", report, *arguments,
                         "--strict", cwd=self.folder)
@@ -163,14 +164,14 @@ class Repair(CommandLineTest):
             skeleton = json.loads((self.folder / "x.json").read_text())
             self.assertEqual(len(skeleton["node_of_vertex"]), result["input"]["vertices"])
             self.assertGreaterEqual(min(skeleton["node_of_vertex"]), 0)
-        self.run_ok("rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-opening", "0.25",
+        self.run_ok("rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-gap", "0.25",
                     cwd=self.folder)
         self.refused(2, "extract", LINKED_RINGS, "-o", "x.obj", "--wrap", "some",
                      says=["never, needed, all"], cwd=self.folder)
 
-    def test_an_opening_that_is_too_narrow_is_refused_with_one_that_is_not(self):
-        self.refused(3, "extract", TORUS, "-o", "x.obj", "--wrap", "all", "--wrap-opening", "1e-5",
-                     says=["1e-05", "vertices", "needed is --wrap-opening 0.00"], cwd=self.folder)
+    def test_a_wrap_gap_that_is_too_narrow_is_refused_with_one_that_is_not(self):
+        self.refused(3, "extract", TORUS, "-o", "x.obj", "--wrap", "all", "--wrap-gap", "1e-5",
+                     says=["1e-05", "vertices", "needed is --wrap-gap 0.00"], cwd=self.folder)
 
     def test_a_sheet_is_refused(self):
         sheet = self.folder / "sheet.off"
@@ -199,10 +200,10 @@ class TimeLimit(CommandLineTest):
     def test_says_the_same_where_a_stage_does_not_obey(self):
         # At first CGAL does not look up for seconds, on most machines.
         for limit in ("0.5", "1"):
-            self.refused(5, "rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-opening",
+            self.refused(5, "rig", LINKED_RINGS, "-o", "x.glb", "--wrap", "all", "--wrap-gap",
                          "0.001", "--time-limit", limit, cwd=self.folder,
                          says=[f"the time limit of {limit} s was reached, nothing was written; "
-                               "allow more, or choose a wider --wrap-opening, or decimate the "
+                               "allow more, or choose a wider --wrap-gap, or decimate the "
                                "surface first\n"])
 
     def test_does_not_matter_when_it_is_not_reached(self):

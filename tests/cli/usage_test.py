@@ -86,9 +86,9 @@ class WrongArguments(CommandLineTest):
                      says=["twice"], cwd=self.folder)
         for arguments in (("extract", TORUS, "-o", "x.obj"), ("rig", TORUS, "-o", "x.glb"),
                           ("contract", TORUS, "-o", "x.ply"), ("evaluate", TORUS, "x.obj")):
-            self.refused(USAGE, *arguments, "--wrap-opening", "0.01", "--wrap", "never",
-                         says=["--wrap-opening", "--wrap never"], cwd=self.folder)
-        self.run_ok("extract", TORUS, "-o", "x.obj", "--wrap", "never", "--wrap-opening", "0",
+            self.refused(USAGE, *arguments, "--wrap-gap", "0.01", "--wrap", "never",
+                         says=["--wrap-gap", "--wrap never"], cwd=self.folder)
+        self.run_ok("extract", TORUS, "-o", "x.obj", "--wrap", "never", "--wrap-gap", "0",
                     cwd=self.folder)
 
     def test_never_overwrite_the_input(self):

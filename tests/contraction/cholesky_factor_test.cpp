@@ -70,7 +70,7 @@ TEST(CholeskyFactor, SolvesColumnsAsItSolvesThemAlone) {
   }
 }
 
-/// What a second matrix of the same pattern, and one of another, leave of the first.
+/// Nothing of the first matrix is left after a second of the same pattern, or of another.
 TEST(CholeskyFactor, ForgetsTheMatrixBefore) {
   const std::vector<SparseMatrix> matrices = definite_matrices();
   CholeskyFactor reused;

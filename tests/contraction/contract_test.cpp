@@ -23,7 +23,7 @@
 namespace curveskel::contract_laws {
 namespace {
 
-// What "ends near zero" means, on every surface of this file.
+// The bounds of "ends near zero", for every surface of this file.
 constexpr double near_zero_area = 1e-2;
 constexpr double near_zero_volume = 1e-4;
 
@@ -126,7 +126,7 @@ void expect_laws(const Case& each, const Contraction& result) {
   }
   EXPECT_LE(before.area_ratio, near_zero_area);
   EXPECT_LE(before.volume_ratio, near_zero_volume);
-  // What the steps say is what the surface is.
+  // The last step says what is true of the surface.
   EXPECT_EQ(before.vertices, result.surface.positions.rows());
   EXPECT_NEAR(before.area_ratio, area(result.surface) / area(each.surface), 1e-9);
   EXPECT_EQ(topology(result.surface).genus, topology(each.surface).genus);

@@ -146,7 +146,7 @@ TEST(FairRings, PatchesOfAnySizeWillDo) {
   }
 }
 
-/// What the patches of all vertices take on the device, the workspace in full.
+/// The memory that the patches of all vertices take on the device, the workspace in full.
 std::size_t bytes_on_device(const Surface& surface, int rings, const Device& device) {
   const auto corners = corners_by_vertex(surface.triangles, surface.positions.rows());
   PatchFinder finder(surface.triangles, corners, rings);

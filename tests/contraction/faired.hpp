@@ -1,4 +1,4 @@
-// What the laws of the local flow run over and compare with.
+// Surfaces and comparisons for the laws of the local flow.
 #pragma once
 
 #include <gtest/gtest.h>

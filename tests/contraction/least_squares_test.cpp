@@ -150,7 +150,7 @@ TEST_P(EverySolver, ReportsTheResidualOfWhatItReturns) {
   }
 }
 
-/// What is thrown names the solver's fault and says something about the matrix.
+/// The error thrown has the solver's fault and says something about the matrix.
 template <typename Solve>
 void expect_solver_error(const Solve& solve, const std::string& said) {
   try {

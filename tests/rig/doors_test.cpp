@@ -1,4 +1,5 @@
-// What is no closed manifold is refused where it enters, by every function that needs one.
+// Surfaces that are no closed manifold are refused where they enter, by every function that needs
+// one.
 #include <gtest/gtest.h>
 
 #include <functional>

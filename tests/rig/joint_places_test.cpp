@@ -189,8 +189,8 @@ TEST(JointPlaces, LetAHeadTurnOnItsNeck) {
   }
 }
 
-/// What ends no thicker than it was has no head.
-TEST(JointPlaces, AreNotAtTheRimOfARoundCap) {
+/// A limb that ends no thicker than it was has no head.
+TEST(JointPlaces, AreNotAtTheEdgeOfARoundCap) {
   const CurveSkeleton chain = chain_with_head(5, 1);
   EXPECT_EQ(place_joints(chain, {.root = 0}).positions.rows(), 2);
 }

@@ -89,7 +89,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
          option("most_added_area", &O::most_added_area, "0..1", {0, 1}, {-1e-9, over_one}),
          option("least_crumb", &O::least_crumb, "0..1", {0, 1}, {-1e-9, over_one}),
          option("wrap", &O::wrap, "one of never, needed, all", {0, 1, 2}, {3, 200}),
-         option("wrap_opening", &O::wrap_opening, "0..0.5", {0, 0.5}, {-1e-9, 0.51})});
+         option("wrap_gap", &O::wrap_gap, "0..0.5", {0, 0.5}, {-1e-9, 0.51})});
   }
   {
     using O = CoarsenOptions;
@@ -277,9 +277,9 @@ TEST(Options, OfEveryStageAreLookedAtByExtract) {
       {"ExtractOptions", [](ExtractOptions& o) { o.threads = -1; }},
       {"ExtractOptions",
        [](ExtractOptions& o) {
-         o.openings = {{0, 1, 1 << 30}};
+         o.rims = {{0, 1, 1 << 30}};
        }},
-      {"ExtractOptions", [](ExtractOptions& o) { o.openings = {{-1}}; }},
+      {"ExtractOptions", [](ExtractOptions& o) { o.rims = {{-1}}; }},
       {"FairOptions", [](ExtractOptions& o) { o.fair.smoothing = -1; }},
       {"ContractionOptions", [](ExtractOptions& o) { o.contraction.contraction_weight = 0; }},
       {"SurgeryOptions", [](ExtractOptions& o) { o.surgery.sampling_weight = -1; }},
@@ -291,7 +291,7 @@ TEST(Options, OfEveryStageAreLookedAtByExtract) {
     ExtractionCache cache;
     EXPECT_TRUE(refuses(owner, [&] { (void)extract(bar().surface, options); })) << owner;
     EXPECT_TRUE(refuses(owner, [&] { (void)extract(bar().surface, options, {}, cache); })) << owner;
-    if (!options.openings.empty()) continue;  // has those of the repair instead
+    if (!options.rims.empty()) continue;  // has those of the repair instead
     EXPECT_TRUE(refuses(owner, [&] {
       (void)extract_repaired(repair(soup_of(bar().surface)), {}, options);
     })) << owner;
@@ -299,13 +299,11 @@ TEST(Options, OfEveryStageAreLookedAtByExtract) {
 }
 
 TEST(Options, OfARepairAreEqualWhereAllOfThemAre) {
-  const std::vector<std::function<void(RepairOptions&)>> changes = {[](RepairOptions& o) { o.join_distance = 0; },
-                                                                    [](RepairOptions& o) { o.least_area = 0; },
-                                                                    [](RepairOptions& o) { o.components = 1; },
-                                                                    [](RepairOptions& o) { o.least_crumb = 0; },
-                                                                    [](RepairOptions& o) { o.most_added_area = 0; },
-                                                                    [](RepairOptions& o) { o.wrap_opening = 0.1; },
-                                                                    [](RepairOptions& o) { o.wrap = Wrapping::all; }};
+  const std::vector<std::function<void(RepairOptions&)>> changes = {
+      [](RepairOptions& o) { o.join_distance = 0; },   [](RepairOptions& o) { o.least_area = 0; },
+      [](RepairOptions& o) { o.components = 1; },      [](RepairOptions& o) { o.least_crumb = 0; },
+      [](RepairOptions& o) { o.most_added_area = 0; }, [](RepairOptions& o) { o.wrap_gap = 0.1; },
+      [](RepairOptions& o) { o.wrap = Wrapping::all; }};
   EXPECT_EQ(RepairOptions{}, RepairOptions{});
   for (const auto& change : changes) {
     RepairOptions options;

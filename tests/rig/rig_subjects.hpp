@@ -1,5 +1,4 @@
-// What rigs are made of in tests: surfaces with their extracted skeletons, and curves drawn by
-// hand.
+// The sources of rigs in tests: surfaces with their extracted skeletons, and curves drawn by hand.
 #pragma once
 
 #include <Eigen/Geometry>

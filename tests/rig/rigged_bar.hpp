@@ -14,7 +14,7 @@
 
 namespace curveskel {
 
-/// How a file may say the same rig.
+/// The ways in which a file may say the same rig.
 struct RiggedBar {
   int joints = 4;
   bool children_first = false;    ///< in the skin's list of joints

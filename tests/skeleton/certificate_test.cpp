@@ -107,7 +107,7 @@ void expect_same(const Certificate& a, const Certificate& b, double tolerance) {
   EXPECT_NEAR(a.centredness_p90, b.centredness_p90, tolerance);
   EXPECT_NEAR(a.coverage, b.coverage, tolerance);
   EXPECT_NEAR(a.reach, b.reach, tolerance);
-  EXPECT_NEAR(a.turning, b.turning, tolerance);
+  EXPECT_NEAR(a.total_curvature, b.total_curvature, tolerance);
 }
 
 TEST(Certificate, TheAxisOfATubeIsPerfect) {
@@ -126,17 +126,17 @@ TEST(Certificate, TheAxisOfATubeIsPerfect) {
   }
 }
 
-TEST(Certificate, TurningIsTheAngleThatTheCurveTurnsThrough) {
+TEST(Certificate, TotalCurvatureIsTheAngleThatTheCurveTurnsThrough) {
   const Shape ring = shapes::torus(1, 0.2, 24);
   const double diagonal = bounding_box_diagonal(ring.surface.positions);
   const Certificate circle = certify(ring, ring.axis);
-  EXPECT_NEAR(circle.turning * circle.length, 2 * pi, 0.02);
+  EXPECT_NEAR(circle.total_curvature * circle.length, 2 * pi, 0.02);
   EXPECT_NEAR(circle.length * diagonal, 2 * pi, 0.02);
 
   const Certificate line = certify(ring, chain({{0, 0, 0}, {0.3, 0.1, 0.2}}));
-  EXPECT_NEAR(line.turning, 0, 1e-6);
+  EXPECT_NEAR(line.total_curvature, 0, 1e-6);
   const Certificate corner = certify(ring, chain({{0.5, 0, 0}, {0, 0, 0}, {0, 0.5, 0}}));
-  EXPECT_NEAR(corner.turning * corner.length, pi / 2, 1e-6);
+  EXPECT_NEAR(corner.total_curvature * corner.length, pi / 2, 1e-6);
 }
 
 TEST(Certificate, AShiftedCurveIsOffCentreByAsMuch) {
@@ -246,7 +246,7 @@ TEST(Certificate, ALoneNodeIsASkeletonOfABall) {
   EXPECT_LT(certificate.centredness_p90, 0.01);
   EXPECT_EQ(certificate.coverage, 1);
   EXPECT_LT(certificate.reach, 0.01);
-  EXPECT_EQ(certificate.turning, 0);
+  EXPECT_EQ(certificate.total_curvature, 0);
 }
 
 TEST(Certificate, NoSkeletonCoversNothing) {

@@ -93,7 +93,7 @@ TEST(Crowd, IsTheSkeletonsOfItsComponentsOneAfterTheOther) {
   EXPECT_EQ(edges, whole.edges.rows());
 }
 
-/// How often an extraction says how far it is: more often the more it has to do.
+/// The number of times that an extraction says how far it is: the more it has to do, the more.
 int reports(int components) {
   int count = 0;
   Monitor monitor;

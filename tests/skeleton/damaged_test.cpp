@@ -1,4 +1,4 @@
-// What becomes of surfaces that were open or noisy: the whole way from repair to certificate.
+// Surfaces that were open or noisy, on the whole way from repair to certificate.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -41,7 +41,7 @@ PolygonSoup part_of(const Surface& surface, const Predicate& stays) {
 Extraction extracted(const PolygonSoup& soup) {
   const RepairedSurface repaired = repair(soup, {}, {});
   ExtractOptions options;
-  options.openings = repaired.openings;
+  options.rims = repaired.rims;
   return extract(repaired.surface, options, {});
 }
 
@@ -60,7 +60,7 @@ double nearest_tip(const CurveSkeleton& skeleton, const Eigen::RowVector3d& to, 
   return nearest;
 }
 
-TEST(Damaged, AnOpenTubesSkeletonReachesItsOpenings) {
+TEST(Damaged, AnOpenTubesSkeletonReachesItsRims) {
   for (const double radius : {0.2, 0.5, 1.0}) {
     SCOPED_TRACE(radius);
     const auto tube = shapes::tube("tube", shapes::straight(8), shapes::constant(radius), 32);
@@ -94,23 +94,22 @@ TEST(Damaged, AShortOpenTubesSkeletonIsItsAxis) {
   }
 }
 
-TEST(Damaged, EveryArmOfAnOpenStarReachesItsOpening) {
+TEST(Damaged, EveryArmOfAnOpenStarReachesItsRim) {
   const auto star = shapes::tube_union("star", shapes::star(4, 3, 0.3));
   const auto soup = part_of(star.surface, [](const auto& p) { return p.norm() < 2.5; });
   const RepairedSurface repaired = repair(soup, {}, {});
-  ASSERT_EQ(repaired.openings.size(), 4U);
+  ASSERT_EQ(repaired.rims.size(), 4U);
   const Extraction found = extracted(soup);
   EXPECT_EQ(found.certificate.tips, 4);
   EXPECT_TRUE(found.certificate.topology_correct());
-  for (const auto& opening : repaired.openings) {
-    const Eigen::RowVector3d middle =
-        repaired.surface.positions(opening, Eigen::all).colwise().mean();
+  for (const auto& rim : repaired.rims) {
+    const Eigen::RowVector3d middle = repaired.surface.positions(rim, Eigen::all).colwise().mean();
     int tip = -1;
     EXPECT_LT(nearest_tip(found.skeleton, middle, tip), 0.1);
   }
 }
 
-TEST(Damaged, AHoleInASideIsNoOpening) {
+TEST(Damaged, TheRimOfAHoleInASideIsNotReached) {
   const auto tube = shapes::tube("tube", shapes::straight(8), shapes::constant(0.5), 32);
   const auto whole = extracted(soup_of(tube.surface));
   const auto found = extracted(

@@ -131,7 +131,7 @@ TEST(ExtractRepaired, AWrapThatFailsInTheEndDoesNotHold) {
   ExtractOptions options;
   options.fair_if_outside = options.all_vertices_if_failed = false;
   RepairOptions one_gap;
-  one_gap.wrap_opening = 1.0 / 40;
+  one_gap.wrap_gap = 1.0 / 40;
   RepairedExtraction found = extract_repaired(repaired, one_gap, options);
   ASSERT_TRUE(found.wrapped);
   const std::vector<ComponentWrap> wraps{{0, {found.wrapped->surface, {}}}};

@@ -171,7 +171,7 @@ TEST_P(Skeleton, CarriesTheCertificateThatEvaluateGives) {
               1.5 / static_cast<double>(shape().surface.positions.rows()));  // one on the border
   EXPECT_NEAR(again.centredness_median, certificate().centredness_median, rounding);
   EXPECT_NEAR(again.reach, certificate().reach, rounding);
-  EXPECT_EQ(again.turning, certificate().turning);
+  EXPECT_EQ(again.total_curvature, certificate().total_curvature);
   EXPECT_EQ(again.spurs, certificate().spurs);
   EXPECT_EQ(again.cycle_rank, certificate().cycle_rank);
 }

@@ -31,7 +31,7 @@ void expect_equal(const Certificate& a, const Certificate& b) {
   EXPECT_EQ(a.coverage, b.coverage);
   EXPECT_EQ(a.reach, b.reach);
   EXPECT_EQ(a.spurs, b.spurs);
-  EXPECT_EQ(a.turning, b.turning);
+  EXPECT_EQ(a.total_curvature, b.total_curvature);
   EXPECT_EQ(a.inside_enough, b.inside_enough);
 }
 
@@ -127,9 +127,9 @@ const std::vector<Change>& changes() {
       {"relax rounds", "embed", [](ExtractOptions& o) { o.embed.relax_rounds = 3; }},
       {"sample spacing", "certify", [](ExtractOptions& o) { o.certificate.sample_spacing = 0.01; }},
       {"rays", "certify", [](ExtractOptions& o) { o.certificate.rays = 8; }},
-      {"openings", "certify",
+      {"rims", "certify",
        [](ExtractOptions& o) {
-         o.openings = {{0, 1, 2}};
+         o.rims = {{0, 1, 2}};
        }},
   };
   return all;

@@ -1,4 +1,4 @@
-// What the skeletons of real surfaces must show, mesh by mesh and property by property.
+// The properties that skeletons of real surfaces must have, mesh by mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -190,8 +190,8 @@ TEST(RealMeshes, KeepEveryLimbAndFinger) {
   }
 }
 
-// What sticks out is judged by the surface, not by where the surgery happened to cut it: with the
-// same foot cut elsewhere the jug lost it at each of these.
+// Protrusions are judged by the surface, not by where the surgery happened to cut it: with the same
+// foot cut elsewhere the jug lost it at each of these.
 TEST(RealMeshes, KeepTheirTipsWithFewerVertices) {
   for (const auto& [name, tips] : {std::pair{"spot-3k.obj", 9}, std::pair{"botijo-41k.ply", 5}}) {
     const auto file = real_surface(name);
@@ -251,7 +251,7 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
   }
 }
 
-// No branch led to the waist, so one leg turned back to it and left its own opening alone.
+// No branch led to the waist, so one leg turned back to it and left its own rim alone.
 TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
   PolygonSoup figure = read_polygons(real_surface("humanoid-10k.ply").value(), {});
   const auto heights = figure.positions.col(1);
@@ -273,23 +273,23 @@ TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
       if (place > thighs && place < 0.55 && off < 0.5) append(shorts, corners);
     }
     const RepairedSurface repaired = repair(shorts, {}, {});
-    ASSERT_EQ(repaired.openings.size(), 3U);
+    ASSERT_EQ(repaired.rims.size(), 3U);
     ExtractOptions options;
-    options.openings = repaired.openings;
+    options.rims = repaired.rims;
     const Extraction found = extract(repaired.surface, options, {});
     EXPECT_EQ(found.certificate.tips, 3);
     EXPECT_EQ(found.certificate.spurs, 0);
-    for (const auto& opening : repaired.openings) {
-      const Eigen::RowVector3d rim =
-          repaired.surface.positions(opening, Eigen::all).colwise().mean();
-      const auto away = (found.skeleton.nodes.rowwise() - rim).rowwise().norm();
+    for (const auto& rim : repaired.rims) {
+      const Eigen::RowVector3d centre =
+          repaired.surface.positions(rim, Eigen::all).colwise().mean();
+      const auto away = (found.skeleton.nodes.rowwise() - centre).rowwise().norm();
       EXPECT_LT(away.minCoeff(), 0.02 * height);
     }
   }
 }
 
-// The way to an opening left the body between the places that were asked about.
-TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirOpenings) {
+// The way to a rim left the body between the places that were asked about.
+TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirRims) {
   PolygonSoup figure = read_polygons(real_surface("humanoid-10k.ply").value(), {});
   Eigen::Index axis = 0;
   const Eigen::RowVector3d low = figure.positions.colwise().minCoeff();
@@ -306,9 +306,9 @@ TEST(RealMeshes, CutThroughInTheMiddleStayInsideOnTheWayToTheirOpenings) {
     if (places.minCoeff() > middle || places.maxCoeff() < middle) append(halves, corners);
   }
   const RepairedSurface repaired = repair(halves, {}, {});
-  ASSERT_EQ(repaired.openings.size(), 6U);
+  ASSERT_EQ(repaired.rims.size(), 6U);
   ExtractOptions options;
-  options.openings = repaired.openings;
+  options.rims = repaired.rims;
   const Certificate found = extract(repaired.surface, options, {}).certificate;
   EXPECT_TRUE(found.topology_correct());
   EXPECT_EQ(found.inside_fraction, 1);

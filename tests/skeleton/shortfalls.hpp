@@ -1,4 +1,4 @@
-// What the program does not reach yet, said by name and figure in the tests themselves.
+// The shortfalls of the program, said by name and figure in the tests themselves.
 #pragma once
 
 #include <gtest/gtest.h>

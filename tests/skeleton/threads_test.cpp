@@ -1,4 +1,4 @@
-// What an extraction does to the process that it runs in.
+// The effects of an extraction on the process that it runs in.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>

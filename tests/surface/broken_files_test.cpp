@@ -1,4 +1,4 @@
-// What is refused when a file is read, and how: by the file's name and the place in it.
+// Broken files are refused when they are read, by the file's name and the place in it.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// What the tests of reading ask of a polygon soup, and of a refusal.
+// Questions that the tests of reading ask of a polygon soup, and of a refusal.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -97,7 +97,7 @@ TEST_P(AnyShape, IsWholeAgainAfterLosingFaces) {
   expect_the_shape(result, 0.02);
   EXPECT_GT(result.repairs.holes_closed, 0);
   EXPECT_EQ(used_but_dropped(damaged, result), 0);
-  EXPECT_EQ(result.openings.size(), static_cast<std::size_t>(result.repairs.holes_closed));
+  EXPECT_EQ(result.rims.size(), static_cast<std::size_t>(result.repairs.holes_closed));
 }
 
 TEST_P(AnyShape, IsWholeAgainFromTrianglesThatNearlyMeet) {
@@ -126,7 +126,7 @@ TEST_P(AnyShape, LosesAFinAndNothingElse) {
   const RepairedSurface result = repair(soup, {}, {});
   expect_the_shape(result, 1e-12);
   EXPECT_EQ(result.repairs.sheets_dropped, 1);
-  EXPECT_EQ(result.repairs.wrap_opening, 0);
+  EXPECT_EQ(result.repairs.wrap_gap, 0);
   EXPECT_EQ(result.vertex_of_input[tip], -1);
   EXPECT_EQ(result.surface.positions.rows(), shape().surface.positions.rows());
 }
@@ -180,10 +180,10 @@ TEST(Repairing, ATubeOpenAtBothEnds) {
   expect_closed_outward_manifold(result.surface);
   EXPECT_EQ(genus_of(result.surface), 0);
   EXPECT_EQ(result.repairs.holes_closed, 2);
-  ASSERT_EQ(result.openings.size(), 2U);
-  for (const auto& opening : result.openings) {
-    EXPECT_EQ(opening.size(), 24U);
-    for (const std::int32_t v : opening) {
+  ASSERT_EQ(result.rims.size(), 2U);
+  for (const auto& rim : result.rims) {
+    EXPECT_EQ(rim.size(), 24U);
+    for (const std::int32_t v : rim) {
       EXPECT_NEAR(std::abs(result.surface.positions(v, 0)), 2.5, 0.15);
     }
   }
@@ -232,8 +232,8 @@ TEST(Repairing, AHoleOfAnyLengthTakesFacesInProportion) {
     EXPECT_EQ(result.repairs.holes_closed, 1);
     EXPECT_EQ(result.repairs.longest_hole, rim.edges);
     EXPECT_LT(result.repairs.faces_added, 3 * rim.edges + 100000);
-    ASSERT_EQ(result.openings.size(), 1U);
-    EXPECT_EQ(result.openings[0].size(), static_cast<std::size_t>(rim.edges));
+    ASSERT_EQ(result.rims.size(), 1U);
+    EXPECT_EQ(result.rims[0].size(), static_cast<std::size_t>(rim.edges));
     const bool narrowed = rim.edges > most_edges_without_rings;
     EXPECT_EQ(result.repairs.holes_narrowed, narrowed ? 1 : 0);
     ASSERT_EQ(result.repairs.lines.size(), narrowed ? 2U : 1U);
@@ -322,10 +322,10 @@ TEST(Repairing, WrapsWhatHasGapsEverywhere) {
   }
 }
 
-RepairedSurface wrapped_whole(const PolygonSoup& soup, double opening = 0) {
+RepairedSurface wrapped_whole(const PolygonSoup& soup, double wrap_gap = 0) {
   RepairOptions options;
   options.wrap = Wrapping::all;
-  options.wrap_opening = opening;
+  options.wrap_gap = wrap_gap;
   return repair(soup, options, {});
 }
 
@@ -345,14 +345,14 @@ TEST(Repairing, WrapsAllThatOverlapsIntoOneBodyIfAsked) {
   EXPECT_GE(result.vertex_of_input.minCoeff(), 0);
 }
 
-TEST(Repairing, AWrapSpansGapsThatAreNarrowerThanItsOpening) {
+TEST(Repairing, AWrapSpansGapsThatAreNarrowerThanItsWrapGap) {
   const auto box = shapes::box({1, 1, 1}, 8);
   const auto pair = shapes::together("pair", {box, shapes::translated(box, {1.1, 0, 0})}).surface;
   const double gap = 0.1 / bounding_box_diagonal(pair.positions);
   EXPECT_EQ(topology(wrapped_whole(soup_of(pair), 0.4 * gap).surface).components(), 2);
   const RepairedSurface one = wrapped_whole(soup_of(pair), 3 * gap);
   EXPECT_EQ(topology(one.surface).components(), 1);
-  EXPECT_EQ(one.repairs.wrap_opening, 3 * gap);
+  EXPECT_EQ(one.repairs.wrap_gap, 3 * gap);
 }
 
 TEST(Repairing, ASpeckFarAwayDoesNotSetTheScaleOfAWrap) {
@@ -399,7 +399,7 @@ TEST(Repairing, RefusesToWrapWhatHasNoInside) {
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::input);
-    expect_said(error.what(), {"--wrap-opening", "Solidify"});
+    expect_said(error.what(), {"--wrap-gap", "Solidify"});
   }
 }
 
@@ -413,7 +413,7 @@ TEST(Repairing, WhatNoWrapEnclosesButHasAnInsideIsToBeRepairedWithout) {
   }
 }
 
-TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestOpening) {
+TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestWrapGap) {
   const Surface torus = shapes::torus(3, 1, 24).surface;
   const double diagonal = bounding_box_diagonal(torus.positions);
   double named = 0;
@@ -423,7 +423,7 @@ TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestOpening) {
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::input);
     expect_said(error.what(), {"vertices", "1e-06"});
-    const std::string option = "--wrap-opening ";
+    const std::string option = "--wrap-gap ";
     const std::string message = error.what();
     named = std::stod(message.substr(message.find(option) + option.size()));
   }

@@ -11,7 +11,7 @@ namespace curveskel {
 namespace union_find_laws {
 namespace {
 
-/// What joining by relabelling everything gives.
+/// The same joining, done by relabelling everything.
 class Relabelled {
  public:
   explicit Relabelled(int count) : label_(static_cast<std::size_t>(count)) {

@@ -1,4 +1,4 @@
-// What is kept of a file is enough to have it back as it was read.
+// A document keeps enough of a file to have it back as it was read.
 #include "viewer/model/document.hpp"
 
 #include <gtest/gtest.h>

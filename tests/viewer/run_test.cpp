@@ -112,7 +112,7 @@ TEST(Run, EndsWithWhatExtractGives) {
     ASSERT_TRUE(watched.result);
     const RepairedSurface repaired = repair(soup_of(shape.surface), {}, {});
     ExtractOptions options;
-    options.openings = repaired.openings;
+    options.rims = repaired.rims;
     expect_same_skeleton(watched.result->extraction->skeleton,
                          extract(repaired.surface, options, {}).skeleton);
     ASSERT_FALSE(watched.moments.empty());

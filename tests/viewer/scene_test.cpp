@@ -314,7 +314,7 @@ TEST(Scene, FarFromTheOriginKeepsItsDigits) {
     surface.positions.rowwise() += moved_by;
     skeleton.nodes.rowwise() += moved_by;
     const Scene far(document_of(surface, &skeleton));
-    // What double precision keeps there, and what single precision keeps of a shape this large.
+    // The step of double precision there, and of single precision for a shape this large.
     const auto step = static_cast<float>(8 * offset * std::numeric_limits<double>::epsilon()) +
                       1e-6F * near.bounds().diagonal();
     ASSERT_EQ(far.points().size(), near.points().size());

@@ -9,7 +9,7 @@ namespace curveskel::viewer {
 
 /// Faces that keep the surface from being a closed oriented 2-manifold, ascending.
 struct Defects {
-  std::vector<int> open;          ///< with an edge that no other face has: at holes and rims
+  std::vector<int> open;          ///< with an edge that no other face has: on the boundary
   std::vector<int> non_manifold;  ///< with an edge of three faces or more
   std::vector<int> flipped;       ///< with an edge along which a neighbour runs the same way
   std::vector<int> degenerate;    ///< with a corner twice, or no area

@@ -47,7 +47,7 @@ ImVec4 verdict_colour(bool good, Theme theme) {
 
 void certificate_line(const char* name, const std::string& value, int verdict, Theme theme) {
   ImGui::TextUnformatted(name);
-  ImGui::SameLine(ImGui::GetFontSize() * 6.5F);
+  ImGui::SameLine(ImGui::GetFontSize() * 7.5F);
   if (verdict < 0) {
     ImGui::TextUnformatted(value.c_str());
   } else {
@@ -100,7 +100,7 @@ void certificate(Workbench& bench) {
   line("tips", fmt::format("{}", c.tips), -1);
   line("junctions", fmt::format("{}", c.junctions), -1);
   line("length", fmt::format("{:.3f} D", c.length), -1);
-  line("turning", fmt::format("{:.1f} rad/D", c.turning), -1);
+  line("total curvature", fmt::format("{:.1f} rad/D", c.total_curvature), -1);
 }
 
 /// Seconds of the stages, of the embedding also of its steps.
@@ -147,7 +147,7 @@ void input_defects(Workbench& bench) {
     if (ImGui::SmallButton("show")) bench.show_faces(faces);
     ImGui::PopID();
   };
-  line("open", found.open, "with an edge that no other face has: at a hole or a rim");
+  line("open", found.open, "with an edge that no other face has: at a hole or a border");
   line("non-manifold", found.non_manifold, "with an edge that three faces or more have");
   line("flipped", found.flipped, "facing the other way than a neighbour");
   line("degenerate", found.degenerate, "with a corner twice, or no area");

@@ -38,7 +38,7 @@ template <typename Edges>
   }
 }
 
-/// How many edges end at each of 0 .. nodes - 1; a loop counts twice. O(nodes + #E).
+/// The number of edges that end at each of 0 .. nodes - 1; a loop counts twice. O(nodes + #E).
 template <typename Edges>
 [[nodiscard]] std::vector<int> degrees(std::int64_t nodes, const Edges& edges) {
   std::vector<int> degree(idx(nodes), 0);

@@ -28,9 +28,9 @@ void require_valid(const SkinOptions& options);
 /// Heat on the surface (after Baran and Popovic 2007, eq. 3): (-L + A H) w_j = A H p_j, with L the
 /// intrinsic Delaunay Laplacian, A the vertices' areas, H = 1 / (softness d)^2, d the distance of
 /// the vertex to its node of the skeleton, and p_j = 1 where that node is moved by joint j, else 0.
-/// As L has no negative weights, 0 <= w_j <= 1 and the w_j of a vertex sum to 1. What a joint
-/// begins with is known from how the surface collapsed, not from what lies near: fingers that touch
-/// do not move each other, and no vertex is without a joint.
+/// As L has no negative weights, 0 <= w_j <= 1 and the w_j of a vertex sum to 1. The vertices that
+/// a joint begins with are known from how the surface collapsed, not from what lies near: fingers
+/// that touch do not move each other, and no vertex is without a joint.
 /// Precondition: a clean surface, each of whose vertices has a node in `skeleton`, and each node a
 /// joint. Throws Cancelled on a stop. One Cholesky factorisation a component, one solve a joint.
 [[nodiscard]] SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,

@@ -36,7 +36,7 @@ inline void add_step(std::vector<StepTime>& times, const StepTime& more) {
 /// Adds up the time of each step, in the order of first use. For one thread at a time.
 class StepClock {
  public:
-  /// Returns what work() returns. What it throws passes through, and is not counted.
+  /// Returns what work() returns. An exception from work() passes through, and is not counted.
   template <typename Work>
   auto operator()(std::string_view step, const Work& work) {
     const auto start = std::chrono::steady_clock::now();

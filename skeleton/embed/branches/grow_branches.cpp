@@ -103,7 +103,7 @@ class Growth {
   [[nodiscard]] Apex made(int v, int node, const SurfaceTree::Ball& root, const Protrusion& found,
                           double least_prominence, double least_ball) {
     if (found.prominence < least_prominence) return {};
-    const Point inwards = found.rim_centre - place(v);
+    const Point inwards = found.boundary_centre - place(v);
     const auto ball = tree_.inscribed_ball(place(v), inwards.normalized());
     const double share = ball.radius / root.radius;
     if (!(share > least_ball && share < tuning_.most_ball)) return {};
@@ -113,12 +113,12 @@ class Growth {
   /// In the middle of a blunt end, rather than in the corner where the apex is.
   [[nodiscard]] Point tip(const Protrusion& part, const SurfaceTree::Ball& root,
                           const Point& at_apex) const {
-    const Point outwards = part.cap_centre - part.rim_centre;
-    if (!(outwards.norm() > 0) || !tree_.inside(part.rim_centre)) return at_apex;
+    const Point outwards = part.cap_centre - part.boundary_centre;
+    if (!(outwards.norm() > 0) || !tree_.inside(part.boundary_centre)) return at_apex;
     const Point direction = outwards.normalized();
-    const double reach = tree_.ray(part.rim_centre, direction).distance;
+    const double reach = tree_.ray(part.boundary_centre, direction).distance;
     if (!std::isfinite(reach)) return at_apex;
-    const Point end = part.rim_centre + reach * direction;
+    const Point end = part.boundary_centre + reach * direction;
     const auto ball = tree_.inscribed_ball(end, -direction);
     const double off = tuning_.beyond * root.radius;
     if (ball.radius < reach && (ball.centre - root.centre).norm() > off) return ball.centre;

@@ -14,9 +14,9 @@ namespace curveskel {
 /// prominence (see ProminenceSweep) is at least `limit` and the apex 1.5 inscribed radii away.
 /// From a tip the arc goes on to the apex instead, from 1.5 and 2 inscribed radii on. The
 /// inscribed ball at the apex must have at least 0.12 of the radius where the branch begins (from
-/// a tip 0.25), or it is a crease, and less than 1.2 of it. What has fewer than 8 vertices where it
-/// is measured may be noise. It ends where the part's cap has its middle, not in the corner that
-/// the apex of a blunt end is. The new points may lie outside.
+/// a tip 0.25), or it is a crease, and less than 1.2 of it. A part with fewer than 8 vertices where
+/// it is measured may be noise. The branch ends where the part's cap has its middle, not in the
+/// corner that the apex of a blunt end is. The new points may lie outside.
 /// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
 int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
                   const PartitionGraph& partition, double limit, const GrowthTuning& tuning = {});

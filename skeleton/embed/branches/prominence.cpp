@@ -81,13 +81,13 @@ void ProminenceSweep::take(int vertex) {
   }
 }
 
-ProminenceSweep::Rim ProminenceSweep::rim_at(double depth) const {
+ProminenceSweep::Boundary ProminenceSweep::boundary_at(double depth) const {
   struct Piece {
     Vector3d middle;
     double length;
   };
   std::vector<Piece> pieces;
-  Rim rim;
+  Boundary boundary;
   double length = 0;
   for (const int t : touched_) {
     if (taken_corners_[idx(t)] == 3) continue;
@@ -102,44 +102,44 @@ ProminenceSweep::Rim ProminenceSweep::rim_at(double depth) const {
       ends[count++] = place(surface_, in) + share * (place(surface_, out) - place(surface_, in));
     }
     pieces.push_back({0.5 * (ends[0] + ends[1]), (ends[1] - ends[0]).norm()});
-    rim.centre += pieces.back().length * pieces.back().middle;
+    boundary.centre += pieces.back().length * pieces.back().middle;
     length += pieces.back().length;
   }
   if (!(length > 0)) return {};
-  rim.centre /= length;
+  boundary.centre /= length;
   for (const Piece& piece : pieces) {
-    rim.radius += piece.length / length * (piece.middle - rim.centre).norm();
+    boundary.radius += piece.length / length * (piece.middle - boundary.centre).norm();
   }
-  return rim;
+  return boundary;
 }
 
 Protrusion ProminenceSweep::protrusion_at(double depth) const {
-  const Rim rim = rim_at(depth);
-  if (!(rim.radius > 0)) return {};
+  const Boundary boundary = boundary_at(depth);
+  if (!(boundary.radius > 0)) return {};
   double height = 0;
   for (const int v : part_) {
-    height = std::max(height, (place(surface_, v) - rim.centre).norm());
+    height = std::max(height, (place(surface_, v) - boundary.centre).norm());
   }
-  return {height / rim.radius, rim.centre};
+  return {height / boundary.radius, boundary.centre};
 }
 
 Vector3d ProminenceSweep::cap_centre(const Protrusion& part) const {
   constexpr double cap = 0.8;  // of the height
-  const auto from_rim = [&](int t) -> Vector3d {
+  const auto from_boundary = [&](int t) -> Vector3d {
     return (place(surface_, surface_.triangles(t, 0)) + place(surface_, surface_.triangles(t, 1)) +
             place(surface_, surface_.triangles(t, 2))) /
                3 -
-           part.rim_centre;
+           part.boundary_centre;
   };
   double height = 0;
   for (const int t : touched_) {
-    if (taken_corners_[idx(t)] == 3) height = std::max(height, from_rim(t).norm());
+    if (taken_corners_[idx(t)] == 3) height = std::max(height, from_boundary(t).norm());
   }
   Vector3d sum = Vector3d::Zero();
   double area = 0;
   for (const int t : touched_) {
     if (taken_corners_[idx(t)] != 3) continue;
-    const Vector3d middle = from_rim(t);
+    const Vector3d middle = from_boundary(t);
     if (middle.norm() < cap * height) continue;
     const Vector3d a = place(surface_, surface_.triangles(t, 0));
     const Vector3d b = place(surface_, surface_.triangles(t, 1));
@@ -148,7 +148,7 @@ Vector3d ProminenceSweep::cap_centre(const Protrusion& part) const {
     sum += weight * middle;
     area += weight;
   }
-  return area > 0 ? Vector3d(part.rim_centre + sum / area) : part.rim_centre;
+  return area > 0 ? Vector3d(part.boundary_centre + sum / area) : part.boundary_centre;
 }
 
 void ProminenceSweep::forget() {

@@ -11,11 +11,11 @@
 
 namespace curveskel {
 
-/// A protrusion: its prominence, the middle of its rim, and that of its cap: all of its triangles
-/// that are farther from there than four fifths of the height.
+/// A protrusion: its prominence, the middle of its boundary, and that of its cap: all of its
+/// triangles that are farther from there than four fifths of the height.
 struct Protrusion {
   double prominence = 0;
-  Eigen::Vector3d rim_centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d boundary_centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d cap_centre = Eigen::Vector3d::Zero();  ///< by area
 };
 
@@ -25,23 +25,23 @@ class ProminenceSweep {
   explicit ProminenceSweep(const WorkingSurface& working);  ///< kept by reference
 
   /// Spheres about `base` cut off what lies farther out, together with the vertex `apex`. The
-  /// prominence is the largest height of such a part, from the middle of its rim, over the mean
-  /// radius of its rim. A part counts as long as it holds vertices with `is_own` only, once it
-  /// holds `least_vertices` and is a fifth of the way from the apex to the base, so that the
-  /// triangles' size does not matter; 0 if none counts. Ends as soon as `enough` is reached.
+  /// prominence is the largest height of such a part, from the middle of its boundary, over the
+  /// mean radius of its boundary. A part counts as long as it holds vertices with `is_own` only,
+  /// once it holds `least_vertices` and is a fifth of the way from the apex to the base, so that
+  /// the triangles' size does not matter; 0 if none counts. Ends as soon as `enough` is reached.
   /// O(n log n) in the vertices passed.
   [[nodiscard]] Protrusion operator()(const Eigen::Vector3d& base, int apex,
                                       const std::function<bool(int)>& is_own, double enough,
                                       std::size_t least_vertices = 1);
 
  private:
-  struct Rim {
+  struct Boundary {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0;  ///< mean distance from the centre, by length
   };
   void take(int vertex);
   [[nodiscard]] std::span<const std::int32_t> around(int vertex) const;
-  [[nodiscard]] Rim rim_at(double depth) const;
+  [[nodiscard]] Boundary boundary_at(double depth) const;
   [[nodiscard]] Protrusion protrusion_at(double depth) const;
   [[nodiscard]] Eigen::Vector3d cap_centre(const Protrusion& part) const;
   void forget();

@@ -13,7 +13,7 @@
 namespace curveskel {
 namespace {
 
-constexpr double nearness = 2.5;  // of a ball or an opening, whichever is larger
+constexpr double nearness = 2.5;  // of a ball or a rim, whichever is larger
 
 struct Rim {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -22,19 +22,19 @@ struct Rim {
 };
 
 /// The middle of the rim's length, however its vertices are spaced.
-Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& opening) {
+Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& vertices) {
   Rim rim;
   double length = 0;
-  for (std::size_t i = 0; i < opening.size(); ++i) {
-    const Eigen::Vector3d a = positions.row(opening[i]);
-    const Eigen::Vector3d b = positions.row(opening[(i + 1) % opening.size()]);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3d a = positions.row(vertices[i]);
+    const Eigen::Vector3d b = positions.row(vertices[(i + 1) % vertices.size()]);
     rim.middle += (b - a).norm() * (a + b) / 2;
     length += (b - a).norm();
   }
   if (length > 0) rim.middle /= length;
-  for (const std::int32_t v : opening) {
+  for (const std::int32_t v : vertices) {
     const double radius = (positions.row(v).transpose() - rim.middle).norm();
-    rim.mean_radius += radius / double(opening.size());
+    rim.mean_radius += radius / double(vertices.size());
     rim.least_radius = std::min(rim.least_radius, radius);
   }
   return rim;
@@ -86,18 +86,18 @@ std::vector<Limb> limbs_of(const CurveSkeleton& skeleton) {
   return limbs;
 }
 
-/// Leads the curve to the middles of openings.
+/// Leads the curve to the middles of rims.
 class Reaching {
  public:
   Reaching(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-           const std::vector<std::vector<std::int32_t>>& openings)
+           const std::vector<std::vector<std::int32_t>>& rims)
       : skeleton_(skeleton),
         tree_(tree),
         below_(depth * bounding_box_diagonal(surface.positions)),
         limbs_(limbs_of(skeleton)),
         taken_(limbs_.size(), false),
-        reached_(openings.size(), false) {
-    for (const auto& opening : openings) rims_.push_back(rim_of(surface.positions, opening));
+        reached_(rims.size(), false) {
+    for (const auto& vertices : rims) rims_.push_back(rim_of(surface.positions, vertices));
   }
 
   void run() {
@@ -206,7 +206,7 @@ class Reaching {
     return -1;
   }
 
-  /// Each tip serves one opening: those go first that need to move least, then the nearest.
+  /// Each tip serves one rim: those go first that need to move least, then the nearest.
   void reach_from_limbs() {
     std::vector<std::tuple<int, double, std::size_t, std::size_t>> pairs;
     for (std::size_t l = 0; l < limbs_.size(); ++l) {
@@ -231,7 +231,7 @@ class Reaching {
     }
   }
 
-  /// A wide opening that no tip leads to, the waist of trousers, gets a branch from the nearest
+  /// A wide rim that no tip leads to, the waist of trousers, gets a branch from the nearest
   /// place that makes it no spur.
   void reach_from_the_side() {
     constexpr double least_width_of_side = 0.7;
@@ -255,22 +255,22 @@ class Reaching {
     }
   }
 
-  static constexpr double usual_width = 0.5;  // of an opening, in radii of the ball before it
+  static constexpr double usual_width = 0.5;  // of a rim, in radii of the ball before it
 
   CurveSkeleton& skeleton_;
   const SurfaceTree& tree_;
-  double below_;  // the closing of an opening
+  double below_;  // the closing of a hole
   std::vector<Rim> rims_;
   std::vector<Limb> limbs_;
   std::vector<char> taken_;    // by limb
-  std::vector<char> reached_;  // by opening
+  std::vector<char> reached_;  // by rim
 };
 
 }  // namespace
 
 void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const std::vector<std::vector<std::int32_t>>& openings) {
-  if (!openings.empty()) Reaching(skeleton, surface, tree, openings).run();
+                const std::vector<std::vector<std::int32_t>>& rims) {
+  if (!rims.empty()) Reaching(skeleton, surface, tree, rims).run();
 }
 
 }  // namespace curveskel

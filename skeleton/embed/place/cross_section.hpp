@@ -17,9 +17,9 @@ namespace curveskel {
                                          const SectionTuning& tuning = {});
 
 /// The same where a limb is flat, from one edge of it to the other: of two opposite rays none is
-/// cut where both end on a triangle that `is_own`. What is cut lies in other limbs. No
-/// farther from the point than half its inscribed radius, as far rays may differ from one point to
-/// the next.
+/// cut where both end on a triangle that `is_own`. The parts of rays that are cut off lie in other
+/// limbs. No farther from the point than half its inscribed radius, as far rays may differ from one
+/// point to the next.
 [[nodiscard]] Point cross_section_centre(const SurfaceTree& tree, const Point& point,
                                          const Point& direction, double radius,
                                          const std::function<bool(int)>& is_own,

@@ -1,4 +1,4 @@
-// How densely the arcs of a graph are sampled.
+// The spacing of the points on the arcs of a graph.
 #pragma once
 
 #include <vector>

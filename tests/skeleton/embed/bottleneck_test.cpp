@@ -56,7 +56,7 @@ int taken(SkeletonGraph& graph, const Surface& surface) {
   return reroute_bottlenecks(graph, {surface, balls}, partition, tree);
 }
 
-TEST(WiderWays, LeadPastAHollowWhereThereIsRoom) {
+TEST(Bottlenecks, AreReroutedPastAHollowWhereThereIsRoom) {
   for (const double side : {-1.75, 1.75}) {
     SkeletonGraph graph = arcs({beside(side)});
     ASSERT_EQ(taken(graph, hollow_bar(0)), 1);
@@ -69,19 +69,19 @@ TEST(WiderWays, LeadPastAHollowWhereThereIsRoom) {
   }
 }
 
-TEST(WiderWays, AreTakenOnceOnly) {
+TEST(Bottlenecks, AreReroutedOnceOnly) {
   SkeletonGraph graph = arcs({beside(1.75)});
   const Surface bar = hollow_bar(0);
   ASSERT_EQ(taken(graph, bar), 1);
   EXPECT_EQ(taken(graph, bar), 0);
 }
 
-TEST(WiderWays, LeaveCyclesAlone) {
+TEST(Bottlenecks, OnCyclesStay) {
   SkeletonGraph graph = arcs({beside(-1.75), beside(1.75)});
   EXPECT_EQ(taken(graph, hollow_bar(0)), 0);
 }
 
-TEST(WiderWays, LeaveAWaistAlone) {
+TEST(Bottlenecks, WithNoWiderWayStay) {
   const auto waist =
       shapes::tube("waist", shapes::straight(2 * half_length), shapes::wavy(1, 0.7, 2), 40);
   SkeletonGraph graph = arcs({{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}});

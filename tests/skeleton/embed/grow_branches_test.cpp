@@ -31,10 +31,10 @@ int grown(SkeletonGraph& graph, const Surface& surface, double limit = 1.15) {
   return grow_branches(graph, {surface, balls}, tree, partition, limit);
 }
 
-int hubs_of_degree(const SkeletonGraph& graph, int degree) {
+int nodes_of_degree(const SkeletonGraph& graph, int degree) {
   int count = 0;
-  for (int h = 0; h < static_cast<int>(graph.nodes.size()); ++h) {
-    if (graph.nodes[static_cast<std::size_t>(h)].alive && graph.degree(h) == degree) ++count;
+  for (int n = 0; n < static_cast<int>(graph.nodes.size()); ++n) {
+    if (graph.nodes[static_cast<std::size_t>(n)].alive && graph.degree(n) == degree) ++count;
   }
   return count;
 }
@@ -55,7 +55,7 @@ TEST(Growth, GivesEachArmLeftOutItsBranch) {
     const Star star(arms);
     SkeletonGraph graph = one_arc({star.end(0), star.centre(), star.end(1)});
     EXPECT_EQ(grown(graph, star.surface), arms - 2) << arms << " arms";
-    EXPECT_EQ(hubs_of_degree(graph, 1), arms) << arms << " arms";
+    EXPECT_EQ(nodes_of_degree(graph, 1), arms) << arms << " arms";
     for (int arm = 2; arm < arms; ++arm) {
       double nearest = 100;
       for (const Node& node : graph.nodes) {
@@ -73,15 +73,15 @@ TEST(Growth, LeavesAloneWhatHasAllItsBranches) {
   EXPECT_EQ(grown(graph, limb.surface), 0);
 }
 
-TEST(Growth, GoesOnWhereAStrandEndsEarly) {
+TEST(Growth, GoesOnWhereAnArcEndsEarly) {
   const Star star(3);
   const Point early = 0.5 * (star.centre() + star.end(2));
   SkeletonGraph graph = one_arc({star.end(0), star.centre(), star.end(1)});
   const int junction = graph.split(0, 1, star.centre());
   graph.add_leaf(junction, early, {0});
   EXPECT_EQ(grown(graph, star.surface), 1);
-  EXPECT_EQ(hubs_of_degree(graph, 1), 3);
-  EXPECT_EQ(hubs_of_degree(graph, 3), 1);
+  EXPECT_EQ(nodes_of_degree(graph, 1), 3);
+  EXPECT_EQ(nodes_of_degree(graph, 3), 1);
 }
 
 /// A bar along z, its ends square with rounded corners, which lie farther out than their middles.
@@ -131,11 +131,11 @@ TEST(SkeletonGraph, SplitKeepsTheLineAndWhatBelongsToIt) {
     EXPECT_EQ(graph.arcs[1].pieces, std::vector<int>{0});
     graph.dissolve(node);
     EXPECT_EQ(graph.living_arcs(), 1);
-    EXPECT_EQ(hubs_of_degree(graph, 1), 2);
+    EXPECT_EQ(nodes_of_degree(graph, 1), 2);
   }
 }
 
-TEST(SkeletonGraph, SplitOpensAClosedStrand) {
+TEST(SkeletonGraph, SplitOpensAClosedArc) {
   SkeletonGraph ring;
   ring.nodes = {{Point(0, 0, 0), {0}, true, {0}}};
   ring.arcs = {{0, 0, {Point(1, 0, 0), Point(1, 1, 0)}, {0}}};

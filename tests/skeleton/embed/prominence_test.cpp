@@ -1,4 +1,4 @@
-// How far something sticks out must not depend on how finely the surface is cut into triangles.
+// Prominence must not depend on how finely the surface is cut into triangles.
 #include "skeleton/embed/branches/prominence.hpp"
 
 #include <gtest/gtest.h>

@@ -45,7 +45,7 @@ TEST(Relax, PlacesPointsHalfOfTheirRadiusApart) {
 }
 
 /// Nothing to turn round: the next `keep_simple` gives such a curve its points.
-TEST(Relax, LeavesAClosedStrandWithoutPointsAsItIs) {
+TEST(Relax, LeavesAClosedArcWithoutPointsAsItIs) {
   const SurfaceTree tree(shapes::torus(1, 0.3, 12).surface);
   SkeletonGraph graph;
   graph.nodes = {{Point(1, 0, 0), {0}, true, {0}}};
