@@ -12,7 +12,6 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/topology.hpp>
 #include "base/option_ranges.hpp"
 #include "surface/mesh/loose_parts.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
@@ -235,33 +234,6 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   return result;
 }
 
-void leave_out(RepairedSurface& result, const SelectionRules& rules) {
-  const Topology counted = topology(result.surface);
-  const auto fates = choose_components(result.surface, counted, rules);
-  const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
-  result.repairs.copies_dropped = count(Fate::copy);
-  result.repairs.crumbs_dropped = count(Fate::crumb);
-  result.repairs.specks_dropped += count(Fate::speck);
-  result.repairs.not_chosen = count(Fate::not_chosen);
-  if (count(Fate::kept) == counted.components()) return;
-  const Positions positions = result.surface.positions;
-  auto number = keep_components(result.surface, counted, fates);
-  if (result.repairs.crumbs_dropped > 0) {
-    const SurfaceTree tree(result.surface);
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-      if (fates[idx(counted.component_of_vertex[v])] != Fate::crumb) continue;
-      number[idx(v)] = nearest_vertex(result.surface, tree, positions.row(v));
-    }
-  }
-  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  std::erase_if(result.openings, [&](const auto& opening) {
-    return fates[idx(counted.component_of_vertex[opening[0]])] != Fate::kept;
-  });
-  for (auto& opening : result.openings) {
-    for (std::int32_t& v : opening) v = number[idx(v)];
-  }
-}
-
 /// Closed, before anything is left out.
 struct Mended {
   RepairedSurface result;
@@ -339,8 +311,8 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;
   if (!mended.has_one_component) {
-    leave_out(result,
-              {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
+    leave_out_components(
+        result, {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
   }
   describe_repairs(result.repairs, monitor);
   if (mended.was_cut) monitor.report("repair", 1);
