@@ -34,6 +34,32 @@ struct EvaluateArguments {
   CertificateOptions options;
 };
 
+/// Compares with the skeleton of another file.
+void compare(const CurveSkeleton& skeleton, const Surface& surface,
+             const EvaluateArguments& arguments, const Monitor& monitor, Evaluation& evaluation) {
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  evaluation.against = arguments.against.filename().string();
+  const CurveSkeleton other = read_skeleton(arguments.against);
+  const double spacing = arguments.options.sample_spacing * diagonal;
+  evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
+  evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
+  evaluation.common_ground =
+      common_ground(SurfaceTree(surface), diagonal, skeleton, other, arguments.options, monitor);
+}
+
+std::string evaluation_table(const Evaluation& evaluation) {
+  std::string text = certificate_table(evaluation.certificate, evaluation.options);
+  if (evaluation.against.empty()) return text;
+  text += fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
+                      evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
+  const auto& [own, other] = evaluation.common_ground;
+  text += fmt::format(
+      "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
+      "  centredness there{:>10.3f} median, the other's {:.3f}\n",
+      100 * own.share, 100 * other.share, own.centredness_median, other.centredness_median);
+  return text;
+}
+
 int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   if (!arguments.json.empty()) {
@@ -52,19 +78,11 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   RepairedEvaluation found =
       evaluate_repaired(repaired, arguments.repair, skeleton, arguments.options, monitor);
   if (found.wrapped) repaired = std::move(*found.wrapped);
-  const Surface& surface = repaired.surface;
   evaluation.repairs = repaired.repairs;
   evaluation.certificate = found.certificate;
   const Certificate& certificate = evaluation.certificate;
   if (!arguments.against.empty()) {
-    const double diagonal = bounding_box_diagonal(surface.positions);
-    evaluation.against = arguments.against.filename().string();
-    const CurveSkeleton other = read_skeleton(arguments.against);
-    const double spacing = arguments.options.sample_spacing * diagonal;
-    evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
-    evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
-    evaluation.common_ground =
-        common_ground(SurfaceTree(surface), diagonal, skeleton, other, arguments.options, monitor);
+    compare(skeleton, repaired.surface, arguments, monitor, evaluation);
   }
 
   session.terminal.end_progress();
@@ -74,20 +92,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
                                           arguments.skeleton.filename().string(), evaluation)}},
         session);
   }
-  if (!arguments.quiet) {
-    std::string text = certificate_table(certificate, arguments.options);
-    if (!evaluation.against.empty()) {
-      text +=
-          fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
-                      evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
-      const auto& [own, other] = evaluation.common_ground;
-      text += fmt::format(
-          "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
-          "  centredness there{:>10.3f} median, the other's {:.3f}\n",
-          100 * own.share, 100 * other.share, own.centredness_median, other.centredness_median);
-    }
-    session.terminal.result(text);
-  }
+  if (!arguments.quiet) session.terminal.result(evaluation_table(evaluation));
   if (!arguments.strict || certificate.holds()) {
     return ExitCode::done;
   }

@@ -121,19 +121,41 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   return files;
 }
 
-int run_extract(ExtractArguments arguments, Session& session) {
-  const auto begin = Clock::now();
-  if (arguments.quiet) session.terminal.be_quiet();
-  const auto formats = formats_of(arguments.outputs, arguments.format);
+/// Fails before hours of work rather than after; a result on standard output is alone there.
+void check_names(const ExtractArguments& arguments, Session& session) {
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
   if (to_output) session.terminal.keep_output_clean();
-  arguments.options.fairing = arguments.options.fair.iterations > 0;
-  arguments.options.fair.threads = arguments.options.threads;
-  arguments.options.certificate.threads = arguments.options.threads;
+}
 
+/// Sets the options that follow from others.
+void derive_options(ExtractOptions& options) {
+  options.fairing = options.fair.iterations > 0;
+  options.fair.threads = options.threads;
+  options.certificate.threads = options.threads;
+}
+
+/// Says how the certificate failed, if it did.
+int exit_code_of(const Certificate& certificate, const ExtractArguments& arguments,
+                 Session& session) {
+  const std::string failed = failures(certificate, arguments.options.certificate);
+  const bool inside_needed = arguments.strict && !certificate.inside_enough;
+  if (certificate.topology_correct() && !inside_needed) {
+    if (!failed.empty()) session.terminal.warn(failed);
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failed);
+  return ExitCode::solver;
+}
+
+int run_extract(ExtractArguments arguments, Session& session) {
+  const auto begin = Clock::now();
+  if (arguments.quiet) session.terminal.be_quiet();
+  const auto formats = formats_of(arguments.outputs, arguments.format);
+  check_names(arguments, session);
+  derive_options(arguments.options);
   session.interruption.limit(arguments.time_limit_seconds);
 
   std::vector<std::string> notes;
@@ -172,43 +194,29 @@ int run_extract(ExtractArguments arguments, Session& session) {
     session.terminal.result(
         text + time_line(times, seconds_since(begin), extraction.components.size() == 1));
   }
-  const std::string failed = failures(extraction.certificate, arguments.options.certificate);
-  const bool inside_needed = arguments.strict && !extraction.certificate.inside_enough;
-  if (extraction.certificate.topology_correct() && !inside_needed) {
-    if (!failed.empty()) session.terminal.warn(failed);
-    return ExitCode::done;
-  }
-  session.terminal.error("the certificate failed: " + failed);
-  return ExitCode::solver;
+  return exit_code_of(extraction.certificate, arguments, session);
 }
 
-}  // namespace
-
-Verb add_extract(CLI::App& program) {
-  const auto arguments = std::make_shared<ExtractArguments>();
-  CLI::App* parser =
-      program.add_subcommand("extract", "Extract the curve skeleton of a surface file");
-  ExtractOptions& options = arguments->options;
-  options.fair.iterations = 0;
-  add_preset(*parser, arguments->preset, arguments->repair, options);
+/// MESH, --output, --format and --report.
+void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
-      ->add_option("MESH", arguments->mesh,
-                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      .add_option("MESH", arguments.mesh,
+                  "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
       ->required()
       ->type_name("");
   parser
-      ->add_option("-o,--output", arguments->outputs,
-                   "skeleton file, its format by the extension; may be given several times; - is "
-                   "standard output")
+      .add_option("-o,--output", arguments.outputs,
+                  "skeleton file, its format by the extension; may be given several times; - is "
+                  "standard output")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
   parser
-      ->add_option_function<std::string>(
+      .add_option_function<std::string>(
           "--format",
-          [arguments](const std::string& name) {
-            arguments->format = choice_of(skeleton_formats, name);
-            if (!arguments->format) {
+          [&arguments](const std::string& name) {
+            arguments.format = choice_of(skeleton_formats, name);
+            if (!arguments.format) {
               throw CLI::ValidationError("--format",
                                          name + " is none of: " + names_in(skeleton_formats));
             }
@@ -216,14 +224,13 @@ Verb add_extract(CLI::App& program) {
           "format of standard output")
       ->type_name("NAME");
   parser
-      ->add_option("--report", arguments->report, "what was changed, decided and measured, as JSON")
+      .add_option("--report", arguments.report, "what was changed, decided and measured, as JSON")
       ->type_name("FILE.json");
-  add_choice(*parser, "--flow", options.contraction.flow, flows, "contraction flow");
-  options.contraction.program_cache = kernel_cache();
-  options.fair.program_cache = kernel_cache();
-  add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
+}
+
+void add_resolution(CLI::App& parser, ExtractOptions& options) {
   parser
-      ->add_option_function<std::string>(
+      .add_option_function<std::string>(
           "--resolution",
           [&options](const std::string& text) {
             if (text == "full") {
@@ -240,6 +247,23 @@ Verb add_extract(CLI::App& program) {
                       options.least_resolution))
       ->type_name("N|full")
       ->default_str(std::to_string(options.resolution));
+}
+
+}  // namespace
+
+Verb add_extract(CLI::App& program) {
+  const auto arguments = std::make_shared<ExtractArguments>();
+  CLI::App* parser =
+      program.add_subcommand("extract", "Extract the curve skeleton of a surface file");
+  ExtractOptions& options = arguments->options;
+  options.fair.iterations = 0;
+  add_preset(*parser, arguments->preset, arguments->repair, options);
+  add_files(*parser, *arguments);
+  add_choice(*parser, "--flow", options.contraction.flow, flows, "contraction flow");
+  options.contraction.program_cache = kernel_cache();
+  options.fair.program_cache = kernel_cache();
+  add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
+  add_resolution(*parser, options);
   add_surgery(*parser, options);
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
              "0..1: how small a branch may be and stay");

@@ -35,6 +35,28 @@ auto along(const SkeletonGraph& graph, const Arc& arc, const Of& of) {
   return values;
 }
 
+/// Points become nodes; their radii are measured if there is a tree.
+CurveSkeleton curve_through(const std::vector<const CurvePoint*>& points,
+                            const std::vector<std::array<std::int32_t, 2>>& edges,
+                            const SurfaceTree* tree) {
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    skeleton.nodes.row(static_cast<Eigen::Index>(i)) = points[i]->place();
+  }
+  if (tree != nullptr) {
+    skeleton.radii.resize(skeleton.nodes.rows());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      skeleton.radii[static_cast<Eigen::Index>(i)] = std::max(0.0, points[i]->radius(*tree));
+    }
+  }
+  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
+  }
+  return skeleton;
+}
+
 }  // namespace
 
 int SkeletonGraph::degree(int node) const {
@@ -284,21 +306,7 @@ EmbeddedNodes skeleton_of(const SkeletonGraph& graph, int groups, const SurfaceT
   }
   std::sort(edges.begin(), edges.end());
 
-  CurveSkeleton& skeleton = result.skeleton;
-  skeleton.nodes.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    skeleton.nodes.row(static_cast<Eigen::Index>(i)) = points[i]->place();
-  }
-  if (tree != nullptr) {
-    skeleton.radii.resize(skeleton.nodes.rows());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      skeleton.radii[static_cast<Eigen::Index>(i)] = std::max(0.0, points[i]->radius(*tree));
-    }
-  }
-  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
-  }
+  result.skeleton = curve_through(points, edges, tree);
   return result;
 }
 

@@ -1,28 +1,24 @@
 #include <curveskel/repair.hpp>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
-#include <curveskel/topology.hpp>
 #include "base/option_ranges.hpp"
-#include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/loose_parts.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
+#include "surface/repair/bodies_and_sheets.hpp"
 #include "surface/repair/close_surface.hpp"
 #include "surface/repair/describe_repairs.hpp"
 #include "surface/repair/join_soup.hpp"
-#include "surface/repair/orient.hpp"
 #include "surface/repair/select_components.hpp"
 #include "surface/repair/weld.hpp"
 #include "surface/repair/wrap.hpp"
@@ -30,134 +26,6 @@
 
 namespace curveskel {
 namespace {
-
-/// One component of the closed parts.
-struct Part {
-  double area = 0;
-  double added_area = 0;
-  double volume = 0;  // relative, see ComponentSums
-  bool is_body = false;
-  std::int64_t given_faces = 0;
-  std::int64_t faces_as_given = 0;  // same orientation as in the file
-};
-
-double face_area(const Surface& surface, Eigen::Index f) {
-  const Eigen::RowVector3d a = surface.positions.row(surface.triangles(f, 0));
-  const Eigen::RowVector3d ab = surface.positions.row(surface.triangles(f, 1)) - a;
-  const Eigen::RowVector3d ac = surface.positions.row(surface.triangles(f, 2)) - a;
-  return ab.cross(ac).norm() / 2;
-}
-
-struct JudgedParts {
-  Orientation orientation;
-  std::vector<Part> parts;
-};
-
-/// True if the face runs through its corners in the given order.
-bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index f) {
-  const auto given = joined.surface.triangles.row(closed.face_given[idx(f)]);
-  const auto position_of = [&](int corner) {
-    return closed.surface.positions.row(closed.surface.triangles(f, corner));
-  };
-  // Stitching may have put a coincident vertex in a corner's place, so positions are compared.
-  for (int turn = 0; turn < 3; ++turn) {
-    bool same = true;
-    for (int k = 0; k < 3; ++k) {
-      same = same && position_of((k + turn) % 3) == joined.surface.positions.row(given(k));
-    }
-    if (same) return true;
-  }
-  return false;
-}
-
-/// True if a surface without boundary is one-sided to such an extent that cutting it open along the
-/// conflict would leave a shape of its own.
-bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
-  constexpr double small_cut = 0.05;  // of the vertices
-  const HalfEdges half_edges = pair_half_edges(
-      joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
-  if (half_edges.first_unpaired >= 0) return false;
-  return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
-         double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
-}
-
-JudgedParts judge(const ClosedParts& closed, const Joined& joined, const RepairOptions& options,
-                  int threads) {
-  const auto vertices = static_cast<std::int32_t>(closed.surface.positions.rows());
-  JudgedParts judged;
-  judged.orientation =
-      orient(closed.surface.triangles, pair_half_edges(closed.surface.triangles, vertices));
-  judged.parts.resize(idx(judged.orientation.components));
-  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
-    Part& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
-    const double area = face_area(closed.surface, f);
-    part.area += area;
-    if (closed.face_given[idx(f)] < 0) {
-      part.added_area += area;
-    } else {
-      ++part.given_faces;
-      part.faces_as_given += runs_as_given(closed, joined, f) ? 1 : 0;
-    }
-  }
-  constexpr double least_volume = 1e-10;  // as in `clean`
-  const auto sums = component_sums(closed.surface, judged.orientation, threads);
-  for (std::size_t c = 0; c < judged.parts.size(); ++c) {
-    Part& part = judged.parts[c];
-    part.volume = sums[c].volume;
-    part.is_body = std::abs(sums[c].volume) > least_volume * sums[c].area &&
-                   part.added_area <= options.most_added_area * part.area;
-  }
-  return judged;
-}
-
-/// The bodies alone, outward; every vertex keeps its number in the closed parts.
-Triangles outward_bodies(const ClosedParts& closed, const JudgedParts& judged, Changes& changes) {
-  for (const Part& part : judged.parts) {
-    if (!part.is_body) continue;
-    const bool inward = part.volume < 0;
-    const std::int64_t as_given =
-        inward ? part.given_faces - part.faces_as_given : part.faces_as_given;
-    const std::int64_t turned = part.given_faces - as_given;
-    changes.components_turned += turned > as_given ? 1 : 0;
-    changes.faces_flipped += std::min(turned, as_given);
-  }
-  Triangles result(closed.surface.triangles.rows(), 3);
-  Eigen::Index rows = 0;
-  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
-    const Part& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
-    if (!part.is_body) continue;
-    result.row(rows) = closed.surface.triangles.row(f);
-    if (part.volume < 0) std::swap(result(rows, 1), result(rows, 2));
-    ++rows;
-  }
-  result.conservativeResize(rows, 3);
-  return result;
-}
-
-/// The given faces that enclose nothing as they are.
-struct Sheets {
-  Surface surface;  // positions as joined
-  std::int64_t components = 0;
-  double area = 0;
-};
-
-Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joined& joined) {
-  Sheets sheets{{joined.surface.positions, {}}, 0, 0};
-  for (const Part& part : judged.parts) {
-    if (part.is_body) continue;
-    ++sheets.components;
-    sheets.area += part.area - part.added_area;
-  }
-  std::vector<std::int32_t> rows;
-  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
-    if (closed.face_given[f] < 0) continue;
-    if (!judged.parts[idx(judged.orientation.component_of_face[f])].is_body) {
-      rows.push_back(closed.face_given[f]);
-    }
-  }
-  sheets.surface.triangles = joined.surface.triangles(rows, Eigen::all);
-  return sheets;
-}
 
 /// The final vertex of each vertex of the file, while the surface is put together.
 class VertexMap {
@@ -336,10 +204,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;
-  JudgedParts judged = judge(closed, joined, options, threads);
-  if (is_one_sided(joined, closed.vertices_copied)) {
-    for (Part& part : judged.parts) part.is_body = false;
-  }
+  const JudgedParts judged = judge_parts(closed, joined, options, threads);
   result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
   const auto number = drop_unused_vertices(result.surface);
   count_holes(closed, judged, number, result);
@@ -367,33 +232,6 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   }
   result.vertex_of_input = vertex_map.of_file();
   return result;
-}
-
-void leave_out(RepairedSurface& result, const SelectionRules& rules) {
-  const Topology counted = topology(result.surface);
-  const auto fates = choose_components(result.surface, counted, rules);
-  const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
-  result.repairs.copies_dropped = count(Fate::copy);
-  result.repairs.crumbs_dropped = count(Fate::crumb);
-  result.repairs.specks_dropped += count(Fate::speck);
-  result.repairs.not_chosen = count(Fate::not_chosen);
-  if (count(Fate::kept) == counted.components()) return;
-  const Positions positions = result.surface.positions;
-  auto number = keep_components(result.surface, counted, fates);
-  if (result.repairs.crumbs_dropped > 0) {
-    const SurfaceTree tree(result.surface);
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-      if (fates[idx(counted.component_of_vertex[v])] != Fate::crumb) continue;
-      number[idx(v)] = nearest_vertex(result.surface, tree, positions.row(v));
-    }
-  }
-  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  std::erase_if(result.rims, [&](const auto& rim) {
-    return fates[idx(counted.component_of_vertex[rim[0]])] != Fate::kept;
-  });
-  for (auto& rim : result.rims) {
-    for (std::int32_t& v : rim) v = number[idx(v)];
-  }
 }
 
 /// Closed, before anything is left out.
@@ -473,8 +311,8 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;
   if (!mended.has_one_component) {
-    leave_out(result,
-              {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
+    leave_out_components(
+        result, {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
   }
   describe_repairs(result.repairs, monitor);
   if (mended.was_cut) monitor.report("repair", 1);

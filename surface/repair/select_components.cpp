@@ -5,9 +5,12 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -96,8 +99,7 @@ void mark_crumbs(const Surface& surface, const Topology& counted, const std::vec
   }
 }
 
-}  // namespace
-
+/// Fate of each component, by the order of the rules in `leave_out_components`.
 std::vector<Fate> choose_components(const Surface& surface, const Topology& counted,
                                     const SelectionRules& rules) {
   std::vector<Fate> fates(idx(counted.components()), Fate::kept);
@@ -123,6 +125,8 @@ std::vector<Fate> choose_components(const Surface& surface, const Topology& coun
   return fates;
 }
 
+}  // namespace
+
 std::vector<std::int32_t> keep_components(Surface& surface, const Topology& counted,
                                           const std::vector<Fate>& fates) {
   std::vector<std::int32_t> number(idx(surface.positions.rows()), -1);
@@ -143,6 +147,33 @@ std::vector<std::int32_t> keep_components(Surface& surface, const Topology& coun
   surface.positions.conservativeResize(vertices, 3);
   surface.triangles.conservativeResize(faces, 3);
   return number;
+}
+
+void leave_out_components(RepairedSurface& result, const SelectionRules& rules) {
+  const Topology counted = topology(result.surface);
+  const auto fates = choose_components(result.surface, counted, rules);
+  const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
+  result.repairs.copies_dropped = count(Fate::copy);
+  result.repairs.crumbs_dropped = count(Fate::crumb);
+  result.repairs.specks_dropped += count(Fate::speck);
+  result.repairs.not_chosen = count(Fate::not_chosen);
+  if (count(Fate::kept) == counted.components()) return;
+  const Positions positions = result.surface.positions;
+  auto number = keep_components(result.surface, counted, fates);
+  if (result.repairs.crumbs_dropped > 0) {
+    const SurfaceTree tree(result.surface);
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+      if (fates[idx(counted.component_of_vertex[v])] != Fate::crumb) continue;
+      number[idx(v)] = nearest_vertex(result.surface, tree, positions.row(v));
+    }
+  }
+  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
+  std::erase_if(result.rims, [&](const auto& rim) {
+    return fates[idx(counted.component_of_vertex[rim[0]])] != Fate::kept;
+  });
+  for (auto& rim : result.rims) {
+    for (std::int32_t& v : rim) v = number[idx(v)];
+  }
 }
 
 }  // namespace curveskel

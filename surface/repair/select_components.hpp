@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <curveskel/repair.hpp>
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>
 
@@ -18,15 +19,14 @@ struct SelectionRules {
   int most = 0;            ///< components, 0 = all
 };
 
-/// Marks, in this order: components that coincide with an earlier one vertex by vertex; those that
-/// touch, in a position that both have, directly or through others, a much larger one; those with
-/// little area; and all but the largest by area (the earlier one of two equals). One entry per
-/// component. O(#V log #V).
-[[nodiscard]] std::vector<Fate> choose_components(const Surface& surface, const Topology& counted,
-                                                  const SelectionRules& rules);
-
 /// Keeps the components marked so, in order. Returns the new index of each vertex, -1 = gone.
 std::vector<std::int32_t> keep_components(Surface& surface, const Topology& counted,
                                           const std::vector<Fate>& fates);
+
+/// Drops, and counts in `result.repairs`, in this order: components that coincide with an earlier
+/// one vertex by vertex; those that touch, in a position that both have, directly or through
+/// others, a much larger one; those with little area; and all but the largest by area (the earlier
+/// one of two equals). Vertices of crumbs follow the nearest one that stays. O(#V log #V).
+void leave_out_components(RepairedSurface& result, const SelectionRules& rules);
 
 }  // namespace curveskel

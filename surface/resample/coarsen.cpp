@@ -92,15 +92,19 @@ CollapsingPatch patch_in_order(const Surface& surface, const std::vector<Index>&
   return patch;
 }
 
-// A first stage for far too fine surfaces: stretches of the curve are collapsed each on its own,
-// the vertices between them fixed. Returns the place of each vertex after.
-std::vector<Index> coarsen_parts(CollapsingPatch& whole, std::size_t target, int threads,
-                                 const Monitor& monitor) {
+// Stretches of the curve, each with the faces that lie within it.
+struct Stretches {
+  std::vector<CollapsingPatch> patches;
+  std::vector<std::array<Index, 3>> between;  // faces of several patches, their corners fixed
+};
+
+Stretches cut_into_stretches(const CollapsingPatch& whole) {
   const std::size_t count = whole.vertices.size();
   const std::size_t parts = (count + part_size - 1) / part_size;
   const auto part_of = [](Index v) { return static_cast<std::size_t>(v) / part_size; };
-  std::vector<CollapsingPatch> patches(parts);
-  std::vector<std::array<Index, 3>> between;
+  Stretches stretches;
+  std::vector<CollapsingPatch>& patches = stretches.patches;
+  patches.resize(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     const auto begin = whole.vertices.begin() + static_cast<std::ptrdiff_t>(i * part_size);
     const auto end =
@@ -115,13 +119,21 @@ std::vector<Index> coarsen_parts(CollapsingPatch& whole, std::size_t target, int
       const auto base = static_cast<Index>(part * part_size);
       patches[part].faces.push_back({face[0] - base, face[1] - base, face[2] - base});
     } else {
-      between.push_back(face);
+      stretches.between.push_back(face);
       for (const Index v : face) {
         patches[part_of(v)].fixed[static_cast<std::size_t>(v) % part_size] = 1;
       }
     }
   }
+  return stretches;
+}
 
+// Collapses each patch on its own, until the share `target` / `count` of its free vertices is left.
+// Returns, per patch, the place of each vertex after.
+std::vector<std::vector<Index>> collapse_stretches(std::vector<CollapsingPatch>& patches,
+                                                   std::size_t target, std::size_t count,
+                                                   int threads, const Monitor& monitor) {
+  const std::size_t parts = patches.size();
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<std::size_t> done{0};
   std::vector<std::vector<Index>> places(parts);
@@ -140,29 +152,45 @@ std::vector<Index> coarsen_parts(CollapsingPatch& whole, std::size_t target, int
       monitor.report(stage_name, 0.7 * static_cast<double>(done) / static_cast<double>(parts));
     }
   });
+  return places;
+}
 
-  std::vector<Index> place(count);
+// The patches become the whole again. Returns the place of each vertex in it.
+std::vector<Index> join_stretches(const Stretches& stretches,
+                                  const std::vector<std::vector<Index>>& places,
+                                  CollapsingPatch& whole) {
+  std::vector<Index> place(whole.vertices.size());
   whole.vertices.clear();
   whole.faces.clear();
-  for (std::size_t i = 0; i < parts; ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const CollapsingPatch& patch = stretches.patches[i];
     const auto base = static_cast<Index>(whole.vertices.size());
     for (std::size_t v = 0; v < places[i].size(); ++v) {
       place[i * part_size + v] = base + places[i][v];
     }
-    whole.vertices.insert(whole.vertices.end(), patches[i].vertices.begin(),
-                          patches[i].vertices.end());
-    for (const auto& face : patches[i].faces) {
+    whole.vertices.insert(whole.vertices.end(), patch.vertices.begin(), patch.vertices.end());
+    for (const auto& face : patch.faces) {
       whole.faces.push_back({face[0] + base, face[1] + base, face[2] + base});
     }
   }
   whole.fixed.assign(whole.vertices.size(), 0);
-  for (const auto& face : between) {
+  for (const auto& face : stretches.between) {
     whole.faces.push_back({place[static_cast<std::size_t>(face[0])],
                            place[static_cast<std::size_t>(face[1])],
                            place[static_cast<std::size_t>(face[2])]});
     add_planes(whole, whole.faces.back());
   }
   return place;
+}
+
+// A first stage for far too fine surfaces: stretches of the curve are collapsed each on its own,
+// the vertices between them fixed. Returns the place of each vertex after.
+std::vector<Index> coarsen_parts(CollapsingPatch& whole, std::size_t target, int threads,
+                                 const Monitor& monitor) {
+  Stretches stretches = cut_into_stretches(whole);
+  const auto places =
+      collapse_stretches(stretches.patches, target, whole.vertices.size(), threads, monitor);
+  return join_stretches(stretches, places, whole);
 }
 
 Surface surface_of(const CollapsingPatch& patch) {

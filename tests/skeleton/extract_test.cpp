@@ -470,7 +470,9 @@ TEST(Times, OfTheEmbeddingAreThoseOfItsStepsSummedOverTheComponents) {
   for (const StepTime& step : embed->steps) {
     EXPECT_GE(step.seconds, 0);
     EXPECT_TRUE(names.insert(step.step).second) << step.step << " twice";
-    if (step.step == "lengthen leaves") EXPECT_EQ(step.outside, 0);
+    if (step.step == "lengthen leaves") {
+      EXPECT_EQ(step.outside, 0);
+    }
     sum += step.seconds;
   }
   EXPECT_GT(sum, 0);

@@ -1,0 +1,122 @@
+#include "surface/repair/bodies_and_sheets.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "surface/mesh/half_edges.hpp"
+
+namespace curveskel {
+namespace {
+
+double face_area(const Surface& surface, Eigen::Index f) {
+  const Eigen::RowVector3d a = surface.positions.row(surface.triangles(f, 0));
+  const Eigen::RowVector3d ab = surface.positions.row(surface.triangles(f, 1)) - a;
+  const Eigen::RowVector3d ac = surface.positions.row(surface.triangles(f, 2)) - a;
+  return ab.cross(ac).norm() / 2;
+}
+
+/// True if the face runs through its corners in the given order.
+bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index f) {
+  const auto given = joined.surface.triangles.row(closed.face_given[idx(f)]);
+  const auto position_of = [&](int corner) {
+    return closed.surface.positions.row(closed.surface.triangles(f, corner));
+  };
+  // Stitching may have put a coincident vertex in a corner's place, so positions are compared.
+  for (int turn = 0; turn < 3; ++turn) {
+    bool same = true;
+    for (int k = 0; k < 3; ++k) {
+      same = same && position_of((k + turn) % 3) == joined.surface.positions.row(given(k));
+    }
+    if (same) return true;
+  }
+  return false;
+}
+
+/// True if a surface without boundary is one-sided to such an extent that cutting it open along the
+/// conflict would leave a shape of its own.
+bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
+  constexpr double small_cut = 0.05;  // of the vertices
+  const HalfEdges half_edges = pair_half_edges(
+      joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
+  if (half_edges.first_unpaired >= 0) return false;
+  return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
+         double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
+}
+
+}  // namespace
+
+JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
+                        const RepairOptions& options, int threads) {
+  const auto vertices = static_cast<std::int32_t>(closed.surface.positions.rows());
+  JudgedParts judged;
+  judged.orientation =
+      orient(closed.surface.triangles, pair_half_edges(closed.surface.triangles, vertices));
+  judged.parts.resize(idx(judged.orientation.components));
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    JudgedPart& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
+    const double area = face_area(closed.surface, f);
+    part.area += area;
+    if (closed.face_given[idx(f)] < 0) {
+      part.added_area += area;
+    } else {
+      ++part.given_faces;
+      part.faces_as_given += runs_as_given(closed, joined, f) ? 1 : 0;
+    }
+  }
+  constexpr double least_volume = 1e-10;  // as in `clean`
+  const auto sums = component_sums(closed.surface, judged.orientation, threads);
+  const bool one_sided = is_one_sided(joined, closed.vertices_copied);
+  for (std::size_t c = 0; c < judged.parts.size(); ++c) {
+    JudgedPart& part = judged.parts[c];
+    part.volume = sums[c].volume;
+    part.is_body = !one_sided && std::abs(sums[c].volume) > least_volume * sums[c].area &&
+                   part.added_area <= options.most_added_area * part.area;
+  }
+  return judged;
+}
+
+Triangles outward_bodies(const ClosedParts& closed, const JudgedParts& judged, Changes& changes) {
+  for (const JudgedPart& part : judged.parts) {
+    if (!part.is_body) continue;
+    const bool inward = part.volume < 0;
+    const std::int64_t as_given =
+        inward ? part.given_faces - part.faces_as_given : part.faces_as_given;
+    const std::int64_t turned = part.given_faces - as_given;
+    changes.components_turned += turned > as_given ? 1 : 0;
+    changes.faces_flipped += std::min(turned, as_given);
+  }
+  Triangles result(closed.surface.triangles.rows(), 3);
+  Eigen::Index rows = 0;
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    const JudgedPart& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
+    if (!part.is_body) continue;
+    result.row(rows) = closed.surface.triangles.row(f);
+    if (part.volume < 0) std::swap(result(rows, 1), result(rows, 2));
+    ++rows;
+  }
+  result.conservativeResize(rows, 3);
+  return result;
+}
+
+Sheets sheets_of(const ClosedParts& closed, const JudgedParts& judged, const Joined& joined) {
+  Sheets sheets{{joined.surface.positions, {}}, 0, 0};
+  for (const JudgedPart& part : judged.parts) {
+    if (part.is_body) continue;
+    ++sheets.components;
+    sheets.area += part.area - part.added_area;
+  }
+  std::vector<std::int32_t> rows;
+  for (std::size_t f = 0; f < closed.face_given.size(); ++f) {
+    if (closed.face_given[f] < 0) continue;
+    if (!judged.parts[idx(judged.orientation.component_of_face[f])].is_body) {
+      rows.push_back(closed.face_given[f]);
+    }
+  }
+  sheets.surface.triangles = joined.surface.triangles(rows, Eigen::all);
+  return sheets;
+}
+
+}  // namespace curveskel
