@@ -44,7 +44,7 @@ using Segment = std::array<Seen, 2>;
 /// Square cells, each with the segments whose boxes meet it. Keeps the segments.
 class Grid {
  public:
-  explicit Grid(std::vector<Segment> segments);
+  explicit Grid(std::vector<Segment> given);
 
   [[nodiscard]] std::size_t size() const { return segments_.size(); }
 

@@ -121,7 +121,7 @@ TEST(Tips, LookOutward) {
   const SurfaceTree tree(limb(1));
   const SkeletonGraph stick = arc_along(along_x(-5, 5.01, 0.2));
   for (const TipHeading& tip : tip_headings(stick, tree)) {
-    const Point position = stick.place(tip.node);
+    const Point& position = stick.place(tip.node);
     EXPECT_NEAR(tip.direction.x(), position.x() < 0 ? -1 : 1, 1e-12);
     EXPECT_EQ(tip.radius, tree.inscribed_radius(position));
   }
