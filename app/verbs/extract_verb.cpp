@@ -130,13 +130,6 @@ void check_names(const ExtractArguments& arguments, Session& session) {
   if (to_output) session.terminal.keep_output_clean();
 }
 
-/// Sets the options that follow from others.
-void derive_options(ExtractOptions& options) {
-  options.fairing = options.fair.iterations > 0;
-  options.fair.threads = options.threads;
-  options.certificate.threads = options.threads;
-}
-
 /// Says how the certificate failed, if it did.
 int exit_code_of(const Certificate& certificate, const ExtractArguments& arguments,
                  Session& session) {
@@ -155,7 +148,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   const auto formats = formats_of(arguments.outputs, arguments.format);
   check_names(arguments, session);
-  derive_options(arguments.options);
+  arguments.options.fairing = arguments.options.fair.iterations > 0;
   session.interruption.limit(arguments.time_limit_seconds);
 
   std::vector<std::string> notes;

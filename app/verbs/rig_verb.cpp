@@ -73,7 +73,7 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, RepairedSurface& repai
     }
   }
   ExtractOptions options = arguments.extract;
-  options.threads = options.fair.threads = options.certificate.threads = arguments.threads;
+  options.threads = arguments.threads;
   options.fairing = arguments.fair_iterations > 0;
   options.fair.iterations = arguments.fair_iterations;
   RepairedExtraction found = extract_repaired(repaired, arguments.repair, options, monitor);

@@ -24,7 +24,7 @@ void attach(Node& node, int arc) {
 
 void detach(Node& node, int arc) { std::erase(node.arcs, arc); }
 
-/// The value `of` each point of an arc, nodes included, in order.
+/// One value for each point of an arc, nodes included, in order.
 template <typename Of>
 auto along(const SkeletonGraph& graph, const Arc& arc, const Of& of) {
   std::vector<decltype(of(CurvePoint()))> values;

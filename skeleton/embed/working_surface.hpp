@@ -27,7 +27,7 @@ class WorkingSurface {
   [[nodiscard]] int vertices() const { return static_cast<int>(surface_.positions.rows()); }
   [[nodiscard]] Eigen::Vector3d place(int vertex) const { return surface_.positions.row(vertex); }
 
-  /// A third of the triangles around each vertex.
+  /// Per vertex a third of the area of the triangles around it.
   [[nodiscard]] const Eigen::VectorXd& vertex_areas() const;
   /// The vertices along edges.
   [[nodiscard]] const Graph& neighbours() const;

@@ -1,4 +1,4 @@
-// Seconds per step of a stage, and how it left the curve.
+// Seconds of each step of a stage, and the points that the step left outside.
 #pragma once
 
 #include <algorithm>

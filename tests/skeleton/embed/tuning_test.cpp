@@ -128,7 +128,7 @@ class CutSurface {
 /// Surface, constant, factor.
 using Moved = std::tuple<std::string_view, std::string_view, double>;
 
-/// Where a tenth makes another graph; one that is overcome fails until it is struck off.
+/// Cases in which a tenth makes another graph; one that is overcome fails until it is struck off.
 const std::set<Moved> known{
     // Two of its legs meet within a ball, or do not.
     {"scorpion-6k.obj", "options.merge", 0.9},
