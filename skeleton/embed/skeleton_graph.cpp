@@ -184,6 +184,20 @@ void SkeletonGraph::end_in_ring(int arc, std::size_t cut, std::vector<Point> way
   arcs.push_back({node, node, {ring.begin() + 1, ring.end()}, std::move(pieces)});
 }
 
+bool SkeletonGraph::turn_half_way_round(int arc) {
+  Arc& closed = arcs[idx(arc)];
+  if (!closed.alive || closed.from != closed.to || degree(closed.from) != 2) return false;
+  if (closed.points.empty()) return false;
+  CurvePoint& node = nodes[idx(closed.from)].point;
+  const auto middle = closed.points.begin() + static_cast<std::ptrdiff_t>(closed.points.size() / 2);
+  std::vector<CurvePoint> turned(middle + 1, closed.points.end());
+  turned.push_back(node);
+  turned.insert(turned.end(), closed.points.begin(), middle);
+  node = *middle;
+  closed.points = std::move(turned);
+  return true;
+}
+
 int SkeletonGraph::split(int arc, std::size_t segment, const Point& place) {
   const auto node = static_cast<int>(nodes.size());
   const auto rest = static_cast<int>(arcs.size());

@@ -91,6 +91,10 @@ struct SkeletonGraph {
   /// from `cut` on belong to the closed one. The old `to` may be left with two arcs or none.
   void end_in_ring(int arc, std::size_t cut, std::vector<Point> way,
                    const std::vector<Point>& ring);
+  /// Makes the point half-way round a closed curve (a node with no other arc) the curve's node, and
+  /// the old node a point of the arc: no place of such a curve is special. False, and nothing to
+  /// do, for other arcs and for those without points.
+  bool turn_half_way_round(int arc);
   /// A new node at a place on the arc's segment (counted along its polyline); both parts belong
   /// to what the arc belonged to.
   int split(int arc, std::size_t segment, const Point& place);

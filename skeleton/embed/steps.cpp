@@ -14,6 +14,7 @@
 #include "skeleton/embed/first_course.hpp"
 #include "skeleton/embed/place/junctions.hpp"
 #include "skeleton/embed/place/relax.hpp"
+#include "skeleton/embed/place/settle.hpp"
 
 namespace curveskel {
 namespace {
@@ -109,13 +110,14 @@ bool keep_handles(SkeletonGraph& graph, const Setting& in, const Change& change)
 
 /// Once no arc comes or goes: the places of junctions decide which leaves are spurs.
 bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
-  constexpr int times_spaced = 4;  // kinks draw points together and then hold them
-  RelaxOptions centring = relaxing(in, in.options.relax_rounds / times_spaced);
-  centring.meet = true;
-  centring.tips = true;
-  centring.keep_junction = 1;
+  constexpr int times_spaced = 3;  // the radii change as the points move
+  SettleOptions settling;
+  settling.rounds = in.options.relax_rounds / times_spaced;
+  settling.keep = in.options.keep_radius;
+  settling.tuning = in.tuning.relax;
+  settling.section = in.tuning.section;
   const auto projections = project_on_arcs(graph, in.working, in.partition);
-  centring.is_own = [&](int triangle, int arc) {
+  settling.is_own = [&](int triangle, int arc) {
     const auto corners = in.working.surface().triangles.row(triangle);
     return std::any_of(corners.begin(), corners.end(),
                        [&](int vertex) { return projections[idx(vertex)].arc == arc; });
@@ -125,7 +127,7 @@ bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
       space_by_radius(graph, in.tree, in.spacing);
       return true;
     });
-    relax(graph, in.tree, centring, in.guard, in.threads);
+    settle(graph, in.tree, settling, in.guard, in.threads);
   }
   return true;
 }

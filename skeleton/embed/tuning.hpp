@@ -15,12 +15,14 @@ struct SpacingTuning {
 /// The middle of a limb, from rays in the plane across it.
 struct SectionTuning {
   double ray_limit = 3;       ///< inscribed radii: farther off lies another limb
-  double longest_step = 0.5;  ///< inscribed radii, where rays go on beyond the limit
+  double longest_step = 0.5;  ///< widths, where rays go on beyond the limit
 };
 
 /// Rounds of centring and smoothing.
 struct RelaxTuning {
   double rest = 3e-3;             ///< inscribed radii: points that moved less are at rest
+  double section_rest = 0.03;     ///< widths: a point that moved less keeps its section
+  double section_turn = 0.1;      ///< the same for the direction across it, in radians
   double axes_hold = 0.1;         ///< weight of a junction's own place beside one axis
   double spur_margin = 1.05;      ///< a junction makes no leaf shorter than this x its radius
   double detour_reach = 0.9;      ///< of the smaller of two balls that hold each other's centre

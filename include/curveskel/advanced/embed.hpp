@@ -28,7 +28,7 @@ struct EmbedOptions {
   double straight = 0.5;  ///< of a junction's inscribed radius: branches run straight within it
   double straight_at_last = 0.9;  ///< the same, once everything has found its place
   int first_rounds = 3;           ///< of centring and smoothing before tips and spurs are judged
-  int relax_rounds = 80;          ///< of centring and smoothing, junctions where axes meet
+  int relax_rounds = 15;          ///< of centring and smoothing, junctions where axes meet
   int smooth_rounds = 8;          ///< the same, within balls known to be inside
   double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
   double tip_reach = 1.5;         ///< leaves ending within this x the local radius are cut back

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <curveskel/advanced/indices.hpp>
 
@@ -41,6 +42,28 @@ Point step_of(const Section& section) {
   return 2 * sum / ray_count;
 }
 
+/// Two opposite rays, of which at least one has met nothing up to the limit.
+void lengthen_if_own(Section& section, std::size_t k, std::size_t opposite, const SurfaceTree& tree,
+                     const Point& point, double limit, const std::function<bool(int)>& is_own) {
+  const std::array<std::size_t, 2> both{k, opposite};
+  std::array<double, 2> lengths{};
+  bool own = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    double& distance = section.distances[both[i]];
+    lengths[i] = distance;
+    if (distance <= limit) continue;
+    distance = limit;
+    if (!own) continue;
+    const auto hit = tree.ray(point, section.directions[both[i]]);
+    lengths[i] = hit.distance;
+    own = hit.triangle >= 0 && is_own(hit.triangle);
+  }
+  if (!own) {
+    for (std::size_t i = 0; i < 2; ++i) lengths[i] = std::min(lengths[i], limit);
+  }
+  for (std::size_t i = 0; i < 2; ++i) section.distances[both[i]] = lengths[i];
+}
+
 bool has_section(const Point& direction, double radius) {
   return radius > 0 && direction.norm() > 0;
 }
@@ -56,27 +79,21 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
   return point + step_of(section);
 }
 
-Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Point& direction,
-                           double radius, const std::function<bool(int)>& is_own,
-                           const SectionTuning& tuning) {
-  if (!has_section(direction, radius)) return point;
+CrossSection flat_cross_section(const SurfaceTree& tree, const Point& point,
+                                const Point& direction, double radius,
+                                const std::function<bool(int)>& is_own,
+                                const SectionTuning& tuning) {
+  if (!has_section(direction, radius)) return {point, std::max(radius, 0.0)};
   const double limit = tuning.ray_limit * radius;
-  Section section = section_at(tree, point, direction, std::numeric_limits<double>::infinity());
-  const auto stays = [&](std::size_t k) {
-    if (section.distances[k] <= limit) return true;
-    const int triangle = tree.ray(point, section.directions[k]).triangle;
-    return triangle >= 0 && is_own(triangle);
-  };
+  Section section = section_at(tree, point, direction, limit);
   for (std::size_t k = 0; k < ray_count / 2; ++k) {
-    double& ahead = section.distances[k];
-    double& behind = section.distances[k + ray_count / 2];
-    if (std::max(ahead, behind) <= limit) continue;
-    if (stays(k) && stays(k + ray_count / 2)) continue;
-    ahead = std::min(ahead, limit);
-    behind = std::min(behind, limit);
+    lengthen_if_own(section, k, k + ray_count / 2, tree, point, limit, is_own);
   }
+  const double width =
+      std::accumulate(section.distances.begin(), section.distances.end(), 0.0) / ray_count;
   const Point step = step_of(section);
-  return point + step * std::min(1.0, tuning.longest_step * radius / step.norm());
+  const double share = std::min(1.0, tuning.longest_step * width / step.norm());
+  return {point + share * step, width};
 }
 
 }  // namespace curveskel

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
-#include "skeleton/embed/ends/tips.hpp"
-#include "skeleton/embed/place/axes.hpp"
 #include "skeleton/embed/place/cross_section.hpp"
 
 namespace curveskel {
@@ -35,21 +32,16 @@ Point straight_through(const SkeletonGraph& graph, int node, const SurfaceTree& 
   return sum / weight;
 }
 
-/// Junctions move to where their arcs, or the axes of these, meet with the least turn, as long
-/// as they stay central.
+/// Junctions move to where their arcs meet with the least turn, as long as they stay central.
 void relax_nodes(SkeletonGraph& graph, const SurfaceTree& tree,
                  const std::vector<double>& first_radius, const RelaxOptions& options) {
   for (int h = 0; h < static_cast<int>(graph.nodes.size()); ++h) {
     Node& node = graph.nodes[static_cast<std::size_t>(h)];
     if (!node.alive || graph.degree(h) < 3) continue;
-    const Point goal = options.meet
-                           ? meeting_of_axes(graph, h, node.point.radius(tree), options.tuning)
-                           : straight_through(graph, h, tree);
+    const Point goal = straight_through(graph, h, tree);
     const CurvePoint candidate = Point(0.5 * (node.point.place() + goal));
     const double least = options.keep_junction * first_radius[static_cast<std::size_t>(h)];
-    if (candidate.radius(tree) < least) continue;
-    if (options.meet && makes_spur(graph, h, candidate, tree, options.tuning)) continue;
-    node.point = candidate;
+    if (candidate.radius(tree) >= least) node.point = candidate;
   }
 }
 
@@ -65,7 +57,6 @@ void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const Relax
   const auto overlap = [&](const CurvePoint& p, const CurvePoint& q) {
     return (p.place() - q.place()).norm() <= p.radius(tree) + q.radius(tree);
   };
-  const auto is_own = [&](int triangle) { return options.is_own(triangle, s); };
   auto& points = arc.points;
   last_move.resize(points.size(), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -79,9 +70,7 @@ void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const Relax
     const CurvePoint& before = i > 0 ? points[i - 1] : first;
     const CurvePoint& after = i + 1 < points.size() ? points[i + 1] : last;
     const Point along = after.place() - before.place();
-    const Point centre =
-        options.is_own ? cross_section_centre(tree, here, along, radius, is_own, options.section)
-                       : cross_section_centre(tree, here, along, radius, options.section);
+    const Point centre = cross_section_centre(tree, here, along, radius, options.section);
     const Point target = 0.5 * (here + centre);
     // Along a cubic through two points either way, which does not cut corners (bilaplacian).
     Point middle = 0.5 * (before.place() + after.place());
@@ -103,18 +92,6 @@ void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const Relax
   }
 }
 
-/// The node of a closed curve is no special place: half-way round becomes the node, so that the
-/// point there takes part like any other.
-void turn_half_way_round(SkeletonGraph& graph, Arc& arc) {
-  CurvePoint& node = graph.nodes[static_cast<std::size_t>(arc.from)].point;
-  const auto middle = arc.points.begin() + static_cast<std::ptrdiff_t>(arc.points.size() / 2);
-  std::vector<CurvePoint> points(middle + 1, arc.points.end());
-  points.push_back(node);
-  points.insert(points.end(), arc.points.begin(), middle);
-  node = *middle;
-  arc.points = std::move(points);
-}
-
 }  // namespace
 
 void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& options,
@@ -123,8 +100,6 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& op
   for (const Node& node : graph.nodes) {
     node_radius.push_back(node.alive ? node.point.radius(tree) : 0);
   }
-  const auto headings =
-      options.tips ? tip_headings(graph, tree, options.tuning) : std::vector<TipHeading>{};
   std::vector<std::vector<double>> last_moves(graph.arcs.size());
   std::vector<std::size_t> longest_first;  // so that no core ends up with a long one alone
   for (std::size_t s = 0; s < graph.arcs.size(); ++s) {
@@ -135,11 +110,7 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& op
   });
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t s = 0; s < graph.arcs.size(); ++s) {
-      Arc& arc = graph.arcs[s];
-      if (!arc.alive || arc.from != arc.to || graph.degree(arc.from) != 2) continue;
-      if (arc.points.empty()) continue;
-      turn_half_way_round(graph, arc);
-      last_moves[s].clear();
+      if (graph.turn_half_way_round(static_cast<int>(s))) last_moves[s].clear();
     }
     const SkeletonGraph before = guard.has_handles() ? graph : SkeletonGraph{};
     parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
@@ -149,7 +120,6 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& op
       }
     });
     if (!options.covered) relax_nodes(graph, tree, node_radius, options);
-    centre_tips(graph, tree, headings, options.tuning);
     for (const int s : guard.restore_points(before, graph, tree)) last_moves[idx(s)].clear();
   }
 }

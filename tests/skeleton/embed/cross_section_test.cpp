@@ -31,7 +31,7 @@ TEST(CrossSection, HasItsCentreOnARoundTubesAxisToFirstOrder) {
     const Point p(0.3, off, -off / 2);
     const double radius = tree.inscribed_radius(p);
     for (const Point& centre : {cross_section_centre(tree, p, along, radius),
-                                cross_section_centre(tree, p, along, radius, all_own)}) {
+                                flat_cross_section(tree, p, along, radius, all_own).centre}) {
       EXPECT_LT((centre - Point(0.3, 0, 0)).norm(), 2 * off * off + 1e-3) << off;
     }
   }
@@ -45,8 +45,9 @@ TEST(CrossSection, OfAFlatLimbLiesBetweenItsEdges) {
       Point p(0.1, off, 0);
       for (int step = 0; step < 1000 && std::abs(p.y()) > 0.05; ++step) {
         const double radius = tree.inscribed_radius(p);
-        const Point next = cross_section_centre(tree, p, along, radius, all_own);
-        ASSERT_LE((next - p).norm(), 0.5 * radius + 1e-12);
+        const auto [next, width] = flat_cross_section(tree, p, along, radius, all_own);
+        ASSERT_LE((next - p).norm(), 0.5 * width + 1e-12);
+        ASSERT_LT(width, 1);  // that of a round limb
         ASSERT_LT((next - p).norm(), 2 * std::abs(p.y()));  // not to and fro
         p = next;
       }
@@ -56,26 +57,33 @@ TEST(CrossSection, OfAFlatLimbLiesBetweenItsEdges) {
   }
 }
 
+TEST(CrossSection, IsAsWideAsARoundLimbsRadius) {
+  const SurfaceTree tree(flat_bar(1));
+  const Point p(0.3, 0, 0);
+  const double radius = tree.inscribed_radius(p);
+  EXPECT_NEAR(flat_cross_section(tree, p, along, radius, all_own).width, 1, 0.01);
+}
+
 TEST(CrossSection, LeavesOutWhatBelongsToOtherLimbs) {
   const SurfaceTree tree(flat_bar(0.05));
   const Point p(0.1, 0.5, 0.01);
   const double radius = tree.inscribed_radius(p);
   const Point plain = cross_section_centre(tree, p, along, radius);
-  EXPECT_EQ(cross_section_centre(tree, p, along, radius, none_own), plain);
+  EXPECT_EQ(flat_cross_section(tree, p, along, radius, none_own).centre, plain);
   // One of the two edges is not enough.
   const Surface bar = flat_bar(0.05);
   const auto far_half = [&](int triangle) {
     return bar.positions(bar.triangles(triangle, 0), 1) < 0;
   };
-  EXPECT_LT(std::abs(cross_section_centre(tree, p, along, radius, far_half).y() - plain.y()),
-            1e-12);
+  EXPECT_LT(
+      std::abs(flat_cross_section(tree, p, along, radius, far_half).centre.y() - plain.y()), 1e-12);
 }
 
 TEST(CrossSection, IsThePointItselfOutside) {
   const SurfaceTree tree(flat_bar(1));
   const Point p(0, 0, 2);
   EXPECT_EQ(cross_section_centre(tree, p, along, tree.inscribed_radius(p)), p);
-  EXPECT_EQ(cross_section_centre(tree, p, along, tree.inscribed_radius(p), all_own), p);
+  EXPECT_EQ(flat_cross_section(tree, p, along, tree.inscribed_radius(p), all_own).centre, p);
 }
 
 }  // namespace

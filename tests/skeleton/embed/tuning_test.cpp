@@ -53,6 +53,8 @@ constexpr std::array constants{
     CURVESKEL_CONSTANT(tuning.section.ray_limit),
     CURVESKEL_CONSTANT(tuning.section.longest_step),
     CURVESKEL_CONSTANT(tuning.relax.rest),
+    CURVESKEL_CONSTANT(tuning.relax.section_rest),
+    CURVESKEL_CONSTANT(tuning.relax.section_turn),
     CURVESKEL_CONSTANT(tuning.relax.axes_hold),
     CURVESKEL_CONSTANT(tuning.relax.spur_margin),
     CURVESKEL_CONSTANT(tuning.relax.detour_reach),
