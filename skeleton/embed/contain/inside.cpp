@@ -48,8 +48,7 @@ class Cover {
     const double length = (q.place() - p.place()).norm();
     const bool both_inside = p.radius(tree_) > 0 && q.radius(tree_) > 0;
     if (both_inside && length <= p.radius(tree_) + q.radius(tree_)) return true;
-    // In a sheet balls would be as many as it is wide in its thicknesses.
-    if (length <= least_spacing && sees_straight(tree_, p, q)) return true;
+    if (sees_straight(tree_, p, q)) return true;
     if (depth == deepest || !both_inside) return false;
     CurvePoint middle = Point(0.5 * (p.place() + q.place()));
     if (middle.radius(tree_) < least_radius) {
