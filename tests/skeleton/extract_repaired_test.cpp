@@ -35,7 +35,7 @@ std::vector<Shape> ragged_graphs() {
 
 RepairedSurface as_given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }
 
-bool holds(const RepairedExtraction& found) { return found.extraction.certificate.holds(); }
+bool holds(const RepairedExtraction& found) { return found.extraction.certificate.correct(); }
 
 TEST(ExtractRepaired, LeavesAloneWhatIsCertified) {
   for (const Shape& shape : {shapes::torus(3, 1, 32), shapes::linked_rings(3, 0.5, 32)}) {
@@ -53,7 +53,7 @@ void expect_wrapped(const Shape& shape) {
   SCOPED_TRACE(shape.name);
   const RepairedSurface repaired = as_given(shape);
   const Extraction alone = extract(repaired.surface, {}, {});
-  ASSERT_FALSE(alone.certificate.holds()) << "no test of wrapping: raise the noise";
+  ASSERT_FALSE(alone.certificate.correct()) << "no test of wrapping: raise the noise";
   std::vector<std::string> notes;
   Monitor monitor;
   monitor.note = [&](std::string_view line) { notes.emplace_back(line); };
