@@ -62,7 +62,7 @@ TEST(Crowd, HasASkeletonForEachComponent) {
 TEST(Crowd, HasFewNodesForEachOfItsSmallParts) {
   const auto nodes_each = [](int components) {
     const Extraction found = extract(crowd(components).surface, {}, {});
-    EXPECT_TRUE(found.certificate.holds());
+    EXPECT_TRUE(found.certificate.correct());
     return double(found.skeleton.nodes.rows()) / components;
   };
   EXPECT_LT(nodes_each(216), 0.5 * nodes_each(1));
