@@ -79,9 +79,8 @@ Point cross_section_centre(const SurfaceTree& tree, const Point& point, const Po
   return point + step_of(section);
 }
 
-CrossSection flat_cross_section(const SurfaceTree& tree, const Point& point,
-                                const Point& direction, double radius,
-                                const std::function<bool(int)>& is_own,
+CrossSection flat_cross_section(const SurfaceTree& tree, const Point& point, const Point& direction,
+                                double radius, const std::function<bool(int)>& is_own,
                                 const SectionTuning& tuning) {
   if (!has_section(direction, radius)) return {point, std::max(radius, 0.0)};
   const double limit = tuning.ray_limit * radius;

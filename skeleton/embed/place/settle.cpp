@@ -196,8 +196,8 @@ class Settling {
 
 void settle(SkeletonGraph& graph, const SurfaceTree& tree, const SettleOptions& options,
             HomologyGuard& guard, int threads) {
-  Settling settling(graph, tree, options, guard, threads);
-  for (int round = 0; round < options.rounds; ++round) settling.round();
+  Settling branches(graph, tree, options, guard, threads);
+  for (int round = 0; round < options.rounds; ++round) branches.round();
 }
 
 }  // namespace curveskel

@@ -47,7 +47,7 @@ TEST(CrossSection, OfAFlatLimbLiesBetweenItsEdges) {
         const double radius = tree.inscribed_radius(p);
         const auto [next, width] = flat_cross_section(tree, p, along, radius, all_own);
         ASSERT_LE((next - p).norm(), 0.5 * width + 1e-12);
-        ASSERT_LT(width, 1);  // that of a round limb
+        ASSERT_LT(width, 1);                                // that of a round limb
         ASSERT_LT((next - p).norm(), 2 * std::abs(p.y()));  // not to and fro
         p = next;
       }
@@ -75,8 +75,8 @@ TEST(CrossSection, LeavesOutWhatBelongsToOtherLimbs) {
   const auto far_half = [&](int triangle) {
     return bar.positions(bar.triangles(triangle, 0), 1) < 0;
   };
-  EXPECT_LT(
-      std::abs(flat_cross_section(tree, p, along, radius, far_half).centre.y() - plain.y()), 1e-12);
+  EXPECT_LT(std::abs(flat_cross_section(tree, p, along, radius, far_half).centre.y() - plain.y()),
+            1e-12);
 }
 
 TEST(CrossSection, IsThePointItselfOutside) {

@@ -135,14 +135,6 @@ const std::set<Moved> known{
     // Two of its legs meet within a ball, or do not.
     {"scorpion-6k.obj", "options.merge", 0.9},
     {"scorpion-6k.obj", "options.merge", 1.1},
-    // A bone with blunt knobs at both ends, which are limbs or are not.
-    {"femur-4k.off", "tuning.section.ray_limit", 0.9},
-    {"femur-4k.off", "tuning.relax.tip_keep", 0.9},
-    {"femur-4k.off", "tuning.growth.entered", 1.1},
-    {"femur-4k.off", "tuning.spur", 1.1},
-    {"femur-4k.off", "options.merge", 0.9},
-    {"femur-4k.off", "options.straight", 0.9},
-    {"femur-4k.off", "options.keep_radius", 1.1},
 };
 
 TEST(Tuning, ATenthOfAConstantLeavesTheGraphAsItIs) {
