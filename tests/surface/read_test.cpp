@@ -16,6 +16,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/clean.hpp>
 #include "surface/read/formats.hpp"
+#include "surface/read/utf16.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/real_surfaces.hpp"
 #include "tests/surface/encodings.hpp"
@@ -25,6 +26,7 @@ namespace curveskel::read_laws {
 namespace {
 
 using encodings::Encoding;
+using namespace std::string_literals;
 
 std::filesystem::path write_zipped(const OwnFolder& folder, const std::string& name,
                                    const std::string& bytes) {
@@ -168,6 +170,14 @@ TEST(Reading, TakesSeveralGzipMembersAsOneFile) {
   const std::string second = slurp(write_zipped(folder, "second.gz", bytes.substr(40)));
   const PolygonSoup soup = read_polygons(folder.write("box.obj.gz", first + second), {});
   EXPECT_EQ(outlines(soup), outlines_of_the_box(true));
+}
+
+TEST(Reading, TakesEveryCharacterOfUtf16) {
+  // U+00E9, U+20AC and U+1F600, the last of which takes two units; then half of one.
+  FileBytes file{"names.obj", "\xff\xfe#\0\xe9\0\xac\x20\x3d\xd8\x00\xde\x3d\xd8\n\0"s};
+  ASSERT_TRUE(is_utf16(file.content));
+  utf16_to_utf8(file);
+  EXPECT_EQ(file.content, "#\u00e9\u20ac\U0001F600\uFFFD\n");
 }
 
 TEST(Reading, StopsWhenAsked) {
