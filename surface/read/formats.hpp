@@ -16,6 +16,8 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_stl(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_om(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
+[[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
 
 /// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
 [[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,
@@ -32,6 +34,8 @@ namespace curveskel {
 [[nodiscard]] bool looks_like_om(const FileBytes& file);
 [[nodiscard]] bool looks_like_gltf(const FileBytes& file);
 [[nodiscard]] bool looks_like_glb(const FileBytes& file);
+[[nodiscard]] bool looks_like_vtp(const FileBytes& file);
+[[nodiscard]] bool looks_like_vtk(const FileBytes& file);
 
 /// Appends a polygon's end; for readers that append corners one by one.
 inline void end_polygon(PolygonSoup& soup) {

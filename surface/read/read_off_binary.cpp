@@ -87,7 +87,7 @@ PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin, const OffK
     order = std::endian::little;
     BinaryCursor other(file, begin, order);
     const BinaryOffCounts swapped = take_counts(other);
-    if (!fits(swapped, words, other.bytes_left())) {
+    if (!fits(swapped, keyword.colours ? 3 : words, other.bytes_left())) {
       file.fail(
           std::to_string(counts.vertices) + " vertices and " + std::to_string(counts.faces) +
               " faces announced in binary OFF",

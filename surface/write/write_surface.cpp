@@ -128,6 +128,8 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
       return format_om(surface);
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
+    case SurfaceFormat::vtp:
+    case SurfaceFormat::vtk:
       break;
   }
   throw Error(Fault::output,
