@@ -18,6 +18,7 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
 [[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor);
 
 /// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
 [[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,
@@ -36,6 +37,7 @@ namespace curveskel {
 [[nodiscard]] bool looks_like_glb(const FileBytes& file);
 [[nodiscard]] bool looks_like_vtp(const FileBytes& file);
 [[nodiscard]] bool looks_like_vtk(const FileBytes& file);
+[[nodiscard]] bool looks_like_3mf(const FileBytes& file);  ///< or another ZIP archive
 
 /// Appends a polygon's end; for readers that append corners one by one.
 inline void end_polygon(PolygonSoup& soup) {

@@ -26,6 +26,7 @@ std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
 
 std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
   if (looks_like_glb(file)) return SurfaceFormat::glb;
+  if (looks_like_3mf(file)) return SurfaceFormat::three_mf;
   if (looks_like_om(file)) return SurfaceFormat::om;
   if (looks_like_ply(file)) return SurfaceFormat::ply;
   if (looks_like_off(file)) return SurfaceFormat::off;
@@ -56,6 +57,8 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
       return read_vtp_surface(file, monitor);
     case SurfaceFormat::vtk:
       return read_vtk(file, monitor);
+    case SurfaceFormat::three_mf:
+      return read_3mf(file, monitor);
   }
   file.fail("no known format", names_in(surface_formats), "convert it");
 }

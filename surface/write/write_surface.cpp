@@ -130,6 +130,7 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
     case SurfaceFormat::glb:
     case SurfaceFormat::vtp:
     case SurfaceFormat::vtk:
+    case SurfaceFormat::three_mf:
       break;
   }
   throw Error(Fault::output,

@@ -22,6 +22,7 @@
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"
 #include "tests/surface/vtk_encodings.hpp"
+#include "tests/surface/zip_encodings.hpp"
 
 namespace curveskel::read_laws {
 namespace {
@@ -42,6 +43,7 @@ std::filesystem::path write_zipped(const OwnFolder& folder, const std::string& n
 std::vector<Encoding> every_encoding() {
   std::vector<Encoding> result = encodings::all();
   for (Encoding& encoding : encodings::all_of_vtk()) result.push_back(std::move(encoding));
+  for (Encoding& encoding : encodings::all_of_3mf()) result.push_back(std::move(encoding));
   return result;
 }
 
