@@ -20,6 +20,8 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
                       verdict(c.homology_rank == c.genus));
   text += fmt::format("  length inside    {:>8.3f} %  >= {:.1f} %   {}\n", 100 * c.inside_fraction,
                       100 * options.inside_needed, verdict(c.inside_enough));
+  text += fmt::format("  made of tubes    {:>8.1f} %  >= 50 %     {}\n", 100 * c.tube_share,
+                      c.curve_like ? "ok" : "NOT MADE OF TUBES");
   text += fmt::format("  deepest exit     {:>10.2g} D\n", c.deepest_exit);
   text += fmt::format("  centredness      {:>10.3f} median, {:.3f} 90th percentile (0 = centred)\n",
                       c.centredness_median, c.centredness_p90);
@@ -33,6 +35,12 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
   text += fmt::format("  length           {:>10.3f} D\n", c.length);
   text += fmt::format("  total curvature  {:>10.1f} rad per D\n", c.total_curvature);
   return text;
+}
+
+std::string all_failures(const Certificate& certificate, const CertificateOptions& options) {
+  const std::string of_curve = failures(certificate, options);
+  const std::string of_shape = shape_failure(certificate);
+  return of_curve + (of_curve.empty() || of_shape.empty() ? "" : "; ") + of_shape;
 }
 
 }  // namespace curveskel

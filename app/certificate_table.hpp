@@ -11,4 +11,8 @@ namespace curveskel {
 [[nodiscard]] std::string certificate_table(const Certificate& certificate,
                                             const CertificateOptions& options);
 
+/// All that keeps it from holding, in one line; empty if it holds.
+[[nodiscard]] std::string all_failures(const Certificate& certificate,
+                                       const CertificateOptions& options);
+
 }  // namespace curveskel

@@ -12,8 +12,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Certificate& c) {
-  return {{"topology_correct", c.topology_correct()},
+  return {{"holds", c.holds()},
+          {"topology_correct", c.topology_correct()},
           {"inside_enough", c.inside_enough},
+          {"curve_like", c.curve_like},
+          {"tube_share", c.tube_share},
           {"components", c.components},
           {"components_of_surface", c.components_of_surface},
           {"cycle_rank", c.cycle_rank},

@@ -96,7 +96,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (!arguments.strict || certificate.holds()) {
     return ExitCode::done;
   }
-  session.terminal.error("the certificate failed: " + failures(certificate, arguments.options));
+  session.terminal.error("the certificate failed: " + all_failures(certificate, arguments.options));
   return ExitCode::solver;
 }
 
@@ -124,7 +124,7 @@ Verb add_evaluate(CLI::App& program) {
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("--strict", arguments->strict,
-                   "a failed certificate (topology or inside) is an error, exit 5");
+                   "a failed certificate (topology, inside, made of tubes) is an error, exit 5");
   add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -133,9 +133,8 @@ void check_names(const ExtractArguments& arguments, Session& session) {
 /// Says how the certificate failed, if it did.
 int exit_code_of(const Certificate& certificate, const ExtractArguments& arguments,
                  Session& session) {
-  const std::string failed = failures(certificate, arguments.options.certificate);
-  const bool inside_needed = arguments.strict && !certificate.inside_enough;
-  if (certificate.topology_correct() && !inside_needed) {
+  const std::string failed = all_failures(certificate, arguments.options.certificate);
+  if (certificate.topology_correct() && (certificate.holds() || !arguments.strict)) {
     if (!failed.empty()) session.terminal.warn(failed);
     return ExitCode::done;
   }
@@ -268,8 +267,10 @@ Verb add_extract(CLI::App& program) {
              "at most; 0 = one per core; the result does not depend on it");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
-  parser->add_flag("--strict", arguments->strict,
-                   "a skeleton that leaves the surface is an error, too (exit 5), not a warning");
+  parser->add_flag(
+      "--strict", arguments->strict,
+      "a skeleton that leaves the surface, or a surface not made of tubes, is an error, too "
+      "(exit 5), not a warning");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Presets", presets) + meanings("Flows", flows) +
                  meanings("Solvers", solvers) + meanings("Surgeries", surgery_methods) +

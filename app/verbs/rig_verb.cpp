@@ -79,7 +79,7 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, RepairedSurface& repai
   RepairedExtraction found = extract_repaired(repaired, arguments.repair, options, monitor);
   if (found.wrapped) repaired = std::move(*found.wrapped);
   const Extraction& extraction = found.extraction;
-  const std::string failed = failures(extraction.certificate, options.certificate);
+  const std::string failed = all_failures(extraction.certificate, options.certificate);
   if (!failed.empty()) session.terminal.warn(failed);
   return extraction.skeleton;
 }

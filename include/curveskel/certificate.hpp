@@ -39,6 +39,8 @@ struct Certificate {
                                   ///< infinity = outside
   double centredness_p90 = 0;     ///< 90th percentile of the same
   double coverage = 0;            ///< share of surface vertices within 1.5 local radii of the curve
+  double tube_share = 0;          ///< share of the surface's area within 2.5 inscribed radii (those
+                                  ///< at the curve's nearest point) of the curve
   double reach = 0;               ///< 95th percentile of the distance from surface vertices to the
                                   ///< nearest inscribed ball of the curve / D
   int tips = 0;
@@ -49,7 +51,12 @@ struct Certificate {
     return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
   }
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
-  [[nodiscard]] bool holds() const { return topology_correct() && inside_enough; }
+  bool curve_like = false;     ///< tube_share >= 0.5: the surface is made of tubes, so that a curve
+                               ///< can stand for it
+  /// The skeleton is right, of whatever shape.
+  [[nodiscard]] bool correct() const { return topology_correct() && inside_enough; }
+  /// It is right, and the shape has a curve skeleton in the first place.
+  [[nodiscard]] bool holds() const { return correct() && curve_like; }
 };
 
 /// Precondition: a clean surface (see Surface). The skeleton may be anyone's: radii and vertex map
@@ -61,9 +68,12 @@ struct Certificate {
                                    const CertificateOptions& options = {},
                                    const Monitor& monitor = {});
 
-/// The conditions that fail, in one line; empty if none.
+/// The conditions of `correct` that fail, in one line; empty if none.
 [[nodiscard]] std::string failures(const Certificate& certificate,
                                    const CertificateOptions& options);
+
+/// That the surface is not `curve_like`, in one line; empty if it is.
+[[nodiscard]] std::string shape_failure(const Certificate& certificate);
 
 /// The surface that a certificate compares a skeleton with.
 struct CertifiedSurface {

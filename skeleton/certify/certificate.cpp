@@ -16,6 +16,7 @@
 #include "base/parallel.hpp"
 #include "skeleton/certify/centredness.hpp"
 #include "skeleton/certify/measured_curve.hpp"
+#include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/homology/homology_rank.hpp"
@@ -27,6 +28,7 @@ using Eigen::Vector3d;
 
 constexpr double curvature_scale = 1.0 / 100;  // of D
 constexpr double coverage_factor = 1.5;        // of the local radius
+constexpr double tube_share_needed = 0.5;
 constexpr Eigen::Index most_vertices = 20000;
 
 void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
@@ -185,6 +187,8 @@ Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skele
   certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
   measure_centredness(subject, options.rays, monitor, certificate);
   measure_coverage(subject, surface.surface.positions, monitor, certificate);
+  certificate.tube_share = tube_share(subject, surface.surface, monitor);
+  certificate.curve_like = certificate.tube_share >= tube_share_needed;
   measure_shape(subject, certificate);
   monitor.report("certify", 1);
   return certificate;

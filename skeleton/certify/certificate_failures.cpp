@@ -41,4 +41,11 @@ std::string failures(const Certificate& certificate, const CertificateOptions& o
   return text;
 }
 
+std::string shape_failure(const Certificate& certificate) {
+  if (certificate.curve_like) return {};
+  return "the surface is not made of tubes: " + percent_words(certificate.tube_share, 0) +
+         " of its area is within 2.5 inscribed radii of the curve, needed 50 %; a curve says "
+         "little of such a shape";
+}
+
 }  // namespace curveskel

@@ -9,19 +9,47 @@
 namespace curveskel {
 namespace {
 
-/// A component's share of the working vertices. So that no number of components makes the work grow
-/// faster than the surface, what each is sure of falls where there are many of them; less far where
-/// its own vertices have a shape to tell than where they would be made by refining.
+/// Twice the greatest distance from the mean of the vertices: the same in every position.
+double extent_of(const Positions& positions) {
+  const Eigen::RowVector3d mean = positions.colwise().mean();
+  return 2 * std::sqrt((positions.rowwise() - mean).rowwise().squaredNorm().maxCoeff());
+}
+
+/// The extents of the components over that of the whole.
+std::vector<double> extents_over_whole(const std::vector<Component>& components) {
+  std::vector<double> extents;
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  Eigen::Index count = 0;
+  for (const Component& one : components) {
+    sum += one.surface.positions.colwise().sum();
+    count += one.surface.positions.rows();
+    extents.push_back(extent_of(one.surface.positions));
+  }
+  const Eigen::RowVector3d mean = sum / double(count);
+  double farthest = 0;
+  for (const Component& one : components) {
+    const auto squares = (one.surface.positions.rowwise() - mean).rowwise().squaredNorm();
+    farthest = std::max(farthest, squares.maxCoeff());
+  }
+  for (double& extent : extents) extent = std::min(1.0, extent / (2 * std::sqrt(farthest)));
+  return extents;
+}
+
+/// A component's share of the working vertices. Small parts of a whole have less to tell: what each
+/// is sure of falls with its extent over that of the whole, and with the number of components, so
+/// that the work grows no faster than the surface; less far where its own vertices have a shape to
+/// tell than where they would be made by refining.
 /// The most grows with the component's handles: with fewer vertices each, surgery cannot cut them.
-WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
+WorkingSize working_size(const ExtractOptions& options, int vertices, int genus, double extent,
                          const Topology& whole) {
   constexpr int sure_in_all = 200000;
   constexpr int fewest_made = 100;  // few enough for any number, enough for the simplest of shapes
   constexpr int fewest_left = 200;
   constexpr int per_handle = 32;
   WorkingSize size;
-  size.least =
-      std::min(options.least_resolution, std::max(fewest_made, sure_in_all / whole.components()));
+  const int by_extent = static_cast<int>(std::lround(options.least_resolution * extent));
+  size.least = std::min({options.least_resolution, std::max(fewest_made, by_extent),
+                         std::max(fewest_made, sure_in_all / whole.components())});
   size.most = std::max(size.least, vertices);
   if (options.resolution <= 0) return size;
   const auto all = static_cast<double>(whole.component_of_vertex.size());
@@ -55,12 +83,13 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   const Topology& counted = whole.counted;
   const bool several = whole.components.size() > 1;
   if (kept != nullptr) kept->resize(whole.components.size());
+  const std::vector<double> extents = extents_over_whole(whole.components);
   std::vector<ComponentResult> all(whole.components.size());
   std::vector<TryLog> logs(whole.components.size());
   std::vector<std::size_t> side_by_side;
   const auto part = [&](std::size_t c) {
     return Part{whole.components[c], static_cast<int>(c), counted.genus[c],
-                working_size(options, counted.vertices[c], counted.genus[c], counted)};
+                working_size(options, counted.vertices[c], counted.genus[c], extents[c], counted)};
   };
   const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
     all[c] = component_result(part(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],

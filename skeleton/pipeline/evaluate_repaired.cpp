@@ -23,7 +23,7 @@ std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, do
     std::optional<WrappedSolid> agreeing;
     const auto try_to = [&] {
       auto wrapped = wrap_solid(failing.surface, gap > 0 ? gap : one, monitor);
-      if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).holds()) {
+      if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).correct()) {
         agreeing = std::move(wrapped);
       }
     };
@@ -50,7 +50,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   const CertifiedSurface given{surface, tree, diagonal, counted.components(),
                                counted.total_genus()};
   RepairedEvaluation result{evaluate(given, skeleton, options, monitor), std::nullopt};
-  if (result.certificate.holds() || as_repaired.wrap != Wrapping::needed) return result;
+  if (result.certificate.correct() || as_repaired.wrap != Wrapping::needed) return result;
 
   std::vector<ComponentWrap> wraps;
   const auto owners = component_by_place(skeleton, split_components(surface, counted));

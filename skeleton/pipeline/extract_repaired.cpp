@@ -76,7 +76,7 @@ std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
     if (gap > 0) break;
   }
   const auto takes = [&](const Attempt& wider, const Attempt* best) {
-    return wider.certificate.holds() &&
+    return wider.certificate.correct() &&
            (best == nullptr || better(wider.certificate, best->certificate, failing.genus));
   };
   return carry_out(
@@ -153,7 +153,7 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
   const auto why = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;
     const Certificate& found = so_far.best->found.extraction.certificate;
-    if (found.holds()) return std::nullopt;
+    if (found.correct()) return std::nullopt;
     return failures(found, its.certificate);
   };
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
@@ -166,7 +166,7 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
 
 bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap>& wraps,
                 const CertificateOptions& options, const Monitor& monitor) {
-  if (found.extraction.certificate.holds()) return true;
+  if (found.extraction.certificate.correct()) return true;
   const auto failing = failing_of(found.wrapped->surface, found.extraction, options, monitor);
   int added = 0;  // components so far that wraps have beyond one each
   for (const ComponentWrap& one : wraps) {

@@ -148,7 +148,7 @@ std::vector<FailingComponent> failing_components(const Surface& surface, const T
     Surface& part = parts[idx(c)].surface;
     const int genus = counted.genus[idx(c)];
     const CertifiedSurface own{part, SurfaceTree(part), diagonal, 1, genus};
-    if (evaluate(own, curves[idx(c)], options, monitor).holds()) continue;
+    if (evaluate(own, curves[idx(c)], options, monitor).correct()) continue;
     failing.push_back({c, std::move(part), genus, std::move(curves[idx(c)])});
   }
   return failing;

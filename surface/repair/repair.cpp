@@ -19,6 +19,7 @@
 #include "surface/repair/close_surface.hpp"
 #include "surface/repair/describe_repairs.hpp"
 #include "surface/repair/join_soup.hpp"
+#include "surface/repair/lies_in_plane.hpp"
 #include "surface/repair/select_components.hpp"
 #include "surface/repair/weld.hpp"
 #include "surface/repair/wrap.hpp"
@@ -117,6 +118,16 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
   throw Error(Fault::input, file + ": found " + found.str() +
                                 ", needed a surface with an inside; give it thickness (Blender: "
                                 "the Solidify modifier) or close it first");
+}
+
+/// No wrap or closing makes a body of these; to try would take long.
+void refuse_drawing(const PolygonSoup& soup) {
+  if (!lies_in_plane(soup)) return;
+  throw Error(Fault::input,
+              (soup.file.empty() ? "surface" : soup.file.string()) +
+                  ": found a flat drawing, of which all vertices lie in one plane and which "
+                  "encloses nothing, needed a surface with an inside; give it thickness (Blender: "
+                  "the Solidify modifier)");
 }
 
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
@@ -307,6 +318,7 @@ void require_valid(const RepairOptions& options) {
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
   require_valid(options);
+  refuse_drawing(soup);
   Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor, threads)
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, default_signals, start, write_torus
+from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, default_signals, run, start, write_torus
 from program import PROGRAM
 
 FORMATS = ["obj", "ply", "cgal", "swc", "vtp", "csv", "graphml", "json", "svg", "png"]
@@ -172,6 +172,21 @@ class Repair(CommandLineTest):
     def test_a_wrap_gap_that_is_too_narrow_is_refused_with_one_that_is_not(self):
         self.refused(3, "extract", TORUS, "-o", "x.obj", "--wrap", "all", "--wrap-gap", "1e-5",
                      says=["1e-05", "vertices", "needed is --wrap-gap 0.00"], cwd=self.folder)
+
+    def test_strict_asks_for_a_shape_made_of_tubes(self):
+        plate = self.folder / "plate.off"
+        corners = [(x, y, z) for z in (0, 0.02) for y in (0, 1) for x in (0, 1)]
+        quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        plate.write_text("OFF\n8 6 0\n" + "".join("%g %g %g\n" % p for p in corners) +
+                         "".join("4 %d %d %d %d\n" % q for q in quads))
+        result = self.run_ok("extract", plate, "-o", "x.obj", "--report", "r.json", cwd=self.folder)
+        self.assertIn("NOT MADE OF TUBES", result.out.decode())
+        certificate = json.loads((self.folder / "r.json").read_text())["certificate"]
+        self.assertFalse(certificate["curve_like"])
+        self.assertFalse(certificate["holds"])
+        self.assertLess(certificate["tube_share"], 0.5)
+        for verb in (("extract", plate, "-o", "y.obj"), ("evaluate", plate, "x.obj")):
+            self.assertEqual(run(*verb, "--strict", cwd=self.folder).code, 5, verb)
 
     def test_a_sheet_is_refused(self):
         sheet = self.folder / "sheet.off"

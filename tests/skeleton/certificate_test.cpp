@@ -245,8 +245,68 @@ TEST(Certificate, ALoneNodeIsASkeletonOfABall) {
   EXPECT_EQ(certificate.inside_fraction, 1);
   EXPECT_LT(certificate.centredness_p90, 0.01);
   EXPECT_EQ(certificate.coverage, 1);
+  EXPECT_EQ(certificate.tube_share, 1);
   EXPECT_LT(certificate.reach, 0.01);
   EXPECT_EQ(certificate.total_curvature, 0);
+}
+
+TEST(Certificate, TubesStarsAndToriAreMadeOfTubes) {
+  std::vector<Shape> tubular = even_tubes();
+  tubular.push_back(shapes::linked_rings(1, 0.2, 16));
+  for (const int arms : {3, 4, 6}) {
+    tubular.push_back(shapes::tube_union("star", shapes::star(arms, 1, 0.1)));
+  }
+  for (const Shape& shape : tubular) {
+    SCOPED_TRACE(shape.name);
+    const Certificate found = certify(shape, shape.axis);
+    EXPECT_GT(found.tube_share, 0.95);
+    EXPECT_TRUE(found.curve_like);
+    EXPECT_EQ(shape_failure(found), "");
+  }
+}
+
+// Thinner than the samples of the curve are apart.
+TEST(Certificate, AHairIsMadeOfTubes) {
+  const Shape hair = shapes::tube("hair", shapes::straight(1), shapes::constant(1.0 / 5000), 6);
+  EXPECT_GT(certify(hair, chain({{-0.499, 0, 0}, {0.499, 0, 0}})).tube_share, 0.95);
+}
+
+TEST(Certificate, PlatesDiscsAndBoxesOfSheetsAreNotMadeOfTubes) {
+  const CurveSkeleton middle = chain({{-0.45, 0, 0}, {0.45, 0, 0}});
+  const std::vector<Shape> flat = {shapes::box({1, 1, 0.02}, 1), shapes::box({1, 0.5, 0.02}, 20),
+                                   shapes::ellipsoid({0.5, 0.5, 0.01}, 4)};
+  for (const Shape& shape : flat) {
+    SCOPED_TRACE(shape.name);
+    const Certificate found = certify(shape, middle);
+    EXPECT_LT(found.tube_share, 0.25);
+    EXPECT_TRUE(found.correct());
+    EXPECT_FALSE(found.curve_like);
+    EXPECT_FALSE(found.holds());
+    EXPECT_NE(shape_failure(found).find("not made of tubes"), std::string::npos);
+  }
+  std::vector<Shape> walls;
+  for (const double side : {-0.5, 0.5}) {
+    walls.push_back(shapes::translated(shapes::box({1, 1, 0.02}, 2), {0, 0, side}));
+    walls.push_back(shapes::translated(shapes::box({0.02, 0.9, 0.9}, 2), {side, 0, 0}));
+  }
+  EXPECT_LT(
+      certify(shapes::together("box of sheets", walls), moved(middle, {0, 0, 0.5})).tube_share,
+      0.1);
+}
+
+// Area counts, not how finely it is divided; and a figure's size does not.
+TEST(Certificate, TheShareMadeOfTubesIsThatOfTheShape) {
+  for (const int cells : {1, 3, 24}) {
+    for (const double size : {1.0, 1000.0}) {
+      Shape strip = shapes::box({1, 0.1, 0.02}, cells);
+      strip.axis = chain({{-0.48, 0, 0}, {0.48, 0, 0}});
+      strip.axis.radii.setConstant(2, 0.01);
+      strip = shapes::scaled(strip, size);
+      // Near are 2 sqrt(0.025^2 - 0.01^2) of the width of the wide faces, nothing of the others.
+      EXPECT_NEAR(certify(strip, strip.axis).tube_share, 2 * 0.0458 / 0.244, 0.02)
+          << cells << ", " << size;
+    }
+  }
 }
 
 TEST(Certificate, NoSkeletonCoversNothing) {
@@ -254,6 +314,7 @@ TEST(Certificate, NoSkeletonCoversNothing) {
   EXPECT_FALSE(none.topology_correct());
   EXPECT_FALSE(none.inside_enough);
   EXPECT_EQ(none.coverage, 0);
+  EXPECT_EQ(none.tube_share, 0);
   EXPECT_TRUE(std::isinf(none.reach));
 }
 

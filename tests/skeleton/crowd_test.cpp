@@ -58,6 +58,16 @@ TEST(Crowd, HasASkeletonForEachComponent) {
   ASSERT_EQ(found.components.size(), 150U);
 }
 
+/// Each of 496 cubes had 43 nodes, as if it were alone.
+TEST(Crowd, HasFewNodesForEachOfItsSmallParts) {
+  const auto nodes_each = [](int components) {
+    const Extraction found = extract(crowd(components).surface, {}, {});
+    EXPECT_TRUE(found.certificate.correct());
+    return double(found.skeleton.nodes.rows()) / components;
+  };
+  EXPECT_LT(nodes_each(216), 0.5 * nodes_each(1));
+}
+
 TEST(Crowd, IsTheSameForAnyNumberOfThreads) {
   const Shape shape = crowd(60);
   std::vector<CurveSkeleton> found;

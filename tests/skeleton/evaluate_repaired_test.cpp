@@ -35,19 +35,19 @@ TEST(EvaluateRepaired, AgreesWithTheExtractionFromAWrap) {
     SCOPED_TRACE(shape.name);
     const RepairedSurface repaired = given(shape);
     const RepairedExtraction made = extract_repaired(repaired, {}, {}, {});
-    ASSERT_TRUE(made.wrapped && made.extraction.certificate.holds());
-    EXPECT_FALSE(evaluate(repaired.surface, made.extraction.skeleton, {}, {}).holds());
+    ASSERT_TRUE(made.wrapped && made.extraction.certificate.correct());
+    EXPECT_FALSE(evaluate(repaired.surface, made.extraction.skeleton, {}, {}).correct());
     const RepairedEvaluation found =
         evaluate_repaired(repaired, {}, made.extraction.skeleton, {}, {});
     ASSERT_TRUE(found.wrapped);
-    EXPECT_TRUE(found.certificate.holds());
+    EXPECT_TRUE(found.certificate.correct());
     EXPECT_EQ(found.wrapped->repairs.components_wrapped, 1);
     RepairOptions never;
     never.wrap = Wrapping::never;
     const RepairedEvaluation as_it_is =
         evaluate_repaired(repaired, never, made.extraction.skeleton, {}, {});
     EXPECT_FALSE(as_it_is.wrapped);
-    EXPECT_FALSE(as_it_is.certificate.holds());
+    EXPECT_FALSE(as_it_is.certificate.correct());
   }
 }
 

@@ -392,8 +392,9 @@ TEST(Repairing, TheDistanceOfAWrapIsThatOfWhatItSpans) {
 }
 
 TEST(Repairing, RefusesToWrapWhatHasNoInside) {
-  const auto sheet = with_polygons(soup_of(shapes::box({1, 1, 1}, 4).surface),
-                                   [](std::size_t p) { return p < 2; });
+  auto sheet = with_polygons(soup_of(shapes::box({1, 1, 1}, 4).surface),
+                             [](std::size_t p) { return p < 2; });
+  sheet.positions.row(sheet.corners[0]).array() += 0.01;  // no flat drawing, which is told at once
   try {
     (void)wrapped_whole(sheet);
     FAIL() << "not refused";
@@ -494,6 +495,30 @@ PolygonSoup bent_square(std::int32_t n, double angle) {
     }
   }
   return soup;
+}
+
+// Whatever plane it lies in, also after a trip through single precision, and though a wrap is asked
+// for; the least bend makes it something else.
+TEST(Refusing, DrawingsInAPlaneAreCalledFlat) {
+  for (const Wrapping wrap : {Wrapping::needed, Wrapping::never, Wrapping::all}) {
+    RepairOptions options;
+    options.wrap = wrap;
+    for (const double tilt : {0.0, 0.4, 1.3}) {
+      SCOPED_TRACE(tilt);
+      PolygonSoup drawing = bent_square(20, 0);
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(tilt, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+      drawing.positions = (drawing.positions * turn.transpose()).cast<float>().cast<double>();
+      try {
+        (void)repair(drawing, options, {});
+        ADD_FAILURE() << "not refused";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::input);
+        expect_said(error.what(), {"flat drawing", "encloses nothing", "thickness"});
+      }
+    }
+  }
+  EXPECT_EQ(std::string(refusal_of(bent_square(20, 0.3))).find("flat drawing"), std::string::npos);
 }
 
 TEST(Refusing, SheetsSinceTheyEncloseNothing) {

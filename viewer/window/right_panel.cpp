@@ -87,6 +87,7 @@ void certificate(Workbench& bench) {
     if (ImGui::SmallButton("show##exits")) bench.show_exits();
     tip("the edges that leave the surface");
   }
+  line("tubes", fmt::format("{:.1f} % of the area", 100 * c.tube_share), verdict(c.curve_like));
   line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
   if (c.spurs > 0) {
     ImGui::SameLine();

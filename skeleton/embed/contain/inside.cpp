@@ -124,38 +124,62 @@ class Keeper {
     }
   }
 
+  /// From one point of an arc to another that comes after it.
+  struct Stretch {
+    std::size_t last = 0;
+    std::vector<CurvePoint> between;
+    int uncovered = 0;
+  };
+
+  /// To the next point straight or bent, else by a detour to the next one inside; where none leads
+  /// there, as in a pocket where the surface meets itself, to one of the points after it.
+  Stretch next_stretch(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
+                       bool on_cycle) {
+    constexpr std::size_t most_left_out = 4;
+    Stretch straight{i + 1, {}, 0};
+    const bool is_whole = is_covered(line[i], line[i + 1], straight.between);
+    if (is_whole && (!on_cycle || keeps_handle(line, i, straight))) return straight;
+    straight.between.clear();
+    straight.uncovered = crosses(tree_, line[i].place(), line[i + 1].place()) ? 1 : 0;
+    std::size_t next = i + 1;
+    // From the last point that is inside to the next one.
+    while (next + 1 < line.size() && line[next].radius(tree_) < least_radius) ++next;
+    std::optional<Stretch> best;
+    // A cycle that leaves points out may leave its handle with them.
+    const std::size_t left_out = on_cycle ? 0 : most_left_out;
+    const std::size_t farthest = std::min(next + left_out, line.size() - 1);
+    for (; next <= farthest; ++next) {
+      Stretch stretch = detour(arc, line, i, next);
+      if (on_cycle && !keeps_handle(line, i, stretch)) continue;
+      if (!best || stretch.uncovered < best->uncovered) best = std::move(stretch);
+      if (best->uncovered == 0) break;
+    }
+    Stretch made = best ? std::move(*best) : std::move(straight);
+    uncovered_ += made.uncovered;
+    return made;
+  }
+
+  [[nodiscard]] bool keeps_handle(const std::vector<CurvePoint>& line, std::size_t first,
+                                  const Stretch& stretch) {
+    if (stretch.between.empty() && stretch.last == first + 1) return true;
+    std::vector<Point> is{line[first].place()};
+    for (const CurvePoint& point : stretch.between) is.push_back(point.place());
+    is.push_back(line[stretch.last].place());
+    std::vector<Point> was;
+    for (std::size_t k = first; k <= stretch.last; ++k) was.push_back(line[k].place());
+    return handles_.homologous(was, is);
+  }
+
   void cover_arc(Arc& arc, bool on_cycle) {
     pull_inside(arc, on_cycle);
     const auto line = graph_.points_along(arc, tree_);
     std::vector<CurvePoint> points;
     std::size_t i = 0;
     while (i + 1 < line.size()) {
-      std::size_t next = i + 1;
-      std::vector<CurvePoint> between;
-      const auto keeps_handle = [&] {
-        if (!on_cycle || (between.empty() && next == i + 1)) return true;
-        std::vector<Point> is{line[i].place()};
-        for (const CurvePoint& point : between) is.push_back(point.place());
-        is.push_back(line[next].place());
-        std::vector<Point> was;
-        for (std::size_t k = i; k <= next; ++k) was.push_back(line[k].place());
-        return handles_.homologous(was, is);
-      };
-      if (!is_covered(line[i], line[next], between) || !keeps_handle()) {
-        // From the last point that is inside to the next one.
-        while (next + 1 < line.size() && line[next].radius(tree_) < least_radius) ++next;
-        const int uncovered_before = uncovered_;
-        between = detour(arc, line[i], line[next]);
-        if (!keeps_handle()) {
-          next = i + 1;
-          between.clear();
-          uncovered_ = uncovered_before;
-          if (crosses(tree_, line[i].place(), line[next].place())) ++uncovered_;
-        }
-      }
-      points.insert(points.end(), between.begin(), between.end());
-      if (next + 1 < line.size()) points.push_back(line[next]);
-      i = next;
+      Stretch stretch = next_stretch(arc, line, i, on_cycle);
+      points.insert(points.end(), stretch.between.begin(), stretch.between.end());
+      if (stretch.last + 1 < line.size()) points.push_back(line[stretch.last]);
+      i = stretch.last;
     }
     arc.points = std::move(points);
   }
@@ -283,13 +307,14 @@ class Keeper {
   }
 
   /// The way between two points; round the steps that lead outside, if the surface meets itself.
-  std::vector<CurvePoint> detour(const Arc& arc, const CurvePoint& p, const CurvePoint& q) {
+  Stretch detour(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t first,
+                 std::size_t last) {
     const auto groups = groups_along(graph_, arc, partition_);
     std::optional<Detour> best;
     while (true) {
-      const auto vertices = balls_between(p, q, groups);
+      const auto vertices = balls_between(line[first], line[last], groups);
       if (vertices.empty()) break;
-      Detour made = detour_by(vertices, p, q);
+      Detour made = detour_by(vertices, line[first], line[last]);
       for (const auto& [one, other] : made.hidden) chains_.avoid(one, other);
       const bool is_last = made.uncovered == 0 || made.hidden.empty() || more_tries_ == 0;
       if (!best || made.uncovered < best->uncovered) best = std::move(made);
@@ -297,8 +322,8 @@ class Keeper {
       --more_tries_;
     }
     chains_.allow_all();
-    uncovered_ += best ? best->uncovered : 1;
-    return best ? std::move(best->points) : std::vector<CurvePoint>{};
+    if (!best) return {last, {}, 1};
+    return {last, std::move(best->points), best->uncovered};
   }
 
   /// Made when first asked for, as there is mostly another way.

@@ -61,8 +61,7 @@ TEST(Settle, PutsAWavyCurveOnTheAxisOfItsTube) {
 TEST(Settle, TakesAThinBandLikeATube) {
   for (const double thickness : {0.2, 0.02, 0.002}) {
     constexpr double width = 0.1;
-    Surface band =
-        shapes::tube("band", shapes::straight(1), shapes::constant(width), 80).surface;
+    Surface band = shapes::tube("band", shapes::straight(1), shapes::constant(width), 80).surface;
     band.positions.col(2) *= thickness;
     const SurfaceTree tree(band);
     SkeletonGraph graph = wavy_arc(width);
@@ -70,7 +69,8 @@ TEST(Settle, TakesAThinBandLikeATube) {
       point = Point(point.place().x(), point.place().y(), 0);
     }
     HomologyGuard guard;
-    settle(graph, tree, all_own(), guard, 1);
+    // As often as the embedding asks for it: each time the steps are held to the radii gained.
+    for (int time = 0; time < 3; ++time) settle(graph, tree, all_own(), guard, 1);
     EXPECT_LT(farthest_from_axis(graph), 0.05 * width) << thickness;
   }
 }
