@@ -8,14 +8,16 @@
 #include <curveskel/error.hpp>
 #include "surface/read/formats.hpp"
 #include "surface/read/gunzip.hpp"
+#include "surface/read/utf16.hpp"
 
 namespace {
 
 using namespace curveskel;
 
-/// By content, unzipped where it is zipped, as files are read.
+/// By content, unzipped where it is zipped and UTF-8 where it was UTF-16, as files are read.
 [[maybe_unused]] PolygonSoup read_gzipped(FileBytes& file, const Monitor& monitor) {
   if (is_gzipped(file.content)) gunzip(file, monitor);
+  if (is_utf16(file.content)) utf16_to_utf8(file);
   if (file.content.empty()) throw Error(Fault::input, "empty");
   return read_content(file, monitor);
 }

@@ -11,9 +11,9 @@
 
 namespace curveskel {
 
-enum class SurfaceFormat { obj, off, ply, stl, om, gltf, glb };
+enum class SurfaceFormat { obj, off, ply, stl, om, gltf, glb, vtp, vtk, three_mf };
 
-inline constexpr NameTable<SurfaceFormat, 7> surface_formats{{
+inline constexpr NameTable<SurfaceFormat, 10> surface_formats{{
     {SurfaceFormat::obj, "obj", "Wavefront OBJ"},
     {SurfaceFormat::off, "off", "Object File Format (OFF, COFF, NOFF, ...)"},
     {SurfaceFormat::ply, "ply", "Stanford PLY, ASCII or binary"},
@@ -21,6 +21,9 @@ inline constexpr NameTable<SurfaceFormat, 7> surface_formats{{
     {SurfaceFormat::om, "om", "OpenMesh's OM, binary"},
     {SurfaceFormat::gltf, "gltf", "glTF 2.0, JSON with buffers beside it"},
     {SurfaceFormat::glb, "glb", "glTF 2.0, one binary file"},
+    {SurfaceFormat::vtp, "vtp", "VTK's XML PolyData"},
+    {SurfaceFormat::vtk, "vtk", "VTK's legacy PolyData, ASCII or binary"},
+    {SurfaceFormat::three_mf, "3mf", "3D Manufacturing Format"},
 }};
 
 /// Polygons as read. Polygon p has the corners corners[offsets[p]] .. corners[offsets[p + 1] - 1].

@@ -9,8 +9,8 @@
 #include <unordered_map>
 
 #include "skeleton/io/raw_graph.hpp"
-#include "skeleton/io/vtk_array.hpp"
-#include "skeleton/io/xml.hpp"
+#include "surface/read/vtk_array.hpp"
+#include "surface/read/xml.hpp"
 
 namespace curveskel {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "base/memory.hpp"
 #include "surface/read/gunzip.hpp"
+#include "surface/read/utf16.hpp"
 
 namespace curveskel {
 namespace {
@@ -75,6 +76,7 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
   }
   file.content.resize(used);
   if (is_gzipped(file.content)) gunzip(file, monitor);
+  if (is_utf16(file.content)) utf16_to_utf8(file);
   if (file.content.empty()) file.fail("0 bytes", "a surface", "export or fetch the file again");
   return file;
 }

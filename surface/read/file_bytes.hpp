@@ -1,4 +1,4 @@
-// A file's whole content in memory, unzipped; the start of every format's reader.
+// A file's whole content in memory, unzipped, text in UTF-8; the start of every format's reader.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace curveskel {
 
 struct FileBytes {
   std::filesystem::path path;
-  std::string content;  ///< unzipped
+  std::string content;  ///< unzipped; UTF-16 with its mark is made UTF-8
 
   /// Throws Error(Fault::input): "FILE: found FOUND, needed NEEDED; REMEDY".
   [[noreturn]] void fail(std::string_view found, std::string_view needed,

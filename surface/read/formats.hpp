@@ -4,6 +4,7 @@
 #include <curveskel/monitor.hpp>
 #include <curveskel/read.hpp>
 #include "surface/read/file_bytes.hpp"
+#include "surface/read/off_keyword.hpp"
 
 namespace curveskel {
 
@@ -15,6 +16,13 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_stl(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_om(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
+[[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor);
+
+/// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
+[[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,
+                                          const OffKeyword& keyword, const Monitor& monitor);
 
 /// The work of `read_polygons` once the file is in memory.
 [[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor);
@@ -27,6 +35,9 @@ namespace curveskel {
 [[nodiscard]] bool looks_like_om(const FileBytes& file);
 [[nodiscard]] bool looks_like_gltf(const FileBytes& file);
 [[nodiscard]] bool looks_like_glb(const FileBytes& file);
+[[nodiscard]] bool looks_like_vtp(const FileBytes& file);
+[[nodiscard]] bool looks_like_vtk(const FileBytes& file);
+[[nodiscard]] bool looks_like_3mf(const FileBytes& file);  ///< or another ZIP archive
 
 /// Appends a polygon's end; for readers that append corners one by one.
 inline void end_polygon(PolygonSoup& soup) {

@@ -26,9 +26,12 @@ std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
 
 std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
   if (looks_like_glb(file)) return SurfaceFormat::glb;
+  if (looks_like_3mf(file)) return SurfaceFormat::three_mf;
   if (looks_like_om(file)) return SurfaceFormat::om;
   if (looks_like_ply(file)) return SurfaceFormat::ply;
   if (looks_like_off(file)) return SurfaceFormat::off;
+  if (looks_like_vtp(file)) return SurfaceFormat::vtp;
+  if (looks_like_vtk(file)) return SurfaceFormat::vtk;
   if (looks_like_gltf(file)) return SurfaceFormat::gltf;
   if (looks_like_stl(file)) return SurfaceFormat::stl;
   if (looks_like_obj(file)) return SurfaceFormat::obj;
@@ -50,6 +53,12 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
       return read_gltf(file, monitor);
+    case SurfaceFormat::vtp:
+      return read_vtp_surface(file, monitor);
+    case SurfaceFormat::vtk:
+      return read_vtk(file, monitor);
+    case SurfaceFormat::three_mf:
+      return read_3mf(file, monitor);
   }
   file.fail("no known format", names_in(surface_formats), "convert it");
 }

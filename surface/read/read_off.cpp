@@ -6,57 +6,50 @@
 #include <string_view>
 
 #include "surface/read/formats.hpp"
+#include "surface/read/off_keyword.hpp"
 #include "surface/read/text_cursor.hpp"
 
 namespace curveskel {
 namespace {
-
-struct OffKeyword {
-  bool four_dimensional = false;
-  bool any_dimensional = false;
-};
-
-/// [ST][C][N][4][n]OFF
-std::optional<OffKeyword> parse_keyword(std::string_view word) {
-  OffKeyword keyword;
-  const auto take = [&](std::string_view prefix) {
-    if (!word.starts_with(prefix)) return false;
-    word.remove_prefix(prefix.size());
-    return true;
-  };
-  take("ST");
-  take("C");
-  take("N");
-  keyword.four_dimensional = take("4");
-  keyword.any_dimensional = take("n");
-  if (word != "OFF") return std::nullopt;
-  return keyword;
-}
 
 struct OffCounts {
   std::int64_t vertices = 0;
   std::int64_t faces = 0;
 };
 
-OffCounts read_header(TextCursor& text) {
+/// Steps over the keyword, which may be missing altogether.
+std::optional<OffKeyword> take_keyword(TextCursor& text) {
   text.skip_space('#');
-  TextCursor start = text;
-  if (const auto keyword = parse_keyword(text.word())) {
-    text.skip_blanks();
-    if (text.accept("BINARY")) {
-      start.fail("OFF as text", "convert it, for instance to PLY, with the program that wrote it",
-                 "binary OFF");
+  const TextCursor start = text;
+  const auto keyword = parse_off_keyword(text.word());
+  if (!keyword) {
+    text = start;
+    if (start.peek() < '0' || start.peek() > '9') {
+      start.fail("\"OFF\", or the counts of vertices and faces",
+                 "check that this is an OFF file, or name it by its format");
     }
+  } else if (keyword->four_dimensional) {
+    start.fail("positions in three dimensions", "project the surface to three dimensions first");
+  }
+  return keyword;
+}
+
+/// Where the numbers of a binary file begin; none of a text. Behind the keyword.
+std::optional<std::size_t> begin_of_binary(TextCursor text) {
+  text.skip_blanks();
+  if (!text.accept("BINARY")) return std::nullopt;
+  while (!text.at_line_end()) text.skip(1);
+  return text.position() + (text.done() ? 0 : 1);
+}
+
+OffCounts read_header(TextCursor& text, const std::optional<OffKeyword>& keyword) {
+  TextCursor start = text;
+  if (keyword) {
     text.skip_space('#');
     const bool three = !keyword->any_dimensional || text.integer("the dimension") == 3;
-    if (keyword->four_dimensional || !three) {
+    if (!three) {
       start.fail("positions in three dimensions", "project the surface to three dimensions first");
     }
-  } else if (start.peek() < '0' || start.peek() > '9') {  // the keyword may be missing altogether
-    start.fail("\"OFF\", or the counts of vertices and faces",
-               "check that this is an OFF file, or name it by its format");
-  } else {
-    text = start;
   }
 
   OffCounts counts;
@@ -130,7 +123,14 @@ PolygonSoup read_off(const FileBytes& file, const Monitor& monitor) {
   PolygonSoup soup;
   soup.format = SurfaceFormat::off;
   TextCursor text(file);
-  const OffCounts counts = read_header(text);
+  const auto keyword = take_keyword(text);
+  if (const auto begin = keyword ? begin_of_binary(text) : std::nullopt) {
+    if (keyword->any_dimensional) {
+      text.fail("positions in three dimensions", "convert it to text or PLY first", "binary nOFF");
+    }
+    return read_binary_off(file, *begin, *keyword, monitor);
+  }
+  const OffCounts counts = read_header(text, keyword);
   if (counts.vertices > most_vertices) {
     file.fail(std::to_string(counts.vertices) + " vertices",
               "at most " + std::to_string(most_vertices), "split or decimate the surface first");
@@ -152,7 +152,7 @@ PolygonSoup read_off(const FileBytes& file, const Monitor& monitor) {
 bool looks_like_off(const FileBytes& file) {
   TextCursor text(file);
   text.skip_space('#');
-  return parse_keyword(text.word()).has_value();
+  return parse_off_keyword(text.word()).has_value();
 }
 
 }  // namespace curveskel

@@ -128,6 +128,9 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
       return format_om(surface);
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
+    case SurfaceFormat::vtp:
+    case SurfaceFormat::vtk:
+    case SurfaceFormat::three_mf:
       break;
   }
   throw Error(Fault::output,

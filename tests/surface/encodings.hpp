@@ -129,6 +129,33 @@ inline std::string stl_binary(std::string_view header) {
   return bytes;
 }
 
+/// `extra`: words of zero behind every position; Geomview's has a count of colours behind faces.
+inline std::string off_binary(const std::string& keyword, int extra, bool geomview = true) {
+  std::string bytes = keyword + " BINARY\n";
+  for (const int count : {8, 6, 12}) append(bytes, std::int32_t{count}, geomview);
+  for (const auto& p : corners) {
+    for (const int x : p) append(bytes, static_cast<float>(x), geomview);
+    for (int k = 0; k < extra; ++k) append(bytes, 0.0F, geomview);
+  }
+  for (const auto& q : quads) {
+    append(bytes, std::int32_t{4}, geomview);
+    for (const int v : q) append(bytes, std::int32_t{v}, geomview);
+    if (!geomview) continue;
+    const int colours = q[0] == 0 ? 4 : 0;
+    append(bytes, std::int32_t{colours}, true);
+    for (int k = 0; k < colours; ++k) append(bytes, 0.5F, true);
+  }
+  return bytes;
+}
+
+/// With a byte order mark; `text` is ASCII.
+inline std::string utf16(const std::string& text, bool big_endian) {
+  std::string bytes;
+  append(bytes, std::uint16_t{0xFEFF}, big_endian);
+  for (const char c : text) append(bytes, static_cast<std::uint16_t>(c), big_endian);
+  return bytes;
+}
+
 // ---- PLY ----------------------------------------------------------------------------------------
 
 /// Appends a number as PLY's type of this name, as text with a space when not `binary`.
@@ -277,6 +304,8 @@ inline std::vector<Encoding> all() {
       {"obj", ".obj", obj()},
       {"obj_with_everything", ".obj", obj_with_everything()},
       {"obj_of_old_macs", ".obj", carriage_returns},
+      {"obj_in_utf16_little_endian", ".obj", utf16(obj(), false)},
+      {"obj_in_utf16_big_endian", ".obj", utf16(obj(), true)},
       {"obj_named_otherwise", ".off", obj()},
       {"off", ".off", off("OFF\n8 6 12\n")},
       {"off_counts_on_first_line", ".off", off("OFF 8 6 12\n")},
@@ -286,6 +315,9 @@ inline std::vector<Encoding> all() {
       {"off_normals", ".off", off("NOFF\r\n8 6 12\r\n", " 0 0 1\r", " # c\r")},
       {"off_all_prefixes", ".off", off("STCNOFF\n8 6 0\n", " 0 0 1 9 9 9 9 0 0")},
       {"off_texture", ".off", off("STOFF\n8 6 0\n", " 0.5 0.5")},
+      {"off_binary", ".off", off_binary("OFF", 0)},
+      {"off_binary_all_prefixes", ".off", off_binary("STCNOFF", 9)},
+      {"off_binary_of_openmesh", ".off", off_binary("NOFF", 3, false)},
       {"off_dimension_given", ".off", off("nOFF 3\n8 6 0\n")},
       {"stl_text", ".stl", stl_text(), false},
       {"stl_binary", ".stl", stl_binary("a box"), false},

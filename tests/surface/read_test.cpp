@@ -16,15 +16,19 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/clean.hpp>
 #include "surface/read/formats.hpp"
+#include "surface/read/utf16.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/real_surfaces.hpp"
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"
+#include "tests/surface/vtk_encodings.hpp"
+#include "tests/surface/zip_encodings.hpp"
 
 namespace curveskel::read_laws {
 namespace {
 
 using encodings::Encoding;
+using namespace std::string_literals;
 
 std::filesystem::path write_zipped(const OwnFolder& folder, const std::string& name,
                                    const std::string& bytes) {
@@ -35,6 +39,13 @@ std::filesystem::path write_zipped(const OwnFolder& folder, const std::string& n
 }
 
 // ---- Every encoding -----------------------------------------------------------------------------
+
+std::vector<Encoding> every_encoding() {
+  std::vector<Encoding> result = encodings::all();
+  for (Encoding& encoding : encodings::all_of_vtk()) result.push_back(std::move(encoding));
+  for (Encoding& encoding : encodings::all_of_3mf()) result.push_back(std::move(encoding));
+  return result;
+}
 
 class EveryEncoding : public testing::TestWithParam<Encoding> {};
 
@@ -98,17 +109,20 @@ TEST_P(EveryEncoding, WithWrongBytesIsReadOrRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Box, EveryEncoding, testing::ValuesIn(encodings::all()),
+INSTANTIATE_TEST_SUITE_P(Box, EveryEncoding, testing::ValuesIn(every_encoding()),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Reading, OfACountedFormatCutOffAnywhereIsRefused) {
-  for (const Encoding& encoding : encodings::all()) {
+  for (const Encoding& encoding : every_encoding()) {
     if (encoding.name.find("obj") == 0) continue;
     // The comment or colour behind the last face may be missing; so may everything behind a solid.
     const std::string& bytes = encoding.bytes;
     std::size_t whole = bytes.find_last_not_of(" \r\n") + 1;
     if (encoding.name == "off_colours") whole = bytes.rfind(" 3 ");
     if (encoding.name == "off_normals") whole = bytes.rfind(" # c");
+    if (encoding.extension == ".vtk") {
+      whole = bytes.find_last_not_of(" \n", bytes.find("POINT_DATA") - 1) + 1;
+    }
     if (encoding.name == "stl_text") whole = bytes.find("endsolid") + 8;
     for (std::size_t size = 0; size < whole; ++size) {
       const FileBytes file{"cut" + encoding.extension, encoding.bytes.substr(0, size)};
@@ -131,6 +145,27 @@ TEST(Reading, TakesTriangleStripsOfPlyWithRestarts) {
   const PolygonSoup soup = read_polygons(file, {});
   EXPECT_EQ(soup.corners, (std::vector<std::int32_t>{0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 2}));
   EXPECT_EQ(soup.offsets, (std::vector<std::int64_t>{0, 3, 6, 9, 12}));
+}
+
+TEST(Reading, TakesStripsOfVtkLikeItsPolygons) {
+  const OwnFolder folder;
+  const auto triangles_of = [&](const std::string& name, const std::string& bytes) {
+    return outlines(read_polygons(folder.write(name, bytes), {}));
+  };
+  for (const std::string format : {"ascii", "raw"}) {
+    const Outlines strips = triangles_of("strips.vtp", encodings::vtp({.format = format}, true));
+    ASSERT_EQ(strips.size(), 12U);
+    const CleanSurface box =
+        clean(read_polygons(folder.write("strips.vtp", encodings::vtp({.format = format}, true))));
+    EXPECT_DOUBLE_EQ(volume(box.surface), 6);
+  }
+  EXPECT_EQ(triangles_of("strips.vtk",
+                         "# vtk DataFile Version 3.0\nstrips\nASCII\nDATASET POLYDATA\n"
+                         "POINTS 5 double\n0 0 0 1 0 0 0 1 0 1 1 0 0 2 0\n"
+                         "TRIANGLE_STRIPS 2 9\n4 0 1 2 3\n3 2 3 4\n"),
+            triangles_of("polygons.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 2 0\n"
+                         "f 1 2 3\nf 3 2 4\nf 3 4 5\n"));
 }
 
 TEST(Reading, TakesFacesOfObjBeforeTheirVertices) {
@@ -168,6 +203,14 @@ TEST(Reading, TakesSeveralGzipMembersAsOneFile) {
   const std::string second = slurp(write_zipped(folder, "second.gz", bytes.substr(40)));
   const PolygonSoup soup = read_polygons(folder.write("box.obj.gz", first + second), {});
   EXPECT_EQ(outlines(soup), outlines_of_the_box(true));
+}
+
+TEST(Reading, TakesEveryCharacterOfUtf16) {
+  // U+00E9, U+20AC and U+1F600, the last of which takes two units; then half of one.
+  FileBytes file{"names.obj", "\xff\xfe#\0\xe9\0\xac\x20\x3d\xd8\x00\xde\x3d\xd8\n\0"s};
+  ASSERT_TRUE(is_utf16(file.content));
+  utf16_to_utf8(file);
+  EXPECT_EQ(file.content, "#\u00e9\u20ac\U0001F600\uFFFD\n");
 }
 
 TEST(Reading, StopsWhenAsked) {

@@ -1,5 +1,5 @@
 // https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html has the layout of the blocks.
-#include "skeleton/io/vtk_array.hpp"
+#include "surface/read/vtk_array.hpp"
 
 #include <fast_float/fast_float.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-// XML as skeleton files need it: names without prefixes, text in one piece, places for messages.
+// XML as the readers need it: names without prefixes, text in one piece, places for messages.
 #pragma once
 
 #include <string>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "skeleton/io/xml.hpp"
+#include "surface/read/xml.hpp"
 
 namespace curveskel {
 

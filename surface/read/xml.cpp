@@ -1,4 +1,4 @@
-#include "skeleton/io/xml.hpp"
+#include "surface/read/xml.hpp"
 
 #include <algorithm>
 #include <pugixml.hpp>

@@ -1,0 +1,306 @@
+// VTK's legacy format, PolyData only: text, or big-endian numbers between lines of text; cells with
+// their sizes (up to version 4.2) or as offsets and connectivity (from 5.0 on).
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "surface/read/binary_cursor.hpp"
+#include "surface/read/formats.hpp"
+#include "surface/read/text_cursor.hpp"
+#include "surface/read/triangle_strip.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::string_view vtk_start = "# vtk DataFile Version";
+constexpr std::string_view vtk_remedy = "the file is truncated or broken: fetch or export it again";
+
+enum class VtkType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+struct VtkTypeName {
+  std::string_view name;
+  VtkType type;
+};
+
+constexpr std::array<VtkTypeName, 16> vtk_types{{{"float", VtkType::float32},
+                                                 {"double", VtkType::float64},
+                                                 {"int", VtkType::int32},
+                                                 {"unsigned_int", VtkType::uint32},
+                                                 {"vtkIdType", VtkType::int32},
+                                                 {"vtktypeint64", VtkType::int64},
+                                                 {"vtktypeuint64", VtkType::uint64},
+                                                 {"vtktypeint32", VtkType::int32},
+                                                 {"vtktypeuint32", VtkType::uint32},
+                                                 {"long", VtkType::int64},
+                                                 {"unsigned_long", VtkType::uint64},
+                                                 {"short", VtkType::int16},
+                                                 {"unsigned_short", VtkType::uint16},
+                                                 {"char", VtkType::int8},
+                                                 {"unsigned_char", VtkType::uint8},
+                                                 {"signed_char", VtkType::int8}}};
+
+double take_number(BinaryCursor& bytes, VtkType type) {
+  switch (type) {
+    case VtkType::int8:
+      return bytes.take<std::int8_t>();
+    case VtkType::uint8:
+      return bytes.take<std::uint8_t>();
+    case VtkType::int16:
+      return bytes.take<std::int16_t>();
+    case VtkType::uint16:
+      return bytes.take<std::uint16_t>();
+    case VtkType::int32:
+      return bytes.take<std::int32_t>();
+    case VtkType::uint32:
+      return bytes.take<std::uint32_t>();
+    case VtkType::int64:
+      return static_cast<double>(bytes.take<std::int64_t>());
+    case VtkType::uint64:
+      return static_cast<double>(bytes.take<std::uint64_t>());
+    case VtkType::float32:
+      return static_cast<double>(bytes.take<float>());
+    case VtkType::float64:
+      return bytes.take<double>();
+  }
+  return 0;
+}
+
+class VtkReader {
+ public:
+  VtkReader(const FileBytes& file, const Monitor& monitor)
+      : file_(file), monitor_(monitor), text_(file, '\n') {
+    soup_.format = SurfaceFormat::vtk;
+    soup_.offsets.push_back(0);
+  }
+
+  PolygonSoup read() {
+    read_header();
+    for (text_.skip_space(0); !text_.done(); text_.skip_space(0)) {
+      if (!read_section()) break;
+    }
+    check_corners();
+    soup_.positions = positions_from(coordinates_);
+    return std::move(soup_);
+  }
+
+ private:
+  void read_header() {
+    text_.skip_line();
+    text_.skip_line();  // the title
+    text_.skip_space(0);
+    binary_ = text_.accept("BINARY");
+    if (!binary_ && !text_.accept("ASCII")) text_.fail("\"ASCII\" or \"BINARY\"", vtk_remedy);
+    text_.skip_space(0);
+    if (text_.accept("FIELD")) skip_fields();
+    text_.skip_space(0);
+    if (!text_.accept("DATASET")) text_.fail("\"DATASET\"", vtk_remedy);
+    text_.skip_blanks();
+    if (!text_.accept("POLYDATA")) {
+      text_.fail("POLYDATA",
+                 "extract its surface, in ParaView by Filters, Extract Surface, and save that as "
+                 ".vtp or .ply");
+    }
+  }
+
+  /// False where what describes the surface ends.
+  bool read_section() {
+    const TextCursor start = text_;
+    monitor_.report("read", text_.fraction());
+    const std::string_view name = text_.word();
+    if (name == "POINTS") {
+      read_points();
+    } else if (name == "POLYGONS") {
+      read_cells(Cells::polygons);
+    } else if (name == "TRIANGLE_STRIPS") {
+      read_cells(Cells::strips);
+    } else if (name == "VERTICES" || name == "LINES") {
+      read_cells(Cells::passed_over);
+    } else if (name == "METADATA") {
+      skip_metadata();
+    } else if (name == "FIELD") {
+      skip_fields();
+    } else if (name == "POINT_DATA" || name == "CELL_DATA") {
+      return false;
+    } else {
+      start.fail("POINTS, POLYGONS, TRIANGLE_STRIPS or data", vtk_remedy);
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::size_t count(std::string_view needed) {
+    text_.skip_blanks();
+    const TextCursor start = text_;
+    const std::int64_t value = text_.integer(needed);
+    if (value < 0 || value > static_cast<std::int64_t>(file_.content.size())) {
+      start.fail(std::string(needed) + " that fits into the file", vtk_remedy);
+    }
+    return static_cast<std::size_t>(value);
+  }
+
+  [[nodiscard]] VtkType type() {
+    text_.skip_blanks();
+    const TextCursor start = text_;
+    const std::string_view word = text_.word();
+    for (const VtkTypeName& known : vtk_types) {
+      if (known.name == word) return known.type;
+    }
+    start.fail("a type of numbers", vtk_remedy);
+  }
+
+  /// `values` numbers behind the end of this line.
+  [[nodiscard]] std::vector<double> numbers(std::size_t values, VtkType type,
+                                            std::string_view needed) {
+    std::vector<double> result;
+    text_.skip_line();
+    if (binary_) {
+      BinaryCursor bytes(file_, text_.position(), std::endian::big);
+      bytes.require(values);
+      result.reserve(values);
+      for (std::size_t i = 0; i < values; ++i) result.push_back(take_number(bytes, type));
+      text_.skip(bytes.place() - text_.position());
+    } else {
+      for (std::size_t i = 0; i < values; ++i) {
+        text_.skip_space(0);
+        result.push_back(text_.number(needed));
+      }
+    }
+    return result;
+  }
+
+  void read_points() {
+    const TextCursor start = text_;
+    const std::size_t points = count("the number of points");
+    const VtkType of = type();
+    if (!coordinates_.empty()) start.fail("points once", vtk_remedy);
+    coordinates_ = numbers(3 * points, of, "a coordinate");
+    for (const double coordinate : coordinates_) {
+      if (!std::isfinite(coordinate)) {
+        start.fail("finite coordinates", "repair or export the file again",
+                   std::to_string(coordinate) + " among the coordinates");
+      }
+    }
+  }
+
+  enum class Cells { polygons, strips, passed_over };
+
+  void read_cells(Cells kind) {
+    const TextCursor start = text_;
+    const std::size_t cells = count("the number of cells");
+    const std::size_t size = count("the size of the list of cells");
+    TextCursor next = text_;
+    next.skip_line();
+    next.skip_space(0);
+    std::vector<double> ends;
+    std::vector<double> corners;
+    if (next.accept("OFFSETS")) {
+      text_ = next;
+      const VtkType of_offsets = type();
+      ends = numbers(cells, of_offsets, "an offset");
+      text_.skip_space(0);
+      if (!text_.accept("CONNECTIVITY")) text_.fail("\"CONNECTIVITY\"", vtk_remedy);
+      const VtkType of_corners = type();
+      corners = numbers(size, of_corners, "a point index");
+    } else {
+      const std::vector<double> list = numbers(size, VtkType::int32, "a point index");
+      ends.push_back(0);
+      for (std::size_t at = 0; at < list.size();) {
+        const double length = list[at++];
+        if (!(length >= 0 && length <= static_cast<double>(list.size() - at))) {
+          start.fail("the sizes of cells that fit into their list", vtk_remedy,
+                     "a cell of " + std::to_string(length) + " points");
+        }
+        for (auto k = static_cast<std::size_t>(length); k > 0; --k) corners.push_back(list[at++]);
+        ends.push_back(static_cast<double>(corners.size()));
+      }
+    }
+    if (kind != Cells::passed_over) append_cells(start, kind, ends, corners);
+  }
+
+  void append_cells(const TextCursor& start, Cells kind, const std::vector<double>& ends,
+                    const std::vector<double>& corners) {
+    std::vector<std::int32_t> vertices;
+    vertices.reserve(corners.size());
+    for (const double corner : corners) {
+      if (!(corner >= 0 && corner < static_cast<double>(most_vertices) &&
+            std::floor(corner) == corner)) {
+        start.fail("whole numbers from 0 on", vtk_remedy,
+                   "the point index " + std::to_string(corner));
+      }
+      vertices.push_back(static_cast<std::int32_t>(corner));
+    }
+    for (std::size_t c = 1; c < ends.size(); ++c) {
+      if (!(ends[c - 1] >= 0 && ends[c - 1] <= ends[c] &&
+            ends[c] <= static_cast<double>(vertices.size()))) {
+        start.fail("ascending offsets up to " + std::to_string(vertices.size()), vtk_remedy,
+                   "an offset that runs backwards or past the connectivity");
+      }
+      const auto begin = static_cast<std::size_t>(ends[c - 1]);
+      const std::span cell(vertices.data() + begin, static_cast<std::size_t>(ends[c]) - begin);
+      if (kind == Cells::strips) {
+        append_strip(cell, soup_);
+      } else {
+        soup_.corners.insert(soup_.corners.end(), cell.begin(), cell.end());
+        end_polygon(soup_);
+      }
+    }
+  }
+
+  /// Up to the next empty line.
+  void skip_metadata() {
+    do {
+      text_.skip_line();
+      text_.skip_blanks();
+    } while (!text_.at_line_end());
+  }
+
+  void skip_fields() {
+    text_.skip_blanks();
+    text_.word();
+    const std::size_t arrays = count("the number of arrays");
+    for (std::size_t a = 0; a < arrays; ++a) {
+      text_.skip_space(0);
+      if (text_.accept("METADATA")) {
+        skip_metadata();
+        text_.skip_space(0);
+      }
+      text_.word();
+      const std::size_t components = count("the number of components");
+      const std::size_t rows = count("the number of rows");
+      if (rows > 0 && components > file_.content.size() / rows) {
+        text_.fail("an array that fits into the file", vtk_remedy);
+      }
+      const VtkType of = type();
+      (void)numbers(components * rows, of, "a number");
+    }
+  }
+
+  void check_corners() const {
+    const auto points = static_cast<std::int32_t>(coordinates_.size() / 3);
+    for (const std::int32_t corner : soup_.corners) {
+      if (corner >= points) {
+        file_.fail("the point index " + std::to_string(corner),
+                   "indices from 0 to " + std::to_string(points) + " - 1", vtk_remedy);
+      }
+    }
+  }
+
+  const FileBytes& file_;
+  const Monitor& monitor_;
+  TextCursor text_;
+  bool binary_ = false;
+  PolygonSoup soup_;
+  std::vector<double> coordinates_;
+};
+
+}  // namespace
+
+PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor) {
+  return VtkReader(file, monitor).read();
+}
+
+bool looks_like_vtk(const FileBytes& file) { return file.content.starts_with(vtk_start); }
+
+}  // namespace curveskel
