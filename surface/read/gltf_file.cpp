@@ -83,38 +83,6 @@ void check_depth(const FileBytes& file, bool binary) {
             "at most " + std::to_string(deepest_json), "export the file again");
 }
 
-int type_of_rows(int components) {
-  switch (components) {
-    case 3:
-      return TINYGLTF_TYPE_VEC3;
-    case 4:
-      return TINYGLTF_TYPE_VEC4;
-    case 16:
-      return TINYGLTF_TYPE_MAT4;
-    default:
-      return TINYGLTF_TYPE_SCALAR;
-  }
-}
-
-std::optional<GltfNumbers::Type> number_type(int component_type) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return GltfNumbers::Type::int8;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return GltfNumbers::Type::uint8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return GltfNumbers::Type::int16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return GltfNumbers::Type::uint16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return GltfNumbers::Type::uint32;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return GltfNumbers::Type::float32;
-    default:
-      return std::nullopt;
-  }
-}
-
 }  // namespace
 
 tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
@@ -160,43 +128,6 @@ tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
     }
   }
   return model;
-}
-
-GltfNumbers gltf_numbers(const FileBytes& file, const tinygltf::Model& model, int accessor,
-                         int components, const std::string& meaning) {
-  const auto& rows = gltf_element(file, model.accessors, accessor, "accessor");
-  const auto refuse = [&](const std::string& found, const std::string& needed) {
-    file.fail(found + " in accessor " + std::to_string(accessor) + " (" + meaning + ")", needed,
-              "export the file again");
-  };
-  if (rows.sparse.isSparse) refuse("sparse storage", "plain storage");
-  const auto& view = gltf_element(file, model.bufferViews, rows.bufferView, "buffer view");
-  const auto& buffer = gltf_element(file, model.buffers, view.buffer, "buffer");
-  const auto type = number_type(rows.componentType);
-  const int wanted = type_of_rows(components);
-  const int stride = rows.ByteStride(view);
-  if (!type || rows.type != wanted || stride <= 0) {
-    refuse("numbers of type " + std::to_string(rows.type) + "/" +
-               std::to_string(rows.componentType) + ", stride " + std::to_string(stride),
-           std::to_string(components) + " per row of a type in the standard");
-  }
-  const auto component_bytes = static_cast<std::size_t>(
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(rows.componentType)));
-  const std::size_t row_bytes = component_bytes * static_cast<std::size_t>(components);
-  const std::size_t size = buffer.data.size();
-  const bool begins_inside = view.byteOffset <= size && rows.byteOffset <= size - view.byteOffset;
-  const std::size_t left = begins_inside ? size - view.byteOffset - rows.byteOffset : 0;
-  const bool ends_inside =
-      begins_inside && (rows.count == 0 ||
-                        (row_bytes <= left &&
-                         rows.count - 1 <= (left - row_bytes) / static_cast<std::size_t>(stride)));
-  if (!ends_inside) {
-    refuse(std::to_string(rows.count) + " rows from byte " + std::to_string(view.byteOffset) +
-               " + " + std::to_string(rows.byteOffset),
-           "rows that end within the buffer's " + std::to_string(size) + " bytes");
-  }
-  return {buffer.data.data() + view.byteOffset + rows.byteOffset, static_cast<std::size_t>(stride),
-          rows.count, *type, rows.normalized};
 }
 
 }  // namespace curveskel
