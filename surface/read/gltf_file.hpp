@@ -10,7 +10,8 @@ class Model;
 namespace curveskel {
 
 /// Text or GLB, with the buffers beside it; pictures are not loaded.
-/// Throws Error(Fault::input), also for compressed geometry.
+/// Compressed geometry is decompressed. Throws Error(Fault::input), by name for glTF 1.0 and for
+/// required extensions that change the geometry and are not known here.
 [[nodiscard]] tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor);
 
 }  // namespace curveskel
