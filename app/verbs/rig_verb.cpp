@@ -101,6 +101,7 @@ int run_rig(RigArguments arguments, Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  arguments.rig.faces_minus_z = soup.faces_minus_z;
   RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
   const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),

@@ -15,6 +15,7 @@ namespace curveskel {
 struct RigOptions {
   JointOptions joints;
   SkinOptions skin;
+  bool faces_minus_z = false;  ///< the figure looks along -z: its left is where x is smaller
 };
 
 /// Throws Error(Fault::usage) that names the first option out of its range, the value and the

@@ -32,6 +32,7 @@ struct PolygonSoup {
   std::vector<std::int32_t> corners;  ///< vertex indices, all within [0, #V)
   std::vector<std::int64_t> offsets;  ///< #P + 1 entries, the first 0
   SurfaceFormat format = SurfaceFormat::obj;
+  bool faces_minus_z = false;  ///< figures look along -z, as in VRM 0.x; else nothing is known
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
 };
 

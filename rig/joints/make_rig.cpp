@@ -85,7 +85,7 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOpt
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
-  name_sides(rig);
+  name_sides(rig, options.faces_minus_z);
   return rig;
 }
 

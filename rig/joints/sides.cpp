@@ -31,7 +31,7 @@ void name_pair(Rig& rig, const Chain& first, const Chain& second, bool first_is_
 
 }  // namespace
 
-void name_sides(Rig& rig) {
+void name_sides(Rig& rig, bool faces_minus_z) {
   constexpr std::size_t most = 1000;  // chains
   constexpr double near = 0.06;       // of the diagonal
   constexpr double least = 0.125;     // of all length: by chance two fingers of a hand have 0.08
@@ -53,7 +53,8 @@ void name_sides(Rig& rig) {
   for (std::size_t chain = 0; chain < best.of.size(); ++chain) {
     const int other = best.of[chain];
     if (other <= static_cast<int>(chain)) continue;
-    const auto aside = [&](const Chain& of) { return of.path.col(axis).mean(); };
+    const double left = faces_minus_z && axis == 0 ? -1 : 1;
+    const auto aside = [&](const Chain& of) { return left * of.path.col(axis).mean(); };
     name_pair(rig, chains[chain], chains[idx(other)],
               aside(chains[chain]) > aside(chains[idx(other)]));
   }

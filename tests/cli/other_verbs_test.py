@@ -313,6 +313,26 @@ class Rig(CommandLineTest):
         self.assertEqual(self.vertices(second), self.vertices(first))
         self.assertEqual(len(second["skins"][0]["joints"]), len(first["skins"][0]["joints"]))
 
+    def test_left_is_where_x_is_smaller_in_a_vrm_0_file(self):
+        def sides(mesh):
+            scene = self.glb(self.rig("x.glb", mesh=mesh)[0])
+            names = [node.get("name", "") for node in scene["nodes"]]
+            return [name[-2:] for name in names if name.endswith((".L", ".R"))]
+
+        header, counts, *rows = Y.read_text().split("\n")
+        vertices = int(counts.split()[0])
+        rows[:vertices] = [" ".join(row.split()[1:] + row.split()[:1]) for row in rows[:vertices]]
+        (self.folder / "turned.off").write_text("\n".join([header, counts, *rows]))
+        self.rig("y.gltf", mesh="turned.off")  # its mirror plane is x = 0
+        scene = json.loads((self.folder / "y.gltf").read_text())
+        plain = sides("y.gltf")
+        self.assertGreater(len(plain), 1)
+        swapped = [{".L": ".R", ".R": ".L"}[side] for side in plain]
+        for name, expected in (("VRM", swapped), ("VRMC_vrm", plain)):
+            scene["extensions"] = {name: {"specVersion": "0.0"}}
+            (self.folder / "y.vrm").write_text(json.dumps(scene))
+            self.assertEqual(sides("y.vrm"), expected)
+
 
 class Devices(CommandLineTest):
     def test_lists_some_or_says_how_to_get_one(self):

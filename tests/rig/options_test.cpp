@@ -207,7 +207,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
          option("least_weight", &O::least_weight, "0..0.1", {0, 0.1}, {-1e-9, 0.11}),
          threads<O>()});
   }
-  [[maybe_unused]] const auto& [joints, skin] = RigOptions{};
+  [[maybe_unused]] const auto& [joints, skin, faces_minus_z] = RigOptions{};
 }
 
 const shapes::Shape& bar() {

@@ -62,8 +62,8 @@ inline Eigen::Affine3d bind_of_joint(int joint) {
 
 /// Text of a glTF file. Ring k of the bar (4 vertices at x = k - 0.5, the last at joints - 0.5) is
 /// moved by joint k - 1 and joint k in equal parts; the ends by one joint alone. The file shows the
-/// bar so where `turn` is 0.
-inline std::string gltf_of(const RiggedBar& bar) {
+/// bar so where `turn` is 0. `numbers` gets the bytes of the buffer.
+inline std::string gltf_of(const RiggedBar& bar, std::string* numbers = nullptr) {
   using rigged_bar::add_rows;
   using rigged_bar::append;
   const int rings = bar.joints + 1;
@@ -178,6 +178,7 @@ inline std::string gltf_of(const RiggedBar& bar) {
   file["buffers"] = {
       {{"byteLength", buffer.size()},
        {"uri", "data:application/octet-stream;base64," + encodings::base64(buffer)}}};
+  if (numbers != nullptr) *numbers = buffer;
   return file.dump();
 }
 

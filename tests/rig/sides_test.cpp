@@ -78,6 +78,24 @@ TEST(Sides, ArePairsOnEitherSideOfThePlane) {
   }
 }
 
+TEST(Sides, OfAFigureThatLooksAlongMinusZChangePlacesInXAlone) {
+  for (const int axis : {0, 1, 2}) {
+    Rig rig = two_sided(axis, 3, true);
+    Rig turned = rig;
+    name_sides(rig);
+    name_sides(turned, true);
+    for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+      std::string expected = rig.names[joint];
+      if (axis == 0 && expected.ends_with(".L")) {
+        expected.back() = 'R';
+      } else if (axis == 0 && expected.ends_with(".R")) {
+        expected.back() = 'L';
+      }
+      EXPECT_EQ(turned.names[joint].back(), expected.back()) << axis << ' ' << joint;
+    }
+  }
+}
+
 TEST(Sides, OfAPairHangFromAPairOrFromOneJoint) {
   Rig rig = two_sided(0, 6, true);
   name_sides(rig);

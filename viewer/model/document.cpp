@@ -43,6 +43,7 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   }
   document.mesh_file = file;
   document.format = soup.format;
+  document.faces_minus_z = soup.faces_minus_z;
   document.surface.triangles = triangulate(soup);
   if (has_same_triangles(soup, document.surface.triangles)) {
     document.surface.positions = std::move(soup.positions);
@@ -103,6 +104,7 @@ std::shared_ptr<const PolygonSoup> Document::polygons() const {
   if (soup) return soup;
   auto made = std::make_shared<PolygonSoup>(soup_of(surface));
   made->format = format;
+  made->faces_minus_z = faces_minus_z;
   made->file = mesh_file;
   return made;
 }

@@ -9,8 +9,10 @@ std::shared_ptr<const Rig> rig_of(const Document& document, const RepairedSurfac
                                   const Monitor& monitor) {
   const CurveSkeleton mapped =
       skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
+  RigOptions facing = options;
+  facing.faces_minus_z = document.faces_minus_z;
   return std::make_shared<const Rig>(
-      rig_of_given(make_rig(repaired.surface, mapped, options, monitor), repaired.surface,
+      rig_of_given(make_rig(repaired.surface, mapped, facing, monitor), repaired.surface,
                    repaired.vertex_of_input, document.surface.positions));
 }
 
