@@ -77,6 +77,26 @@ const std::map<int, std::size_t> size_of_type{{5121, 1}, {5123, 2}, {5126, 4}};
 const std::map<std::string, std::size_t> width_of{
     {"SCALAR", 1}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
 
+std::string encoded_rows(const std::string& rows, std::size_t count, std::size_t stride) {
+  std::string bytes(meshopt_encodeVertexBufferBound(count, stride), '\0');
+  auto* out = reinterpret_cast<unsigned char*>(bytes.data());
+  bytes.resize(meshopt_encodeVertexBuffer(out, bytes.size(), rows.data(), count, stride));
+  return bytes;
+}
+
+std::string encoded_indices(const std::string& rows, const std::string& mode) {
+  std::vector<std::uint16_t> corners(rows.size() / 2);
+  std::memcpy(corners.data(), rows.data(), rows.size());
+  const bool triangles = mode == "TRIANGLES";
+  const std::size_t count = corners.size();
+  const auto bound = triangles ? meshopt_encodeIndexBufferBound : meshopt_encodeIndexSequenceBound;
+  std::string bytes(bound(count, count), '\0');
+  auto* out = reinterpret_cast<unsigned char*>(bytes.data());
+  bytes.resize(triangles ? meshopt_encodeIndexBuffer(out, bytes.size(), corners.data(), count)
+                         : meshopt_encodeIndexSequence(out, bytes.size(), corners.data(), count));
+  return bytes;
+}
+
 /// `mode`: of the indices, TRIANGLES or INDICES.
 Parts with_meshopt(const std::string& mode) {
   auto [json, views] = bar_and_views();
@@ -87,19 +107,9 @@ Parts with_meshopt(const std::string& mode) {
     const std::size_t count = accessor["count"];
     const std::size_t stride =
         size_of_type.at(accessor["componentType"]) * width_of.at(accessor["type"]);
-    std::string bytes(meshopt_encodeVertexBufferBound(count, stride) +
-                          meshopt_encodeIndexBufferBound(3 * count, count) +
-                          meshopt_encodeIndexSequenceBound(count, count),
-                      '\0');
-    auto* out = reinterpret_cast<unsigned char*>(bytes.data());
-    std::vector<std::uint16_t> corners(views[k].size() / 2);
-    std::memcpy(corners.data(), views[k].data(), 2 * corners.size());
     const bool is_index = k == indices;
-    bytes.resize(
-        !is_index ? meshopt_encodeVertexBuffer(out, bytes.size(), views[k].data(), count, stride)
-        : mode == "TRIANGLES"
-            ? meshopt_encodeIndexBuffer(out, bytes.size(), corners.data(), corners.size())
-            : meshopt_encodeIndexSequence(out, bytes.size(), corners.data(), corners.size()));
+    const std::string bytes =
+        is_index ? encoded_indices(views[k], mode) : encoded_rows(views[k], count, stride);
     Json& view = packed.json["bufferViews"][k];
     view["buffer"] = 1;
     view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},

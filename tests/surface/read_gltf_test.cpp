@@ -215,9 +215,26 @@ TEST(ReadingGltf, RefusesWhatItCannotShow) {
   contains(message(R"("nodes": [{"mesh": 3}])"), "mesh 3");
   contains(message(R"("nodes": [{"mesh": 0, "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"),
            "node 0 that is not affine");
-  contains(message(encodings::one_node + R"(, "extensionsUsed": ["KHR_draco_mesh_compression"],
-                     "extensionsRequired": ["KHR_draco_mesh_compression"])"),
-           "KHR_draco_mesh_compression");
+  contains(message(encodings::one_node + R"(, "extensionsUsed": ["X_bends_space"],
+                     "extensionsRequired": ["X_bends_space"])"),
+           "X_bends_space");
+}
+
+TEST(ReadingGltf, NamesVersionOne) {
+  const OwnFolder folder;
+  const auto expect_named = [&](const std::string& content) {
+    const std::string message = refusal(folder.write("old.gltf", content));
+    EXPECT_NE(message.find("glTF 1.0"), std::string::npos) << message;
+  };
+  const std::string body =
+      R"("meshes": {"m": {"primitives": []}}, "nodes": {"n": {"meshes": ["m"]}},
+    "accessors": {}, "bufferViews": {}, "buffers": {}, "scenes": {}})";
+  expect_named(R"({"asset": {"version": "1.0"}, )" + body);
+  expect_named(R"({"asset": {"version": 1}, )" + body);
+  expect_named("{" + body);
+  std::string binary = encodings::glb();
+  binary[4] = 1;
+  expect_named(binary);
 }
 
 }  // namespace
