@@ -146,10 +146,6 @@ class SceneReader {
       if (i % rows_per_report == 0) monitor_.report("read", 0.5);
       const Eigen::Vector3d point =
           frame * Eigen::Vector3d(points.at(i, 0), points.at(i, 1), points.at(i, 2));
-      if (!point.allFinite()) {
-        file_.fail("NaN or infinity in position " + std::to_string(i) + " (counted from 0)",
-                   "finite numbers", gltf_remedy);
-      }
       coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
     }
   }
