@@ -41,7 +41,9 @@ Json to_json(const CertificateOptions& o) {
 }
 
 Json to_json(const Changes& c) {
-  return {{"polygons_triangulated", c.polygons_triangulated},
+  return {{"unplaced_vertices_dropped", c.unplaced_vertices_dropped},
+          {"unplaced_polygons_dropped", c.unplaced_polygons_dropped},
+          {"polygons_triangulated", c.polygons_triangulated},
           {"vertices_merged", c.vertices_merged},
           {"duplicate_faces_dropped", c.duplicate_faces_dropped},
           {"degenerate_faces_dropped", c.degenerate_faces_dropped},

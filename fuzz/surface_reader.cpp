@@ -8,6 +8,7 @@
 #include <curveskel/error.hpp>
 #include "surface/read/formats.hpp"
 #include "surface/read/gunzip.hpp"
+#include "surface/read/placed_vertices.hpp"
 #include "surface/read/utf16.hpp"
 
 namespace {
@@ -43,7 +44,9 @@ void check(const PolygonSoup& soup) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   FileBytes file{"/nonexistent/fuzzed", std::string(reinterpret_cast<const char*>(data), size)};
   try {
-    check(CURVESKEL_READER(file, {}));
+    PolygonSoup soup = CURVESKEL_READER(file, {});
+    drop_unplaced_vertices(soup, file);
+    check(soup);
   } catch (const Error& error) {
     require(error.fault() == Fault::input);
   }

@@ -46,6 +46,10 @@ std::optional<CleanSurface> cleaned_if_closed(const PolygonSoup& soup, const Mon
     return clean(soup, monitor, threads);
   } catch (const Error& error) {
     monitor.say(std::string(error.what()) + " - faired as it is, with its boundaries held");
+    Changes changes;
+    changes.unplaced_vertices_dropped = soup.unplaced_vertices;
+    changes.unplaced_polygons_dropped = soup.unplaced_polygons;
+    describe_changes(changes, monitor);
     return std::nullopt;
   }
 }

@@ -15,6 +15,8 @@ namespace curveskel {
 /// Counts of the changes. `lines` says the same in words, one line per kind of change that
 /// happened.
 struct Changes {
+  std::int64_t unplaced_vertices_dropped = 0;  ///< NaN or infinity in the file
+  std::int64_t unplaced_polygons_dropped = 0;  ///< of which such a vertex is a corner
   std::int64_t polygons_triangulated = 0;
   std::int64_t vertices_merged = 0;
   std::int64_t duplicate_faces_dropped = 0;

@@ -11,9 +11,9 @@
 
 namespace curveskel {
 
-enum class SurfaceFormat { obj, off, ply, stl, om, gltf, glb, vtp, vtk, three_mf };
+enum class SurfaceFormat { obj, off, ply, stl, om, gltf, glb, vtp, vtk, three_mf, dae, fbx };
 
-inline constexpr NameTable<SurfaceFormat, 10> surface_formats{{
+inline constexpr NameTable<SurfaceFormat, 12> surface_formats{{
     {SurfaceFormat::obj, "obj", "Wavefront OBJ"},
     {SurfaceFormat::off, "off", "Object File Format (OFF, COFF, NOFF, ...)"},
     {SurfaceFormat::ply, "ply", "Stanford PLY, ASCII or binary"},
@@ -24,6 +24,8 @@ inline constexpr NameTable<SurfaceFormat, 10> surface_formats{{
     {SurfaceFormat::vtp, "vtp", "VTK's XML PolyData"},
     {SurfaceFormat::vtk, "vtk", "VTK's legacy PolyData, ASCII or binary"},
     {SurfaceFormat::three_mf, "3mf", "3D Manufacturing Format"},
+    {SurfaceFormat::dae, "dae", "COLLADA"},
+    {SurfaceFormat::fbx, "fbx", "Filmbox, from version 7 on, ASCII or binary"},
 }};
 
 /// Polygons as read. Polygon p has the corners corners[offsets[p]] .. corners[offsets[p + 1] - 1].
@@ -34,6 +36,10 @@ struct PolygonSoup {
   SurfaceFormat format = SurfaceFormat::obj;
   bool faces_minus_z = false;  ///< figures look along -z, as in VRM 0.x; else nothing is known
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
+  /// Vertices of the file with NaN or infinity: they have their rows, at the place of another, and
+  /// no polygons.
+  std::int64_t unplaced_vertices = 0;
+  std::int64_t unplaced_polygons = 0;  ///< of the file, dropped as such a vertex is a corner
 };
 
 /// The triangles as polygons, of no file.
@@ -41,6 +47,7 @@ struct PolygonSoup {
 
 /// Reads any supported file, gzipped or not (".ply.gz"); the format follows from the content where
 /// that is unambiguous and from the extension otherwise.
+/// Polygons of vertices with NaN or infinity are left out, if at least half of all remain.
 /// Throws Error(Fault::input) naming the file and, for text, the line. Time and memory linear in
 /// the file's size; a header's counts are checked against it before anything is allocated.
 [[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path,

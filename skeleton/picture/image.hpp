@@ -25,7 +25,7 @@ struct Image {
   }
 };
 
-/// The bytes of an 8-bit RGB PNG file.
-[[nodiscard]] std::string png_from(const Image& image);
+/// The bytes of an 8-bit RGB PNG file; they do not depend on `threads`.
+[[nodiscard]] std::string png_from(const Image& image, int threads);
 
 }  // namespace curveskel

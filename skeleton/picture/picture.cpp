@@ -77,7 +77,7 @@ std::string png_picture(const CurveSkeleton& skeleton, const Surface& surface,
   for (const View& view : views) {
     draw_marks(marks_of(skeleton, view, width_unit(options)), image);
   }
-  return png_from(image);
+  return png_from(image, options.threads);
 }
 
 std::string svg_picture(const CurveSkeleton& skeleton, const Surface& surface,
@@ -91,7 +91,7 @@ std::string svg_picture(const CurveSkeleton& skeleton, const Surface& surface,
       width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height + "\">\n";
   text += "<image width=\"" + width + "\" height=\"" + height +
           "\" xlink:href=\"data:image/png;base64," +
-          base64_of(png_from(picture_of(surface, views, options))) + "\"/>\n";
+          base64_of(png_from(picture_of(surface, views, options), options.threads)) + "\"/>\n";
   for (const View& view : views) {
     text += "<g fill=\"none\">\n";
     for (const Mark& mark : marks_of(skeleton, view, width_unit(options))) append_mark(text, mark);

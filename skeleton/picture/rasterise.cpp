@@ -14,7 +14,7 @@ namespace curveskel {
 namespace {
 
 constexpr int samples_across = 3;  // per pixel and direction
-constexpr int rows_per_band = 16;  // pixels; one thread draws one band at a time
+constexpr int rows_per_band = 4;   // pixels; one thread draws one band at a time
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 /// A vertex in samples: x right, y down, z towards the viewer; the normal in the viewer's axes.
@@ -110,8 +110,28 @@ PixelBands sort_into_bands(const Surface& surface, const std::vector<Corner>& co
   return result;
 }
 
-/// The rows [top, top + height) of the picture, in samples.
+/// The columns [first, second) of pixels that the triangles of a band can touch.
+std::pair<int, int> columns_of(const Surface& surface, const std::vector<Corner>& corners,
+                               const PixelBands& bands, std::size_t band, int width) {
+  double left = width;
+  double right = 0;
+  for (std::size_t k = bands.first[band]; k < bands.first[band + 1]; ++k) {
+    for (const std::int32_t v : surface.triangles.row(bands.triangles[k])) {
+      const double x = corners[static_cast<std::size_t>(v)].x / samples_across;
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+  }
+  const auto whole = [width](double value) {
+    return static_cast<int>(std::clamp(value, 0.0, 1.0 * width));
+  };
+  const int first = whole(std::floor(left));
+  return {first, std::max(first, whole(std::ceil(right)))};
+}
+
+/// The part of the picture from (left, top) on, in samples.
 struct SampleRows {
+  int left;
   int top;
   int width;
   int height;
@@ -151,7 +171,8 @@ void draw_triangle(std::array<const Corner*, 3> corner, SampleRows& rows) {
     double to = y < middle->y ? crossing(*upper, *middle, y) : crossing(*middle, *lower, y);
     if (from > to) std::swap(from, to);
     const auto column_from = [&](double x) {
-      return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, 1.0 * rows.width));
+      return static_cast<int>(
+          std::clamp(std::ceil(x - 0.5), 1.0 * rows.left, 1.0 * rows.left + rows.width));
     };
     const int last = column_from(to);
     for (int column = column_from(from); column < last; ++column) {
@@ -163,7 +184,7 @@ void draw_triangle(std::array<const Corner*, 3> corner, SampleRows& rows) {
       const float depth = of_a * origin.z + of_b * second.z + of_c * third.z;
       auto& sample = rows.samples[static_cast<std::size_t>(row - rows.top) *
                                       static_cast<std::size_t>(rows.width) +
-                                  static_cast<std::size_t>(column)];
+                                  static_cast<std::size_t>(column - rows.left)];
       sample.thickness += facing * depth;
       if (depth <= sample.depth) continue;
       sample.depth = depth;
@@ -207,8 +228,12 @@ Fragments rasterise(const Surface& surface, const Positions& normals, const View
   parallel_for(bands.first.size() - 1, 1, threads, [&](std::size_t band, std::size_t) {
     const int top = static_cast<int>(band) * rows_per_band;
     const int bottom = std::min(result.height, top + rows_per_band);
-    SampleRows rows{
-        top * samples_across, result.width * samples_across, (bottom - top) * samples_across, {}};
+    const auto [left, right] = columns_of(surface, corners, bands, band, result.width);
+    SampleRows rows{left * samples_across,
+                    top * samples_across,
+                    (right - left) * samples_across,
+                    (bottom - top) * samples_across,
+                    {}};
     rows.samples.resize(static_cast<std::size_t>(rows.width) *
                         static_cast<std::size_t>(rows.height));
     for (std::size_t k = bands.first[band]; k < bands.first[band + 1]; ++k) {
@@ -219,9 +244,9 @@ Fragments rasterise(const Surface& surface, const Positions& normals, const View
                     rows);
     }
     for (int y = top; y < bottom; ++y) {
-      for (int x = 0; x < result.width; ++x) {
+      for (int x = left; x < right; ++x) {
         result.pixels[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)] =
-            mean_of(rows, x, y - top);
+            mean_of(rows, x - left, y - top);
       }
     }
   });

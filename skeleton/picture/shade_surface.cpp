@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "skeleton/picture/rasterise.hpp"
 
 namespace curveskel {
@@ -17,35 +18,51 @@ float light_on(const Eigen::Vector3f& normal) {
   return std::max(0.0F, (normal.dot(sun) + wrap) / (1.0F + wrap));
 }
 
-/// Running mean over `radius` values to either side, along one direction of the grid.
-void box_blur(std::vector<float>& values, std::size_t lines, std::size_t line_step,
-              std::size_t count, std::size_t step, std::size_t radius) {
-  std::vector<float> line(count);
-  for (std::size_t l = 0; l < lines; ++l) {
-    float* begin = values.data() + l * line_step;
-    for (std::size_t i = 0; i < count; ++i) line[i] = begin[i * step];
-    double sum = 0;
-    for (std::size_t i = 0; i < std::min(radius, count); ++i) sum += static_cast<double>(line[i]);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i + radius < count) sum += static_cast<double>(line[i + radius]);
-      if (i > radius) sum -= static_cast<double>(line[i - radius - 1]);
-      begin[i * step] = static_cast<float>(sum / static_cast<double>(2 * radius + 1));
+/// Running means over `radius` values to either side of each, along lines of `count` values that
+/// lie `step` apart; `lines` of them lie `line_step` apart. Side by side, so that columns are taken
+/// as many at a time as a line of the cache holds.
+void box_blur(float* values, std::size_t lines, std::size_t line_step, std::size_t count,
+              std::size_t step, std::size_t radius) {
+  std::vector<float> given(count * lines);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t l = 0; l < lines; ++l) given[i * lines + l] = values[i * step + l * line_step];
+  }
+  std::vector<double> sum(lines, 0);
+  for (std::size_t i = 0; i < std::min(radius, count); ++i) {
+    for (std::size_t l = 0; l < lines; ++l) sum[l] += static_cast<double>(given[i * lines + l]);
+  }
+  const double size = static_cast<double>(2 * radius + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* const ahead = i + radius < count ? given.data() + (i + radius) * lines : nullptr;
+    const float* const behind = i > radius ? given.data() + (i - radius - 1) * lines : nullptr;
+    for (std::size_t l = 0; l < lines; ++l) {
+      if (ahead != nullptr) sum[l] += static_cast<double>(ahead[l]);
+      if (behind != nullptr) sum[l] -= static_cast<double>(behind[l]);
+      values[i * step + l * line_step] = static_cast<float>(sum[l] / size);
     }
   }
 }
 
 /// Three box blurs are close to a Gaussian.
-void blur(std::vector<float>& values, int width, int height, int radius) {
+void blur(std::vector<float>& values, int width, int height, int radius, int threads) {
+  constexpr std::size_t side_by_side = 16;
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
+  const auto reach = static_cast<std::size_t>(radius);
   for (int round = 0; round < 3; ++round) {
-    box_blur(values, rows, columns, columns, 1, static_cast<std::size_t>(radius));
-    box_blur(values, columns, 1, rows, columns, static_cast<std::size_t>(radius));
+    parallel_for(rows, side_by_side, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t y = begin; y < end; ++y) {
+        box_blur(values.data() + y * columns, 1, columns, columns, 1, reach);
+      }
+    });
+    parallel_for(columns, side_by_side, threads, [&](std::size_t begin, std::size_t end) {
+      box_blur(values.data() + begin, end - begin, 1, rows, columns, reach);
+    });
   }
 }
 
 /// The distance of each pixel behind its surroundings, in units of the blur's radius; 0 outside.
-std::vector<float> hollows(const Fragments& fragments, int radius) {
+std::vector<float> hollows(const Fragments& fragments, int radius, int threads) {
   const std::vector<Fragment>& pixels = fragments.pixels;
   std::vector<float> weight(pixels.size());
   std::vector<float> depth(pixels.size());
@@ -53,8 +70,8 @@ std::vector<float> hollows(const Fragments& fragments, int radius) {
     weight[i] = pixels[i].coverage;
     depth[i] = pixels[i].coverage * pixels[i].depth;
   }
-  blur(weight, fragments.width, fragments.height, radius);
-  blur(depth, fragments.width, fragments.height, radius);
+  blur(weight, fragments.width, fragments.height, radius, threads);
+  blur(depth, fragments.width, fragments.height, radius, threads);
   constexpr float least_weight = 1e-4F;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const bool there = pixels[i].coverage > 0 && weight[i] > least_weight;
@@ -83,18 +100,21 @@ void shade_surface(const Surface& surface, const Positions& normals, const View&
                    Image& image) {
   const Fragments fragments = rasterise(surface, normals, view, image.width, image.height, threads);
   const int side = std::min(image.width, image.height);
-  const std::vector<float> hollow = hollows(fragments, std::max(1, side / 90));
-  std::size_t i = 0;
-  for (int y = 0; y < fragments.height; ++y) {
-    for (int x = 0; x < fragments.width; ++x, ++i) {
+  const std::vector<float> hollow = hollows(fragments, std::max(1, side / 90), threads);
+  constexpr std::size_t rows_at_a_time = 16;
+  const auto columns = static_cast<std::size_t>(fragments.width);
+  const auto rows = static_cast<std::size_t>(fragments.height);
+  parallel_for(rows, rows_at_a_time, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * columns; i < end * columns; ++i) {
       const Fragment& fragment = fragments.pixels[i];
       if (fragment.coverage <= 0) continue;
       const Colour colour =
           colour_of(fragment.normal, fragment.thickness / static_cast<float>(side), hollow[i]);
-      Colour& below = image.at(fragments.left + x, fragments.top + y);
+      Colour& below = image.at(fragments.left + static_cast<int>(i % columns),
+                               fragments.top + static_cast<int>(i / columns));
       below += (colour - below) * fragment.coverage;
     }
-  }
+  });
 }
 
 }  // namespace curveskel

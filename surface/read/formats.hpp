@@ -9,7 +9,7 @@
 namespace curveskel {
 
 /// All throw Error(Fault::input) with the file, the line or element, what was found and what is
-/// needed. Corners lie within [0, #V) and positions are finite on return.
+/// needed. Corners lie within [0, #V) on return; positions may be NaN or infinity.
 [[nodiscard]] PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_off(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor);
@@ -19,12 +19,14 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor);
 
 /// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
 [[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,
                                           const OffKeyword& keyword, const Monitor& monitor);
 
-/// The work of `read_polygons` once the file is in memory.
+/// The work of `read_polygons` once the file is in memory: positions are finite on return.
 [[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor);
 
 /// True if the content can only be this format.
@@ -38,6 +40,8 @@ namespace curveskel {
 [[nodiscard]] bool looks_like_vtp(const FileBytes& file);
 [[nodiscard]] bool looks_like_vtk(const FileBytes& file);
 [[nodiscard]] bool looks_like_3mf(const FileBytes& file);  ///< or another ZIP archive
+[[nodiscard]] bool looks_like_dae(const FileBytes& file);
+[[nodiscard]] bool looks_like_fbx(const FileBytes& file);
 
 /// Appends a polygon's end; for readers that append corners one by one.
 inline void end_polygon(PolygonSoup& soup) {

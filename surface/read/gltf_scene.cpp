@@ -183,16 +183,13 @@ class SceneReader {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& point = placed.positions[i];
-      if (!point.allFinite()) {
-        file_.fail("NaN or infinity in position " + std::to_string(i) + " (counted from 0)",
-                   "finite numbers", gltf_remedy);
-      }
       coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
     }
     if (node.skin >= 0) {
       scene_.skinned.push_back({&primitive, node.skin, first});
       any_bent_ = any_bent_ || placed.bent;
       for (std::size_t i = 0; i < count; ++i) {
+        if (!placed.positions[i].allFinite() || !placed.modelled[i].allFinite()) continue;
         seams_.push_back({first + static_cast<std::int64_t>(i), placed.modelled[i]});
       }
     }

@@ -14,7 +14,8 @@ void rejoin_seams(std::vector<GltfSeamVertex> vertices, std::vector<double>& coo
   };
   Eigen::AlignedBox3d box;
   for (std::size_t v = 0; v < coordinates.size() / 3; ++v) {
-    box.extend(place(static_cast<std::int64_t>(v)));
+    const Eigen::Vector3d at = place(static_cast<std::int64_t>(v));
+    if (at.allFinite()) box.extend(at);
   }
   const double tolerance = near * box.diagonal().norm();
   std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {

@@ -240,8 +240,8 @@ class Model3mfParser {
     const char* const end = text.data() + text.size();
     const char* const begin = text.starts_with('+') ? text.data() + 1 : text.data();
     const auto [next, error] = fast_float::from_chars(begin, end, value);
-    if (error != std::errc() || next != end || !std::isfinite(value)) {
-      fail(in_quotes(text) + " as " + std::string(key), "a finite number");
+    if (error != std::errc() || next != end) {
+      fail(in_quotes(text) + " as " + std::string(key), "a number");
     }
     return value;
   }

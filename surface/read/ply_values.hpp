@@ -31,6 +31,11 @@ struct PlyPlace {
   }
 };
 
+/// Indices and lengths fit into a double's 53 bits; larger ones, like NaN, are out of every range.
+inline std::int64_t integer_from(double value) {
+  return std::isnan(value) ? -2 : static_cast<std::int64_t>(std::clamp(value, -1e15, 1e15));
+}
+
 /// Fetches single values from text. `begin`: where in the content they start.
 class AsciiPlyValues {
  public:
@@ -41,11 +46,11 @@ class AsciiPlyValues {
   double number(PlyType /*type*/, const PlyPlace& place) {
     text_.skip_space(0);
     if (text_.done()) fail(place, "the end of the file", "a value");
-    return text_.number("a number");
+    return text_.coordinate("a number");
   }
   std::int64_t integer(PlyType type, const PlyPlace& place) {
     if (type == PlyType::float32 || type == PlyType::float64) {
-      return static_cast<std::int64_t>(std::clamp(number(type, place), -1e9, 1e10));
+      return integer_from(number(type, place));
     }
     text_.skip_space(0);
     if (text_.done()) fail(place, "the end of the file", "a value");
@@ -104,12 +109,10 @@ class BinaryPlyValues {
     }
     return 0;
   }
-  /// Indices and lengths fit into a double's 53 bits; larger ones are out of every range.
   std::int64_t integer(PlyType type, const PlyPlace& place) {
     if (type == PlyType::int32) return fetch<std::int32_t>(place);
     if (type == PlyType::uint8) return fetch<std::uint8_t>(place);
-    const double value = number(type, place);
-    return std::isnan(value) ? -2 : static_cast<std::int64_t>(std::clamp(value, -1e15, 1e15));
+    return integer_from(number(type, place));
   }
   void skip(PlyType type, std::int64_t count, const PlyPlace& place) {
     if (!may_hold(type, count)) fail(place, "the end of the file", "a value");

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "surface/read/file_bytes.hpp"
+#include "surface/read/foreign_formats.hpp"
 #include "surface/read/formats.hpp"
+#include "surface/read/placed_vertices.hpp"
 
 namespace curveskel {
 namespace {
@@ -27,10 +29,12 @@ std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
 std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
   if (looks_like_glb(file)) return SurfaceFormat::glb;
   if (looks_like_3mf(file)) return SurfaceFormat::three_mf;
+  if (looks_like_fbx(file)) return SurfaceFormat::fbx;
   if (looks_like_om(file)) return SurfaceFormat::om;
   if (looks_like_ply(file)) return SurfaceFormat::ply;
   if (looks_like_off(file)) return SurfaceFormat::off;
   if (looks_like_vtp(file)) return SurfaceFormat::vtp;
+  if (looks_like_dae(file)) return SurfaceFormat::dae;
   if (looks_like_vtk(file)) return SurfaceFormat::vtk;
   if (looks_like_gltf(file)) return SurfaceFormat::gltf;
   if (looks_like_stl(file)) return SurfaceFormat::stl;
@@ -59,6 +63,10 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
       return read_vtk(file, monitor);
     case SurfaceFormat::three_mf:
       return read_3mf(file, monitor);
+    case SurfaceFormat::dae:
+      return read_dae(file, monitor);
+    case SurfaceFormat::fbx:
+      return read_fbx(file, monitor);
   }
   file.fail("no known format", names_in(surface_formats), "convert it");
 }
@@ -79,7 +87,10 @@ PolygonSoup soup_of(const Surface& surface) {
 
 PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
   std::optional<SurfaceFormat> format = format_by_content(file);
-  if (!format) format = format_by_extension(file.path);
+  if (!format) {
+    refuse_foreign_format(file);
+    format = format_by_extension(file.path);
+  }
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",
@@ -87,6 +98,7 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
   }
   PolygonSoup soup = read_as(*format, file, monitor);
   soup.file = file.path;
+  drop_unplaced_vertices(soup, file);
   if (soup.offsets.size() < 2) {
     const auto vertices = soup.positions.rows();
     file.fail((vertices > 0 ? "a point cloud: " : "") + std::to_string(vertices) +

@@ -85,7 +85,7 @@ void append_mesh(const Object3mf& object, const Eigen::Affine3d& frame,
 }
 
 /// Depth first, an object's own mesh before its components.
-PolygonSoup built(const FileBytes& file, const Model3mf& model, const Monitor& monitor) {
+PolygonSoup built(const Model3mf& model, const Monitor& monitor) {
   PolygonSoup soup;
   soup.offsets.push_back(0);
   std::vector<double> coordinates;
@@ -105,10 +105,6 @@ PolygonSoup built(const FileBytes& file, const Model3mf& model, const Monitor& m
     }
   }
   soup.positions = positions_from(coordinates);
-  if (!soup.positions.allFinite()) {
-    file.fail("coordinates beyond every number once they are placed", "finite ones",
-              "export the file again");
-  }
   return soup;
 }
 
@@ -139,7 +135,7 @@ PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor) {
   }
   const Model3mf model = parse_3mf_model(archive.unpack(name, monitor), monitor);
   check_extent(file, model);
-  PolygonSoup soup = built(file, model, monitor);
+  PolygonSoup soup = built(model, monitor);
   soup.format = SurfaceFormat::three_mf;
   return soup;
 }

@@ -61,6 +61,7 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
   soup.format = SurfaceFormat::obj;
   soup.offsets.push_back(0);
   std::vector<double> coordinates;
+  std::int64_t lines = 0;
   TextCursor text(file);
   for (std::int64_t row = 0; !text.done(); ++row) {
     if (row % rows_per_report == 0) monitor.report("read", text.fraction());
@@ -72,6 +73,8 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
     } else if (text.peek() == '#') {
       text.skip_line();
       continue;
+    } else if (text.accept("l")) {
+      ++lines;
     }
     text.skip_continued_line();
   }
@@ -84,6 +87,10 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
                   in_quotes(file.content.substr(0, 41)),
               "vertices and faces of an OBJ file",
               "check the file's content, or name it by its format");
+  }
+  if (soup.corners.empty() && lines > 0) {
+    file.fail("a drawing of lines: " + std::to_string(lines) + " lines (\"l\") and no faces",
+              "a surface with faces", "give the surface, of which a skeleton can be made");
   }
   soup.positions = positions_from(coordinates);
   check_indices(file, soup);

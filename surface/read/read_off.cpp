@@ -89,7 +89,7 @@ void read_vertices(TextCursor& text, PolygonSoup& soup, const Monitor& monitor) 
     for (int k = 0; k < 3; ++k) {
       text.skip_space('#');
       if (k == 0) check_not_done(text, i, soup.positions.rows(), "vertices");
-      soup.positions(i, k) = text.number(needed[static_cast<std::size_t>(k)]);
+      soup.positions(i, k) = text.coordinate(needed[static_cast<std::size_t>(k)]);
     }
     text.skip_line();
   }

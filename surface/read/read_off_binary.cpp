@@ -2,7 +2,6 @@
 // machine's order and leaves out the number of colours behind each face; both are told apart by
 // the counts, of which only one order fits into the file.
 #include <array>
-#include <cmath>
 #include <string>
 
 #include "surface/read/binary_cursor.hpp"
@@ -41,18 +40,12 @@ bool fits(const BinaryOffCounts& counts, std::size_t words, std::size_t bytes_le
          counts.faces <= (left - counts.vertices * vertex_bytes) / 4;
 }
 
-void take_positions(const FileBytes& file, BinaryCursor& bytes, std::size_t words,
-                    PolygonSoup& soup, const Monitor& monitor) {
+void take_positions(BinaryCursor& bytes, std::size_t words, PolygonSoup& soup,
+                    const Monitor& monitor) {
   for (Eigen::Index i = 0; i < soup.positions.rows(); ++i) {
     if (i % rows_per_report == 0) monitor.report("read", bytes.fraction());
     for (int k = 0; k < 3; ++k) {
-      const auto coordinate = bytes.take<float>();
-      if (!std::isfinite(coordinate)) {
-        file.fail(
-            std::to_string(coordinate) + " in vertex " + std::to_string(i) + " (counted from 0)",
-            "finite coordinates", "repair or export the file again");
-      }
-      soup.positions(i, k) = static_cast<double>(coordinate);
+      soup.positions(i, k) = static_cast<double>(bytes.take<float>());
     }
     bytes.skip((words - 3) * word_bytes);
   }
@@ -104,7 +97,7 @@ PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin, const OffK
   PolygonSoup soup;
   soup.format = SurfaceFormat::off;
   soup.positions.resize(counts.vertices, 3);
-  take_positions(file, bytes, words, soup, monitor);
+  take_positions(bytes, words, soup, monitor);
   soup.offsets.reserve(static_cast<std::size_t>(counts.faces) + 1);
   soup.offsets.push_back(0);
   for (std::int64_t f = 0; f < counts.faces; ++f) {

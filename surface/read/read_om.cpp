@@ -5,7 +5,6 @@
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
 #include <OpenMesh/Core/IO/reader/OMReader.hh>
 #include <OpenMesh/Core/System/omstream.hh>
-#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -313,11 +312,6 @@ void follow_half_edges(const FileBytes& file, OmImporter& read) {
 }
 
 void require_sound(const FileBytes& file, const OmImporter& read) {
-  for (const double coordinate : read.coordinates) {
-    if (std::isfinite(coordinate)) continue;
-    file.fail(std::to_string(coordinate) + " among the positions", "finite coordinates",
-              "repair or export the file again");
-  }
   const auto vertices = static_cast<std::int32_t>(read.n_vertices());
   for (const std::int32_t corner : read.corners) {
     if (corner >= 0 && corner < vertices) continue;

@@ -69,7 +69,7 @@ void read_row(Values& values, PlyPlace& place, const std::vector<FaceRole>& role
       case FaceRole::y:
       case FaceRole::z:
         soup.positions(place.row, static_cast<int>(roles[i]) - static_cast<int>(FaceRole::x)) =
-            coordinate(values, place);
+            values.number(place.property->type, place);
         break;
       case FaceRole::polygon:
         read_polygon(values, place, soup);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -74,14 +73,7 @@ PolygonSoup read_binary(const FileBytes& file, const Monitor& monitor) {
     std::array<float, 9> values{};
     const char* const data = file.content.data() + preamble_bytes + facet_bytes * facet;
     std::memcpy(values.data(), data + 3 * sizeof(float), sizeof values);
-    for (const float value : values) {
-      if (!std::isfinite(value)) {
-        file.fail(
-            std::to_string(value) + " in facet " + std::to_string(facet) + " (counted from 0)",
-            "finite coordinates", "repair or export the file again");
-      }
-      *coordinate++ = static_cast<double>(value);
-    }
+    for (const float value : values) *coordinate++ = static_cast<double>(value);
   }
   return soup;
 }

@@ -164,7 +164,7 @@ class VtkReader {
     } else {
       for (std::size_t i = 0; i < values; ++i) {
         text_.skip_space(0);
-        result.push_back(text_.number(needed));
+        result.push_back(text_.coordinate(needed));
       }
     }
     return result;
@@ -176,12 +176,6 @@ class VtkReader {
     const VtkType of = type();
     if (!coordinates_.empty()) start.fail("points once", vtk_remedy);
     coordinates_ = numbers(3 * points, of, "a coordinate");
-    for (const double coordinate : coordinates_) {
-      if (!std::isfinite(coordinate)) {
-        start.fail("finite coordinates", "repair or export the file again",
-                   std::to_string(coordinate) + " among the coordinates");
-      }
-    }
   }
 
   enum class Cells { polygons, strips, passed_over };

@@ -56,12 +56,6 @@ class VtpReader {
       fail_at(file_, array->position, std::to_string(values.size()) + " coordinates",
               "three per point");
     }
-    for (const double value : values) {
-      if (!std::isfinite(value)) {
-        fail_at(file_, array->position, std::to_string(value) + " among the coordinates",
-                "finite numbers");
-      }
-    }
     coordinates_.insert(coordinates_.end(), values.begin(), values.end());
     if (coordinates_.size() / 3 > static_cast<std::size_t>(most_vertices)) {
       file_.fail("more than " + std::to_string(most_vertices) + " vertices", "fewer",

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -75,16 +76,26 @@ std::string_view TextCursor::word() {
 }
 
 double TextCursor::number(std::string_view needed) {
+  const TextCursor start = *this;
+  const double value = coordinate(needed);
+  if (!std::isfinite(value)) {
+    start.fail(std::string(needed) + " that is finite", "correct it or export the file again");
+  }
+  return value;
+}
+
+double TextCursor::coordinate(std::string_view needed) {
   double value = 0;
   const char* first = *at_ == '+' ? at_ + 1 : at_;
   const auto [next, error] = fast_float::from_chars(first, end_, value);
+  // Older C libraries of Windows write 1.#INF, -1.#IND and 1.#QNAN.
+  const bool of_windows = *next == '#' && next + 1 != end_ && (next[1] == 'I' || next[1] == 'Q');
   const bool ended = ends_word(next) || *next == '#' || *next == '\\';
   if (error != std::errc() || !ended) fail(needed, "correct it or export the file again");
-  if (!std::isfinite(value)) {
-    fail(std::string(needed) + " that is finite", "correct it or export the file again");
-  }
   at_ = next;
-  return value;
+  if (!of_windows) return value;
+  word();
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 void TextCursor::read_vertex(std::vector<double>& coordinates) {
@@ -93,7 +104,7 @@ void TextCursor::read_vertex(std::vector<double>& coordinates) {
                                                    "the z coordinate of a vertex"};
   for (const auto& name : needed) {
     skip_blanks();
-    coordinates.push_back(number(name));
+    coordinates.push_back(coordinate(name));
   }
 }
 

@@ -46,7 +46,9 @@ class TextCursor {
   /// A finite number that ends at a blank, a line end, a comment or the end of the text. `needed`
   /// says what stands here, for the message of the Error(Fault::input) thrown otherwise.
   double number(std::string_view needed);
-  /// The three coordinates of a vertex, appended.
+  /// The same, except that NaN and infinity, in any program's spelling, are numbers too.
+  double coordinate(std::string_view needed);
+  /// The three coordinates of a vertex, NaN and infinity among them, appended.
   void read_vertex(std::vector<double>& coordinates);
   /// An integer; what may follow it is the caller's business.
   std::int64_t integer(std::string_view needed);

@@ -6,7 +6,6 @@
 namespace curveskel {
 namespace {
 
-constexpr int deepest_element = 64;
 constexpr std::string_view blanks = " \t\r\n";
 constexpr std::string_view appended_data = "AppendedData";
 
@@ -67,12 +66,12 @@ pugi::xml_node root_of(const FileBytes& file, const RawData& raw,
 }
 
 XmlElement element_of(const FileBytes& file, const RawData& raw, const pugi::xml_node& node,
-                      int depth) {
+                      int depth, int deepest) {
   XmlElement element;
   element.position = raw.in_file(static_cast<std::size_t>(node.offset_debug()));
-  if (depth > deepest_element) {
+  if (depth > deepest) {
     fail_at(file, element.position,
-            "elements nested more than " + std::to_string(deepest_element) + " deep", "fewer");
+            "elements nested more than " + std::to_string(deepest) + " deep", "fewer");
   }
   element.name = without_prefix(node.name());
   for (const pugi::xml_attribute& attribute : node.attributes()) {
@@ -80,7 +79,7 @@ XmlElement element_of(const FileBytes& file, const RawData& raw, const pugi::xml
   }
   for (const pugi::xml_node& child : node.children()) {
     if (child.type() == pugi::node_element) {
-      element.children.push_back(element_of(file, raw, child, depth + 1));
+      element.children.push_back(element_of(file, raw, child, depth + 1, deepest));
     } else {
       element.text += child.value();
     }
@@ -115,7 +114,7 @@ std::vector<const XmlElement*> XmlElement::all(std::string_view child_name) cons
   return found;
 }
 
-XmlElement parse_xml(const FileBytes& file) {
+XmlElement parse_xml(const FileBytes& file, int deepest) {
   const RawData raw = raw_data(file);
   std::string joined;
   std::string_view text = file.content;
@@ -136,7 +135,7 @@ XmlElement parse_xml(const FileBytes& file) {
     fail_at(file, at, excerpt(file.content, at),
             std::string("sound XML (") + result.description() + ")");
   }
-  return element_of(file, raw, root_of(file, raw, document), 0);
+  return element_of(file, raw, root_of(file, raw, document), 0, deepest);
 }
 
 void fail_at(const FileBytes& file, std::size_t position, std::string_view found,

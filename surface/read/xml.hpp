@@ -28,9 +28,9 @@ struct XmlElement {
 
 /// The root element, as pugixml reads it: a DOCTYPE is passed over, and entities that it declares
 /// stay as they are written. VTK's <AppendedData encoding="raw">, which is no XML, is taken as the
-/// text up to its last end tag. No more than 64 elements may be nested.
+/// text up to its last end tag. No more than `deepest` elements may be nested.
 /// Throws Error(Fault::input) with the line. O(bytes).
-[[nodiscard]] XmlElement parse_xml(const FileBytes& file);
+[[nodiscard]] XmlElement parse_xml(const FileBytes& file, int deepest = 64);
 
 /// Throws Error(Fault::input) "FILE, line N: found FOUND, needed NEEDED; export the file again",
 /// the line being the one of `position` in the file's content.

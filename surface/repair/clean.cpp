@@ -190,6 +190,9 @@ void describe_changes(Changes& changes, const Monitor& monitor) {
     changes.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
     monitor.say(changes.lines.back());
   };
+  line(changes.unplaced_vertices_dropped, "vertex", "vertices",
+       "with NaN or infinity left out, and " + std::to_string(changes.unplaced_polygons_dropped) +
+           (changes.unplaced_polygons_dropped == 1 ? " face" : " faces") + " there");
   line(changes.polygons_triangulated, "polygon", "polygons", "triangulated");
   line(changes.vertices_merged, "vertex", "vertices", "merged with another at the same position");
   line(changes.degenerate_faces_dropped, "degenerate face", "degenerate faces",
@@ -207,6 +210,8 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads)
   monitor.report("clean", 0);
   Draft draft{soup, {soup.positions, triangulate(soup)}, {}};
   draft.changes.polygons_triangulated = count_polygons_to_split(soup);
+  draft.changes.unplaced_vertices_dropped = soup.unplaced_vertices;
+  draft.changes.unplaced_polygons_dropped = soup.unplaced_polygons;
   if (draft.surface.triangles.rows() > most_faces) {
     draft.fail(std::to_string(draft.surface.triangles.rows()) + " triangles",
                "at most " + std::to_string(most_faces), "decimate the surface first");
@@ -231,6 +236,7 @@ CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads)
     result.vertex_of_input[v] = number[idx(merged_into[idx(v)])];
     draft.changes.isolated_vertices_dropped += result.vertex_of_input[v] < 0 ? 1 : 0;
   }
+  draft.changes.isolated_vertices_dropped -= soup.unplaced_vertices;
   describe_changes(draft.changes, monitor);
   result.components = orientation.components;
   result.surface = std::move(draft.surface);

@@ -63,7 +63,9 @@ Joined join_soup(const PolygonSoup& soup, double distance_of_extent, Changes& ch
   for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
     changes.polygons_triangulated += soup.offsets[p] - soup.offsets[p - 1] > 3 ? 1 : 0;
   }
-  changes.isolated_vertices_dropped = unused_vertices(soup);
+  changes.unplaced_vertices_dropped = soup.unplaced_vertices;
+  changes.unplaced_polygons_dropped = soup.unplaced_polygons;
+  changes.isolated_vertices_dropped = unused_vertices(soup) - soup.unplaced_vertices;
   drop_repeats(joined, changes);
   const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
   changes.vertices_merged = merge(joined, exactly);

@@ -131,6 +131,8 @@ std::string format_surface(const Surface& surface, SurfaceFormat format,
     case SurfaceFormat::vtp:
     case SurfaceFormat::vtk:
     case SurfaceFormat::three_mf:
+    case SurfaceFormat::dae:
+    case SurfaceFormat::fbx:
       break;
   }
   throw Error(Fault::output,

@@ -61,6 +61,15 @@ TEST(Read3mf, MirrorsTurnFacesOver) {
   EXPECT_EQ(soup.corners[2], first[1]);
 }
 
+TEST(Read3mf, AVertexWithoutAPlaceLosesItsFaces) {
+  std::string model = model_3mf("", box_7, "<item objectid=\"7\"/>");
+  const std::string corner = "x=\"1\" y=\"2\" z=\"3\"";
+  model.replace(model.find(corner), corner.size(), "x=\"1\" y=\"NaN\" z=\"3\"");
+  const PolygonSoup soup = read(model);
+  EXPECT_EQ(soup.unplaced_vertices, 1);
+  EXPECT_EQ(soup.unplaced_polygons, 5);
+}
+
 TEST(Read3mf, AnObjectThatIsNotBuiltIsNotRead) {
   const PolygonSoup soup = read(model_3mf(
       "", "<object id=\"1\">" + mesh_3mf(50) + "</object>" + box_7, "<item objectid=\"7\"/>"));

@@ -17,6 +17,7 @@
 
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "surface/read/placed_vertices.hpp"
 #include "surface/repair/close_surface.hpp"
 #include "surface/repair/wrap.hpp"
 #include "tests/soups.hpp"
@@ -98,6 +99,23 @@ TEST_P(AnyShape, IsWholeAgainAfterLosingFaces) {
   EXPECT_GT(result.repairs.holes_closed, 0);
   EXPECT_EQ(used_but_dropped(damaged, result), 0);
   EXPECT_EQ(result.rims.size(), static_cast<std::size_t>(result.repairs.holes_closed));
+}
+
+TEST_P(AnyShape, IsWholeAgainAfterLosingVerticesThatHaveNoPlace) {
+  PolygonSoup soup = soup_of(shape().surface);
+  const Eigen::Index vertices = soup.positions.rows();
+  std::int64_t lost = 0;
+  for (Eigen::Index v = 17; v < vertices; v += 150, ++lost) {
+    soup.positions(v, v % 3) = v % 2 == 0 ? std::nan("") : HUGE_VAL;
+  }
+  drop_unplaced_vertices(soup, {"shape.obj", {}});
+  const RepairedSurface result = repair(soup, {}, {});
+  expect_the_shape(result, 0.03);
+  EXPECT_EQ(result.changes.unplaced_vertices_dropped, lost);
+  EXPECT_GE(result.changes.unplaced_polygons_dropped, 3 * lost);
+  EXPECT_EQ(result.changes.isolated_vertices_dropped, 0);
+  EXPECT_NE(result.changes.lines.front().find("NaN or infinity"), std::string::npos);
+  EXPECT_EQ(used_but_dropped(soup, result), 0);
 }
 
 TEST_P(AnyShape, IsWholeAgainFromTrianglesThatNearlyMeet) {

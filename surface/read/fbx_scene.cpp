@@ -1,0 +1,181 @@
+#include "surface/read/fbx_scene.hpp"
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+namespace curveskel {
+namespace {
+
+/// Angles in degrees about x, y and z, of which the first in `order` turns first.
+Eigen::Matrix3d turned(const Eigen::Vector3d& degrees, std::int64_t order = 0) {
+  constexpr std::array<std::array<int, 3>, 6> orders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
+  const bool known = order >= 0 && order < std::int64_t{orders.size()};  // else spheric: as XYZ
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (const int axis : orders[known ? static_cast<std::size_t>(order) : 0]) {
+    const double angle = degrees[axis] * std::numbers::pi / 180;
+    result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix() * result;
+  }
+  return result;
+}
+
+Eigen::Affine3d affine(const Eigen::Matrix3d& linear) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.linear() = linear;
+  return result;
+}
+
+/// "P: "Lcl Scaling", "Lcl Scaling", "", "A", 1, 1, 1" among an object's properties.
+const FbxRecord* property_in(const FbxRecord* owner, std::string_view name) {
+  const FbxRecord* properties = owner == nullptr ? nullptr : owner->child("Properties70");
+  if (properties == nullptr) return nullptr;
+  for (const FbxRecord& record : properties->children) {
+    if (record.text(0) == name) return &record;
+  }
+  return nullptr;
+}
+
+const FbxRecord* defaults_of_models(const FbxRecord& root) {
+  const FbxRecord* definitions = root.child("Definitions");
+  if (definitions == nullptr) return nullptr;
+  for (const FbxRecord& type : definitions->children) {
+    if (type.name == "ObjectType" && type.text(0) == "Model") return type.child("PropertyTemplate");
+  }
+  return nullptr;
+}
+
+constexpr std::size_t first_property_value = 4;  // of a property, behind name, two types and flags
+
+}  // namespace
+
+FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
+    : file_(file), objects_(root.child("Objects")), defaults_(defaults_of_models(root)) {
+  if (objects_ == nullptr) file.fail("no \"Objects\"", "a scene", fbx_remedy);
+  for (const FbxRecord& object : objects_->children) by_id_.emplace(object.integer(0, -1), &object);
+  if (const FbxRecord* connections = root.child("Connections")) connect(*connections);
+  place_models();
+}
+
+void FbxScene::connect(const FbxRecord& connections) {
+  for (const FbxRecord& one : connections.children) {
+    if (one.text(0) != "OO") continue;  // others join properties
+    const auto child = by_id_.find(one.integer(1, -1));
+    const auto parent = by_id_.find(one.integer(2, -1));
+    if (child == by_id_.end() || parent == by_id_.end()) continue;  // the root of all, or of others
+    below_[parent->second].push_back(child->second);
+    if (child->second->name == "Model" && parent->second->name == "Model") {
+      parent_of_.emplace(child->second, parent->second);
+    }
+  }
+}
+
+void FbxScene::place_models() {
+  for (const FbxRecord* model : all("Model")) {
+    std::vector<const FbxRecord*> chain;
+    const FbxRecord* next = model;
+    while (!frame_of_.contains(next)) {
+      chain.push_back(next);
+      const auto parent = parent_of_.find(next);
+      if (parent == parent_of_.end()) break;
+      next = parent->second;
+      if (chain.size() > objects_->children.size()) {
+        file_.fail("models that are parts of each other", "a tree of models", fbx_remedy);
+      }
+    }
+    for (auto one = chain.rbegin(); one != chain.rend(); ++one) {
+      const auto parent = parent_of_.find(*one);
+      const Eigen::Affine3d outer =
+          parent == parent_of_.end() ? Eigen::Affine3d::Identity() : frame_of_.at(parent->second);
+      frame_of_.emplace(*one, outer * local(**one));
+    }
+  }
+}
+
+std::vector<const FbxRecord*> FbxScene::all(std::string_view kind) const {
+  std::vector<const FbxRecord*> result;
+  for (const FbxRecord& object : objects_->children) {
+    if (object.name == kind) result.push_back(&object);
+  }
+  return result;
+}
+
+std::vector<const FbxRecord*> FbxScene::below(const FbxRecord& object, std::string_view kind,
+                                              std::string_view subclass) const {
+  std::vector<const FbxRecord*> result;
+  const auto found = below_.find(&object);
+  if (found == below_.end()) return result;
+  for (const FbxRecord* child : found->second) {
+    if (child->name == kind && (subclass.empty() || child->text(2) == subclass)) {
+      result.push_back(child);
+    }
+  }
+  return result;
+}
+
+const FbxRecord* FbxScene::property(const FbxRecord& model, std::string_view name) const {
+  const FbxRecord* own = property_in(&model, name);
+  return own != nullptr ? own : property_in(defaults_, name);
+}
+
+Eigen::Vector3d FbxScene::vector(const FbxRecord& model, std::string_view name,
+                                 double otherwise) const {
+  Eigen::Vector3d result = Eigen::Vector3d::Constant(otherwise);
+  const FbxRecord* found = property(model, name);
+  if (found == nullptr) return result;
+  for (int k = 0; k < 3; ++k) {
+    result[k] = found->number(first_property_value + static_cast<std::size_t>(k), otherwise);
+  }
+  return result;
+}
+
+/// T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1. Rotations before and after count, and another
+/// order than XYZ, only where RotationActive says so.
+Eigen::Affine3d FbxScene::local(const FbxRecord& model) const {
+  const FbxRecord* active = property(model, "RotationActive");
+  const bool is_active = active != nullptr && active->integer(first_property_value, 0) != 0;
+  const FbxRecord* order = is_active ? property(model, "RotationOrder") : nullptr;
+  Eigen::Matrix3d rotation = turned(vector(model, "Lcl Rotation"),
+                                    order == nullptr ? 0 : order->integer(first_property_value, 0));
+  if (is_active) {
+    rotation = turned(vector(model, "PreRotation")) * rotation *
+               turned(vector(model, "PostRotation")).transpose();
+  }
+  const Eigen::Translation3d pivot(vector(model, "RotationPivot"));
+  const Eigen::Translation3d scaling_pivot(vector(model, "ScalingPivot"));
+  const Eigen::Affine3d result =
+      Eigen::Translation3d(vector(model, "Lcl Translation") + vector(model, "RotationOffset")) *
+      (pivot * affine(rotation) * pivot.inverse()) *
+      Eigen::Translation3d(vector(model, "ScalingOffset")) *
+      (scaling_pivot * Eigen::Scaling(vector(model, "Lcl Scaling", 1)) * scaling_pivot.inverse());
+  if (!result.matrix().allFinite()) {
+    file_.fail("a transform of no numbers in the model at byte " + std::to_string(model.position),
+               "numbers", fbx_remedy);
+  }
+  return result;
+}
+
+Eigen::Affine3d FbxScene::geometric(const FbxRecord& model) const {
+  return Eigen::Translation3d(vector(model, "GeometricTranslation")) *
+         affine(turned(vector(model, "GeometricRotation"))) *
+         Eigen::Scaling(vector(model, "GeometricScaling", 1));
+}
+
+Eigen::Affine3d FbxScene::matrix(const FbxRecord& record) const {
+  constexpr double negligible = 1e-6;  // that exporters leave in the last row
+  const std::vector<double> numbers = fbx_numbers(file_, record);
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  if (numbers.size() == 16) result.matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());
+  const bool is_affine =
+      (result.matrix().row(3) - Eigen::RowVector4d::UnitW()).norm() <= negligible;
+  if (numbers.size() != 16 || !is_affine || !result.matrix().allFinite()) {
+    file_.fail("a matrix \"" + std::string(record.name) + "\" at byte " +
+                   std::to_string(record.position) + " that is not affine",
+               "sixteen finite numbers, the last of each four being 0 0 0 1", fbx_remedy);
+  }
+  result.makeAffine();
+  return result;
+}
+
+}  // namespace curveskel

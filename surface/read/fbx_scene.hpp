@@ -1,0 +1,53 @@
+// The objects of an FBX file and the frames of its models. Internal to surface/.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "surface/read/fbx_tree.hpp"
+
+namespace curveskel {
+
+class FbxScene {
+ public:
+  /// Both must outlive the scene. Throws Error(Fault::input) for a file without objects, and for
+  /// models that stand in circles.
+  FbxScene(const FileBytes& file, const FbxRecord& root);
+
+  /// The objects of that kind ("Model", "Geometry", "Deformer") in the file's order.
+  [[nodiscard]] std::vector<const FbxRecord*> all(std::string_view kind) const;
+  /// Those of a kind and a subclass ("Deformer", "Skin") that are connected below `object`.
+  [[nodiscard]] std::vector<const FbxRecord*> below(const FbxRecord& object, std::string_view kind,
+                                                    std::string_view subclass = {}) const;
+
+  /// From a model's coordinates to the world's, as the model's own numbers place it.
+  [[nodiscard]] const Eigen::Affine3d& frame(const FbxRecord& model) const {
+    return frame_of_.at(&model);
+  }
+  /// From the coordinates of a model's mesh to the model's: what only the mesh feels.
+  [[nodiscard]] Eigen::Affine3d geometric(const FbxRecord& model) const;
+
+  /// The record's sixteen numbers by columns. Throws Error(Fault::input) unless they are affine.
+  [[nodiscard]] Eigen::Affine3d matrix(const FbxRecord& record) const;
+
+ private:
+  [[nodiscard]] const FbxRecord* property(const FbxRecord& model, std::string_view name) const;
+  [[nodiscard]] Eigen::Vector3d vector(const FbxRecord& model, std::string_view name,
+                                       double otherwise = 0) const;
+  [[nodiscard]] Eigen::Affine3d local(const FbxRecord& model) const;
+  void connect(const FbxRecord& connections);
+  void place_models();
+
+  const FileBytes& file_;
+  const FbxRecord* objects_ = nullptr;
+  const FbxRecord* defaults_ = nullptr;  // of models, or nullptr
+  std::unordered_map<std::int64_t, const FbxRecord*> by_id_;
+  std::unordered_map<const FbxRecord*, std::vector<const FbxRecord*>> below_;
+  std::unordered_map<const FbxRecord*, const FbxRecord*> parent_of_;  // of models
+  std::unordered_map<const FbxRecord*, Eigen::Affine3d> frame_of_;
+};
+
+}  // namespace curveskel

@@ -1,0 +1,75 @@
+#include "surface/read/foreign_formats.hpp"
+
+#include <array>
+#include <string>
+
+namespace curveskel {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct ForeignFormat {
+  std::string_view start;
+  std::string_view name;
+  std::string_view remedy;
+};
+
+constexpr std::string_view export_scene = "export it as .glb, .obj or .ply";
+constexpr std::string_view export_solid = "export it from its CAD program as .stl, .3mf or .obj";
+constexpr std::string_view unpack = "unpack it and give the surface file that is in it";
+constexpr std::string_view fetch = "give the surface file itself";
+
+constexpr std::array<ForeignFormat, 22> foreign_starts{{
+    {"BLENDER"sv, "a Blender scene", export_scene},
+    {"PXR-USDC"sv, "a USD scene", export_scene},
+    {"#usda"sv, "a USD scene", export_scene},
+    {"#VRML"sv, "a VRML scene", export_scene},
+    {"#X3D"sv, "an X3D scene", export_scene},
+    {"Ogawa"sv, "an Alembic scene", export_scene},
+    {"MM\0"sv, "a 3D Studio scene (3DS)", export_scene},
+    {"AC3D"sv, "an AC3D scene", export_scene},
+    {"xof "sv, "a DirectX scene", export_scene},
+    {"FORM"sv, "a LightWave object", export_scene},
+    {"ISO-10303-21"sv, "a STEP file", export_solid},
+    {"3D Geometry File Format"sv, "a Rhino file (3DM)", export_solid},
+    {"**ABCDEFGHIJKLM"sv, "a Parasolid file", export_solid},
+    {"7z\xBC\xAF"sv, "a 7z archive", unpack},
+    {"Rar!"sv, "a RAR archive", unpack},
+    {"BZh"sv, "a file packed by bzip2", unpack},
+    {"\xFD"
+     "7zXZ"sv,
+     "a file packed by xz", unpack},
+    {"\x28\xB5\x2F\xFD"sv, "a file packed by Zstandard", unpack},
+    {"\x89HDF"sv, "an HDF5 file", fetch},
+    {"\x89PNG"sv, "a PNG picture", fetch},
+    {"%PDF"sv, "a PDF document", fetch},
+    {"version https://git-lfs"sv, "a pointer of Git LFS", "fetch the file itself (git lfs pull)"},
+}};
+
+constexpr std::array<ForeignFormat, 5> foreign_elements{{
+    {"<X3D"sv, "an X3D scene", export_scene},
+    {"<amf"sv, "an AMF file", "export it as .3mf, .stl or .ply"},
+    {"<svg"sv, "an SVG picture", fetch},
+    {"<html"sv, "a web page", fetch},
+    {"<!DOCTYPE html"sv, "a web page", fetch},
+}};
+
+}  // namespace
+
+void refuse_foreign_format(const FileBytes& file) {
+  constexpr std::size_t first_lines = 2000;
+  constexpr std::string_view needed = "a surface file";
+  for (const ForeignFormat& format : foreign_starts) {
+    if (file.content.starts_with(format.start)) file.fail(format.name, needed, format.remedy);
+  }
+  const std::string_view text = std::string_view(file.content).substr(0, first_lines);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin == std::string_view::npos || text[begin] != '<') return;
+  for (const ForeignFormat& format : foreign_elements) {
+    if (text.find(format.start) != std::string_view::npos) {
+      file.fail(format.name, needed, format.remedy);
+    }
+  }
+}
+
+}  // namespace curveskel
