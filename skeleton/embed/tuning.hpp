@@ -1,6 +1,7 @@
 // The constants of the embedding, in one place; docs/method.md says what chose each.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace curveskel {
@@ -10,6 +11,13 @@ struct SpacingTuning {
   double least = 1.0 / 400;  ///< points need not be nearer, however thin the limb
   double most = 1.0 / 60;
   double of_edge = 0.3;  ///< of the surface's mean edge, if that is more than `most`
+
+  /// For a part with this share of the extent of a whole, whose D these lengths are then of. The
+  /// smaller the part, the less there is to tell: below a seventh, points need not be nearer than
+  /// `most`.
+  [[nodiscard]] SpacingTuning of_part(double share) const {
+    return {std::min(least / (share * share), most / share), most / share, of_edge};
+  }
 };
 
 /// The middle of a limb, from rays in the plane across it.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "skeleton/embed/embed_tuned.hpp"
 #include "surface/resample/refine.hpp"
 
 namespace curveskel {
@@ -48,10 +49,11 @@ constexpr int target_rounds = 2;
 /// One component, from its canonical form to its skeleton.
 class Pipeline {
  public:
-  Pipeline(Shared<Canonical> canonical, const WorkingSize& size, const ExtractOptions& options,
+  Pipeline(Shared<Canonical> canonical, const Part& part, const ExtractOptions& options,
            const Monitor& monitor, ComponentStages& kept, StageRun& stage, GrowingTree& fine)
       : canonical_(std::move(canonical)),
-        size_(size),
+        size_(part.size),
+        extent_(part.extent),
         options_(options),
         monitor_(monitor),
         kept_(kept),
@@ -234,11 +236,13 @@ class Pipeline {
   Shared<CurveSkeleton> embedded(const Surface& surface, const WorkingBalls& trees,
                                  const InscribedBalls& balls, const Shared<PartitionGraph>& graph,
                                  const Eigen::VectorXi& vertex_of_canonical) {
-    return stage_("embed", kept_.skeleton, {graph, options_.embed}, [&](StepClock& steps) {
+    return stage_("embed", kept_.skeleton, {graph, options_.embed, extent_}, [&](StepClock& steps) {
+      EmbedTuning tuning;
+      tuning.spacing = tuning.spacing.of_part(extent_);
       // Most of the embedding's rays go against the working surface, which fits the cache.
-      CurveSkeleton skeleton = embed(
+      CurveSkeleton skeleton = embed_tuned(
           surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
-          options_.embed, options_.threads, monitor_, &steps);
+          options_.embed, tuning, options_.threads, steps, monitor_);
       return on_model(std::move(skeleton), vertex_of_canonical);
     });
   }
@@ -255,6 +259,7 @@ class Pipeline {
 
   Shared<Canonical> canonical_;
   const WorkingSize& size_;
+  double extent_;
   const ExtractOptions& options_;
   const Monitor& monitor_;
   ComponentStages& kept_;
@@ -297,7 +302,7 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
       "normalise", stages.canonical, {}, [&] { return canonical_form(surface, options.threads); });
   const Monitor within = in_model(monitor, *canonical, part.number);
   GrowingTree fine(canonical, stages, stage.keeps(), options.threads);
-  result.skeleton = Pipeline(canonical, part.size, options, within, stages, stage, fine)
+  result.skeleton = Pipeline(canonical, part, options, within, stages, stage, fine)
                         .run(result.record, log, {part.number, part_of, true});
   result.tree = fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale);
   return result;

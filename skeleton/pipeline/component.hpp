@@ -19,6 +19,7 @@ struct Part {
   int number;  ///< in the order of `topology`
   int genus;
   WorkingSize size;
+  double extent = 1;  ///< of the whole's
 };
 
 /// The result of one component.

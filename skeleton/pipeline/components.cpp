@@ -17,6 +17,7 @@ double extent_of(const Positions& positions) {
 
 /// The extents of the components over that of the whole.
 std::vector<double> extents_over_whole(const std::vector<Component>& components) {
+  if (components.size() == 1) return {1};
   std::vector<double> extents;
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   Eigen::Index count = 0;
@@ -54,7 +55,8 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
   if (options.resolution <= 0) return size;
   const auto all = static_cast<double>(whole.component_of_vertex.size());
   const double share = double(options.resolution) * double(vertices) / all;
-  const int sure_to_stay = std::min(options.least_resolution, fewest_left);
+  const int sure_to_stay =
+      std::min(options.least_resolution, std::max(fewest_left, sure_in_all / whole.components()));
   size.most = std::max(
       {size.least, sure_to_stay, static_cast<int>(std::lround(share)), per_handle * genus});
   return size;
@@ -89,7 +91,8 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   std::vector<std::size_t> side_by_side;
   const auto part = [&](std::size_t c) {
     return Part{whole.components[c], static_cast<int>(c), counted.genus[c],
-                working_size(options, counted.vertices[c], counted.genus[c], extents[c], counted)};
+                working_size(options, counted.vertices[c], counted.genus[c], extents[c], counted),
+                extents[c]};
   };
   const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
     all[c] = component_result(part(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],

@@ -95,7 +95,8 @@ struct ComponentStages {
   Kept<std::tuple<Shared<Coarsened>>, WorkingBalls> balls;
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, LevelSets> level_sets;
-  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions>, CurveSkeleton> skeleton;
+  /// The number is the component's extent over the whole's.
+  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions, double>, CurveSkeleton> skeleton;
   StagesAsContracted as_contracted;
 };
 

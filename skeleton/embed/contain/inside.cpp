@@ -10,63 +10,12 @@
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
+#include "skeleton/embed/contain/cover.hpp"
 #include "skeleton/embed/place/shorten.hpp"
 #include "skeleton/embed/place/spacing.hpp"
 
 namespace curveskel {
 namespace {
-
-constexpr double least_spacing = SpacingTuning{}.least;
-constexpr int deepest = 10;
-
-/// Inside and away from the surface, or moved there if that can be done nearby.
-CurvePoint pulled_inside(const SurfaceTree& tree, const CurvePoint& p) {
-  const double radius = p.radius(tree);
-  if (radius >= least_radius) return p;
-  const auto nearest = tree.nearest(p.place());
-  Point inward = radius < 0 ? Point(nearest.point - p.place()) : Point(p.place() - nearest.point);
-  if (inward.norm() == 0) return p;
-  inward.normalize();
-  const auto ball = tree.inscribed_ball(nearest.point, inward);
-  if (!std::isfinite(ball.radius)) return p;
-  const CurvePoint moved = ball.centre;
-  return moved.radius(tree) > radius ? moved : p;
-}
-
-bool sees_straight(const SurfaceTree& tree, const CurvePoint& p, const CurvePoint& q) {
-  return p.radius(tree) > 0 && q.radius(tree) > 0 && !crosses(tree, p.place(), q.place());
-}
-
-/// Appends the points that have to come between p and q, straight where that stays inside, bent
-/// inwards where not. False if some gap could not be covered; `inserted` is then best left unused.
-class Cover {
- public:
-  Cover(const SurfaceTree& tree, bool may_bend) : tree_(tree), may_bend_(may_bend) {}
-
-  bool between(const CurvePoint& p, const CurvePoint& q, std::vector<CurvePoint>& inserted,
-               int depth = 0) const {
-    const double length = (q.place() - p.place()).norm();
-    const bool both_inside = p.radius(tree_) > 0 && q.radius(tree_) > 0;
-    if (both_inside && length <= p.radius(tree_) + q.radius(tree_)) return true;
-    if (sees_straight(tree_, p, q)) return true;
-    if (depth == deepest || !both_inside) return false;
-    CurvePoint middle = Point(0.5 * (p.place() + q.place()));
-    if (middle.radius(tree_) < least_radius) {
-      if (!may_bend_) return false;
-      const CurvePoint moved = pulled_inside(tree_, middle);
-      // A centre far from both ends belongs to another part of the surface.
-      if ((moved.place() - middle.place()).norm() > length) return false;
-      middle = moved;
-    }
-    if (!between(p, middle, inserted, depth + 1)) return false;
-    inserted.push_back(middle);
-    return between(middle, q, inserted, depth + 1);
-  }
-
- private:
-  const SurfaceTree& tree_;
-  bool may_bend_;
-};
 
 /// Leaves out the points of a chain that a straight line inside makes needless.
 std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const SurfaceTree& tree) {
@@ -154,9 +103,7 @@ class Keeper {
       if (!best || stretch.uncovered < best->uncovered) best = std::move(stretch);
       if (best->uncovered == 0) break;
     }
-    Stretch made = best ? std::move(*best) : std::move(straight);
-    uncovered_ += made.uncovered;
-    return made;
+    return best ? std::move(*best) : std::move(straight);
   }
 
   [[nodiscard]] bool keeps_handle(const std::vector<CurvePoint>& line, std::size_t first,
@@ -171,17 +118,75 @@ class Keeper {
   }
 
   void cover_arc(Arc& arc, bool on_cycle) {
+    constexpr int most_detours = 4;  // more run to and fro over the same ground
     pull_inside(arc, on_cycle);
     const auto line = graph_.points_along(arc, tree_);
     std::vector<CurvePoint> points;
-    std::size_t i = 0;
-    while (i + 1 < line.size()) {
+    std::optional<Stretch> whole;
+    int uncovered = 0;
+    bool one_way_tried = false;
+    detours_ = 0;
+    for (std::size_t i = 0; i + 1 < line.size();) {
+      if (detours_ > most_detours && !std::exchange(one_way_tried, true)) {
+        whole = one_way(arc, line, on_cycle);
+        if (whole && whole->uncovered == 0) break;
+      }
       Stretch stretch = next_stretch(arc, line, i, on_cycle);
+      uncovered += stretch.uncovered;
       points.insert(points.end(), stretch.between.begin(), stretch.between.end());
       if (stretch.last + 1 < line.size()) points.push_back(line[stretch.last]);
       i = stretch.last;
     }
-    arc.points = std::move(points);
+    const bool takes_whole = whole && (whole->uncovered == 0 || whole->uncovered <= uncovered);
+    arc.points = takes_whole ? std::move(whole->between) : std::move(points);
+    uncovered_ += takes_whole ? whole->uncovered : uncovered;
+  }
+
+  /// A part of a way through the balls of some groups, and the point to which it leads.
+  struct Leg {
+    std::vector<int> groups;
+    CurvePoint end;
+  };
+
+  /// The arc as one way from ball to ball, which passes none twice: from node to node, or by two of
+  /// its groups round a closed arc. Nothing if it leaves the arc's handle.
+  std::optional<Stretch> one_way(const Arc& arc, const std::vector<CurvePoint>& line,
+                                 bool on_cycle) {
+    const auto legs = arc.from == arc.to
+                          ? legs_round(arc, line)
+                          : std::vector<Leg>{{groups_along(graph_, arc, partition_), line.back()}};
+    if (legs.empty()) return std::nullopt;
+    Stretch whole{line.size() - 1, {}, 0};
+    CurvePoint here = line.front();
+    for (const Leg& leg : legs) {
+      if (&leg != &legs.front()) whole.between.push_back(here);
+      const auto made = round_hidden_steps(here, leg.end, leg.groups);
+      if (!made) return std::nullopt;
+      whole.between.insert(whole.between.end(), made->points.begin(), made->points.end());
+      whole.uncovered += made->uncovered;
+      here = leg.end;
+    }
+    if (on_cycle && !keeps_handle(line, 0, whole)) return std::nullopt;
+    return whole;
+  }
+
+  /// Three legs through the groups of a closed arc, in their order; none if these are too few.
+  std::vector<Leg> legs_round(const Arc& arc, const std::vector<CurvePoint>& line) {
+    const auto ends = groups_among(graph_.nodes[idx(arc.from)].pieces, partition_);
+    const auto groups = groups_among(arc.pieces, partition_);
+    if (groups.size() < 2) return {};
+    const std::size_t first = (groups.size() - 1) / 3;
+    const std::size_t second = groups.size() - 1 - first;
+    const int one = chains_.nearest_vertex(line[line.size() / 3].place(), {groups[first]});
+    const int other = chains_.nearest_vertex(line[2 * line.size() / 3].place(), {groups[second]});
+    if (one < 0 || other < 0) return {};
+    const auto at = [&](std::size_t i) { return groups.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::vector<int> before(groups.begin(), at(first + 1));
+    std::vector<int> behind(at(second), groups.end());
+    before.insert(before.end(), ends.begin(), ends.end());
+    behind.insert(behind.end(), ends.begin(), ends.end());
+    return {
+        {before, centre(one)}, {{at(first), at(second + 1)}, centre(other)}, {behind, line.back()}};
   }
 
   /// True if nothing needs to come between two points, or those that have to do. No straight line
@@ -307,14 +312,14 @@ class Keeper {
   }
 
   /// The way between two points; round the steps that lead outside, if the surface meets itself.
-  Stretch detour(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t first,
-                 std::size_t last) {
-    const auto groups = groups_along(graph_, arc, partition_);
+  /// Nothing if the groups have no chain.
+  std::optional<Detour> round_hidden_steps(const CurvePoint& p, const CurvePoint& q,
+                                           const std::vector<int>& groups) {
     std::optional<Detour> best;
     while (true) {
-      const auto vertices = balls_between(line[first], line[last], groups);
+      const auto vertices = balls_between(p, q, groups);
       if (vertices.empty()) break;
-      Detour made = detour_by(vertices, line[first], line[last]);
+      Detour made = detour_by(vertices, p, q);
       for (const auto& [one, other] : made.hidden) chains_.avoid(one, other);
       const bool is_last = made.uncovered == 0 || made.hidden.empty() || more_tries_ == 0;
       if (!best || made.uncovered < best->uncovered) best = std::move(made);
@@ -322,8 +327,15 @@ class Keeper {
       --more_tries_;
     }
     chains_.allow_all();
-    if (!best) return {last, {}, 1};
-    return {last, std::move(best->points), best->uncovered};
+    return best;
+  }
+
+  Stretch detour(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t first,
+                 std::size_t last) {
+    ++detours_;
+    auto made = round_hidden_steps(line[first], line[last], groups_along(graph_, arc, partition_));
+    if (!made) return {last, {}, 1};
+    return {last, std::move(made->points), made->uncovered};
   }
 
   /// Made when first asked for, as there is mostly another way.
@@ -341,6 +353,7 @@ class Keeper {
   std::optional<BelowSurface> below_;
   BallChains chains_;
   int uncovered_ = 0;
+  int detours_ = 0;       ///< of the arc at hand
   int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere
 };
 

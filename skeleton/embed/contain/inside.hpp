@@ -17,6 +17,7 @@ namespace curveskel {
 /// cheapest chain of the vertices' own inscribed balls through the arc's part of the surface, or
 /// goes along just below the surface from one ball to the next. An edge whose ends are inside and
 /// that meets no triangle counts as covered, too.
+/// An arc that needs more than four such ways takes a single one from node to node instead.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
 /// edges that are still not covered. Precondition: D = 1.
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
