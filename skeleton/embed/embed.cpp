@@ -70,10 +70,11 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   SkeletonGraph graph;
   run_phases(phases_on_working_surface(), graph,
-             {working, tree, partition, options, tuning, spacing, threads, guard}, clock, monitor);
+             {working, tree, tree, partition, options, tuning, spacing, threads, guard}, clock,
+             monitor);
   const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
   graph.forget_radii();
-  const Setting at_last{working, *full, partition, options, tuning, spacing, threads, guard};
+  const Setting at_last{working, *full, tree, partition, options, tuning, spacing, threads, guard};
   run_phases(phases_on_full_surface(), graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);
