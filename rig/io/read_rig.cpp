@@ -11,12 +11,12 @@
 
 #include "rig/io/rig_formats.hpp"
 #include "surface/read/formats.hpp"
+#include "surface/read/gltf_file.hpp"
+#include "surface/read/gltf_pose.hpp"
 #include "surface/read/gltf_scene.hpp"
 
 namespace curveskel {
 namespace {
-
-constexpr std::string_view rig_remedy = "export the rig again";
 
 /// The joints of all skins that move something.
 class JointReader {
@@ -51,39 +51,12 @@ class JointReader {
  private:
   void add_skin(int index) {
     const tinygltf::Skin& skin = gltf_element(file_, model_.skins, index, "skin");
-    std::optional<GltfNumbers> matrices;
-    if (skin.inverseBindMatrices >= 0) {
-      matrices = gltf_numbers(file_, model_, skin.inverseBindMatrices, 16, "inverse bind matrices");
-      if (matrices->rows() < skin.joints.size()) {
-        file_.fail(std::to_string(matrices->rows()) + " inverse bind matrices in skin " +
-                       std::to_string(index),
-                   "one for each of its " + std::to_string(skin.joints.size()) + " joints",
-                   rig_remedy);
-      }
-    }
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-      const int node = skin.joints[i];
-      gltf_element(file_, model_.nodes, node, "joint");
+    for (const int node : skin.joints) {
       if (rest_.contains(node)) continue;
       nodes_.push_back(node);
-      rest_[node] = matrices ? rest_from(*matrices, i, node)
-                             : scene_.frames[static_cast<std::size_t>(node)].translation();
+      rest_[node] = scene_.frames[static_cast<std::size_t>(node)].translation();
     }
     joints_of_skin_[index] = skin.joints;  // nodes, until `sort`
-  }
-
-  [[nodiscard]] Eigen::Vector3d rest_from(const GltfNumbers& matrices, std::size_t row,
-                                          int node) const {
-    Eigen::Matrix4d inverse_bind;
-    for (Eigen::Index k = 0; k < 16; ++k) {
-      inverse_bind(k) = matrices.at(row, static_cast<std::size_t>(k));  // both by columns
-    }
-    Eigen::Vector3d rest = inverse_bind.inverse().topRightCorner<3, 1>();
-    if (!inverse_bind.allFinite() || !rest.allFinite()) {
-      file_.fail("an inverse bind matrix of joint " + std::to_string(node) + " without an inverse",
-                 "finite, invertible matrices", rig_remedy);
-    }
-    return rest;
   }
 
   /// Parents first: in the order of the scene, then joints that are not in it.
@@ -125,14 +98,13 @@ class WeightReader {
   WeightReader(const FileBytes& file, const tinygltf::Model& model) : file_(file), model_(model) {}
 
   void add(const GltfSkinned& part, const std::vector<int>& joints) {
-    const auto& attributes = part.primitive->attributes;
-    for (int set = 0;; ++set) {
-      const auto joint_entry = attributes.find("JOINTS_" + std::to_string(set));
-      const auto weight_entry = attributes.find("WEIGHTS_" + std::to_string(set));
-      if (joint_entry == attributes.end() || weight_entry == attributes.end()) return;
-      add_set(gltf_numbers(file_, model_, joint_entry->second, 4, "joints"),
-              gltf_numbers(file_, model_, weight_entry->second, 4, "weights"), part, joints);
-    }
+    for_each_weight(file_, model_, *part.primitive, joints.size(),
+                    [&](std::size_t vertex, std::size_t joint, double weight) {
+                      if (weight == 0) return;
+                      entries_.emplace_back(
+                          static_cast<int>(part.first_vertex + static_cast<std::int64_t>(vertex)),
+                          joints[joint], static_cast<float>(weight));
+                    });
   }
 
   [[nodiscard]] SkinWeights weights(Eigen::Index vertices, Eigen::Index joints) const {
@@ -148,34 +120,6 @@ class WeightReader {
   }
 
  private:
-  void add_set(const GltfNumbers& which, const GltfNumbers& share, const GltfSkinned& part,
-               const std::vector<int>& joints) {
-    const GltfNumbers points =
-        gltf_numbers(file_, model_, part.primitive->attributes.at("POSITION"), 3, "positions");
-    if (which.rows() != points.rows() || share.rows() != points.rows()) {
-      file_.fail(std::to_string(which.rows()) + " rows of joints and " +
-                     std::to_string(share.rows()) + " of weights",
-                 "one for each of the " + std::to_string(points.rows()) + " vertices", rig_remedy);
-    }
-    for (std::size_t row = 0; row < which.rows(); ++row) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        const double weight = share.at(row, k);
-        if (weight == 0) continue;
-        const double joint = which.at(row, k);
-        if (!(weight > 0 && weight < 1e6) || joint < 0 ||
-            !(joint < static_cast<double>(joints.size()))) {
-          file_.fail(
-              "weight " + std::to_string(weight) + " of joint " + std::to_string(joint) +
-                  " at vertex " + std::to_string(row) + " (counted from 0)",
-              "weights of at least 0 of the skin's " + std::to_string(joints.size()) + " joints",
-              rig_remedy);
-        }
-        entries_.emplace_back(static_cast<int>(part.first_vertex) + static_cast<int>(row),
-                              joints[static_cast<std::size_t>(joint)], static_cast<float>(weight));
-      }
-    }
-  }
-
   const FileBytes& file_;
   const tinygltf::Model& model_;
   std::vector<Eigen::Triplet<float>> entries_;

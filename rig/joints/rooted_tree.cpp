@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
@@ -41,7 +42,9 @@ class Rooting {
     std::vector<Hinge> hinges;
     if (!components.empty()) {
       hinges = hang_components(skeleton_, usable_radii(skeleton_), components);
-      hinges.front().node = has_wanted(components.front()) ? wanted : root_of(components.front());
+      hinges.front().node = has_wanted(components.front())
+                                ? wanted
+                                : root_of(components.front(), components.size() > 1);
     }
     for (const std::size_t component : outwards(components, hinges)) {
       const std::vector<int>& nodes = components[component];
@@ -121,10 +124,11 @@ class Rooting {
     return order;
   }
 
-  [[nodiscard]] int root_of(const std::vector<int>& nodes) {
+  [[nodiscard]] int root_of(const std::vector<int>& nodes, bool others_hang_from_it) {
     std::vector<int> junctions;
     std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(junctions),
                  [this](int node) { return degree(node) >= 3; });
+    if (junctions.empty() && others_hang_from_it) return middle_of(nodes);
     if (junctions.empty()) return end_of(nodes);
     keep_central(junctions, nodes);
     int best = junctions.front();
@@ -170,6 +174,26 @@ class Rooting {
       if (may_be && (best < 0 || radius(node) > radius(best))) best = node;
     }
     return best;
+  }
+
+  /// Of a chain the node that has half of the mass before it, as a body with limbs of their own has
+  /// no head and tail; of a ring its thickest node.
+  [[nodiscard]] int middle_of(const std::vector<int>& nodes) {
+    const auto is_end = [this](int node) { return degree(node) <= 1; };
+    const auto end = std::find_if(nodes.begin(), nodes.end(), is_end);
+    if (end == nodes.end()) return end_of(nodes);
+    walk(*end, {-1, -1});
+    std::vector<int> along = nodes;
+    std::stable_sort(along.begin(), along.end(),
+                     [this](int a, int b) { return paths_.distance(a) < paths_.distance(b); });
+    const double all = std::accumulate(along.begin(), along.end(), 0.0,
+                                       [this](double sum, int n) { return sum + mass_[idx(n)]; });
+    double passed = 0;
+    for (const int node : along) {
+      passed += mass_[idx(node)];
+      if (passed >= 0.5 * all) return node;
+    }
+    return along.back();
   }
 
   /// A ring is cut beside its root, so that it is one chain.

@@ -1,6 +1,8 @@
 // The surface and all else that a SkeletonGraph is held against while it is embedded.
 #pragma once
 
+#include <vector>
+
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
@@ -22,6 +24,7 @@ struct Setting {
   Spacing spacing;
   int threads;
   HomologyGuard& guard;
+  std::vector<int> mirror_axes;  ///< of the surface, see `mirror_axes`
 };
 
 }  // namespace curveskel

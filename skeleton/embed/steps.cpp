@@ -13,6 +13,7 @@
 #include "skeleton/embed/ends/tips.hpp"
 #include "skeleton/embed/first_course.hpp"
 #include "skeleton/embed/place/junctions.hpp"
+#include "skeleton/embed/place/mirror.hpp"
 #include "skeleton/embed/place/relax.hpp"
 #include "skeleton/embed/place/settle.hpp"
 
@@ -159,6 +160,15 @@ bool straighten_at_last(SkeletonGraph& graph, const Setting& in) {
   return true;
 }
 
+bool mirror(SkeletonGraph& graph, const Setting& in) {
+  for (const int axis : in.mirror_axes) {
+    change_inside(graph, in, [&in, axis](SkeletonGraph& changed) {
+      return mirror_arcs(changed, axis, in.tree, in.options.keep_radius);
+    });
+  }
+  return true;
+}
+
 bool lengthen(SkeletonGraph& graph, const Setting& in) {
   lengthen_short_leaves(graph, in.tree, in.tuning.tips);
   return true;
@@ -200,6 +210,7 @@ constexpr std::array finishing{
     EmbedStep{"widen bottlenecks", step::widen_bottlenecks, false, after_rerouting},
     EmbedStep{"grow branches", step::grow, false, after_growth},
     EmbedStep{"merge junctions", step::merge},  // centred, they may have come together
+    EmbedStep{"mirror", step::mirror, guarded},
     EmbedStep{"centre at last", step::centre_at_last},
 };
 constexpr std::array working_phases{
@@ -218,7 +229,11 @@ constexpr std::array settling{
     EmbedStep{"cut detours", step::shortcut, guarded},
     EmbedStep{"lengthen leaves", step::lengthen},
 };
-constexpr std::array full_phases{EmbedPhase{settling, true, 0.9}};
+constexpr std::array mirroring{EmbedStep{"mirror", step::mirror, guarded}};
+constexpr std::array full_phases{
+    EmbedPhase{settling, true, 0.9},
+    EmbedPhase{mirroring, false, 0.95},
+};
 
 /// The radii stay with the points, so that the next step need not ask.
 int points_outside(const SkeletonGraph& graph, const SurfaceTree& tree) {

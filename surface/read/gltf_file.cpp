@@ -2,16 +2,22 @@
 
 #include <tiny_gltf.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
-#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/json_depth.hpp"
+#include "surface/read/gltf_compression.hpp"
 
 namespace curveskel {
 namespace {
@@ -68,50 +74,109 @@ void check_chunks(const FileBytes& file) {
   }
 }
 
-/// tinygltf goes down into "extras" and extensions by recursion.
-void check_depth(const FileBytes& file, bool binary) {
+/// The JSON chunk, or the file; known to lie within the file. Empty if there is none.
+std::string_view json_of(const FileBytes& file, bool binary) {
   std::string_view json(file.content);
-  if (binary) {
-    std::uint32_t length = 0;
-    if (json.size() < 20) return;  // the parser says so
-    std::memcpy(&length, json.data() + 12, sizeof length);
-    json = json.substr(20, length);
-  }
+  if (!binary) return json;
+  std::uint32_t length = 0;
+  if (json.size() < 20) return {};  // the parser says so
+  std::memcpy(&length, json.data() + 12, sizeof length);
+  return json.substr(20, length);
+}
+
+/// tinygltf goes down into "extras" and extensions by recursion.
+void check_depth(const FileBytes& file, std::string_view json) {
   const int depth = json_depth(json);
   if (depth <= deepest_json) return;
   file.fail("JSON nested " + std::to_string(depth) + " deep",
             "at most " + std::to_string(deepest_json), "export the file again");
 }
 
-int type_of_rows(int components) {
-  switch (components) {
-    case 3:
-      return TINYGLTF_TYPE_VEC3;
-    case 4:
-      return TINYGLTF_TYPE_VEC4;
-    case 16:
-      return TINYGLTF_TYPE_MAT4;
-    default:
-      return TINYGLTF_TYPE_SCALAR;
+[[noreturn]] void refuse_version(const FileBytes& file) {
+  file.fail("glTF 1.0", "glTF 2.0", "convert it, for instance with gltf-pipeline or Blender");
+}
+
+/// Extensions that change only how things look or what they mean, by parts of their names.
+bool changes_no_geometry(std::string_view extension) {
+  constexpr std::array<std::string_view, 10> parts{
+      "material", "texture", "light", "anim", "metadata", "features", "xmp", "audio", "VRM", "VCI"};
+  return extension == draco_extension || extension == meshopt_extension ||
+         extension == "KHR_mesh_quantization" ||
+         std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return extension.find(part) != extension.npos; });
+}
+
+void check_required(const FileBytes& file, const std::vector<std::string>& extensions) {
+  for (const std::string& extension : extensions) {
+    if (changes_no_geometry(extension)) continue;
+    file.fail("the extension " + in_quotes(extension) + ", without which the file says that it " +
+                  "cannot be read",
+              "glTF 2.0 with compression at most", "export the file without that extension");
   }
 }
 
-std::optional<GltfNumbers::Type> number_type(int component_type) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return GltfNumbers::Type::int8;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return GltfNumbers::Type::uint8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return GltfNumbers::Type::int16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return GltfNumbers::Type::uint16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return GltfNumbers::Type::uint32;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return GltfNumbers::Type::float32;
-    default:
-      return std::nullopt;
+/// The reasons for which tinygltf refuses files without naming them.
+void explain_refusal(const FileBytes& file, std::string_view json) {
+  const auto parsed = nlohmann::json::parse(json, nullptr, false);
+  if (!parsed.is_object()) return;
+  const auto required = parsed.find("extensionsRequired");
+  if (required != parsed.end() && required->is_array()) {
+    std::vector<std::string> names;
+    for (const auto& name : *required) {
+      if (name.is_string()) names.push_back(name.get<std::string>());
+    }
+    check_required(file, names);
+  }
+  const auto meshes = parsed.find("meshes");  // named in version 1, numbered in version 2
+  if (meshes != parsed.end() && meshes->is_object()) refuse_version(file);
+}
+
+/// The file with other JSON.
+FileBytes with_json(const FileBytes& file, bool binary, std::string json) {
+  if (!binary) return {file.path, std::move(json)};
+  std::uint32_t announced = 0;
+  std::uint32_t length = 0;
+  std::memcpy(&announced, file.content.data() + 8, sizeof announced);
+  std::memcpy(&length, file.content.data() + 12, sizeof length);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::size_t end = std::min<std::size_t>(file.content.size(), announced);
+  const std::string_view rest =
+      std::string_view(file.content).substr(0, end).substr(20 + std::size_t{length});
+  FileBytes changed{file.path, file.content.substr(0, 20)};
+  const auto put = [&](std::size_t at, std::size_t number) {
+    const auto word = static_cast<std::uint32_t>(number);
+    std::memcpy(changed.content.data() + at, &word, sizeof word);
+  };
+  put(8, 20 + json.size() + rest.size());
+  put(12, json.size());
+  changed.content += json;
+  changed.content += rest;
+  return changed;
+}
+
+/// False: refused, with the reason.
+bool parse(const FileBytes& file, bool binary, const Monitor& monitor, tinygltf::Model& model,
+           std::string& error) {
+  FileAccess access{file, monitor};
+  tinygltf::TinyGLTF parser;
+  parser.SetImageLoader(ignore_picture, nullptr);
+  parser.SetFsCallbacks({buffer_exists,
+                         [](const std::string& path, void* /*access*/) { return path; },
+                         read_buffer, nullptr, &access});
+  std::string warning;
+  const auto size = static_cast<unsigned>(file.content.size());
+  const std::string folder = file.path.parent_path().string();
+  try {
+    return binary ? parser.LoadBinaryFromMemory(
+                        &model, &error, &warning,
+                        reinterpret_cast<const unsigned char*>(file.content.data()), size, folder)
+                  : parser.LoadASCIIFromString(&model, &error, &warning, file.content.data(), size,
+                                               folder);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& failure) {
+    error += failure.what();
+    return false;
   }
 }
 
@@ -119,84 +184,32 @@ std::optional<GltfNumbers::Type> number_type(int component_type) {
 
 tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
   const bool binary = file.content.starts_with("glTF");
+  if (binary && file.content.substr(4, 4) == std::string_view("\1\0\0\0", 4)) refuse_version(file);
   if (binary) check_chunks(file);
-  check_depth(file, binary);
+  const std::string_view json = json_of(file, binary);
+  check_depth(file, json);
   if (file.content.size() > 0xffffffffU) {
     file.fail(std::to_string(file.content.size()) + " bytes", "at most 4294967295",
               "convert it to binary PLY");
   }
-  FileAccess access{file, monitor};
-  tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(ignore_picture, nullptr);
-  parser.SetFsCallbacks({buffer_exists,
-                         [](const std::string& path, void* /*access*/) { return path; },
-                         read_buffer, nullptr, &access});
   tinygltf::Model model;
   std::string error;
-  std::string warning;
-  bool parsed = false;
-  const auto size = static_cast<unsigned>(file.content.size());
-  const std::string folder = file.path.parent_path().string();
-  try {
-    parsed = binary ? parser.LoadBinaryFromMemory(
-                          &model, &error, &warning,
-                          reinterpret_cast<const unsigned char*>(file.content.data()), size, folder)
-                    : parser.LoadASCIIFromString(&model, &error, &warning, file.content.data(),
-                                                 size, folder);
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const std::exception& failure) {
-    error += failure.what();
-  }
+  auto changed = json_for_tinygltf(json, binary);
+  const bool parsed =
+      changed ? parse(with_json(file, binary, std::move(*changed)), binary, monitor, model, error)
+              : parse(file, binary, monitor, model, error);
   if (!parsed) {
+    explain_refusal(file, json);
     std::replace(error.begin(), error.end(), '\n', ' ');
     file.fail("what the glTF parser refuses: " + error, "glTF 2.0 with all of its buffers",
               "fetch or export the file again, with its .bin beside it");
   }
-  for (const std::string& extension : model.extensionsRequired) {
-    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression") {
-      file.fail("compression by " + extension, "uncompressed glTF",
-                "decompress it, for instance with gltf-transform or gltfpack");
-    }
+  if (model.asset.version.starts_with("1") || model.asset.version.starts_with("0")) {
+    refuse_version(file);
   }
+  check_required(file, model.extensionsRequired);
+  decompress_gltf(file, model, monitor);
   return model;
-}
-
-GltfNumbers gltf_numbers(const FileBytes& file, const tinygltf::Model& model, int accessor,
-                         int components, const std::string& meaning) {
-  const auto& rows = gltf_element(file, model.accessors, accessor, "accessor");
-  const auto refuse = [&](const std::string& found, const std::string& needed) {
-    file.fail(found + " in accessor " + std::to_string(accessor) + " (" + meaning + ")", needed,
-              "export the file again");
-  };
-  if (rows.sparse.isSparse) refuse("sparse storage", "plain storage");
-  const auto& view = gltf_element(file, model.bufferViews, rows.bufferView, "buffer view");
-  const auto& buffer = gltf_element(file, model.buffers, view.buffer, "buffer");
-  const auto type = number_type(rows.componentType);
-  const int wanted = type_of_rows(components);
-  const int stride = rows.ByteStride(view);
-  if (!type || rows.type != wanted || stride <= 0) {
-    refuse("numbers of type " + std::to_string(rows.type) + "/" +
-               std::to_string(rows.componentType) + ", stride " + std::to_string(stride),
-           std::to_string(components) + " per row of a type in the standard");
-  }
-  const auto component_bytes = static_cast<std::size_t>(
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(rows.componentType)));
-  const std::size_t row_bytes = component_bytes * static_cast<std::size_t>(components);
-  const std::size_t size = buffer.data.size();
-  const bool begins_inside = view.byteOffset <= size && rows.byteOffset <= size - view.byteOffset;
-  const std::size_t left = begins_inside ? size - view.byteOffset - rows.byteOffset : 0;
-  const bool ends_inside =
-      begins_inside && (rows.count == 0 ||
-                        (row_bytes <= left &&
-                         rows.count - 1 <= (left - row_bytes) / static_cast<std::size_t>(stride)));
-  if (!ends_inside) {
-    refuse(std::to_string(rows.count) + " rows from byte " + std::to_string(view.byteOffset) +
-               " + " + std::to_string(rows.byteOffset),
-           "rows that end within the buffer's " + std::to_string(size) + " bytes");
-  }
-  return {buffer.data.data() + view.byteOffset + rows.byteOffset, static_cast<std::size_t>(stride),
-          rows.count, *type, rows.normalized};
 }
 
 }  // namespace curveskel

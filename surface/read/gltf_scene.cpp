@@ -1,6 +1,5 @@
-// glTF 2.0 and GLB. Every mesh that the scene shows is taken where the scene shows it, except that
-// a skinned mesh stays as modelled (its bind pose): glTF ignores the transform of its node, and its
-// joints would only pose it.
+// glTF 2.0 and GLB. Every mesh that the scene shows is taken where the scene shows it: a skinned
+// one in the pose of its joints' nodes, as Blender opens it.
 #include "surface/read/gltf_scene.hpp"
 
 #include <tiny_gltf.h>
@@ -15,7 +14,8 @@
 #include <vector>
 
 #include "surface/read/formats.hpp"
-#include "surface/read/gltf_file.hpp"
+#include "surface/read/gltf_pose.hpp"
+#include "surface/read/gltf_seams.hpp"
 
 namespace curveskel {
 namespace {
@@ -32,31 +32,19 @@ class SceneReader {
   }
 
   GltfScene read() {
-    const std::vector<int> roots = root_nodes();
-    std::vector<std::pair<int, Eigen::Affine3d>> open;
-    const auto add = [&](const std::vector<int>& nodes, const Eigen::Affine3d& frame) {
-      for (std::size_t i = nodes.size(); i-- > 0;) open.emplace_back(nodes[i], frame);
-    };
-    add(roots, Eigen::Affine3d::Identity());
-    while (!open.empty()) {
-      const auto [index, parent] = open.back();
-      open.pop_back();
-      const tinygltf::Node& node = visit(index);
-      const Eigen::Affine3d frame = parent * transform(node, index);
-      scene_.nodes.push_back(index);
-      scene_.frames[static_cast<std::size_t>(index)] = frame;
-      if (node.mesh >= 0) read_mesh(node.mesh, node.skin, node.skin >= 0 ? unmoved() : frame);
-      add(node.children, frame);
-      for (const int child : node.children) {
-        gltf_element(file_, model_.nodes, child, "child node");
-        scene_.parents[static_cast<std::size_t>(child)] = index;
-      }
+    place_nodes();
+    for (const int index : scene_.nodes) {
+      const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+      if (node.mesh >= 0) read_mesh(node, scene_.frames[static_cast<std::size_t>(index)]);
     }
     if (model_.nodes.empty()) {
       for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
-        read_mesh(mesh, -1, unmoved());
+        tinygltf::Node node;
+        node.mesh = mesh;
+        read_mesh(node, unmoved());
       }
     }
+    if (any_bent_) rejoin_seams(std::move(seams_), coordinates_);
     scene_.soup.positions = positions_from(coordinates_);
     return std::move(scene_);
   }
@@ -66,9 +54,11 @@ class SceneReader {
 
   /// Of the default scene, else the first; of a file without scenes all nodes that are no child.
   [[nodiscard]] std::vector<int> root_nodes() const {
-    if (!model_.scenes.empty()) {
-      return gltf_element(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
-    }
+    if (model_.scenes.empty()) return parentless_nodes();
+    return gltf_element(file_, model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+  }
+
+  [[nodiscard]] std::vector<int> parentless_nodes() const {
     std::vector<bool> is_child(model_.nodes.size(), false);
     for (const tinygltf::Node& node : model_.nodes) {
       for (const int child : node.children) {
@@ -81,6 +71,46 @@ class SceneReader {
       if (!is_child[i]) roots.push_back(static_cast<int>(i));
     }
     return roots;
+  }
+
+  /// All of the scene before any mesh: a mesh may be shown before the joints that move it. Then the
+  /// nodes of other scenes, which should hold no joints, but do.
+  void place_nodes() {
+    for (const int index : below(root_nodes())) scene_.nodes.push_back(index);
+    const std::vector<bool> shown = visited_;
+    for (const int root : parentless_nodes()) (void)below({root}, &shown);
+  }
+
+  /// Those nodes and all below them, placed, each before its children; of `left_out` none.
+  std::vector<int> below(const std::vector<int>& roots,
+                         const std::vector<bool>* left_out = nullptr) {
+    std::vector<int> found;
+    std::vector<std::pair<int, Eigen::Affine3d>> open;
+    const auto is_left_out = [&](int node) {
+      return left_out != nullptr && node >= 0 &&
+             static_cast<std::size_t>(node) < left_out->size() &&
+             (*left_out)[static_cast<std::size_t>(node)];
+    };
+    const auto add = [&](const std::vector<int>& nodes, const Eigen::Affine3d& frame) {
+      for (std::size_t i = nodes.size(); i-- > 0;) {
+        if (!is_left_out(nodes[i])) open.emplace_back(nodes[i], frame);
+      }
+    };
+    add(roots, unmoved());
+    while (!open.empty()) {
+      const auto [index, parent] = open.back();
+      open.pop_back();
+      const tinygltf::Node& node = visit(index);
+      const Eigen::Affine3d frame = parent * transform(node, index);
+      found.push_back(index);
+      scene_.frames[static_cast<std::size_t>(index)] = frame;
+      add(node.children, frame);
+      for (const int child : node.children) {
+        gltf_element(file_, model_.nodes, child, "child node");
+        if (!is_left_out(child)) scene_.parents[static_cast<std::size_t>(child)] = index;
+      }
+    }
+    return found;
   }
 
   const tinygltf::Node& visit(int index) {
@@ -115,43 +145,67 @@ class SceneReader {
     return result;
   }
 
-  void read_mesh(int index, int skin, const Eigen::Affine3d& frame) {
-    // Primitives with the same accessor share their vertices; others meet in coincident ones.
-    std::map<int, std::int64_t> first_vertex_of;
-    const bool mirrored = frame.linear().determinant() < 0;
-    for (const tinygltf::Primitive& primitive :
-         gltf_element(file_, model_.meshes, index, "mesh").primitives) {
+  void read_mesh(const tinygltf::Node& node, const Eigen::Affine3d& frame) {
+    const tinygltf::Mesh& mesh = gltf_element(file_, model_.meshes, node.mesh, "mesh");
+    // Primitives with the same accessors share their vertices; others meet in coincident ones.
+    std::map<std::vector<int>, Run> runs;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
       if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
           mode != TINYGLTF_MODE_TRIANGLE_FAN) {
         continue;  // points and lines
       }
-      const auto position = primitive.attributes.find("POSITION");
-      if (position == primitive.attributes.end()) continue;  // nothing to show, says the standard
-      const GltfNumbers points = gltf_numbers(file_, model_, position->second, 3, "positions");
-      const auto next = static_cast<std::int64_t>(coordinates_.size() / 3);
-      const auto [entry, is_new] = first_vertex_of.emplace(position->second, next);
-      if (is_new) append_positions(points, frame);
-      if (is_new && skin >= 0) scene_.skinned.push_back({&primitive, skin, next});
-      append_triangles(vertices_of(primitive, points.rows()), mode, entry->second, mirrored);
+      if (!primitive.attributes.contains("POSITION")) continue;  // nothing to show, by the standard
+      const auto [entry, is_new] = runs.try_emplace(accessors_of_positions(primitive));
+      if (is_new) entry->second = append_positions(primitive, node, mesh, frame);
+      append_triangles(vertices_of(primitive, entry->second.count), mode, entry->second);
     }
   }
 
-  void append_positions(const GltfNumbers& points, const Eigen::Affine3d& frame) {
-    if (coordinates_.size() / 3 + points.rows() > static_cast<std::size_t>(most_vertices)) {
+  /// Vertices first, first + 1, ... of the soup.
+  struct Run {
+    std::int64_t first = 0;
+    std::size_t count = 0;
+    bool mirrored = false;
+  };
+
+  Run append_positions(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                       const tinygltf::Mesh& mesh, const Eigen::Affine3d& frame) {
+    const auto& morph_weights = node.weights.empty() ? mesh.weights : node.weights;
+    const GltfPlaced placed =
+        placed_positions(file_, model_, primitive, morph_weights, node.skin < 0 ? frame : unmoved(),
+                         pose_of(node.skin), monitor_);
+    const auto first = static_cast<std::int64_t>(coordinates_.size() / 3);
+    const std::size_t count = placed.positions.size();
+    if (coordinates_.size() / 3 + count > static_cast<std::size_t>(most_vertices)) {
       file_.fail("more than " + std::to_string(most_vertices) + " vertices", "fewer",
                  "split or decimate the surface first");
     }
-    for (std::size_t i = 0; i < points.rows(); ++i) {
-      if (i % rows_per_report == 0) monitor_.report("read", 0.5);
-      const Eigen::Vector3d point =
-          frame * Eigen::Vector3d(points.at(i, 0), points.at(i, 1), points.at(i, 2));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d& point = placed.positions[i];
       if (!point.allFinite()) {
         file_.fail("NaN or infinity in position " + std::to_string(i) + " (counted from 0)",
                    "finite numbers", gltf_remedy);
       }
       coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
     }
+    if (node.skin >= 0) {
+      scene_.skinned.push_back({&primitive, node.skin, first});
+      any_bent_ = any_bent_ || placed.bent;
+      for (std::size_t i = 0; i < count; ++i) {
+        seams_.push_back({first + static_cast<std::int64_t>(i), placed.modelled[i]});
+      }
+    }
+    return {first, count, placed.mirrored};
+  }
+
+  /// Null: not skinned.
+  const GltfSkinPose* pose_of(int skin) {
+    if (skin < 0) return nullptr;
+    const auto entry = poses_.find(skin);
+    if (entry != poses_.end()) return &entry->second;
+    return &poses_.emplace(skin, skin_pose(file_, model_, skin, scene_.frames, scene_.parents))
+                .first->second;
   }
 
   [[nodiscard]] std::vector<std::int64_t> vertices_of(const tinygltf::Primitive& primitive,
@@ -176,8 +230,7 @@ class SceneReader {
   }
 
   /// The corners of triangle i by mode are those of section 3.7.2.1 of the standard.
-  void append_triangles(const std::vector<std::int64_t>& vertices, int mode, std::int64_t first,
-                        bool mirrored) {
+  void append_triangles(const std::vector<std::int64_t>& vertices, int mode, const Run& run) {
     const bool separate = mode == TINYGLTF_MODE_TRIANGLES;
     const std::size_t count =
         separate ? vertices.size() / 3 : std::max<std::size_t>(vertices.size(), 2) - 2;
@@ -189,9 +242,9 @@ class SceneReader {
       std::array<std::size_t, 3> corner{3 * i, 3 * i + 1, 3 * i + 2};
       if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) corner = {i, i + 1 + i % 2, i + 2 - i % 2};
       if (mode == TINYGLTF_MODE_TRIANGLE_FAN) corner = {i + 1, i + 2, 0};
-      if (mirrored) std::swap(corner[1], corner[2]);
+      if (run.mirrored) std::swap(corner[1], corner[2]);
       for (const std::size_t k : corner) {
-        scene_.soup.corners.push_back(static_cast<std::int32_t>(first + vertices[k]));
+        scene_.soup.corners.push_back(static_cast<std::int32_t>(run.first + vertices[k]));
       }
       end_polygon(scene_.soup);
     }
@@ -202,6 +255,9 @@ class SceneReader {
   const Monitor& monitor_;
   std::vector<bool> visited_;  // per node
   std::vector<double> coordinates_;
+  std::map<int, GltfSkinPose> poses_;  // by skin
+  std::vector<GltfSeamVertex> seams_;  // all vertices that skins move
+  bool any_bent_ = false;
   GltfScene scene_;
 };
 

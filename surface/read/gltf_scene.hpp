@@ -7,7 +7,7 @@
 
 #include <curveskel/monitor.hpp>
 #include <curveskel/read.hpp>
-#include "surface/read/gltf_file.hpp"
+#include "surface/read/gltf_numbers.hpp"
 
 namespace tinygltf {
 struct Primitive;
@@ -24,9 +24,9 @@ struct GltfSkinned {
 
 struct GltfScene {
   PolygonSoup soup;
-  std::vector<GltfSkinned> skinned;     ///< once per skin and accessor of positions
-  std::vector<Eigen::Affine3d> frames;  ///< of each node in the scene; else the identity
-  std::vector<int> parents;             ///< of each node; -1 = none, or not in the scene
+  std::vector<GltfSkinned> skinned;     ///< once per node and accessor of positions
+  std::vector<Eigen::Affine3d> frames;  ///< of each node, also of one outside the scene
+  std::vector<int> parents;             ///< of each node; -1 = none
   std::vector<int> nodes;               ///< those in the scene, each before its children
 };
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "surface/read/formats.hpp"
+#include "surface/read/gltf_file.hpp"
 #include "surface/read/gltf_scene.hpp"
 
 namespace curveskel {

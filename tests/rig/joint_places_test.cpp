@@ -242,7 +242,7 @@ TEST(JointPlaces, HangSmallerComponentsFromTheJointOfTheNearestNode) {
   const int second = joint_named("part2_root");
   const int third = joint_named("part3_root");
   ASSERT_LT(third, joints.parents.size());
-  EXPECT_EQ(joints.positions.row(0), large.nodes.row(0));
+  EXPECT_EQ(joints.positions.row(0), Eigen::RowVector3d(20, 0, 0));  // the middle of the body
   EXPECT_EQ(joints.positions.row(second), small.nodes.row(0));
   EXPECT_EQ(joints.positions.row(third), least.nodes.row(0));
   EXPECT_EQ(joints.parents[second], joint_of({26, 0, 0}));

@@ -24,7 +24,8 @@ struct RiggedBar {
   double unit = 1;                ///< all weights are multiplied by it
   double first_weight = 1;        ///< of vertex 0, before the unit
   int first_joint = -1;           ///< of vertex 0, in the skin; -1 = its own
-  double matrix_scale = 1;        ///< 0 = matrices without an inverse
+  double matrix_scale = 1;        ///< of the inverse bind matrices; 0 = not affine
+  double turn = 0;                ///< of each joint against the one before, beside its bind pose
 };
 
 namespace rigged_bar {
@@ -51,8 +52,17 @@ inline int add_rows(nlohmann::json& file, std::string& buffer, const std::string
 
 }  // namespace rigged_bar
 
+/// Where joint k is bound: on the x axis, turned a little more than the joint before.
+inline Eigen::Affine3d bind_of_joint(int joint) {
+  Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+  bind.translate(Eigen::Vector3d(joint, 0, 0));
+  bind.rotate(Eigen::AngleAxisd(0.3 * joint, Eigen::Vector3d::UnitZ()));
+  return bind;
+}
+
 /// Text of a glTF file. Ring k of the bar (4 vertices at x = k - 0.5, the last at joints - 0.5) is
-/// moved by joint k - 1 and joint k in equal parts; the ends by one joint alone.
+/// moved by joint k - 1 and joint k in equal parts; the ends by one joint alone. The file shows the
+/// bar so where `turn` is 0.
 inline std::string gltf_of(const RiggedBar& bar) {
   using rigged_bar::add_rows;
   using rigged_bar::append;
@@ -74,11 +84,17 @@ inline std::string gltf_of(const RiggedBar& bar) {
   };
   for (int ring = 0; ring < rings; ++ring) {
     for (int corner = 0; corner < 4; ++corner) {
-      append(positions, static_cast<float>(ring - 0.5));
-      append(positions, corner == 1 || corner == 2 ? 0.5F : -0.5F);
-      append(positions, corner >= 2 ? 0.5F : -0.5F);
       const int before = std::max(ring - 1, 0);
       const int after = std::min(ring, bar.joints - 1);
+      Eigen::Affine3d blend = Eigen::Affine3d::Identity();  // of joints without matrices
+      if (!bar.inverse_bind) {
+        blend.matrix() = (bind_of_joint(before).matrix() + bind_of_joint(after).matrix()) / 2;
+      }
+      const Eigen::Vector3d point(ring - 0.5, corner == 1 || corner == 2 ? 0.5 : -0.5,
+                                  corner >= 2 ? 0.5 : -0.5);
+      for (const double x : Eigen::Vector3d(blend.inverse() * point)) {
+        append(positions, static_cast<float>(x));
+      }
       const bool first = ring == 0 && corner == 0;
       append(which, static_cast<std::uint8_t>(first && bar.first_joint >= 0 ? bar.first_joint
                                                                             : row_of_skin(before)));
@@ -117,8 +133,12 @@ inline std::string gltf_of(const RiggedBar& bar) {
   nlohmann::json roots{0};
   std::vector<int> node_of_joint;
   int parent = -1;
-  const auto add_node = [&](const std::string& name, double x) {
-    file["nodes"].push_back({{"name", name}, {"translation", {x, 0, 0}}});
+  const auto add_node = [&](const std::string& name, const Eigen::Affine3d& frame) {
+    const Eigen::Vector3d at = frame.translation();
+    const Eigen::Quaterniond turn(frame.rotation());
+    file["nodes"].push_back({{"name", name},
+                             {"translation", {at.x(), at.y(), at.z()}},
+                             {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}});
     const int node = static_cast<int>(file["nodes"].size()) - 1;
     if (parent < 0) {
       roots.push_back(node);
@@ -129,10 +149,16 @@ inline std::string gltf_of(const RiggedBar& bar) {
     return node;
   };
   for (int joint = 0; joint < bar.joints; ++joint) {
-    if (bar.helper_nodes) add_node("helper", joint == 0 ? -3 : 0.25);
-    const double step = joint == 0 ? 0 : 1;
-    node_of_joint.push_back(add_node("joint " + std::to_string(joint),
-                                     bar.helper_nodes ? (joint == 0 ? 3 : 0.75) : step));
+    Eigen::Affine3d step = bind_of_joint(joint);
+    if (joint > 0) step = bind_of_joint(joint - 1).inverse() * step;
+    step.rotate(Eigen::AngleAxisd(bar.turn, Eigen::Vector3d(1, 2, 2) / 3));
+    if (bar.helper_nodes) {
+      const Eigen::Translation3d helper(joint == 0 ? Eigen::Vector3d(-3, 0, 0)
+                                                   : Eigen::Vector3d(step.translation() / 4));
+      add_node("helper", Eigen::Affine3d(helper));
+      step = helper.inverse() * step;
+    }
+    node_of_joint.push_back(add_node("joint " + std::to_string(joint), step));
   }
   file["scenes"] = {{{"nodes", roots}}};
   nlohmann::json listed = nlohmann::json::array();
@@ -140,10 +166,8 @@ inline std::string gltf_of(const RiggedBar& bar) {
   for (int row = 0; row < bar.joints; ++row) {
     const int joint = row_of_skin(row);
     listed.push_back(node_of_joint[static_cast<std::size_t>(joint)]);
-    Eigen::Affine3f bind = Eigen::Affine3f::Identity();
-    bind.translate(Eigen::Vector3f(static_cast<float>(joint), 0, 0));
-    bind.rotate(Eigen::AngleAxisf(0.3F * static_cast<float>(joint), Eigen::Vector3f::UnitZ()));
-    const Eigen::Matrix4f inverse = bind.inverse().matrix() * static_cast<float>(bar.matrix_scale);
+    const Eigen::Matrix4f inverse =
+        (bind_of_joint(joint).inverse().matrix() * bar.matrix_scale).cast<float>();
     for (Eigen::Index k = 0; k < 16; ++k) append(matrices, inverse(k));
   }
   file["skins"] = {{{"joints", listed}}};

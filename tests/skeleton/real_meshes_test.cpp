@@ -257,7 +257,7 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
     auto across = mirrored.nodes.col(axis);
     across = across.maxCoeff() + across.minCoeff() - across.array();
     const double diagonal = bounding_box_diagonal(surface.positions);
-    EXPECT_LT(hausdorff_distance(curve, mirrored, diagonal / 400), 0.01 * diagonal) << name;
+    EXPECT_LT(hausdorff_distance(curve, mirrored, diagonal / 400), 1e-3 * diagonal) << name;
   }
 }
 

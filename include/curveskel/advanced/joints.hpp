@@ -33,15 +33,15 @@ struct Joints {
 /// and at tips (these, named ".._end", move nothing: they say how long the last bone is).
 ///
 /// The root is the junction with the least sum of ways to the whole curve, each piece weighted by
-/// length times radius; without junctions the end with the larger ball. A cycle is cut where the
-/// ways from the root meet. Along a limb the joints minimise, over all choices (dynamic
-/// programming), the sum over bones of 1 + (length / (bone_length r))^2 + (deviation / (bend r))^2,
-/// lengths measured in the radius r where they are, deviation the largest distance of the curve
-/// from the bone. Components hang from each other where they overlap or are nearest, in a tree from
-/// the heaviest (length times radius) or that of a wanted root, so that there is one root; each is
-/// rooted where it hangs.
-/// Throws Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred
-/// times as much where there are many junctions.
+/// length times radius; without junctions the end with the larger ball, or the middle if other
+/// components hang from it. A cycle is cut where the ways from the root meet. Along a limb the
+/// joints minimise, over all choices (dynamic programming), the sum over bones of 1 + (length /
+/// (bone_length r))^2 + (deviation / (bend r))^2, lengths measured in the radius r where they are,
+/// deviation the largest distance of the curve from the bone. Components hang from each other where
+/// they overlap or are nearest, in a tree from the heaviest (length times radius) or that of a
+/// wanted root, so that there is one root; each is rooted where it hangs. Throws
+/// Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred times
+/// as much where there are many junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
 
 }  // namespace curveskel
