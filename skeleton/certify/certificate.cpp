@@ -85,14 +85,23 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
   std::vector<double> uncovered(chosen);
   monitor.report("certify", 0.7);
   parallel_for(chosen, 256, subject.threads, [&](std::size_t begin, std::size_t end) {
+    std::size_t nearest = 0;  // of the vertex before, to begin with
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3d v = vertices.row(static_cast<Eigen::Index>(i) * stride);
       // Looking for the nearest ball mostly meets one that covers the vertex.
       bool met = false;
-      uncovered[i] = std::max(0.0, balls.minimum(v, 0, [&](std::size_t sample) {
+      double least = std::numeric_limits<double>::infinity();
+      const std::size_t first = nearest;
+      const auto gap_to = [&](std::size_t sample) {
         met = met || gap(sample, v, coverage_factor) <= 0;
-        return gap(sample, v, 1);
-      }));
+        const double own = gap(sample, v, 1);
+        if (own < least) {
+          least = own;
+          nearest = sample;
+        }
+        return own;
+      };
+      uncovered[i] = std::max(0.0, balls.minimum(v, 0, gap_to, first));
       met = met || wide_balls.minimum(v, 0, [&](std::size_t sample) {
         return gap(sample, v, coverage_factor);
       }) <= 0;

@@ -1,5 +1,6 @@
 #include "skeleton/certify/measured_curve.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
@@ -46,8 +47,13 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
   }
   add_samples(curve, options.sample_spacing * diagonal);
   curve.radius.resize(curve.samples.size());
-  for_samples(curve, 0.1, 0.2, monitor, [&](std::size_t i) {
-    curve.radius[i] = tree.inscribed_radius(curve.samples[i].position);
+  for_sample_ranges(curve, 0.1, 0.2, monitor, [&](std::size_t begin, std::size_t end) {
+    SurfaceTree::Ball before;  // mostly it holds the next sample
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d& here = curve.samples[i].position;
+      curve.radius[i] = tree.inscribed_radius(here, before);
+      before = {here, std::max(0.0, curve.radius[i])};
+    }
   });
   return curve;
 }

@@ -39,20 +39,28 @@ struct MeasuredCurve {
 /// The leaf branches shorter than the inscribed radius at their junction: rows of `branches`.
 [[nodiscard]] std::vector<int> spurs_of(const MeasuredCurve& curve);
 
-/// Runs body(i) for all samples in blocks, so that progress and cancellation come from this thread.
+/// Runs body(begin, end) for ranges of all samples, in blocks, so that progress and cancellation
+/// come from this thread.
 template <typename Body>
-void for_samples(const MeasuredCurve& curve, double from, double to, const Monitor& monitor,
-                 const Body& body) {
+void for_sample_ranges(const MeasuredCurve& curve, double from, double to, const Monitor& monitor,
+                       const Body& body) {
   constexpr std::size_t block = 2048;
   const std::size_t all = curve.samples.size();
   for (std::size_t first = 0; first < all; first += block) {
     const double share = static_cast<double>(first) / static_cast<double>(all);
     monitor.report("certify", from + (to - from) * share);
     parallel_for(std::min(block, all - first), 32, curve.threads,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = first + begin; i < first + end; ++i) body(i);
-                 });
+                 [&](std::size_t begin, std::size_t end) { body(first + begin, first + end); });
   }
+}
+
+/// The same, body(i) for each sample.
+template <typename Body>
+void for_samples(const MeasuredCurve& curve, double from, double to, const Monitor& monitor,
+                 const Body& body) {
+  for_sample_ranges(curve, from, to, monitor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 }  // namespace curveskel

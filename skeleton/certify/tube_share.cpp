@@ -86,18 +86,20 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
   if (points.empty()) return 0;
   std::vector<char> near(points.size());
   parallel_for(points.size(), 256, curve.threads, [&](std::size_t begin, std::size_t end) {
+    std::size_t nearest = 0;  // of the point before, to begin with
     for (std::size_t i = begin; i < end; ++i) {
       double least = std::numeric_limits<double>::infinity();
-      double radius = 0;
-      (void)tree.minimum(points[i], 0, [&](std::size_t sample) {
+      const std::size_t first = nearest;
+      const auto distance_to = [&](std::size_t sample) {
         const double distance = pieces.distance(sample, points[i]);
         if (distance < least) {
           least = distance;
-          radius = curve.radius[sample];
+          nearest = sample;
         }
         return distance;
-      });
-      near[i] = least <= tube_factor * std::max(0.0, radius) ? 1 : 0;
+      };
+      (void)tree.minimum(points[i], 0, distance_to, first);
+      near[i] = least <= tube_factor * std::max(0.0, curve.radius[nearest]) ? 1 : 0;
     }
   });
   return static_cast<double>(std::count(near.begin(), near.end(), 1)) /

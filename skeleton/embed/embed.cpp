@@ -74,11 +74,12 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
       clock("mirror planes", [&] { return mirror_axes(surface, tree, tuning.spacing.least); });
   SkeletonGraph graph;
   run_phases(phases_on_working_surface(), graph,
-             {working, tree, partition, options, tuning, spacing, threads, guard, axes}, clock,
-             monitor);
+             {working, tree, tree, partition, options, tuning, spacing, threads, guard, axes},
+             clock, monitor);
   const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
   graph.forget_radii();
-  const Setting at_last{working, *full, partition, options, tuning, spacing, threads, guard, axes};
+  const Setting at_last{working, *full,   tree,    partition, options,
+                        tuning,  spacing, threads, guard,     axes};
   run_phases(phases_on_full_surface(), graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);

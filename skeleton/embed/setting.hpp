@@ -16,7 +16,8 @@ namespace curveskel {
 /// One closed component with D = 1; the partition is the source of the graph.
 struct Setting {
   const WorkingSurface& working;
-  const SurfaceTree& tree;
+  const SurfaceTree& tree;      ///< distances and what lies inside are asked of it
+  const SurfaceTree& sections;  ///< cross-sections are; that of the working surface fits the cache
   const PartitionGraph& partition;
   const EmbedOptions& options;
   const EmbedTuning& tuning;

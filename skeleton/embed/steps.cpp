@@ -58,7 +58,7 @@ RelaxOptions relaxing(const Setting& in, int rounds) {
 }
 
 bool centre(SkeletonGraph& graph, const Setting& in) {
-  relax(graph, in.tree, relaxing(in, in.options.first_rounds), in.guard, in.threads);
+  relax(graph, in.tree, in.sections, relaxing(in, in.options.first_rounds), in.guard, in.threads);
   return true;
 }
 
@@ -151,7 +151,7 @@ bool shortcut(SkeletonGraph& graph, const Setting& in) {
 bool smooth(SkeletonGraph& graph, const Setting& in) {
   RelaxOptions smoothing = relaxing(in, in.options.smooth_rounds);
   smoothing.covered = true;
-  relax(graph, in.tree, smoothing, in.guard, in.threads);
+  relax(graph, in.tree, in.sections, smoothing, in.guard, in.threads);
   return true;
 }
 

@@ -49,10 +49,14 @@ class SequenceTree {
 
   /// The smallest value(i) over all items, where value(i) >= (distance from p to box i) - weight i;
   /// infinity if there are no items. Once a value <= enough is found, any such value may be
-  /// returned.
+  /// returned. Item `first`, if there is such a one, is looked at before all others: a good guess
+  /// saves most of the search.
   template <typename Value>
-  [[nodiscard]] double minimum(const Eigen::Vector3d& p, double enough, const Value& value) const {
-    double best = std::numeric_limits<double>::infinity();
+  [[nodiscard]] double minimum(const Eigen::Vector3d& p, double enough, const Value& value,
+                               std::size_t first = std::numeric_limits<std::size_t>::max()) const {
+    double best =
+        first < levels_.front().size() ? value(first) : std::numeric_limits<double>::infinity();
+    if (best <= enough) return best;
     if (!levels_.front().empty()) visit(levels_.size() - 1, 0, p, enough, value, best);
     return best;
   }

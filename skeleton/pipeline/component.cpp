@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
+#include "surface/resample/coarsen_whole.hpp"
 #include "surface/resample/refine.hpp"
 
 namespace curveskel {
@@ -133,7 +134,7 @@ class Pipeline {
     if (!has_halfway(*source)) fine_.start();
     auto working = stage_("coarsen", kept_.working, {source, size_}, [&]() -> Coarsened {
       const auto vertices = static_cast<int>(source->positions.rows());
-      if (vertices >= size_.least) return coarsen(*source, coarsening(), monitor_);
+      if (vertices >= size_.least) return coarsen_whole(*source, coarsening(), monitor_);
       return {
           refine(*source, size_.least), Eigen::VectorXi::LinSpaced(vertices, 0, vertices - 1), {}};
     });

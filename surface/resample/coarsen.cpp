@@ -12,6 +12,7 @@
 #include <curveskel/advanced/closed_manifold.hpp>
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
+#include "surface/resample/coarsen_whole.hpp"
 #include "surface/resample/collapse.hpp"
 #include "surface/spatial/morton.hpp"
 
@@ -224,6 +225,11 @@ void require_valid(const CoarsenOptions& options) {
 Coarsened coarsen(const Surface& surface, const CoarsenOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "coarsen", options.threads);
+  return coarsen_whole(surface, options, monitor);
+}
+
+Coarsened coarsen_whole(const Surface& surface, const CoarsenOptions& options,
+                        const Monitor& monitor) {
   monitor.report(stage_name, 0);
   const auto count = static_cast<std::size_t>(surface.positions.rows());
   const auto target = static_cast<std::size_t>(std::max(options.target_vertices, 0));

@@ -49,8 +49,8 @@ void relax_nodes(SkeletonGraph& graph, const SurfaceTree& tree,
 /// and half-way to the middle of its neighbours.
 /// Those whose neighbourhood moved by less than 0.3 % of the radius last time are at rest:
 /// `last_move` is per inner point, from the round before. Precondition: the nodes' radii are known.
-void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const RelaxOptions& options,
-               std::vector<double>& last_move) {
+void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const SurfaceTree& sections,
+               const RelaxOptions& options, std::vector<double>& last_move) {
   Arc& arc = graph.arcs[idx(s)];
   const CurvePoint& first = graph.nodes[idx(arc.from)].point;
   const CurvePoint& last = graph.nodes[idx(arc.to)].point;
@@ -70,7 +70,7 @@ void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const Relax
     const CurvePoint& before = i > 0 ? points[i - 1] : first;
     const CurvePoint& after = i + 1 < points.size() ? points[i + 1] : last;
     const Point along = after.place() - before.place();
-    const Point centre = cross_section_centre(tree, here, along, radius, options.section);
+    const Point centre = cross_section_centre(sections, here, along, radius, options.section);
     const Point target = 0.5 * (here + centre);
     // Along a cubic through two points either way, which does not cut corners (bilaplacian).
     Point middle = 0.5 * (before.place() + after.place());
@@ -94,8 +94,8 @@ void relax_arc(SkeletonGraph& graph, int s, const SurfaceTree& tree, const Relax
 
 }  // namespace
 
-void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& options,
-           HomologyGuard& guard, int threads) {
+void relax(SkeletonGraph& graph, const SurfaceTree& tree, const SurfaceTree& sections,
+           const RelaxOptions& options, HomologyGuard& guard, int threads) {
   std::vector<double> node_radius;
   for (const Node& node : graph.nodes) {
     node_radius.push_back(node.alive ? node.point.radius(tree) : 0);
@@ -116,7 +116,7 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& op
     parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t s = longest_first[i];
-        relax_arc(graph, static_cast<int>(s), tree, options, last_moves[s]);
+        relax_arc(graph, static_cast<int>(s), tree, sections, options, last_moves[s]);
       }
     });
     if (!options.covered) relax_nodes(graph, tree, node_radius, options);

@@ -19,8 +19,9 @@ struct RelaxOptions {
 };
 
 /// Rounds of centring and smoothing of all inner points and straightening at junctions. The result
-/// does not depend on the number of threads. No cycle leaves its handle.
-void relax(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxOptions& options,
-           HomologyGuard& guard, int threads);
+/// does not depend on the number of threads. No cycle leaves its handle. Cross-sections are taken
+/// of `sections`, which may be a coarser tree of the same body; the rest is asked of `tree`.
+void relax(SkeletonGraph& graph, const SurfaceTree& tree, const SurfaceTree& sections,
+           const RelaxOptions& options, HomologyGuard& guard, int threads);
 
 }  // namespace curveskel

@@ -53,7 +53,7 @@ TEST(Relax, LeavesAClosedArcWithoutPointsAsItIs) {
   RelaxOptions options;
   options.rounds = 2;
   HomologyGuard guard;
-  relax(graph, tree, options, guard, 1);
+  relax(graph, tree, tree, options, guard, 1);
   EXPECT_EQ(graph.nodes.front().point.place(), Point(1, 0, 0));
   EXPECT_TRUE(graph.arcs.front().points.empty());
 }
