@@ -72,10 +72,10 @@ class Model3mfParser {
   }
 
   Model3mf parse() {
-    constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
+    constexpr std::size_t piece_bytes = std::size_t{1} << 20U;
     const std::string& text = part_.content;
-    for (std::size_t at = 0; at < text.size(); at += chunk_bytes) {
-      const std::size_t size = std::min(chunk_bytes, text.size() - at);
+    for (std::size_t at = 0; at < text.size(); at += piece_bytes) {
+      const std::size_t size = std::min(piece_bytes, text.size() - at);
       const bool last = at + size == text.size();
       const XML_Status status =
           XML_Parse(parser_.get(), text.data() + at, static_cast<int>(size), last ? 1 : 0);
