@@ -23,7 +23,7 @@ using shapes::Shape;
 /// A limb whose vertices were moved by nearly its radius.
 Shape turned_inside_out() {
   const Shape tube = shapes::tube("limb", shapes::straight(4), shapes::constant(0.06), 12);
-  return shapes::noisy(tube, 0.045, 1);
+  return shapes::noisy(tube, 0.05, 1);
 }
 
 RepairedSurface given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }

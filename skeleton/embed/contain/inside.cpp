@@ -137,7 +137,7 @@ class Keeper {
       if (stretch.last + 1 < line.size()) points.push_back(line[stretch.last]);
       i = stretch.last;
     }
-    const bool takes_whole = whole && (whole->uncovered == 0 || whole->uncovered <= uncovered);
+    const bool takes_whole = whole && (whole->uncovered == 0 || whole->uncovered < uncovered);
     arc.points = takes_whole ? std::move(whole->between) : std::move(points);
     uncovered_ += takes_whole ? whole->uncovered : uncovered;
   }
