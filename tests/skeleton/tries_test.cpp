@@ -108,7 +108,7 @@ TEST(Tries, WhatIsPartOfADroppedTryIsDroppedWithIt) {
 /// A limb whose vertices were moved by nearly its radius.
 Shape ragged() {
   const Shape tube = shapes::tube("ragged", shapes::straight(4), shapes::constant(0.06), 12);
-  return shapes::noisy(tube, 0.045, 1);
+  return shapes::noisy(tube, 0.05, 1);
 }
 
 /// Every frame and curve is of a try that the history has under its number, and says its name.
