@@ -209,7 +209,7 @@ class Mirroring {
   int axis_;
   const SurfaceTree& tree_;
   double keep_;
-  std::vector<int> image_node_;  // -1 = none
+  std::vector<int> image_node_;         // -1 = none
   std::vector<CurveByLength> courses_;  // per arc
 };
 
