@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -39,7 +40,7 @@ PaddedBytes bytes_of(const Image& image, int threads) {
       for (std::size_t x = 0; x < width; ++x) {
         for (const float value : image.pixels[y * width + x]) {
           const float scaled = std::clamp(value, 0.0F, 1.0F) * 255.0F;
-          *byte++ = static_cast<unsigned char>(static_cast<double>(scaled) + 0.5);
+          *byte++ = static_cast<unsigned char>(std::lround(scaled));
         }
       }
     }

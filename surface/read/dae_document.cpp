@@ -89,7 +89,7 @@ std::vector<double> DaeDocument::rows(const XmlElement& source, std::size_t widt
   if (array == nullptr || array->name != "float_array") {
     fail(source, "a source without <float_array>", "one");
   }
-  const std::vector<double> all = numbers(*array);
+  std::vector<double> all = numbers(*array);
   if (accessor == nullptr) {
     if (all.size() % width != 0)
       fail(*array, std::to_string(all.size()) + " numbers", "whole rows");

@@ -1,5 +1,6 @@
 #include "surface/read/fbx_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numbers>
@@ -84,11 +85,12 @@ void FbxScene::place_models() {
         file_.fail("models that are parts of each other", "a tree of models", fbx_remedy);
       }
     }
-    for (auto one = chain.rbegin(); one != chain.rend(); ++one) {
-      const auto parent = parent_of_.find(*one);
+    std::reverse(chain.begin(), chain.end());
+    for (const auto* one : chain) {
+      const auto parent = parent_of_.find(one);
       const Eigen::Affine3d outer =
           parent == parent_of_.end() ? Eigen::Affine3d::Identity() : frame_of_.at(parent->second);
-      frame_of_.emplace(*one, outer * local(**one));
+      frame_of_.emplace(one, outer * local(*one));
     }
   }
 }
@@ -144,7 +146,7 @@ Eigen::Affine3d FbxScene::local(const FbxRecord& model) const {
   }
   const Eigen::Translation3d pivot(vector(model, "RotationPivot"));
   const Eigen::Translation3d scaling_pivot(vector(model, "ScalingPivot"));
-  const Eigen::Affine3d result =
+  Eigen::Affine3d result =
       Eigen::Translation3d(vector(model, "Lcl Translation") + vector(model, "RotationOffset")) *
       (pivot * affine(rotation) * pivot.inverse()) *
       Eigen::Translation3d(vector(model, "ScalingOffset")) *

@@ -86,10 +86,11 @@ class DaeSceneReader {
         document_.fail(*node, "more than " + std::to_string(most_nodes) + " nodes in the scene",
                        "fewer, and no node in itself");
       }
-      for (auto child = node->children.rbegin(); child != node->children.rend(); ++child) {
-        if (child->name == "node") open.emplace_back(&*child, frame);
-        if (child->name == "instance_node") {
-          open.emplace_back(&document_.referred(*child, "url"), frame);
+      for (std::size_t i = node->children.size(); i-- > 0;) {
+        const XmlElement& child = node->children[i];
+        if (child.name == "node") open.emplace_back(&child, frame);
+        if (child.name == "instance_node") {
+          open.emplace_back(&document_.referred(child, "url"), frame);
         }
       }
     }

@@ -144,7 +144,7 @@ Parts with_draco(int method) {
     attribute.Init(
         name == "POSITION" ? draco::GeometryAttribute::POSITION : draco::GeometryAttribute::GENERIC,
         nullptr, static_cast<signed char>(width), bytes ? draco::DT_UINT8 : draco::DT_FLOAT32,
-        false, width * (bytes ? 1 : 4), 0);
+        false, std::int64_t{width} * (bytes ? 1 : 4), 0);
     const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(vertices));
     const std::string& rows = views[accessor.get<std::size_t>()];
     for (std::uint32_t v = 0; v < vertices; ++v) {

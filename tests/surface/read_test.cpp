@@ -257,7 +257,7 @@ std::string with_nan(const Encoding& encoding) {
     replace_all(bytes, in_binary(1.0F, 2.0F, 3.0F, big_endian),
                 in_binary(1.0F, nan, 3.0F, big_endian));
     replace_all(bytes, in_binary(1.0, 2.0, 3.0, big_endian),
-                in_binary(1.0, double{nan}, 3.0, big_endian));
+                in_binary(1.0, static_cast<double>(nan), 3.0, big_endian));
   }
   return bytes;
 }

@@ -38,10 +38,10 @@ inline std::string zip(const std::vector<std::pair<std::string, std::string>>& f
     append(entry, static_cast<std::uint32_t>(content.size()));
     append(entry, static_cast<std::uint16_t>(name.size()));
     append(entry, std::uint16_t{0});
-    directory += "PK\1\2" + std::string("\x14\0", 2) + entry + std::string(10, '\0');
+    directory.append("PK\1\2").append("\x14\0", 2).append(entry).append(10, '\0');
     append(directory, static_cast<std::uint32_t>(bytes.size()));
     directory += name;
-    bytes += "PK\3\4" + entry + name + data;
+    bytes.append("PK\3\4").append(entry).append(name).append(data);
   }
   const std::size_t begin = bytes.size();
   bytes += directory + "PK\5\6" + std::string(4, '\0');
