@@ -48,7 +48,7 @@ PaddedBytes bytes_of(const Image& image, int threads) {
   return result;
 }
 
-/// What PNG's filters 0 to 4 expect of a byte from those to the left, above, and above the left.
+/// The guess of PNG's filters 0 to 4 at a byte, from those to the left, above, and above the left.
 template <int filter>
 int expected(int left, int above, int corner) {
   if constexpr (filter == 1) return left;

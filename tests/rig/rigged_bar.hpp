@@ -52,7 +52,7 @@ inline int add_rows(nlohmann::json& file, std::string& buffer, const std::string
 
 }  // namespace rigged_bar
 
-/// Where joint k is bound: on the x axis, turned a little more than the joint before.
+/// The bind frame of joint k: on the x axis, turned a little more than the joint before.
 inline Eigen::Affine3d bind_of_joint(int joint) {
   Eigen::Affine3d bind = Eigen::Affine3d::Identity();
   bind.translate(Eigen::Vector3d(joint, 0, 0));

@@ -27,7 +27,7 @@ PolygonSoup read_nodes(const std::string& nodes, const std::string& libraries = 
   return read(dae(box, nodes, libraries));
 }
 
-/// Where `moved` takes each corner of the box.
+/// The places to which `moved` takes the corners of the box.
 template <typename Moved>
 void expect_corners(const PolygonSoup& soup, Eigen::Index first, const Moved& moved) {
   ASSERT_GE(soup.positions.rows(), first + 8);

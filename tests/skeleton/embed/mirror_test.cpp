@@ -104,7 +104,7 @@ double off_axis(const CurveSkeleton& curve, const Eigen::Vector3d& along) {
   return off.rowwise().norm().maxCoeff();
 }
 
-/// Where it lies, how it is turned and numbered: no diagonal from corner to corner.
+/// In any place, turn and numbering: no diagonal from corner to corner.
 TEST(Mirrored, ABoxHasTheAxisThatAPersonWouldDraw) {
   for (const Eigen::Vector3d& size : {Eigen::Vector3d(1, 0.5, 0.5), Eigen::Vector3d(1, 0.6, 0.4),
                                       Eigen::Vector3d(1, 0.3, 0.25)}) {
