@@ -11,6 +11,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
 #include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"
@@ -139,6 +140,22 @@ TEST(ExtractRepaired, AWrapThatFailsInTheEndDoesNotHold) {
   options.certificate.inside_needed = 2;  // more than any curve has
   found.extraction = extract(found.wrapped->surface, options);
   EXPECT_FALSE(wraps_hold(found, wraps, options.certificate, {}));
+}
+
+// An elephant was wrapped with two legs and without a tail.
+TEST(ExtractRepaired, AWrapThatJoinsOrLosesLimbsIsNotTaken) {
+  for (const int limbs : {3, 4, 5}) {
+    SCOPED_TRACE(limbs);
+    const Shape star = shapes::tube_union("star", shapes::star(limbs, 2, 0.2));
+    const Shape fewer = shapes::tube_union("fewer", shapes::star(limbs, 1, 0.2));
+    const CurveSkeleton own = extract(star.surface).skeleton;
+    const FailingComponent failing{0, star.surface, star.genus, own};
+    EXPECT_EQ(losses_by_wrap(failing, own, {}, {}), "");
+    EXPECT_NE(losses_by_wrap(failing, extract(fewer.surface).skeleton, {}, {}), "");
+    CurveSkeleton between = own;  // in the air beside it
+    between.nodes.col(2).array() += 0.4;
+    EXPECT_NE(losses_by_wrap(failing, between, {}, {}).find("joins"), std::string::npos);
+  }
 }
 
 /// However many of their thicknesses they are wide.
