@@ -1,28 +1,66 @@
 #include "skeleton/pipeline/wrap_losses.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+#include <cmath>
 #include <cstddef>
-#include <cstdio>
+#include <string>
+#include <vector>
 
 #include <curveskel/advanced/measures.hpp>
-#include <curveskel/advanced/tree.hpp>
-#include "skeleton/certify/measured_curve.hpp"
 #include "skeleton/graph/skeleton_segments.hpp"
 
 namespace curveskel {
 namespace {
 
-double share_inside(const SurfaceTree& tree, double diagonal, const CurveSkeleton& skeleton,
-                    const CertificateOptions& options, const Monitor& monitor) {
-  const MeasuredCurve curve = measured_curve(tree, diagonal, skeleton, options, monitor);
+/// The end of a branch, the length of the branch, and whether all of it is inside.
+struct Tip {
+  Eigen::Vector3d place;
   double length = 0;
-  double inside = 0;
-  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
-    length += curve.samples[i].length;
-    if (curve.radius[i] > 0) inside += curve.samples[i].length;
+  bool inside = true;
+};
+
+std::vector<Tip> tips(const CurveSkeleton& skeleton) {
+  Eigen::VectorXi degree = Eigen::VectorXi::Zero(skeleton.nodes.rows());
+  for (const std::int32_t node : skeleton.edges.reshaped()) ++degree(node);
+  std::vector<Tip> result;
+  for (const Branch& branch : branches(skeleton)) {
+    double length = 0;
+    for (std::size_t i = 1; i < branch.nodes.size(); ++i) {
+      length +=
+          (skeleton.nodes.row(branch.nodes[i]) - skeleton.nodes.row(branch.nodes[i - 1])).norm();
+    }
+    const bool inside = std::ranges::all_of(branch.nodes, [&](int node) {
+      return skeleton.radii.size() == 0 || skeleton.radii(node) > 0;
+    });
+    for (const int end : {branch.nodes.front(), branch.nodes.back()}) {
+      if (degree(end) == 1) result.push_back({skeleton.nodes.row(end), length, inside});
+    }
   }
-  return length > 0 ? inside / length : 0;
+  return result;
+}
+
+/// Of the tips of branches that are longer than `shortest` and inside, those that have no tip of
+/// the other curve near them: one each, so that a tip between two legs stands for one of them only.
+std::size_t tips_lost(const CurveSkeleton& own, const CurveSkeleton& other, double shortest) {
+  std::vector<Tip> limbs = tips(own);
+  std::erase_if(limbs, [&](const Tip& tip) { return tip.length < shortest || !tip.inside; });
+  const std::vector<Tip> candidates = tips(other);
+  boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> near(limbs.size() +
+                                                                           candidates.size());
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    for (std::size_t j = 0; j < candidates.size(); ++j) {
+      const double apart = (limbs[i].place - candidates[j].place).norm();
+      if (apart <= std::max(shortest, limbs[i].length / 2)) {
+        boost::add_edge(i, limbs.size() + j, near);
+      }
+    }
+  }
+  std::vector<std::size_t> mate(boost::num_vertices(near));
+  boost::edmonds_maximum_cardinality_matching(near, mate.data());
+  return limbs.size() - boost::matching_size(near, mate.data());
 }
 
 /// The share of the area that lies much farther from one curve than from the other.
@@ -46,28 +84,19 @@ double share_left(const Surface& surface, const CurveSkeleton& own, const CurveS
 
 }  // namespace
 
-std::string losses_by_wrap(const FailingComponent& failing, const CurveSkeleton& from_wrap,
-                           const CertificateOptions& options, const Monitor& monitor) {
-  constexpr double more_outside = 0.05;  // of the length
-  constexpr double much = 0.05;          // of the component's extent: a limb, no spike of noise
-  constexpr double limb = 0.005;         // of the area
+std::string losses_by_wrap(const FailingComponent& failing, const CurveSkeleton& from_wrap) {
+  constexpr double much = 0.05;   // of the component's extent: a limb, no spike of noise
+  constexpr double limb = 0.005;  // of the area
   const double diagonal = bounding_box_diagonal(failing.surface.positions);
-  const SurfaceTree tree(failing.surface);
-  const double own = share_inside(tree, diagonal, failing.skeleton, options, monitor);
-  const double its = share_inside(tree, diagonal, from_wrap, options, monitor);
-  const double left = share_left(failing.surface, failing.skeleton, from_wrap, much * diagonal);
-  std::array<char, 200> text{};
-  if (its < own - more_outside) {
-    std::snprintf(text.data(), text.size(),
-                  "the wrap joins what is apart: %.1f %% of its curve lie inside the surface "
-                  "given, %.1f %% of the surface's own",
-                  100 * its, 100 * own);
-  } else if (left > limb) {
-    std::snprintf(text.data(), text.size(),
-                  "the wrap's curve leaves limbs out: %.1f %% of the area given is far from it",
-                  100 * left);
+  const std::size_t lost = tips_lost(failing.skeleton, from_wrap, much * diagonal);
+  if (lost > 0) {
+    return "the wrap joins or loses limbs: " + std::to_string(lost) +
+           " tips of the surface's own curve have none of the wrap's beside them";
   }
-  return text.data();
+  const double left = share_left(failing.surface, failing.skeleton, from_wrap, much * diagonal);
+  if (left <= limb) return {};
+  return "the wrap's curve leaves parts out: " + std::to_string(std::lround(1000 * left)) +
+         " thousandths of the area given are far from it";
 }
 
 }  // namespace curveskel

@@ -3,19 +3,16 @@
 
 #include <string>
 
-#include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
-#include <curveskel/monitor.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
 
 namespace curveskel {
 
 /// In one line, the reason why a curve that was extracted from a wrap may not take the place of the
-/// component's own; empty if it may. It may not lie outside of the component for a larger share of
-/// its length (it runs between limbs that the wrap has joined), nor lose limbs: leave parts of the
-/// component far that the component's own curve comes near to.
+/// component's own; empty if it may. It may not join or lose limbs: each tip of a branch of the
+/// component's own curve has a tip of its own beside it, and no part of the component is far from
+/// the curve that the component's own comes near to.
 [[nodiscard]] std::string losses_by_wrap(const FailingComponent& failing,
-                                         const CurveSkeleton& from_wrap,
-                                         const CertificateOptions& options, const Monitor& monitor);
+                                         const CurveSkeleton& from_wrap);
 
 }  // namespace curveskel
