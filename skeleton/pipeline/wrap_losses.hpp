@@ -9,9 +9,9 @@
 namespace curveskel {
 
 /// In one line, the reason why a curve that was extracted from a wrap may not take the place of the
-/// component's own; empty if it may. It may not join or lose limbs: each tip of a branch of the
-/// component's own curve has a tip of its own beside it, and no part of the component is far from
-/// the curve that the component's own comes near to.
+/// component's own; empty if it may. It may not join or lose limbs: each tip of the component's own
+/// curve, if its branch is longer than 5 % of the component's extent and inside, needs a tip of the
+/// other for itself, beside it.
 [[nodiscard]] std::string losses_by_wrap(const FailingComponent& failing,
                                          const CurveSkeleton& from_wrap);
 
