@@ -38,15 +38,20 @@ std::vector<Tip> tips(const CurveSkeleton& skeleton) {
   return result;
 }
 
-/// Of the tips of branches that are longer than `shortest` and inside, those that have no tip of
-/// the other curve near them: one each, so that a tip between two legs stands for one of them only.
+/// Of the tips of branches that are inside and reach farther than `shortest` beyond the ball at
+/// their other end, those that have no tip of the other curve near them: one each, so that a tip
+/// between two legs stands for one of them only.
 std::size_t tips_lost(const FailingComponent& failing, const CurveSkeleton& other,
                       double shortest) {
   const SurfaceTree tree(failing.surface);
-  const auto inside = [&](int node) { return tree.inside(failing.skeleton.nodes.row(node)); };
+  const auto clearance = [&](int node) {
+    return tree.inscribed_radius(failing.skeleton.nodes.row(node));
+  };
+  const auto inside = [&](int node) { return clearance(node) > 0; };
   std::vector<Tip> limbs = tips(failing.skeleton);
   std::erase_if(limbs, [&](const Tip& tip) {
-    return tip.length < shortest || !std::ranges::all_of(tip.nodes, inside);
+    const double ball = std::max(clearance(tip.nodes.front()), clearance(tip.nodes.back()));
+    return tip.length < ball + shortest || !std::ranges::all_of(tip.nodes, inside);
   });
   const std::vector<Tip> candidates = tips(other);
   boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> near(limbs.size() +

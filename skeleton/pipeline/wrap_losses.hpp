@@ -10,8 +10,8 @@ namespace curveskel {
 
 /// In one line, the reason why a curve that was extracted from a wrap may not take the place of the
 /// component's own; empty if it may. It may not join or lose limbs: each tip of the component's own
-/// curve, if its branch is longer than 5 % of the component's extent and inside, needs a tip of the
-/// other for itself, beside it.
+/// curve, if its branch is inside and reaches 5 % of the component's extent beyond the ball at its
+/// other end, needs a tip of the other for itself, beside it.
 [[nodiscard]] std::string losses_by_wrap(const FailingComponent& failing,
                                          const CurveSkeleton& from_wrap);
 
