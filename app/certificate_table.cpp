@@ -22,6 +22,10 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
                       100 * options.inside_needed, verdict(c.inside_enough));
   text += fmt::format("  made of tubes    {:>8.1f} %  >= 50 %     {}\n", 100 * c.tube_share,
                       c.curve_like ? "ok" : "NOT MADE OF TUBES");
+  if (c.wrap_followed < 1) {
+    text += fmt::format("  wrap follows     {:>8.1f} %  >= 75 %     {}\n", 100 * c.wrap_followed,
+                        c.wrap_follows() ? "ok" : "ANOTHER SHAPE");
+  }
   text += fmt::format("  deepest exit     {:>10.2g} D\n", c.deepest_exit);
   text += fmt::format("  centredness      {:>10.3f} median, {:.3f} 90th percentile (0 = centred)\n",
                       c.centredness_median, c.centredness_p90);
@@ -38,9 +42,11 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
 }
 
 std::string all_failures(const Certificate& certificate, const CertificateOptions& options) {
-  const std::string of_curve = failures(certificate, options);
-  const std::string of_shape = shape_failure(certificate);
-  return of_curve + (of_curve.empty() || of_shape.empty() ? "" : "; ") + of_shape;
+  std::string text = failures(certificate, options);
+  for (const std::string& other : {shape_failure(certificate), wrap_failure(certificate)}) {
+    text += (text.empty() || other.empty() ? "" : "; ") + other;
+  }
+  return text;
 }
 
 }  // namespace curveskel

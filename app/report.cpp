@@ -17,6 +17,8 @@ Json to_json(const Certificate& c) {
           {"inside_enough", c.inside_enough},
           {"curve_like", c.curve_like},
           {"tube_share", c.tube_share},
+          {"wrap_follows", c.wrap_follows()},
+          {"wrap_followed", c.wrap_followed},
           {"components", c.components},
           {"components_of_surface", c.components_of_surface},
           {"cycle_rank", c.cycle_rank},
@@ -73,6 +75,7 @@ Json to_json(const Repairs& r) {
           {"wrap_gap", r.wrap_gap},
           {"wrap_distance", r.wrap_distance},
           {"wrap_mean_distance", r.wrap_mean_distance},
+          {"wrap_followed", r.wrap_followed},
           {"lines", r.lines}};
 }
 

@@ -123,8 +123,9 @@ Verb add_evaluate(CLI::App& program) {
       ->type_name("SKELETON");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
-  parser->add_flag("--strict", arguments->strict,
-                   "a failed certificate (topology, inside, made of tubes) is an error, exit 5");
+  parser->add_flag(
+      "--strict", arguments->strict,
+      "a failed certificate (topology, inside, made of tubes, wrap) is an error, exit 5");
   add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -269,8 +269,8 @@ Verb add_extract(CLI::App& program) {
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag(
       "--strict", arguments->strict,
-      "a skeleton that leaves the surface, or a surface not made of tubes, is an error, too "
-      "(exit 5), not a warning");
+      "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of another shape "
+      "is an error, too (exit 5), not a warning");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Presets", presets) + meanings("Flows", flows) +
                  meanings("Solvers", solvers) + meanings("Surgeries", surgery_methods) +

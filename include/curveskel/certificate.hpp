@@ -24,6 +24,9 @@ struct CertificateOptions {
 /// range.
 void require_valid(const CertificateOptions& options);
 
+/// Under this share of its area near the faces given, a wrap is another shape.
+inline constexpr double wrap_followed_needed = 0.75;
+
 /// D = the surface's bounding-box diagonal. docs/method.md has the definitions.
 struct Certificate {
   int components = 0;
@@ -53,10 +56,14 @@ struct Certificate {
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
   bool curve_like = false;     ///< tube_share >= 0.5: the surface is made of tubes, so that a curve
                                ///< can stand for it
+  /// Of a surface with wraps (see `repair`): the share of its area that lies near the faces given.
+  /// Known to `extract_repaired` and `evaluate_repaired` alone.
+  double wrap_followed = 1;
+  [[nodiscard]] bool wrap_follows() const { return wrap_followed >= wrap_followed_needed; }
   /// The skeleton is right, of whatever shape.
   [[nodiscard]] bool correct() const { return topology_correct() && inside_enough; }
-  /// It is right, and the shape has a curve skeleton in the first place.
-  [[nodiscard]] bool holds() const { return correct() && curve_like; }
+  /// It is right, the shape has a curve skeleton in the first place, and is that of the file.
+  [[nodiscard]] bool holds() const { return correct() && curve_like && wrap_follows(); }
 };
 
 /// Precondition: a clean surface (see Surface). The skeleton may be anyone's: radii and vertex map
@@ -74,6 +81,9 @@ struct Certificate {
 
 /// That the surface is not `curve_like`, in one line; empty if it is.
 [[nodiscard]] std::string shape_failure(const Certificate& certificate);
+
+/// That the wrap does not follow what it stands for, in one line; empty if it does.
+[[nodiscard]] std::string wrap_failure(const Certificate& certificate);
 
 /// The surface that a certificate compares a skeleton with.
 struct CertifiedSurface {

@@ -18,11 +18,12 @@ struct RepairedExtraction {
 
 /// `extract`, with the rims of the holes that were closed. If the certificate fails (topology, or
 /// too much outside) and `as_repaired.wrap` is `needed`: of the components that fail, those are
-/// wrapped (see `Wrapping`) that have a wrap whose certificate holds on its own. This is the result
-/// if what is extracted from the wraps has a certificate that holds, for the whole or at least for
-/// each wrap beside components that no wrap helps, and is no worse than that of the surface given.
-/// Else the surface given stays, with its certificate that fails. Times and history are of all
-/// tries; a note says what was done.
+/// wrapped (see `Wrapping`) that cross themselves and have a wrap whose certificate holds on its
+/// own and whose curve loses nothing of the component: neither runs outside of it nor leaves limbs
+/// out. Each wrap has a budget of vertices. This is the result if what is extracted from the wraps
+/// has a certificate that holds, for the whole or at least for each wrap beside components that no
+/// wrap helps, and is no worse than that of the surface given. Else the surface given stays, with
+/// its certificate that fails. Times and history are of all tries; a note says what was done.
 /// Throws Error(Fault::solver) when a component cannot be contracted, Cancelled on a stop.
 [[nodiscard]] RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                                   const RepairOptions& as_repaired = {},

@@ -70,6 +70,8 @@ struct Repairs {
   double wrap_gap = 0;                  ///< gaps up to this are spanned, of D
   double wrap_distance = 0;       ///< greatest distance from the wrap to the faces given, of D
   double wrap_mean_distance = 0;  ///< mean over the wrap's area, of D
+  double wrap_followed = 1;       ///< share of the repaired surface's area that lies within D / 100
+                                  ///< of the faces given, D of what is wrapped; 1 without a wrap
   std::vector<std::string> lines;
 };
 

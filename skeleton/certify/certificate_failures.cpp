@@ -48,4 +48,12 @@ std::string shape_failure(const Certificate& certificate) {
          "little of such a shape";
 }
 
+std::string wrap_failure(const Certificate& certificate) {
+  if (certificate.wrap_follows()) return {};
+  return "the wrap is another shape than the surface given: " +
+         percent_words(certificate.wrap_followed, 0) +
+         " of the area lies within D / 100 of the surface given, needed 75 %; choose a narrower "
+         "--wrap-gap, or --wrap never";
+}
+
 }  // namespace curveskel

@@ -17,13 +17,15 @@ namespace {
 
 /// The narrowest wrap of a component for which its own skeleton holds.
 std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, double gap,
+                                             const WrapBudget& budget,
                                              const CertificateOptions& options,
                                              const Monitor& monitor) {
   for (const double one : wrap_gaps) {
     std::optional<WrappedSolid> agreeing;
     const auto try_to = [&] {
-      auto wrapped = wrap_solid(failing.surface, gap > 0 ? gap : one, monitor);
-      if (wrapped && evaluate(wrapped->surface, failing.skeleton, options, monitor).correct()) {
+      auto wrapped = wrap_solid(failing.surface, gap > 0 ? gap : one, budget, monitor);
+      if (wrapped && wrapped->followed >= wrap_followed_needed &&
+          evaluate(wrapped->surface, failing.skeleton, options, monitor).correct()) {
         agreeing = std::move(wrapped);
       }
     };
@@ -50,19 +52,23 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   const CertifiedSurface given{surface, tree, diagonal, counted.components(),
                                counted.total_genus()};
   RepairedEvaluation result{evaluate(given, skeleton, options, monitor), std::nullopt};
+  result.certificate.wrap_followed = repaired.repairs.wrap_followed;
   if (result.certificate.correct() || as_repaired.wrap != Wrapping::needed) return result;
 
   std::vector<ComponentWrap> wraps;
   const auto owners = component_by_place(skeleton, split_components(surface, counted));
-  for (const FailingComponent& failing :
-       failing_components(surface, counted, skeleton, owners, options, monitor)) {
+  const auto all_failing = failing_components(surface, counted, skeleton, owners, options, monitor);
+  const double gap = as_repaired.wrap_gap;
+  const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(all_failing.size());
+  for (const FailingComponent& failing : all_failing) {
     if (!crosses_itself(failing.surface)) continue;
-    auto wrap = wrap_that_agrees(failing, as_repaired.wrap_gap, options, monitor);
+    auto wrap = wrap_that_agrees(failing, gap, budget, options, monitor);
     if (wrap) wraps.push_back({failing.number, std::move(*wrap)});
   }
   if (wraps.empty()) return result;
   result.wrapped = with_wraps(repaired, wraps, monitor);
   result.certificate = evaluate(result.wrapped->surface, skeleton, options, monitor);
+  result.certificate.wrap_followed = result.wrapped->repairs.wrap_followed;
   return result;
 }
 

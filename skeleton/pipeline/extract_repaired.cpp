@@ -12,7 +12,9 @@
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
+#include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
+#include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/wrap_components.hpp"
 #include "surface/repair/wrap_solid.hpp"
 
@@ -52,27 +54,31 @@ std::string why_wrapped(double gap) {
   return words.str();
 }
 
-Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
+Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap, const WrapBudget& budget,
                         const ExtractOptions& options) {
   return {try_wrapped, [gap](const auto&) { return why_wrapped(gap); },
-          [&failing, gap, &options](const Plan<Attempt>::Room& room) {
-            auto wrapped = wrap_solid(failing.surface, gap, room.monitor);
+          [&failing, gap, budget, &options](const Plan<Attempt>::Room& room) {
+            auto wrapped = wrap_solid(failing.surface, gap, budget, room.monitor);
             if (!wrapped) throw GaveUp("the wrap encloses next to nothing");
-            const Certificate found = extract_once(wrapped->surface, options, room.monitor, nullptr,
-                                                   room.log, room.number)
-                                          .certificate;
+            const Extraction found = extract_once(wrapped->surface, options, room.monitor, nullptr,
+                                                  room.log, room.number);
             // Its own skeleton only tells how good the wrap is.
             for (int n = room.number + 1; n < room.log.next(); ++n) room.log.drop(n);
-            return Attempt{std::move(*wrapped), found};
+            if (found.certificate.correct()) {
+              const std::string losses = losses_by_wrap(failing, found.skeleton);
+              if (!losses.empty()) throw GaveUp(losses);
+            }
+            return Attempt{std::move(*wrapped), found.certificate};
           }};
 }
 
 /// From narrow to wide the best of those whose certificate holds.
 std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
-                                 const ExtractOptions& options, const Plan<Extracted>::Room& room) {
+                                 const WrapBudget& budget, const ExtractOptions& options,
+                                 const Plan<Extracted>::Room& room) {
   std::vector<Plan<Attempt>> plans;
   for (const double one : wrap_gaps) {
-    plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, options));
+    plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, budget, options));
     if (gap > 0) break;
   }
   const auto takes = [&](const Attempt& wider, const Attempt* best) {
@@ -85,14 +91,17 @@ std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
       .best;
 }
 
-/// For each component that fails the best of its wraps, if one has a certificate that holds.
+/// For each component that fails, as it crosses itself, the best of its wraps, if one has a
+/// certificate that holds. Of another kind the wrap would only be another shape.
 std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing, double gap,
                                     Eigen::Index vertices, const ExtractOptions& options,
                                     const Plan<Extracted>::Room& room) {
   std::vector<ComponentWrap> wraps;
   for (const FailingComponent& one : failing) {
+    if (!crosses_itself(one.surface)) continue;
     const double share = double(one.surface.positions.rows()) / double(vertices);
-    auto best = best_wrap(one, gap, for_one(options, share), room);
+    const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(failing.size());
+    auto best = best_wrap(one, gap, budget, for_one(options, share), room);
     if (best) wraps.push_back({one.number, std::move(best->wrap)});
   }
   return wraps;
@@ -159,7 +168,10 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
                      return extracted_from_wraps(repaired, as_repaired, its, room);
                    }});
-  return carry_out_plans(plans, monitor);
+  RepairedExtraction best = carry_out_plans(plans, monitor);
+  const Repairs& repairs = best.wrapped ? best.wrapped->repairs : repaired.repairs;
+  best.extraction.certificate.wrap_followed = repairs.wrap_followed;
+  return best;
 }
 
 }  // namespace

@@ -187,18 +187,23 @@ std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOpt
   const Surface given = what_to_wrap(joined.surface, options, result.repairs);
   std::optional<WrappedSolid> wrapped;
   if (options.wrap_gap > 0) {
-    wrapped = wrap_solid(given, options.wrap_gap, monitor);
+    wrapped = wrap_solid(given, options.wrap_gap, WrapBudget(), monitor);
   } else {  // a wide one may have webs between limbs where a narrow one has none
     const double narrowest = narrowest_gap(given) / extent_of_faces(given);
     for (std::size_t i = 0; i < wrap_gaps.size() && !wrapped; ++i) {
       if (wrap_gaps[i] < narrowest && i + 1 < wrap_gaps.size()) continue;
-      wrapped = wrap_solid(given, wrap_gaps[i], monitor);
+      try {
+        wrapped = wrap_solid(given, wrap_gaps[i], budget_of_wanted_wraps, monitor);
+      } catch (const WrapTooLarge&) {
+        if (i + 1 == wrap_gaps.size()) throw;
+      }
     }
   }
   if (!wrapped) return std::nullopt;
   result.repairs.faces_wrapped = given.triangles.rows();
   result.repairs.wrapped_as_asked = true;
   note_wrap(result.repairs, *wrapped);
+  result.repairs.wrap_followed = wrapped->followed;
   VertexMap vertex_map(joined);
   vertex_map.add_wrapped(given, *wrapped, 0);
   result.repairs.sheets_dropped = parts_left_out(given, vertex_map);
@@ -228,7 +233,12 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   std::optional<WrappedSolid> wrapped;
   if (options.wrap != Wrapping::never &&
       (sheets.area > negligible * all_area || result.surface.triangles.rows() == 0)) {
-    wrapped = wrap_solid(sheets.surface, options.wrap_gap, monitor);
+    try {
+      wrapped = wrap_solid(sheets.surface, options.wrap_gap,
+                           options.wrap_gap > 0 ? WrapBudget() : budget_of_needed_wraps, monitor);
+    } catch (const WrapTooLarge&) {
+      if (options.wrap_gap > 0 || result.surface.triangles.rows() == 0) throw;
+    }
   }
   if (wrapped) {
     result.repairs.faces_wrapped = sheets.surface.triangles.rows();
@@ -237,6 +247,8 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
                            static_cast<std::int32_t>(result.surface.positions.rows()));
     result.repairs.sheets_dropped = parts_left_out(sheets.surface, vertex_map);
     append_surface(result.surface, wrapped->surface);
+    result.repairs.wrap_followed =
+        1 - (1 - wrapped->followed) * area(wrapped->surface) / area(result.surface);
   } else {
     if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
     result.repairs.sheets_dropped = sheets.components;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,9 +30,21 @@ double expected_vertices(const Surface& triangles, double gap) {
   return area(triangles) / (gap * gap);
 }
 
+[[noreturn]] void refuse_more(const Surface& triangles, double gap, std::int64_t budget) {
+  std::array<char, 160> found{};
+  std::snprintf(found.data(), found.size(),
+                "found a wrap that spans gaps up to %.2g D with more than %lld vertices, needed "
+                "fewer; ",
+                gap / extent_of_faces(triangles), static_cast<long long>(budget));
+  throw WrapTooLarge(found.data() +
+                     std::string("choose a wider --wrap-gap, or decimate the surface first"));
+}
+
 /// Lets a stop out of CGAL's loop, and how far it is into the monitor. CGAL copies it.
 struct WatchedWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
-  WatchedWrapping(const Monitor& given, double expected) : monitor(&given), expected_(expected) {}
+  WatchedWrapping(const Monitor& given, double expected, WrapBudget& within,
+                  const std::function<void()>& when_spent)
+      : monitor(&given), budget(&within), spent(&when_spent), expected_(expected) {}
 
   template <typename Wrapper, typename Gate>
   void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
@@ -42,9 +55,12 @@ struct WatchedWrapping : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
   template <typename Wrapper, typename Vertex>
   void after_Steiner_point_insertion(const Wrapper& /*wrapper*/, Vertex /*vertex*/) {
     ++vertices_;
+    if (--budget->vertices <= 0) (*spent)();
   }
 
   const Monitor* monitor;
+  WrapBudget* budget;
+  const std::function<void()>* spent;  ///< throws
 
  private:
   /// Slower towards the end, as it is not known.
@@ -71,12 +87,12 @@ void require_room(const Surface& triangles, double gap) {
   std::snprintf(found.data(), found.size(),
                 "a wrap that spans gaps up to %.2g D would have about %.1e vertices; ",
                 gap / extent, expected_vertices(triangles, gap));
-  throw Error(Fault::input,
-              found.data() +
-                  (narrowest < extent
-                       ? "needed is --wrap-gap " + share_at_least(narrowest / extent) + " or wider"
-                       : std::string("there is no memory for any; decimate the surface "
-                                     "first")));
+  throw WrapTooLarge(
+      found.data() +
+      (narrowest < extent
+           ? "needed is --wrap-gap " + share_at_least(narrowest / extent) + " or wider"
+           : std::string("there is no memory for any; decimate the surface "
+                         "first")));
 }
 
 }  // namespace
@@ -90,8 +106,16 @@ double narrowest_gap(const Surface& triangles) {
   return std::sqrt(area(triangles) / std::min(most_vertices, fitting));
 }
 
-Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor& monitor) {
+Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& budget,
+             const Monitor& monitor) {
   require_room(triangles, options.gap);
+  constexpr double usual = 1.5;  // made for one expected; 1 to 4 where the gap is narrow
+  const std::function<void()> when_spent = [&, all = budget.vertices] {
+    refuse_more(triangles, options.gap, all);
+  };
+  if (usual * expected_vertices(triangles, options.gap) > double(budget.vertices)) {
+    when_spent();
+  }
   monitor.report("wrap", 0);
   std::vector<WrapKernel::Point_3> points;
   points.reserve(idx(triangles.positions.rows()));
@@ -102,7 +126,7 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, const Monitor
     faces.push_back({idx(t(0)), idx(t(1)), idx(t(2))});
 
   WrapMesh mesh;
-  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.gap));
+  WatchedWrapping visitor(monitor, expected_vertices(triangles, options.gap), budget, when_spent);
   CGAL::alpha_wrap_3(points, faces, options.gap, options.offset, mesh,
                      CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
 

@@ -1,6 +1,10 @@
 // A closed surface around anything, for one that cannot be closed along its own edges.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
+#include <curveskel/error.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/surface.hpp>
 
@@ -12,15 +16,30 @@ struct WrapOptions {
   double offset = 0;  ///< distance of the wrap from the triangles in model units; > 0
 };
 
+/// The vertices that wraps may have before they are given up: the measure of their time (half a
+/// millisecond each) and memory that is the same on every machine.
+struct WrapBudget {
+  std::int64_t vertices = 4000000;  ///< left; half an hour's work
+};
+
+/// A wrap beyond its budget, or beyond memory.
+class WrapTooLarge : public Error {
+ public:
+  explicit WrapTooLarge(const std::string& message) : Error(Fault::input, message) {}
+};
+
 /// The narrowest, in model units, that makes a wrap of a million vertices at most, some minutes'
 /// work, and one that fits into memory; infinity where none does.
 [[nodiscard]] double narrowest_gap(const Surface& triangles);
 
 /// Shrinks a closed 2-manifold onto the triangles from outside (alpha wrapping, Portaneri et al.
 /// 2022). Contains all of them; everything that a gap wider than 2 alpha leads to is outside.
-/// Any triangles will do: crossing, doubled, with holes. Time and faces grow with area / alpha^2.
-/// Throws Error(Fault::input) for a narrower gap than `narrowest_gap`, Cancelled on a stop.
-[[nodiscard]] Surface wrap(const Surface& triangles, const WrapOptions& options,
+/// Any triangles will do: crossing, doubled, with holes. Time and faces grow with area / alpha^2;
+/// both sides of a sheet count, and more where the offset is much less than alpha.
+/// Takes the vertices that it makes from the budget. Throws WrapTooLarge for a narrower gap than
+/// `narrowest_gap`, and as soon as the budget is spent; at once if the area alone tells that it
+/// will be. Cancelled on a stop.
+[[nodiscard]] Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& budget,
                            const Monitor& monitor);
 
 }  // namespace curveskel

@@ -71,6 +71,7 @@ RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<Co
   std::vector<std::int32_t> number(idx(repaired.surface.positions.rows()), -1);
   Assembly assembly;
   std::int64_t faces = 0;
+  double strayed = (1 - repaired.repairs.wrap_followed) * area(repaired.surface);
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const auto& [surface, in_whole] = parts[c];
     const WrappedSolid* const wrapped = wrap_of[c];
@@ -83,6 +84,7 @@ RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<Co
     }
     note(result.repairs, *wrapped, bounding_box_diagonal(surface.positions) / diagonal);
     faces += surface.triangles.rows();
+    strayed += (1 - wrapped->followed) * area(wrapped->surface);
     const std::int32_t first = assembly.add(wrapped->surface);
     const SurfaceTree tree(wrapped->surface);
     for (std::size_t v = 0; v < in_whole.size(); ++v) {
@@ -99,6 +101,7 @@ RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<Co
   for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
   result.surface = assembly.whole();
   result.repairs.faces_wrapped += faces;
+  result.repairs.wrap_followed = std::max(0.0, 1 - strayed / area(result.surface));
   describe_wrapped_components(result.repairs, faces, monitor);
   return result;
 }

@@ -15,7 +15,9 @@
 namespace curveskel {
 namespace {
 
-constexpr double offset_of_wraps = 1.0 / 3000;  // of the extent
+/// Of the extent. In proportion to the gap, so that the sides of a sheet have as many vertices as
+/// the gap asks for, not as their distance.
+double offset_for(double gap) { return std::max(1.0 / 3000, gap / 30); }
 
 /// The components of a wrap that hold more than the wrap's own thickness on both sides of a sheet;
 /// none if the wrap has two sides for most of the wrapped area.
@@ -35,7 +37,8 @@ Surface solid_components(const Surface& wrapped, double offset, double given_are
 }
 
 WrappedSolid measured(Surface surface, double gap, const Surface& faces, double extent) {
-  WrappedSolid result{std::move(surface), gap, offset_of_wraps, 0, 0};
+  constexpr double near = 1.0 / 100;
+  WrappedSolid result{std::move(surface), gap, offset_for(gap), 0, 0, 0};
   const SurfaceTree tree(faces);
   const auto away = [&](const Eigen::RowVector3d& p) {
     const double distance = tree.nearest(p.transpose()).distance / extent;
@@ -46,27 +49,34 @@ WrappedSolid measured(Surface surface, double gap, const Surface& faces, double 
   for (const auto& p : wrap.positions.rowwise()) away(p);
   double whole = 0;
   double sum = 0;
+  double followed = 0;
   for (const auto& t : wrap.triangles.rowwise()) {
     const Eigen::RowVector3d a = wrap.positions.row(t(0));
     const Eigen::RowVector3d b = wrap.positions.row(t(1));
     const Eigen::RowVector3d c = wrap.positions.row(t(2));
     const double weight = (b - a).cross(c - a).norm();
-    sum += weight * away((a + b + c) / 3);
+    const double distance = away((a + b + c) / 3);
+    sum += weight * distance;
+    followed += distance <= near ? weight : 0;
     whole += weight;
   }
   if (whole > 0) result.mean_distance = sum / whole;
+  if (whole > 0) result.followed = followed / whole;
   return result;
 }
 
 }  // namespace
 
-std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const Monitor& monitor) {
+std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const WrapBudget& budget,
+                                       const Monitor& monitor) {
   const double extent = extent_of_faces(faces);
-  const double offset = offset_of_wraps * extent;
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
   const auto solid_at = [&](double share) {
-    return solid_components(wrap(faces, {share * extent, offset}, monitor), offset, given_area);
+    WrapBudget left = budget;
+    const double offset = offset_for(share) * extent;
+    return solid_components(wrap(faces, {share * extent, offset}, left, monitor), offset,
+                            given_area);
   };
   // The widest costs least, and no other encloses more.
   const double widest = gap > 0 ? gap : wrap_gaps.back();
@@ -74,9 +84,11 @@ std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const M
   if (solid.triangles.rows() == 0) return std::nullopt;
   for (const double narrower : wrap_gaps) {
     if (gap > 0 || narrower == widest) break;
-    if (narrower * extent < narrowest_gap(faces)) continue;
-    Surface closer = solid_at(narrower);
-    if (closer.triangles.rows() > 0) return measured(std::move(closer), narrower, faces, extent);
+    try {
+      Surface closer = solid_at(narrower);
+      if (closer.triangles.rows() > 0) return measured(std::move(closer), narrower, faces, extent);
+    } catch (const WrapTooLarge&) {  // a wider one will do
+    }
   }
   return measured(std::move(solid), widest, faces, extent);
 }

@@ -15,11 +15,13 @@
 #include <string_view>
 #include <vector>
 
+#include <curveskel/certificate.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
 #include "surface/read/placed_vertices.hpp"
 #include "surface/repair/close_surface.hpp"
 #include "surface/repair/wrap.hpp"
+#include "surface/repair/wrap_solid.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::repair_laws {
@@ -450,8 +452,45 @@ TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestWrapGap) {
   stop.request_stop();
   Monitor monitor;
   monitor.stop = stop.get_token();
-  EXPECT_THROW((void)wrap(torus, {named * diagonal, 0.001}, monitor), Cancelled) << "begins";
-  EXPECT_THROW((void)wrap(torus, {0.9 * named * diagonal, 0.001}, monitor), Error);
+  WrapBudget budget;
+  EXPECT_THROW((void)wrap(torus, {named * diagonal, 0.001}, budget, monitor), Cancelled)
+      << "begins";
+  EXPECT_THROW((void)wrap(torus, {0.9 * named * diagonal, 0.001}, budget, monitor), Error);
+}
+
+TEST(Repairing, AWrapEndsWithItsBudget) {
+  const Surface torus = shapes::torus(3, 1, 24).surface;
+  WrapBudget none{100};  // less than the area alone takes
+  EXPECT_THROW((void)wrap(torus, {0.1, 0.01}, none, {}), WrapTooLarge);
+  EXPECT_EQ(none.vertices, 100);
+  WrapBudget enough;
+  (void)wrap(torus, {1, 0.01}, enough, {});
+  const std::int64_t needed = WrapBudget().vertices - enough.vertices;
+  WrapBudget less{needed - 10};
+  EXPECT_THROW((void)wrap(torus, {1, 0.01}, less, {}), WrapTooLarge);
+}
+
+/// Triangles anywhere in a cube, each as large as the cube.
+PolygonSoup loose_triangles(int count) {
+  shapes::Random random(1);
+  PolygonSoup soup;
+  soup.positions.resize(Eigen::Index{3} * count, 3);
+  for (double& x : soup.positions.reshaped()) x = random.uniform(0, 1);
+  soup.offsets = {0};
+  for (int t = 0; t < count; ++t) append(soup, {3 * t, 3 * t + 1, 3 * t + 2});
+  return soup;
+}
+
+// The narrowest gap would take 136,000 vertices, and minutes.
+TEST(Repairing, ASoupIsWrappedWithinTheBudgetAndSaysWhatTheWrapFollows) {
+  for (const int count : {50, 100}) {
+    const RepairedSurface result = repair(loose_triangles(count), {}, {});
+    expect_closed_outward_manifold(result.surface);
+    EXPECT_LT(result.surface.positions.rows(), budget_of_needed_wraps.vertices);
+    EXPECT_LT(result.repairs.wrap_followed, wrap_followed_needed);
+  }
+  const RepairedSurface close = repair(shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05), {}, {});
+  EXPECT_GT(close.repairs.wrap_followed, 0.95);
 }
 
 TEST(Repairing, AWrapSaysHowFarItIs) {
@@ -459,7 +498,8 @@ TEST(Repairing, AWrapSaysHowFarItIs) {
   std::vector<double> fractions;
   Monitor monitor;
   monitor.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };
-  (void)wrap(torus, {0.1, 0.01}, monitor);
+  WrapBudget budget;
+  (void)wrap(torus, {0.1, 0.01}, budget, monitor);
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_EQ(fractions.back(), 1);
   const auto is_between = [](double fraction) { return fraction > 0.1 && fraction < 0.9; };

@@ -88,6 +88,10 @@ void certificate(Workbench& bench) {
     tip("the edges that leave the surface");
   }
   line("tubes", fmt::format("{:.1f} % of the area", 100 * c.tube_share), verdict(c.curve_like));
+  if (c.wrap_followed < 1) {
+    line("wrap follows", fmt::format("{:.1f} % of the area", 100 * c.wrap_followed),
+         verdict(c.wrap_follows()));
+  }
   line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
   if (c.spurs > 0) {
     ImGui::SameLine();
