@@ -148,11 +148,23 @@ std::vector<Eigen::Vector3d> spread_over_half_a_sphere(int count) {
   return directions;
 }
 
-/// The peak that is uphill: each step goes along the gradient with a hold that makes it monotonous
-/// (Kolda and Mayo, Shifted power method, 2011).
-Eigen::Vector3d climbed(const Quartic& quartic, Eigen::Vector3d d, double sign, double hold) {
-  constexpr int most_steps = 3000;
+const std::vector<Eigen::Vector3d>& starts() {
+  static const std::vector<Eigen::Vector3d> all = spread_over_half_a_sphere(32);
+  return all;
+}
+
+double largest_size(const Quartic& quartic) {
+  double largest = 0;
+  for (const Eigen::Vector3d& d : starts()) largest = std::max(largest, std::abs(quartic.value(d)));
+  return largest;
+}
+
+/// Towards the peak that is uphill: each step goes along the gradient with a hold that makes it
+/// monotonous (Kolda and Mayo, Shifted power method, 2011).
+Eigen::Vector3d climbed(const Quartic& quartic, Eigen::Vector3d d, double sign, double largest,
+                        int most_steps) {
   constexpr double at_rest = 1e-14;
+  const double hold = 4 * largest;  // 3 would do if the largest of all were known
   for (int step = 0; step < most_steps; ++step) {
     const Eigen::Vector3d next = (sign / 4 * quartic.gradient(d) + hold * d).normalized();
     const double moved = (next - d).norm();
@@ -162,21 +174,19 @@ Eigen::Vector3d climbed(const Quartic& quartic, Eigen::Vector3d d, double sign, 
   return d;
 }
 
-constexpr int starts = 64;
+constexpr int enough_steps = 3000;
 
-double largest_size(const Quartic& quartic) {
-  double largest = 0;
-  for (const Eigen::Vector3d& d : spread_over_half_a_sphere(starts)) {
-    largest = std::max(largest, std::abs(quartic.value(d)));
-  }
-  return largest;
-}
-
+/// Each once, d for -d, too: first near enough to tell them apart, then all the way.
 std::vector<Eigen::Vector3d> peaks_of(const Quartic& quartic, double sign, double largest) {
+  constexpr int first_steps = 12;
+  constexpr double near = 0.1;
   std::vector<Eigen::Vector3d> peaks;
-  for (const Eigen::Vector3d& d : spread_over_half_a_sphere(starts)) {
-    peaks.push_back(climbed(quartic, d, sign, 6 * largest));
+  for (const Eigen::Vector3d& start : starts()) {
+    const Eigen::Vector3d d = climbed(quartic, start, sign, largest, first_steps);
+    const auto is_near = [&](const Eigen::Vector3d& peak) { return d.cross(peak).norm() < near; };
+    if (std::none_of(peaks.begin(), peaks.end(), is_near)) peaks.push_back(d);
   }
+  for (Eigen::Vector3d& d : peaks) d = climbed(quartic, d, sign, largest, enough_steps);
   return peaks;
 }
 
@@ -247,12 +257,15 @@ Eigen::Vector3d nearest_line(const FourthMoments& moments) {
   const Quartic near = nearness(moments);
   std::vector<Eigen::Vector3d> lines{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
                                      Eigen::Vector3d::UnitZ()};
-  for (const Eigen::Vector3d& peak : peaks_of(near, 1, largest_size(near))) lines.push_back(peak);
+  lines.insert(lines.end(), starts().begin(), starts().end());
   Eigen::Vector3d best = lines.front();
-  for (const Eigen::Vector3d& line : lines) {
-    if (near.value(line) > (1 - clearly) * near.value(best)) best = line;  // both are negative
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (near.value(lines[i]) <= (1 - clearly) * near.value(best)) continue;  // both are negative
+    best = lines[i];
+    chosen = i;
   }
-  return best;
+  return chosen < 3 ? best : climbed(near, best, 1, largest_size(near), enough_steps);
 }
 
 }  // namespace curveskel
