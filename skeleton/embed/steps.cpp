@@ -12,6 +12,7 @@
 #include "skeleton/embed/contain/inside.hpp"
 #include "skeleton/embed/ends/tips.hpp"
 #include "skeleton/embed/first_course.hpp"
+#include "skeleton/embed/place/convex_axis.hpp"
 #include "skeleton/embed/place/junctions.hpp"
 #include "skeleton/embed/place/mirror.hpp"
 #include "skeleton/embed/place/relax.hpp"
@@ -96,6 +97,18 @@ bool grow(SkeletonGraph& graph, const Setting& in) {
       std::max(in.tuning.growth.least_prominence, prominence_limit(in.options.detail));
   return change_inside(graph, in, [&in, limit](SkeletonGraph& changed) {
     return grow_branches(changed, in.working, in.tree, in.partition, limit, in.tuning.growth);
+  });
+}
+
+/// The cut divides a body without limbs anyhow: along any diagonal, and into corners.
+bool draw_axis(SkeletonGraph& graph, const Setting& in) {
+  if (in.guard.has_handles() || !is_convex(in.working, in.tree, in.tuning.convex_dent)) {
+    return false;
+  }
+  return change_inside(graph, in, [&in](SkeletonGraph& changed) {
+    changed = axis_of_convex_body(in.working.surface(), in.partition, in.tree, in.options.tip_reach,
+                                  in.options.tip_gap, in.tuning.tips);
+    return changed.living_arcs();
   });
 }
 
@@ -210,6 +223,7 @@ constexpr std::array finishing{
     EmbedStep{"widen bottlenecks", step::widen_bottlenecks, false, after_rerouting},
     EmbedStep{"grow branches", step::grow, false, after_growth},
     EmbedStep{"merge junctions", step::merge},  // centred, they may have come together
+    EmbedStep{"axis of a convex body", step::draw_axis},
     EmbedStep{"mirror", step::mirror, guarded},
     EmbedStep{"centre at last", step::centre_at_last},
 };

@@ -78,6 +78,7 @@ struct EmbedTuning {
   TipTuning tips;
   GrowthTuning growth;
   BottleneckTuning bottleneck;
+  double convex_dent = 0.05;  ///< largest inscribed radii: shallower dents leave a body convex
   double spur = 1;  ///< leaves shorter than this x their junction's inscribed radius are pruned
 };
 

@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/exact_sum.hpp"
 #include "base/parallel.hpp"
+#include "surface/resample/fourth_moments.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,6 +23,12 @@ namespace {
 constexpr double equal_eigenvalues = 1e-6;  // relative to their sum
 constexpr double no_skewness = 1e-6;        // third moment over its largest possible value
 constexpr double equal_sizes = 1e-7;        // relative
+constexpr double no_symmetry = 1e-6;        // angular moment over its largest possible value
+constexpr std::size_t least_fold = 3;       // moments of lower order vanish in an open plane
+constexpr std::size_t most_fold = 8;
+constexpr std::size_t folds = most_fold - least_fold + 1;
+
+using Complex = std::complex<double>;
 
 using CornerPoints = std::array<Eigen::Vector3d, 3>;
 
@@ -52,15 +62,15 @@ class Pose {
       if (candidates.size() < most_candidates) candidates.push_back(frame);
     };
     if (first_open && last_open) {
-      for (const auto& a : directions_farthest_out(Eigen::Vector3d::Zero())) {
+      for (const auto& a : directions_in_space()) {
         if (candidates.size() >= most_candidates) break;
-        for (const auto& b : directions_farthest_out(a)) add(0, a, b);
+        for (const auto& b : directions_across(a)) add(0, a, b);
       }
     } else if (first_open || last_open) {
       const Eigen::Index settled = first_open ? 2 : 0;
       for (const double sign : signs(skewness(axes)(settled))) {
         const Eigen::Vector3d a = sign * axes.col(settled);
-        for (const auto& b : directions_farthest_out(a)) add(settled, a, b);
+        for (const auto& b : directions_across(a)) add(settled, a, b);
       }
     } else {
       // The least skew axis follows from the other two.
@@ -83,6 +93,18 @@ class Pose {
   }
 
   Eigen::Vector3d point(Eigen::Index vertex) const { return points_.row(vertex).transpose(); }
+
+  Eigen::Vector3d across(const Eigen::Vector3d& axis, int vertex) const {
+    const Eigen::Vector3d p = point(vertex);
+    return p - axis.dot(p) * axis;
+  }
+
+  template <typename Value>
+  static void keep_largest(std::vector<int>& vertices, double size, const Value& value) {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const int v : vertices) largest = std::max(largest, value(v));
+    std::erase_if(vertices, [&](int v) { return value(v) < largest - equal_sizes * size; });
+  }
 
   // Sorted by coordinates, so that no result depends on the numbering.
   CornerPoints corners(Eigen::Index face) const {
@@ -185,22 +207,88 @@ class Pose {
     return ratios;
   }
 
+  // Both senses of the lines along which the fourth moment is least like the others: normal to a
+  // cube's faces, to an octahedron's corners.
+  std::vector<Eigen::Vector3d> directions_in_space() const {
+    constexpr std::size_t count = fourth_moments;
+    const auto sums =
+        summed<1 + count>([&](std::size_t index, std::array<ExactSum, 1 + count>& part) {
+          const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
+          const double area = sheets_[index].area;
+          part[0].add(area);
+          const FourthMoments moments = fourth_moments_of_triangle(p, q, r);
+          for (std::size_t i = 0; i < count; ++i)
+            part[1 + i].add(area / 8 * moments[i]);  // |p| < 1.7
+        });
+    FourthMoments moments{};
+    for (std::size_t i = 0; i < count; ++i) moments[i] = sums[1 + i].value() * 8 / sums[0].value();
+    const std::vector<Eigen::Vector3d> directions = extreme_directions(moments, no_symmetry);
+    return directions.empty() ? directions_farthest_out(Eigen::Vector3d::Zero()) : directions;
+  }
+
+  // Unit vectors across `axis` (unit): where the surface has an angular moment about the axis, its
+  // least order m settles them up to m-th parts of a turn. Those of a square plate are normal to
+  // its sides. Any mirror plane through the axis holds one of them, or the bisector of two.
+  std::vector<Eigen::Vector3d> directions_across(const Eigen::Vector3d& axis) const {
+    const Eigen::Vector3d right = axis.unitOrthogonal();
+    const Eigen::Vector3d up = axis.cross(right);
+    const std::array<Complex, folds> moments = angular_moments(right, up);
+    for (std::size_t i = 0; i < folds; ++i) {
+      if (std::abs(moments[i]) <= no_symmetry) continue;
+      const std::size_t fold = least_fold + i;
+      const double away = fold % 2 == 0 ? std::numbers::pi : 0;  // from where the surface is far
+      std::vector<Eigen::Vector3d> directions;
+      for (std::size_t k = 0; k < fold; ++k) {
+        const double angle =
+            (std::arg(moments[i]) + away + 2 * std::numbers::pi * double(k)) / double(fold);
+        directions.emplace_back(std::cos(angle) * right + std::sin(angle) * up);
+      }
+      return directions;
+    }
+    return directions_farthest_out(axis);
+  }
+
+  // The mean of (x + i y)^m over the surface for each fold m, the farthest vertex at |x + i y| = 1.
+  // Over a triangle it is the mean of all products of m corners.
+  std::array<Complex, folds> angular_moments(const Eigen::Vector3d& right,
+                                             const Eigen::Vector3d& up) const {
+    const double farthest = std::sqrt(
+        ((points_ * right).array().square() + (points_ * up).array().square()).maxCoeff());
+    std::array<Complex, folds> moments{};
+    if (!(farthest > 0)) return moments;
+    const auto place = [&](const Eigen::Vector3d& p) {
+      return Complex(p.dot(right), p.dot(up)) / farthest;
+    };
+    const auto sums =
+        summed<1 + 2 * folds>([&](std::size_t index, std::array<ExactSum, 1 + 2 * folds>& part) {
+          const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
+          const double area = sheets_[index].area;
+          part[0].add(area);
+          std::array<Complex, most_fold + 1> products{1};  // sums of all products of m corners
+          for (const Complex& corner : {place(p), place(q), place(r)}) {
+            for (std::size_t m = 1; m <= most_fold; ++m) products[m] += corner * products[m - 1];
+          }
+          for (std::size_t i = 0; i < folds; ++i) {
+            const auto m = double(least_fold + i);
+            const Complex moment = area * products[least_fold + i] * (2 / ((m + 1) * (m + 2)));
+            part[1 + 2 * i].add(moment.real());
+            part[2 + 2 * i].add(moment.imag());
+          }
+        });
+    if (!(sums[0].value() > 0)) return moments;
+    for (std::size_t i = 0; i < folds; ++i) {
+      moments[i] = Complex(sums[1 + 2 * i].value(), sums[2 + 2 * i].value()) / sums[0].value();
+    }
+    return moments;
+  }
+
   // Unit vectors across `axis` (unit or zero) to the vertices farthest from it; of these, to those
   // farthest along it, then to those with the longest edges.
   std::vector<Eigen::Vector3d> directions_farthest_out(const Eigen::Vector3d& axis) const {
-    const auto across = [&](int vertex) -> Eigen::Vector3d {
-      const Eigen::Vector3d p = point(vertex);
-      return p - axis.dot(p) * axis;
-    };
     std::vector<int> candidates(static_cast<std::size_t>(surface_.positions.rows()));
     std::iota(candidates.begin(), candidates.end(), 0);
-    const auto keep_largest = [&candidates](double size, const auto& value) {
-      double largest = -std::numeric_limits<double>::infinity();
-      for (const int v : candidates) largest = std::max(largest, value(v));
-      std::erase_if(candidates, [&](int v) { return value(v) < largest - equal_sizes * size; });
-    };
-    keep_largest(1, [&](int v) { return across(v).norm(); });
-    keep_largest(1, [&](int v) { return axis.dot(point(v)); });
+    keep_largest(candidates, 1, [&](int v) { return across(axis, v).norm(); });
+    keep_largest(candidates, 1, [&](int v) { return axis.dot(point(v)); });
     if (candidates.size() > 1) {
       std::vector<double> edges(static_cast<std::size_t>(surface_.positions.rows()), 0);
       for (Eigen::Index face = 0; face < surface_.triangles.rows(); ++face) {
@@ -211,11 +299,11 @@ class Pose {
         }
       }
       const auto length = [&](int v) { return edges[static_cast<std::size_t>(v)]; };
-      keep_largest(length(candidates.front()), length);
+      keep_largest(candidates, length(candidates.front()), length);
     }
     std::vector<Eigen::Vector3d> directions;
     for (const int v : candidates) {
-      const Eigen::Vector3d out = across(v);
+      const Eigen::Vector3d out = across(axis, v);
       directions.push_back(out.norm() > 0 ? Eigen::Vector3d(out.normalized())
                                           : Eigen::Vector3d(axis.unitOrthogonal()));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -122,6 +123,7 @@ class Mirroring {
       const Arc& one = graph_.arcs[idx(arc)];
       if (!one.alive || image_node_[idx(one.from)] < 0 || image_node_[idx(one.to)] < 0) continue;
       const auto add = [&](int image, bool turned) {
+        if (image == arc && !may_be_own_image(one, turned)) return;
         const double distance = distance_between(arc, image, turned);
         if (distance <= 1) pairs.push_back({arc, image, turned, distance});
       };
@@ -137,6 +139,15 @@ class Mirroring {
       }
     }
     return pairs;
+  }
+
+  /// In the plane, or if turned across it, to within 30 degrees from end to end: in a fat body any
+  /// line is near to its image.
+  [[nodiscard]] bool may_be_own_image(const Arc& arc, bool turned) const {
+    const Point chord = graph_.place(arc.to) - graph_.place(arc.from);
+    const double across = std::abs(chord[axis_]);
+    const double along = std::sqrt(std::max(0.0, chord.squaredNorm() - across * across));
+    return turned ? 3 * along * along <= across * across : 3 * across * across <= along * along;
   }
 
   /// Over the sum of the radii: 1 where the balls touch each other's images in the mean.

@@ -19,7 +19,8 @@ namespace curveskel {
 
 /// Moves arcs that are each other's mirror images across the plane normal to `axis` to the mean of
 /// the one and the other's image, and onto the plane those that are their own. Arcs are images if
-/// their nodes are, and if their balls overlap each other's images in the mean; they stay where a
+/// their nodes are, and if their balls overlap each other's images in the mean; their own, if they
+/// also lie, from end to end, within 30 degrees of the plane or of its normal. They stay where a
 /// point would keep less than the share `keep` of its inscribed radius. O(nodes^2 + arcs^2).
 /// Returns the number of arcs that moved.
 int mirror_arcs(SkeletonGraph& graph, int axis, const SurfaceTree& tree, double keep);

@@ -80,6 +80,7 @@ constexpr std::array constants{
     CURVESKEL_CONSTANT(tuning.bottleneck.wider),
     CURVESKEL_CONSTANT(tuning.bottleneck.cheaper),
     CURVESKEL_CONSTANT(tuning.bottleneck.shortest),
+    CURVESKEL_CONSTANT(tuning.convex_dent),
     CURVESKEL_CONSTANT(tuning.spur),
     CURVESKEL_CONSTANT(options.merge),
     CURVESKEL_CONSTANT(options.straight),

@@ -1,0 +1,83 @@
+#include "skeleton/embed/place/convex_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "skeleton/embed/ends/tips.hpp"
+#include "surface/resample/fourth_moments.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Evenly spread over the sphere: along a spiral, a golden section of a turn apart.
+std::vector<Point> directions_all_round(int count) {
+  std::vector<Point> directions;
+  for (int i = 0; i < count; ++i) {
+    const double height = 1 - (2 * i + 1) / double(count);
+    const double across = std::sqrt(1 - height * height);
+    const double angle = 2 * std::numbers::pi * i / std::numbers::phi;
+    directions.emplace_back(across * std::cos(angle), across * std::sin(angle), height);
+  }
+  return directions;
+}
+
+/// Each once.
+std::vector<Point> vertices_farthest_out(const WorkingSurface& working) {
+  constexpr int directions = 32;
+  std::vector<Eigen::Index> farthest;
+  for (const Point& direction : directions_all_round(directions)) {
+    const Eigen::VectorXd heights = working.surface().positions * direction;
+    Eigen::Index vertex = 0;
+    heights.maxCoeff(&vertex);
+    farthest.push_back(vertex);
+  }
+  std::sort(farthest.begin(), farthest.end());
+  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
+  std::vector<Point> places;
+  for (const Eigen::Index vertex : farthest) {
+    places.push_back(working.place(static_cast<int>(vertex)));
+  }
+  return places;
+}
+
+}  // namespace
+
+bool is_convex(const WorkingSurface& working, const SurfaceTree& tree, double dent) {
+  const double deepest = dent * working.balls().radii.maxCoeff();
+  const std::vector<Point> corners = vertices_farthest_out(working);
+  for (const double share : {0.5, 0.25, 0.75}) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t j = i + 1; j < corners.size(); ++j) {
+        const Point between = corners[i] + share * (corners[j] - corners[i]);
+        if (tree.inscribed_radius(between) < -deepest) return false;
+      }
+    }
+  }
+  return true;
+}
+
+SkeletonGraph axis_of_convex_body(const Surface& surface, const PartitionGraph& partition,
+                                  const SurfaceTree& tree, double reach, double gap,
+                                  const TipTuning& tuning) {
+  SkeletonGraph graph;
+  const Point middle = Point::Zero();
+  if (!tree.inside(middle)) return graph;
+  const Point axis = nearest_line(fourth_moments_of(surface));
+  for (const double side : {-1.0, 1.0}) {
+    const Point along = side * axis;
+    const Point tip = 0.5 * tree.ray(middle, along).distance * along;
+    graph.nodes.push_back({CurvePoint(tip), {}, true, {0}});
+  }
+  std::vector<int> all(idx(partition.nodes()));
+  std::iota(all.begin(), all.end(), 0);
+  graph.arcs.push_back({0, 1, {}, std::move(all)});
+  shape_tips(graph, tree, reach, gap, tuning);
+  return graph;
+}
+
+}  // namespace curveskel
