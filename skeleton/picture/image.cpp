@@ -19,34 +19,18 @@ namespace {
 constexpr std::size_t channels = 3;
 constexpr std::size_t rows_per_strip = 64;  // packed on their own, so that threads share the work
 
-/// Eight-bit pixels, with a pixel of zeros before each row and a row of zeros above the first: what
-/// PNG's filters see beyond the edges.
+unsigned char byte_of(float value) {
+  return static_cast<unsigned char>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
+/// What the filters read.
 struct PaddedBytes {
   std::size_t stride;
-  std::vector<unsigned char> bytes;
-  [[nodiscard]] unsigned char* row(std::size_t y) {
-    return bytes.data() + (y + 1) * stride + channels;
+  const unsigned char* bytes;
+  [[nodiscard]] const unsigned char* row(std::size_t y) const {
+    return bytes + (y + 1) * stride + channels;
   }
 };
-
-PaddedBytes bytes_of(const Image& image, int threads) {
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
-  const std::size_t stride = channels * (width + 1);
-  PaddedBytes result{stride, std::vector<unsigned char>(stride * (height + 1), 0)};
-  parallel_for(height, rows_per_strip, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      unsigned char* byte = result.row(y);
-      for (std::size_t x = 0; x < width; ++x) {
-        for (const float value : image.pixels[y * width + x]) {
-          const float scaled = std::clamp(value, 0.0F, 1.0F) * 255.0F;
-          *byte++ = static_cast<unsigned char>(std::lround(scaled));
-        }
-      }
-    }
-  });
-  return result;
-}
 
 /// The guess of PNG's filters 0 to 4 at a byte, from those to the left, above, and above the left.
 template <int filter>
@@ -82,7 +66,7 @@ long filter_row(const unsigned char* row, std::size_t stride, unsigned char* fil
 }
 
 /// The rows of a strip, each behind the number of the filter that leaves least.
-std::vector<unsigned char> filtered_strip(PaddedBytes& picture, std::size_t begin,
+std::vector<unsigned char> filtered_strip(const PaddedBytes& picture, std::size_t begin,
                                           std::size_t end) {
   constexpr std::array filters{&filter_row<0>, &filter_row<1>, &filter_row<2>, &filter_row<3>,
                                &filter_row<4>};
@@ -114,14 +98,16 @@ struct PackedStrip {
 };
 
 PackedStrip packed(std::vector<unsigned char> plain, bool is_last) {
-  constexpr int level = 6;  // a third of the time of 8, a few percent more bytes
+  constexpr int level = 6;
   constexpr int raw = -15;  // the largest window, no header
   constexpr int usual_memory = 8;
   PackedStrip result;
   result.size = plain.size();
   result.checksum = adler32(1, plain.data(), static_cast<uInt>(plain.size()));
   z_stream stream{};
-  if (deflateInit2(&stream, level, Z_DEFLATED, raw, usual_memory, Z_DEFAULT_STRATEGY) != Z_OK) {
+  // Z_RLE: what the filters leave has runs, but little else repeats. A fifth of the time of the
+  // default strategy for 4 % more bytes.
+  if (deflateInit2(&stream, level, Z_DEFLATED, raw, usual_memory, Z_RLE) != Z_OK) {
     return result;
   }
   constexpr std::size_t end_of_flush = 16;
@@ -151,9 +137,39 @@ void append_chunk(std::string& png, std::string_view type, std::string_view data
 
 }  // namespace
 
+Image::Image(int columns, int rows, const Colour& background)
+    : width_(columns),
+      height_(rows),
+      stride_(channels * (static_cast<std::size_t>(columns) + 1)),
+      bytes_(stride_ * (static_cast<std::size_t>(rows) + 1), 0) {
+  if (width_ == 0 || height_ == 0) return;
+  for (int x = 0; x < width_; ++x) set(x, 0, background);
+  const auto first = bytes_.cbegin() + static_cast<std::ptrdiff_t>(stride_);
+  for (std::size_t y = 1; y < static_cast<std::size_t>(height_); ++y) {
+    std::copy_n(first, stride_, bytes_.begin() + static_cast<std::ptrdiff_t>((y + 1) * stride_));
+  }
+}
+
+Colour Image::at(int x, int y) const {
+  const unsigned char* const pixel = bytes_.data() + place(x, y);
+  return Colour(pixel[0], pixel[1], pixel[2]) / 255.0F;
+}
+
+void Image::set(int x, int y, const Colour& colour) {
+  unsigned char* const pixel = bytes_.data() + place(x, y);
+  for (std::size_t k = 0; k < channels; ++k) {
+    pixel[k] = byte_of(colour(static_cast<Eigen::Index>(k)));
+  }
+}
+
+void Image::blend(int x, int y, const Colour& colour, float share) {
+  const Colour below = at(x, y);
+  set(x, y, below + (colour - below) * share);
+}
+
 std::string png_from(const Image& image, int threads) {
-  PaddedBytes picture = bytes_of(image, threads);
-  const auto height = static_cast<std::size_t>(image.height);
+  const PaddedBytes picture{image.stride(), image.bytes()};
+  const auto height = static_cast<std::size_t>(image.height());
   std::vector<PackedStrip> strips((height + rows_per_strip - 1) / rows_per_strip);
   parallel_for(strips.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
@@ -166,8 +182,8 @@ std::string png_from(const Image& image, int threads) {
   uLong checksum = adler32(0, nullptr, 0);
   for (const PackedStrip& strip : strips) {
     if (strip.bytes.empty()) {
-      throw Error(Fault::output, "no memory to pack a picture of " + std::to_string(image.width) +
-                                     " x " + std::to_string(image.height) +
+      throw Error(Fault::output, "no memory to pack a picture of " + std::to_string(image.width()) +
+                                     " x " + std::to_string(image.height()) +
                                      " pixels; make it smaller");
     }
     data += strip.bytes;
@@ -176,8 +192,8 @@ std::string png_from(const Image& image, int threads) {
   append_big_endian(data, static_cast<std::uint32_t>(checksum));
   std::string png("\x89PNG\r\n\x1A\n");
   std::string header;
-  append_big_endian(header, static_cast<std::uint32_t>(image.width));
-  append_big_endian(header, static_cast<std::uint32_t>(image.height));
+  append_big_endian(header, static_cast<std::uint32_t>(image.width()));
+  append_big_endian(header, static_cast<std::uint32_t>(image.height()));
   header += std::string("\x08\x02\0\0\0", 5);  // 8 bits of red, green and blue
   append_chunk(png, "IHDR", header);
   append_chunk(png, "IDAT", data);

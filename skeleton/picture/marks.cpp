@@ -108,16 +108,16 @@ void draw_marks(const std::vector<Mark>& marks, Image& image) {
     const Eigen::Vector2d low = mark.from.cwiseMin(mark.to).array() - reach;
     const Eigen::Vector2d high = mark.from.cwiseMax(mark.to).array() + reach;
     const auto column = [&](double x) {
-      return static_cast<int>(std::clamp(x, 0.0, 1.0 * image.width));
+      return static_cast<int>(std::clamp(x, 0.0, 1.0 * image.width()));
     };
     const auto row = [&](double y) {
-      return static_cast<int>(std::clamp(y, 0.0, 1.0 * image.height));
+      return static_cast<int>(std::clamp(y, 0.0, 1.0 * image.height()));
     };
     for (int y = row(low.y()); y < row(high.y() + 1); ++y) {
       for (int x = column(low.x()); x < column(high.x() + 1); ++x) {
         const double outside = outside_by(mark, {x + 0.5, y + 0.5});
         const auto coverage = static_cast<float>(std::clamp(0.5 - outside, 0.0, 1.0));
-        if (coverage > 0) image.at(x, y) += (mark.colour - image.at(x, y)) * coverage;
+        if (coverage > 0) image.blend(x, y, mark.colour, coverage);
       }
     }
   }

@@ -16,7 +16,7 @@ struct PictureOptions {
 
 /// The bytes of a PNG file: the surface half transparent, the skeleton in it, seen so that most of
 /// it shows. Preconditions: the surface has at least one triangle; finite coordinates.
-/// O(#F + pixels); a second for 700k triangles.
+/// O(#F + pixels); memory for each pixel of the image: 3 bytes, and 6 where the surface is.
 [[nodiscard]] std::string png_picture(const CurveSkeleton& skeleton, const Surface& surface,
                                       const PictureOptions& options);
 

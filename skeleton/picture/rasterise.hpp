@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <functional>
+#include <span>
 
 #include <curveskel/surface.hpp>
 #include <curveskel/view.hpp>
@@ -17,19 +18,29 @@ struct Fragment {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< right, up, towards the viewer
 };
 
-/// The part of the picture that the surface can touch, row by row from the top.
-struct Fragments {
-  int left = 0;  ///< where it begins in the picture, in pixels
+/// The part of the picture that the surface can touch, in pixels.
+struct PictureWindow {
+  int left = 0;
   int top = 0;
   int width = 0;
   int height = 0;
-  std::vector<Fragment> pixels;
 };
 
+/// Neighbours in a row of the window, from (left, y) of the window on. The row's other pixels are
+/// not covered.
+struct FragmentRow {
+  int left;
+  int y;
+  std::span<const Fragment> pixels;
+};
+
+/// Calls begin(window) first, then draw(row) once for each row that the surface touches, from all
+/// threads: rows are not kept, as those of a whole picture take longer to store than to make.
 /// 3 x 3 samples per pixel; a sample on an edge belongs to one of the two triangles, so that the
-/// depths of a closed surface add up to the thickness. The same result for any number of threads.
+/// depths of a closed surface add up to the thickness. The same rows for any number of threads.
 /// `normals` are #V by 3. O(#F + samples covered).
-[[nodiscard]] Fragments rasterise(const Surface& surface, const Positions& normals,
-                                  const View& view, int width, int height, int threads);
+void rasterise(const Surface& surface, const Positions& normals, const View& view, int width,
+               int height, int threads, const std::function<void(const PictureWindow&)>& begin,
+               const std::function<void(const FragmentRow&)>& draw);
 
 }  // namespace curveskel

@@ -61,60 +61,129 @@ void blur(std::vector<float>& values, int width, int height, int radius, int thr
   }
 }
 
-/// The distance of each pixel behind its surroundings, in units of the blur's radius; 0 outside.
-std::vector<float> hollows(const Fragments& fragments, int radius, int threads) {
-  const std::vector<Fragment>& pixels = fragments.pixels;
-  std::vector<float> weight(pixels.size());
-  std::vector<float> depth(pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    weight[i] = pixels[i].coverage;
-    depth[i] = pixels[i].coverage * pixels[i].depth;
-  }
-  blur(weight, fragments.width, fragments.height, radius, threads);
-  blur(depth, fragments.width, fragments.height, radius, threads);
-  constexpr float least_weight = 1e-4F;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool there = pixels[i].coverage > 0 && weight[i] > least_weight;
-    depth[i] = there ? (depth[i] / weight[i] - pixels[i].depth) / static_cast<float>(radius) : 0.0F;
-  }
-  return depth;
+unsigned char as_byte(float share) {
+  return static_cast<unsigned char>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
-/// `thickness` is relative to the picture's shorter side.
-Colour colour_of(const Eigen::Vector3f& normal, float thickness, float hollow) {
+/// What the shading needs of the window's pixels once all are drawn.
+struct DepthBuffer {
+  DepthBuffer() = default;
+  explicit DepthBuffer(const PictureWindow& touched)
+      : window(touched),
+        columns(static_cast<std::size_t>(touched.width)),
+        depth(columns * static_cast<std::size_t>(touched.height), 0.0F),
+        coverage(depth.size(), 0),
+        outline(depth.size(), 0) {}
+
+  void keep(int x, int y, const Fragment& fragment) {
+    const std::size_t i = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x);
+    const float turned = 1 - std::max(0.0F, fragment.normal.z());
+    depth[i] = fragment.depth;
+    coverage[i] = as_byte(fragment.coverage);
+    outline[i] = as_byte(0.55F * turned * turned);
+  }
+
+  PictureWindow window;
+  std::size_t columns = 0;
+  std::vector<float> depth;
+  std::vector<unsigned char> coverage;  // in 255ths
+  std::vector<unsigned char> outline;   // share of the ink there, in 255ths
+};
+
+/// The means of depths over the surroundings, at half the picture's resolution: wide as they are,
+/// they need no more.
+class Surroundings {
+ public:
+  Surroundings(const DepthBuffer& buffer, int radius, int threads)
+      : columns_((buffer.columns + 1) / 2) {
+    const std::size_t rows = buffer.columns > 0 ? buffer.depth.size() / buffer.columns : 0;
+    const std::size_t half_rows = (rows + 1) / 2;
+    weight_.assign(columns_ * half_rows, 0.0F);
+    depth_.assign(columns_ * half_rows, 0.0F);
+    for (std::size_t y = 0; y < rows; ++y) {
+      for (std::size_t x = 0; x < buffer.columns; ++x) {
+        const std::size_t i = y * buffer.columns + x;
+        if (buffer.coverage[i] == 0) continue;
+        const float covered = static_cast<float>(buffer.coverage[i]) / 255.0F;
+        weight_[y / 2 * columns_ + x / 2] += covered;
+        depth_[y / 2 * columns_ + x / 2] += covered * buffer.depth[i];
+      }
+    }
+    const int half = std::max(1, radius / 2);
+    blur(weight_, static_cast<int>(columns_), static_cast<int>(half_rows), half, threads);
+    blur(depth_, static_cast<int>(columns_), static_cast<int>(half_rows), half, threads);
+  }
+
+  /// `otherwise` where there are none.
+  [[nodiscard]] float depth_at(std::size_t x, std::size_t y, float otherwise) const {
+    constexpr float least_weight = 1e-4F;
+    const std::size_t i = y / 2 * columns_ + x / 2;
+    return weight_[i] > least_weight ? depth_[i] / weight_[i] : otherwise;
+  }
+
+ private:
+  std::size_t columns_;
+  std::vector<float> weight_;
+  std::vector<float> depth_;
+};
+
+const Colour paper(1, 1, 1);
+const Colour ink(0.30F, 0.38F, 0.49F);
+constexpr float most_ink = 0.65F;
+
+/// Without ink; `thickness` is relative to the picture's shorter side.
+Colour colour_of(const Eigen::Vector3f& normal, float thickness) {
   const Colour bright(0.965F, 0.975F, 0.985F);
   const Colour dark(0.60F, 0.68F, 0.77F);
-  const Colour ink(0.30F, 0.38F, 0.49F);
   constexpr float usual_thickness = 0.3F;
-  Colour colour = dark + (bright - dark) * (0.25F + 0.75F * light_on(normal));
-  colour += (dark - colour) * 0.25F * (1 - std::exp(-thickness / usual_thickness));
-  const float turned = 1 - std::max(0.0F, normal.z());
-  const float outline = 0.55F * turned * turned + 0.17F * std::clamp(hollow, 0.0F, 2.0F);
-  colour += (ink - colour) * std::min(0.65F, outline);
-  return colour;
+  const Colour colour = dark + (bright - dark) * (0.25F + 0.75F * light_on(normal));
+  return colour + (dark - colour) * 0.25F * (1 - std::exp(-thickness / usual_thickness));
+}
+
+/// Outlines and hollows over colours that are there.
+void draw_ink(const DepthBuffer& buffer, int radius, int threads, Image& image) {
+  const Surroundings surroundings(buffer, radius, threads);
+  constexpr std::size_t rows_at_a_time = 16;
+  const auto rows = static_cast<std::size_t>(buffer.window.height);
+  parallel_for(rows, rows_at_a_time, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::size_t x = 0; x < buffer.columns; ++x) {
+        const std::size_t i = y * buffer.columns + x;
+        if (buffer.coverage[i] == 0) continue;
+        const float depth = buffer.depth[i];
+        const float hollow =
+            (surroundings.depth_at(x, y, depth) - depth) / static_cast<float>(radius);
+        const float outline =
+            static_cast<float>(buffer.outline[i]) / 255.0F + 0.17F * std::clamp(hollow, 0.0F, 2.0F);
+        const float covered = static_cast<float>(buffer.coverage[i]) / 255.0F;
+        image.blend(buffer.window.left + static_cast<int>(x),
+                    buffer.window.top + static_cast<int>(y), paper + (ink - paper) * covered,
+                    std::min(most_ink, outline));
+      }
+    }
+  });
 }
 
 }  // namespace
 
 void shade_surface(const Surface& surface, const Positions& normals, const View& view, int threads,
                    Image& image) {
-  const Fragments fragments = rasterise(surface, normals, view, image.width, image.height, threads);
-  const int side = std::min(image.width, image.height);
-  const std::vector<float> hollow = hollows(fragments, std::max(1, side / 90), threads);
-  constexpr std::size_t rows_at_a_time = 16;
-  const auto columns = static_cast<std::size_t>(fragments.width);
-  const auto rows = static_cast<std::size_t>(fragments.height);
-  parallel_for(rows, rows_at_a_time, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * columns; i < end * columns; ++i) {
-      const Fragment& fragment = fragments.pixels[i];
+  const auto side = static_cast<float>(std::min(image.width(), image.height()));
+  DepthBuffer buffer;
+  const auto draw_row = [&](const FragmentRow& row) {
+    for (std::size_t k = 0; k < row.pixels.size(); ++k) {
+      const Fragment& fragment = row.pixels[k];
       if (fragment.coverage <= 0) continue;
-      const Colour colour =
-          colour_of(fragment.normal, fragment.thickness / static_cast<float>(side), hollow[i]);
-      Colour& below = image.at(fragments.left + static_cast<int>(i % columns),
-                               fragments.top + static_cast<int>(i / columns));
-      below += (colour - below) * fragment.coverage;
+      const int x = row.left + static_cast<int>(k);
+      buffer.keep(x, row.y, fragment);
+      image.blend(buffer.window.left + x, buffer.window.top + row.y,
+                  colour_of(fragment.normal, fragment.thickness / side), fragment.coverage);
     }
-  });
+  };
+  rasterise(
+      surface, normals, view, image.width(), image.height(), threads,
+      [&](const PictureWindow& window) { buffer = DepthBuffer(window); }, draw_row);
+  draw_ink(buffer, std::max(1, static_cast<int>(side) / 90), threads, image);
 }
 
 }  // namespace curveskel

@@ -16,6 +16,7 @@
 #pragma GCC diagnostic pop
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -78,11 +79,30 @@ Decoded drawn(const CurveSkeleton& skeleton, const Surface& surface) {
   return Decoded(png_picture(skeleton, surface, {width, height, 0}));
 }
 
+struct Fragments {
+  PictureWindow window;
+  std::vector<Fragment> pixels;  // row by row
+};
+
+Fragments fragments_of(const Surface& surface, const View& view) {
+  Fragments all;
+  const auto begin = [&](const PictureWindow& window) {
+    all.window = window;
+    all.pixels.resize(static_cast<std::size_t>(window.width) *
+                      static_cast<std::size_t>(window.height));
+  };
+  const auto draw = [&](const FragmentRow& row) {
+    std::copy(row.pixels.begin(), row.pixels.end(),
+              all.pixels.begin() + row.y * all.window.width + row.left);
+  };
+  rasterise(surface, vertex_normals(surface), view, width, height, 0, begin, draw);
+  return all;
+}
+
 TEST(Rasterise, ThicknessAddsUpToTheVolume) {
   for (const shapes::Shape& shape : families()) {
     for (const View& view : best_views(shape.surface, width, height)) {
-      const Fragments fragments =
-          rasterise(shape.surface, vertex_normals(shape.surface), view, width, height, 0);
+      const Fragments fragments = fragments_of(shape.surface, view);
       double sum = 0;
       for (const Fragment& fragment : fragments.pixels) {
         EXPECT_LE(fragment.coverage, 1);
@@ -97,14 +117,13 @@ TEST(Rasterise, ThicknessAddsUpToTheVolume) {
 TEST(Rasterise, LeavesNoGapBetweenTriangles) {
   const shapes::Shape box = shapes::box({3, 2, 1}, 30);
   const View view = best_views(box.surface, width, height)[0];
-  const Fragments fragments =
-      rasterise(box.surface, vertex_normals(box.surface), view, width, height, 0);
+  const Fragments fragments = fragments_of(box.surface, view);
   const auto depth = static_cast<float>(view.pixels_per_unit);
-  for (int y = 2; y < fragments.height - 2; ++y) {
-    for (int x = 2; x < fragments.width - 2; ++x) {
-      const auto& fragment =
-          fragments.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(fragments.width) +
-                           static_cast<std::size_t>(x)];
+  for (int y = 2; y < fragments.window.height - 2; ++y) {
+    for (int x = 2; x < fragments.window.width - 2; ++x) {
+      const auto& fragment = fragments.pixels[static_cast<std::size_t>(y) *
+                                                  static_cast<std::size_t>(fragments.window.width) +
+                                              static_cast<std::size_t>(x)];
       ASSERT_EQ(fragment.coverage, 1) << x << " " << y;
       ASSERT_NEAR(fragment.thickness, depth, 1e-3F * depth) << x << " " << y;
     }
