@@ -32,7 +32,8 @@ struct RepairOptions {
   double least_area = 1e-4;
   int components = 0;  ///< the largest by area that are kept; 0 = all
   /// An open component is a sheet and no body when closing it takes more than this share of the
-  /// area of both. A half sphere has 1/3, a flat sheet 1/2.
+  /// area of both. A half sphere has 1/3, a flat sheet 1/2. A third more is allowed where the
+  /// volume is .04 area^1.5 or more (a cube .068) and the closed surface does not cross itself.
   double most_added_area = 0.45;
   /// If cutting a non-manifold leaves pieces that touch, those with less area, of the
   /// largest one's, are crumbs: left out, their vertices follow the nearest one that stays.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/half_edges.hpp"
 
 namespace curveskel {
@@ -46,6 +47,23 @@ bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
          double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
 }
 
+Surface component(const ClosedParts& closed, const Orientation& orientation, std::size_t number) {
+  std::vector<std::int32_t> rows;
+  for (std::size_t f = 0; f < orientation.component_of_face.size(); ++f) {
+    if (idx(orientation.component_of_face[f]) == number) {
+      rows.push_back(static_cast<std::int32_t>(f));
+    }
+  }
+  return {closed.surface.positions, closed.surface.triangles(rows, Eigen::all)};
+}
+
+/// A car's body without its floor and windows, a mask, a dome: a flat sheet has no volume, the cap
+/// of a sphere up to 45 degrees .039 area^1.5, half a sphere .072, a cube .068.
+bool is_roomy(const JudgedPart& part) {
+  constexpr double least_volume = 0.04;  // of area^1.5
+  return std::abs(part.volume) >= least_volume * std::pow(part.area, 1.5);
+}
+
 }  // namespace
 
 JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
@@ -67,13 +85,17 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
     }
   }
   constexpr double least_volume = 1e-10;  // as in `clean`
+  constexpr double more_if_roomy = 4.0 / 3;
   const auto sums = component_sums(closed.surface, judged.orientation, threads);
   const bool one_sided = is_one_sided(joined, closed.vertices_copied);
   for (std::size_t c = 0; c < judged.parts.size(); ++c) {
     JudgedPart& part = judged.parts[c];
     part.volume = sums[c].volume;
-    part.is_body = !one_sided && std::abs(sums[c].volume) > least_volume * sums[c].area &&
-                   part.added_area <= options.most_added_area * part.area;
+    const double most = options.most_added_area * part.area;
+    part.is_body =
+        !one_sided && std::abs(sums[c].volume) > least_volume * sums[c].area &&
+        (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(part) &&
+                                     !crosses_itself(component(closed, judged.orientation, c))));
   }
   return judged;
 }

@@ -28,7 +28,8 @@ struct JudgedParts {
 };
 
 /// A body encloses something and is mostly given: closing it added no more than
-/// `most_added_area`. No part of a one-sided surface is one. `closed` comes from `joined`.
+/// `most_added_area`, a third more where it encloses much and does not cross itself. No part of a
+/// one-sided surface is one. `closed` comes from `joined`.
 [[nodiscard]] JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
                                       const RepairOptions& options, int threads);
 

@@ -291,6 +291,34 @@ TEST(Repairing, BoxesThatShareAnEdgeComeApart) {
   EXPECT_NEAR(volume(result.surface), 2, 1e-12);
 }
 
+// A car's body, masks and domes were refused.
+TEST(Repairing, HalfOpenBodiesThatEncloseMuchAreClosed) {
+  const PolygonSoup ball = soup_of(shapes::ellipsoid({1, 1, 1}, 4).surface);
+  for (const double least : {0.0, 0.4, 0.6}) {  // domes of 90 down to 53 degrees
+    SCOPED_TRACE(least);
+    const RepairedSurface dome =
+        repair(with_polygons(ball, [&](std::size_t p) { return centre(ball, p).z() > least; }));
+    expect_closed_outward_manifold(dome.surface);
+    EXPECT_EQ(dome.repairs.holes_closed, 1);
+    EXPECT_EQ(dome.repairs.faces_wrapped, 0);
+  }
+  // A box without its floor, and windows that leave a share of three of its walls.
+  const PolygonSoup box = soup_of(shapes::box({2, 1, 0.8}, 24).surface);
+  for (const double window : {0.3, 0.4}) {
+    SCOPED_TRACE(window);
+    const RepairedSurface car = repair(with_polygons(box, [&](std::size_t p) {
+      const Position middle = centre(box, p);
+      const bool floor = middle.z() < -0.39;
+      const bool side = std::abs(middle.y()) > 0.49 && std::abs(middle.x()) < 2 * window &&
+                        std::abs(middle.z()) < 0.8 * window;
+      return !floor && !side;
+    }));
+    expect_closed_outward_manifold(car.surface);
+    EXPECT_EQ(car.repairs.holes_closed, 3);
+    EXPECT_NEAR(volume(car.surface), 1.6, 0.1);
+  }
+}
+
 TEST(Repairing, FlippedPatchesOfAnOpenSurface) {
   const shapes::Shape ball = shapes::ellipsoid({1, 2, 3}, 3);
   PolygonSoup soup = soup_of(ball.surface);
