@@ -24,7 +24,7 @@ struct Fan {
 };
 
 /// A stretch of the tree: a node's children lie within it, or are leaves of it.
-struct Part {
+struct Stretch {
   std::vector<WideNode> nodes;
   std::vector<TriangleLeaf> leaves;  // with vertices of the surface
 };
@@ -55,14 +55,14 @@ class Builder {
   void build() {
     const Range whole = ranges_.measured(0, static_cast<int>(ranges_.order.size()), 0);
     if (whole.size() <= part_faces) {
-      Part part;
+      Stretch part;
       make_node(whole, part);
       tree_.nodes = std::move(part.nodes);
       tree_.leaves = std::move(part.leaves);
     } else {
       std::vector<Range> below;
       const std::vector<Fan> fans = fans_near_root(whole, below);
-      std::vector<Part> parts(below.size());
+      std::vector<Stretch> parts(below.size());
       parallel_for(parts.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           if (below[i].size() > leaf_size) {
@@ -118,10 +118,10 @@ class Builder {
     return fans;
   }
 
-  void join(const std::vector<Fan>& fans, std::vector<Part>& parts) {
+  void join(const std::vector<Fan>& fans, std::vector<Stretch>& parts) {
     std::size_t nodes = fans.size();
     std::size_t leaves = 0;
-    for (const Part& part : parts) {
+    for (const Stretch& part : parts) {
       nodes += part.nodes.size();
       leaves += part.leaves.size();
     }
@@ -130,7 +130,8 @@ class Builder {
     append(fans, 0, parts);
   }
 
-  std::int32_t append(const std::vector<Fan>& fans, std::size_t number, std::vector<Part>& parts) {
+  std::int32_t append(const std::vector<Fan>& fans, std::size_t number,
+                      std::vector<Stretch>& parts) {
     const Fan& fan = fans[number];
     const auto index = static_cast<std::int32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
@@ -143,7 +144,7 @@ class Builder {
     return index;
   }
 
-  std::int32_t append(Part& part) {
+  std::int32_t append(Stretch& part) {
     const auto nodes = static_cast<std::int32_t>(tree_.nodes.size());
     const auto leaves = static_cast<std::int32_t>(tree_.leaves.size());
     tree_.leaves.insert(tree_.leaves.end(), part.leaves.begin(), part.leaves.end());
@@ -173,7 +174,7 @@ class Builder {
     }
   }
 
-  std::int32_t make_node(const Range& whole, Part& part) {
+  std::int32_t make_node(const Range& whole, Stretch& part) {
     Fan fan{{whole}};
     spread(fan);
     const auto index = static_cast<std::int32_t>(part.nodes.size());
@@ -240,7 +241,7 @@ class Builder {
     node.slab_hi[i] = slab.hi;
   }
 
-  std::int32_t make_leaf(const Range& range, Part& part) const {
+  std::int32_t make_leaf(const Range& range, Stretch& part) const {
     TriangleLeaf leaf{};
     for (int i = 0; i < leaf_size; ++i) {
       const auto slot = static_cast<std::size_t>(i);
