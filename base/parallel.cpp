@@ -2,11 +2,118 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <deque>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace curveskel {
+namespace {
+
+/// The ranges of one parallel_for, taken by whoever comes next.
+class RangeJob {
+ public:
+  RangeJob(std::size_t count, std::size_t grain,
+           const std::function<void(std::size_t, std::size_t)>& body)
+      : count_(count),
+        grain_(grain),
+        chunks_((count + grain - 1) / grain),
+        body_(body),
+        failures_(chunks_) {}
+
+  [[nodiscard]] std::size_t chunks() const { return chunks_; }
+
+  void work() {
+    for (std::size_t chunk = next_++; chunk < chunks_; chunk = next_++) {
+      try {
+        body_(chunk * grain_, std::min(count_, (chunk + 1) * grain_));
+      } catch (...) {
+        failures_[chunk] = std::current_exception();
+      }
+    }
+  }
+
+  void rethrow() const {
+    for (const auto& failure : failures_) {
+      if (failure) std::rethrow_exception(failure);
+    }
+  }
+
+  std::size_t places = 0;   ///< for helpers that have not come yet; under the crew's lock
+  std::size_t helpers = 0;  ///< at work; under the crew's lock
+
+ private:
+  std::size_t count_;
+  std::size_t grain_;
+  std::size_t chunks_;
+  const std::function<void(std::size_t, std::size_t)>& body_;
+  std::vector<std::exception_ptr> failures_;
+  std::atomic<std::size_t> next_{0};
+};
+
+/// Threads that stay between jobs: starting one costs more than most jobs of small surfaces. A
+/// job's owner works on it too, and waits for no helper that has not come by the time the ranges
+/// are taken, so jobs within jobs always end.
+class Crew {
+ public:
+  Crew() = default;
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+  ~Crew() {
+    {
+      const std::lock_guard lock(mutex_);
+      closing_ = true;
+    }
+    wanted_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  void run(RangeJob& job, std::size_t helpers) {
+    {
+      const std::lock_guard lock(mutex_);
+      while (threads_.size() < helpers) threads_.emplace_back([this] { help(); });
+      job.places = helpers;
+      open_.push_back(&job);
+    }
+    for (std::size_t i = 0; i < helpers; ++i) wanted_.notify_one();
+    job.work();
+    std::unique_lock lock(mutex_);
+    if (job.places > 0) open_.erase(std::find(open_.begin(), open_.end(), &job));
+    left_.wait(lock, [&] { return job.helpers == 0; });
+  }
+
+ private:
+  void help() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      wanted_.wait(lock, [&] { return closing_ || !open_.empty(); });
+      if (closing_) return;
+      RangeJob& job = *open_.front();
+      if (--job.places == 0) open_.pop_front();
+      ++job.helpers;
+      lock.unlock();
+      job.work();
+      lock.lock();
+      if (--job.helpers == 0) left_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wanted_;
+  std::condition_variable left_;
+  std::deque<RangeJob*> open_;  // those with places left
+  std::vector<std::thread> threads_;
+  bool closing_ = false;
+};
+
+Crew& crew() {
+  static Crew all;
+  return all;
+}
+
+}  // namespace
 
 std::size_t thread_count(int threads) {
   return static_cast<std::size_t>(threads > 0 ? threads
@@ -16,29 +123,14 @@ std::size_t thread_count(int threads) {
 void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
-  grain = std::max<std::size_t>(grain, 1);
-  const std::size_t chunks = (count + grain - 1) / grain;
-  const std::size_t workers = std::min(thread_count(threads), chunks);
-
-  std::vector<std::exception_ptr> failures(chunks);
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t chunk = next++; chunk < chunks; chunk = next++) {
-      try {
-        body(chunk * grain, std::min(count, (chunk + 1) * grain));
-      } catch (...) {
-        failures[chunk] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < workers; ++i) others.emplace_back(work);
-    work();
+  RangeJob job(count, std::max<std::size_t>(grain, 1), body);
+  const std::size_t workers = std::min(thread_count(threads), job.chunks());
+  if (workers > 1) {
+    crew().run(job, workers - 1);
+  } else {
+    job.work();
   }
-  for (const auto& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  job.rethrow();
 }
 
 }  // namespace curveskel

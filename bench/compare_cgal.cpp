@@ -19,6 +19,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/skeleton_files.hpp>
+#include "app/heap.hpp"
 #include "bench/cgal_skeleton.hpp"
 #include "skeleton/picture/picture.hpp"
 
@@ -227,6 +228,7 @@ void compare(const Options& options) {
 }  // namespace curveskel::bench
 
 int main(int argc, char** argv) {
+  curveskel::use_large_pages();
   using curveskel::bench::Options;
   Options options;
   CLI::App app("Compares curveskel with CGAL's mean curvature flow skeletonization");

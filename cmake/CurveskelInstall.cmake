@@ -104,6 +104,8 @@ if(CURVESKEL_BUILD_VIEWER)
 endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_CURVESKEL_PACKAGE_NAME curveskel)
+# Loaded at run time, so that dpkg-shlibdeps does not see it.
+set(CPACK_DEBIAN_CURVESKEL_PACKAGE_DEPENDS "libspqr2")
 set(CPACK_DEBIAN_CURVESKEL_PACKAGE_RECOMMENDS "libopenblas0")
 set(CPACK_DEBIAN_CURVESKEL_PACKAGE_SUGGESTS "curveskel-view, libeigen3-dev, pocl-opencl-icd")
 set(CPACK_COMPONENT_VIEWER_DESCRIPTION "Curve skeletons: the window, and pictures by OpenGL")

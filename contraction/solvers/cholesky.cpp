@@ -1,4 +1,3 @@
-// Y. Chen, T. Davis, W. Hager, S. Rajamanickam: Algorithm 887, CHOLMOD, ACM TOMS 2008.
 #include "contraction/solvers/cholesky_factor.hpp"
 #include "contraction/solvers/least_squares_backend.hpp"
 
@@ -7,6 +6,8 @@ namespace {
 
 class Cholesky final : public LeastSquaresBackend {
  public:
+  explicit Cholesky(int threads) : factor_(threads) {}
+
   Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
     const SparseMatrix transposed = a.transpose();
     const SparseMatrix normal = transposed * a;
@@ -37,6 +38,8 @@ class Cholesky final : public LeastSquaresBackend {
 
 }  // namespace
 
-std::unique_ptr<LeastSquaresBackend> make_cholesky() { return std::make_unique<Cholesky>(); }
+std::unique_ptr<LeastSquaresBackend> make_cholesky(const SolverOptions& options) {
+  return std::make_unique<Cholesky>(options.threads);
+}
 
 }  // namespace curveskel

@@ -4,16 +4,17 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
 #include <curveskel/advanced/laplacian.hpp>
 
 namespace curveskel {
 
-/// CHOLMOD's (Chen, Davis, Hager and Rajamanickam 2008), on one thread.
+/// Multifrontal (J. Liu, The multifrontal method for sparse matrix solution, 1992): nested
+/// dissection leaves dense blocks, and the halves of a surface are factorised beside one another.
 class CholeskyFactor {
  public:
-  CholeskyFactor();
+  /// At most `threads` factorise, 0 = one per core; the result does not depend on it.
+  explicit CholeskyFactor(int threads = 1);
   ~CholeskyFactor();
   CholeskyFactor(const CholeskyFactor&) = delete;
   CholeskyFactor& operator=(const CholeskyFactor&) = delete;

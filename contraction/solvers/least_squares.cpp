@@ -14,7 +14,7 @@ std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver, const SolverOpt
   switch (solver) {
     case Solver::automatic:
     case Solver::cholesky:
-      return make_cholesky();
+      return make_cholesky(options);
     case Solver::sparse_qr:
       return make_sparse_qr();
     case Solver::dense_qr:

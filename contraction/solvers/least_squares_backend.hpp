@@ -21,7 +21,7 @@ class LeastSquaresBackend {
                                   const Monitor& monitor) = 0;
 };
 
-[[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_cholesky();
+[[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_cholesky(const SolverOptions& options);
 [[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_sparse_qr();
 [[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_dense_qr();
 /// Jacobi's iteration, extrapolated (JOR) or plain.

@@ -134,7 +134,7 @@ class SkinHeat {
   }
 
  private:
-  static constexpr std::size_t block = 4;  // right-hand sides that CHOLMOD takes at once
+  static constexpr std::size_t block = 4;  // right-hand sides at once
   static constexpr std::size_t most_workers = 8;
   static constexpr double negligible = 1e-9;
 

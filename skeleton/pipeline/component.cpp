@@ -23,8 +23,9 @@ class GrowingTree {
   }
   void start() {
     if (tree_ || growing_.valid()) return;
-    growing_ =
-        in_background(threads_, [surface = &canonical_->surface] { return SurfaceTree(*surface); });
+    growing_ = in_background(threads_, [surface = &canonical_->surface, threads = threads_] {
+      return SurfaceTree(*surface, threads);
+    });
   }
   const Shared<SurfaceTree>& get() {
     start();
@@ -144,12 +145,12 @@ class Pipeline {
 
   Shared<WorkingBalls> balls_in(const Surface& source, const Shared<Coarsened>& working) {
     const auto plant_near = [&] {
-      if (has_halfway(source)) return SurfaceTree(working->halfway);
-      if (options_.fairing) return SurfaceTree(source);
+      if (has_halfway(source)) return SurfaceTree(working->halfway, options_.threads);
+      if (options_.fairing) return SurfaceTree(source, options_.threads);
       return fine_.get()->in_frame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), 1);
     };
     return stage_("balls", kept_.balls, {working}, [&] {
-      SurfaceTree rough(working->surface);
+      SurfaceTree rough(working->surface, options_.threads);
       SurfaceTree near = plant_near();
       InscribedBalls balls = inscribed_balls(working->surface, near, options_.threads);
       Positions targets = smoothed_centres(

@@ -80,7 +80,8 @@ class TreeOfAll {
     if (kept != nullptr && kept->tree.value) {
       tree_ = kept->tree.value;
     } else {
-      planted_ = in_background(threads, [&surface] { return SurfaceTree(surface); });
+      planted_ =
+          in_background(threads, [&surface, threads] { return SurfaceTree(surface, threads); });
     }
   }
   const SurfaceTree& get(const std::vector<ComponentResult>& results) {

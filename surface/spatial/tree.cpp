@@ -28,10 +28,10 @@ struct SurfaceTree::Implementation {
 
 SurfaceTree::SurfaceTree(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
-SurfaceTree::SurfaceTree(const Surface& surface)
+SurfaceTree::SurfaceTree(const Surface& surface, int threads)
     : implementation_(std::make_unique<Implementation>()) {
   require_sound(surface, "SurfaceTree");
-  auto tree = std::make_shared<const WideTree>(build_wide_tree(surface));
+  auto tree = std::make_shared<const WideTree>(build_wide_tree(surface, threads));
   implementation_->centre = tree->centre;
   implementation_->scale = tree->scale;
   implementation_->tree = std::move(tree);

@@ -1,77 +1,82 @@
-// I. Wald, On fast construction of SAH-based bounding volume hierarchies, 2007.
 #include "surface/spatial/wide_tree.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
+
+#include "base/parallel.hpp"
+#include "surface/spatial/binned_ranges.hpp"
 
 namespace curveskel {
 namespace {
 
-constexpr int most_bins = 16;
-constexpr int leaf_size = 4;
-constexpr int median_depth = 48;  // binary splits; below it ranges are halved, so depth is bounded
 constexpr int largest_slab = 1024;  // triangles; larger pieces of a surface are no flat patches
-constexpr float huge = 1e30F;
+constexpr int part_faces = 8192;    // at most, below the fans: enough for a thread's coming
+constexpr std::size_t faces_at_once = 1 << 14;
 
-Float4 minimum(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 maximum(Float4 a, Float4 b) { return a > b ? a : b; }
-
-struct Box {
-  Float4 lo{huge, huge, huge, huge};
-  Float4 hi{-huge, -huge, -huge, -huge};
-
-  void include(const Box& other) {
-    lo = minimum(lo, other.lo);
-    hi = maximum(hi, other.hi);
-  }
-  void include(Float4 point) {
-    lo = minimum(lo, point);
-    hi = maximum(hi, point);
-  }
-  [[nodiscard]] float half_area() const {
-    const Float4 d = hi - lo;
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-  }
+/// Up to four ranges that one node tells apart.
+struct Fan {
+  std::array<Range, 4> ranges;
+  int used = 1;
+  std::array<int, 4> part{};  // near the root: another fan, or ~number of a part
 };
 
-struct Range {
-  int begin = 0;
-  int end = 0;
-  int depth = 0;
-  Box box;
-  Box centroids;  // of the boxes, doubled
-  [[nodiscard]] int size() const { return end - begin; }
-  void include(const Box& member) {
-    box.include(member);
-    centroids.include(member.lo + member.hi);
-  }
+/// A stretch of the tree: a node's children lie within it, or are leaves of it.
+struct Stretch {
+  std::vector<WideNode> nodes;
+  std::vector<TriangleLeaf> leaves;  // with vertices of the surface
 };
 
 class Builder {
  public:
-  Builder(const Surface& surface, WideTree& tree) : surface_(surface), tree_(tree) {
-    const auto faces = static_cast<int>(surface.triangles.rows());
+  Builder(const Surface& surface, WideTree& tree, int threads)
+      : surface_(surface), tree_(tree), threads_(threads) {
+    const auto faces = static_cast<std::size_t>(surface.triangles.rows());
     local_.resize(static_cast<std::size_t>(surface.positions.rows()));
-    for (std::size_t v = 0; v < local_.size(); ++v) {
-      local_[v] = tree.to_local(surface.positions.row(static_cast<Eigen::Index>(v)));
-    }
-    place_.assign(local_.size(), -1);
-    tree_.vertices.reserve(local_.size());
-    boxes_.resize(static_cast<std::size_t>(faces));
-    order_.resize(static_cast<std::size_t>(faces));
-    for (int f = 0; f < faces; ++f) {
-      boxes_[static_cast<std::size_t>(f)] = box_of(f);
-      order_[static_cast<std::size_t>(f)] = f;
-    }
-    tree_.nodes.reserve(static_cast<std::size_t>(faces) / 6 + 1);
-    tree_.leaves.reserve(static_cast<std::size_t>(faces) / 3 + 1);
+    parallel_for(local_.size(), faces_at_once, threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        local_[v] = tree.to_local(surface.positions.row(static_cast<Eigen::Index>(v)));
+      }
+    });
+    ranges_.boxes.resize(faces);
+    ranges_.order.resize(faces);
+    parallel_for(faces, faces_at_once, threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        ranges_.order[f] = static_cast<int>(f);
+        ranges_.boxes[f] = box_of(static_cast<int>(f));
+      }
+    });
   }
 
-  void build() { make_node(measured(0, static_cast<int>(order_.size()), 0)); }
+  /// Fans near the root, then the parts below them beside one another, in the end all in the order
+  /// in which one part alone would have been made.
+  void build() {
+    const Range whole = ranges_.measured(0, static_cast<int>(ranges_.order.size()), 0);
+    if (whole.size() <= part_faces) {
+      Stretch part;
+      make_node(whole, part);
+      tree_.nodes = std::move(part.nodes);
+      tree_.leaves = std::move(part.leaves);
+    } else {
+      std::vector<Range> below;
+      const std::vector<Fan> fans = fans_near_root(whole, below);
+      std::vector<Stretch> parts(below.size());
+      parallel_for(parts.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (below[i].size() > leaf_size) {
+            make_node(below[i], parts[i]);
+          } else {
+            make_leaf(below[i], parts[i]);
+          }
+        }
+      });
+      ranges_.boxes = {};
+      join(fans, parts);
+    }
+    place_vertices();
+  }
 
  private:
   [[nodiscard]] const Eigen::Vector3d& corner(int face, int k) const {
@@ -90,134 +95,107 @@ class Builder {
     return box;
   }
 
-  [[nodiscard]] Range measured(int begin, int end, int depth) const {
-    Range range{begin, end, depth, {}, {}};
-    for (int i = begin; i < end; ++i) range.include(boxes_[static_cast<std::size_t>(i)]);
-    return range;
-  }
-
-  // The bin of a box by its doubled centroid along the axis of the split.
-  struct Axis {
-    int index;
-    int bins;
-    float lower;
-    float factor;
-    [[nodiscard]] int bin(const Box& box) const {
-      const float value = box.lo[index] + box.hi[index];
-      return std::min(bins - 1, static_cast<int>((value - lower) * factor));
-    }
-  };
-
-  [[nodiscard]] std::pair<Range, Range> split(const Range& range) {
-    const Float4 extent = range.centroids.hi - range.centroids.lo;
-    int index = 0;
-    if (extent[1] > extent[index]) index = 1;
-    if (extent[2] > extent[index]) index = 2;
-    if (extent[index] > 0 && range.depth < median_depth) {
-      const int bins = std::clamp(range.size() / 2, 4, most_bins);
-      const Axis axis{index, bins, range.centroids.lo[index],
-                      static_cast<float>(bins) / extent[index]};
-      auto halves = partition(range, axis, cheapest_cut(range, axis));
-      if (halves.first.size() > 0 && halves.second.size() > 0) return halves;
-    }
-    const int middle = (range.begin + range.end) / 2;
-    return {measured(range.begin, middle, range.depth + 1),
-            measured(middle, range.end, range.depth + 1)};
-  }
-
-  // Members of bins up to last_left come first.
-  [[nodiscard]] std::pair<Range, Range> partition(const Range& range, const Axis& axis,
-                                                  int last_left) {
-    Range left{range.begin, range.begin, range.depth + 1, {}, {}};
-    Range right{range.end, range.end, range.depth + 1, {}, {}};
-    while (left.end < right.begin) {
-      const auto i = static_cast<std::size_t>(left.end);
-      if (axis.bin(boxes_[i]) <= last_left) {
-        left.include(boxes_[i]);
-        ++left.end;
-      } else {
-        right.include(boxes_[i]);
-        const auto j = static_cast<std::size_t>(--right.begin);
-        std::swap(boxes_[i], boxes_[j]);
-        std::swap(order_[i], order_[j]);
+  std::vector<Fan> fans_near_root(const Range& whole, std::vector<Range>& below) {
+    std::vector<Fan> fans{{{whole}}};
+    for (std::size_t first = 0; first < fans.size();) {
+      const std::size_t end = fans.size();
+      parallel_for(end - first, 1, threads_, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = first + from; i < first + to; ++i) spread(fans[i]);
+      });
+      for (; first < end; ++first) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(fans[first].used); ++i) {
+          const Range range = fans[first].ranges[i];
+          if (range.size() > part_faces) {
+            fans[first].part[i] = static_cast<int>(fans.size());
+            fans.push_back({{range}});
+          } else {
+            fans[first].part[i] = ~static_cast<int>(below.size());
+            below.push_back(range);
+          }
+        }
       }
     }
-    return {left, right};
+    return fans;
   }
 
-  // The last bin on the left of the cut whose sides cost least to visit.
-  [[nodiscard]] int cheapest_cut(const Range& range, const Axis& axis) const {
-    std::array<Box, most_bins> box;
-    std::array<int, most_bins> count{};
-    for (int i = range.begin; i < range.end; ++i) {
-      const Box& member = boxes_[static_cast<std::size_t>(i)];
-      const auto bin = static_cast<std::size_t>(axis.bin(member));
-      box[bin].include(member);
-      ++count[bin];
+  void join(const std::vector<Fan>& fans, std::vector<Stretch>& parts) {
+    std::size_t nodes = fans.size();
+    std::size_t leaves = 0;
+    for (const Stretch& part : parts) {
+      nodes += part.nodes.size();
+      leaves += part.leaves.size();
     }
-    const auto cost = [](const Box& side, int members) {
-      const int leaves = (members + leaf_size - 1) / leaf_size;
-      return members == 0 ? 0.0F : side.half_area() * static_cast<float>(leaves);
-    };
-    std::array<float, most_bins> cost_right{};
-    Box side;
-    int members = 0;
-    const auto bins = static_cast<std::size_t>(axis.bins);
-    for (std::size_t i = bins - 1; i > 0; --i) {
-      side.include(box[i]);
-      members += count[i];
-      cost_right[i] = cost(side, members);
-    }
-    int best = 0;
-    float best_cost = std::numeric_limits<float>::infinity();
-    side = Box{};
-    members = 0;
-    for (std::size_t i = 0; i + 1 < bins; ++i) {
-      side.include(box[i]);
-      members += count[i];
-      const float total = cost(side, members) + cost_right[i + 1];
-      if (total < best_cost) {
-        best_cost = total;
-        best = static_cast<int>(i);
-      }
-    }
-    return best;
+    tree_.nodes.reserve(nodes);
+    tree_.leaves.reserve(leaves);
+    append(fans, 0, parts);
   }
 
-  std::int32_t make_node(const Range& whole) {
-    std::array<Range, 4> ranges{whole};
-    int used = 1;
-    while (used < 4) {
+  std::int32_t append(const std::vector<Fan>& fans, std::size_t number,
+                      std::vector<Stretch>& parts) {
+    const Fan& fan = fans[number];
+    const auto index = static_cast<std::int32_t>(tree_.nodes.size());
+    tree_.nodes.emplace_back();
+    std::array<std::int32_t, 4> child{-1, -1, -1, -1};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(fan.used); ++i) {
+      child[i] = fan.part[i] >= 0 ? append(fans, static_cast<std::size_t>(fan.part[i]), parts)
+                                  : append(parts[static_cast<std::size_t>(~fan.part[i])]);
+    }
+    set_children(tree_.nodes[static_cast<std::size_t>(index)], fan, child);
+    return index;
+  }
+
+  std::int32_t append(Stretch& part) {
+    const auto nodes = static_cast<std::int32_t>(tree_.nodes.size());
+    const auto leaves = static_cast<std::int32_t>(tree_.leaves.size());
+    tree_.leaves.insert(tree_.leaves.end(), part.leaves.begin(), part.leaves.end());
+    for (WideNode& node : part.nodes) {
+      for (std::int32_t& child : node.child) child += child < 0 ? -leaves : nodes;
+      tree_.nodes.push_back(node);
+    }
+    const bool leaf_alone = part.nodes.empty();
+    part = {};
+    return leaf_alone ? ~leaves : nodes;
+  }
+
+  void spread(Fan& fan) {
+    while (fan.used < 4) {
       int widest = -1;
       float area = -1;
-      for (int i = 0; i < used; ++i) {
-        const Range& range = ranges[static_cast<std::size_t>(i)];
+      for (int i = 0; i < fan.used; ++i) {
+        const Range& range = fan.ranges[static_cast<std::size_t>(i)];
         if (range.size() > leaf_size && range.box.half_area() > area) {
           area = range.box.half_area();
           widest = i;
         }
       }
       if (widest < 0) break;
-      auto& range = ranges[static_cast<std::size_t>(widest)];
-      std::tie(range, ranges[static_cast<std::size_t>(used++)]) = split(range);
+      auto& range = fan.ranges[static_cast<std::size_t>(widest)];
+      std::tie(range, fan.ranges[static_cast<std::size_t>(fan.used++)]) = ranges_.split(range);
     }
+  }
 
-    const auto index = static_cast<std::int32_t>(tree_.nodes.size());
-    tree_.nodes.emplace_back();
+  std::int32_t make_node(const Range& whole, Stretch& part) {
+    Fan fan{{whole}};
+    spread(fan);
+    const auto index = static_cast<std::int32_t>(part.nodes.size());
+    part.nodes.emplace_back();
     std::array<std::int32_t, 4> child{-1, -1, -1, -1};
-    for (int i = 0; i < used; ++i) {
-      const Range& range = ranges[static_cast<std::size_t>(i)];
-      child[static_cast<std::size_t>(i)] =
-          range.size() > leaf_size ? make_node(range) : ~make_leaf(range);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(fan.used); ++i) {
+      const Range& range = fan.ranges[i];
+      child[i] = range.size() > leaf_size ? make_node(range, part) : ~make_leaf(range, part);
     }
-    WideNode& node = tree_.nodes[static_cast<std::size_t>(index)];
+    set_children(part.nodes[static_cast<std::size_t>(index)], fan, child);
+    return index;
+  }
+
+  void set_children(WideNode& node, const Fan& fan,
+                    const std::array<std::int32_t, 4>& child) const {
     node.child = child;
     for (int i = 0; i < 4; ++i) {
-      const bool in_use = i < used;
-      const Range& range = ranges[static_cast<std::size_t>(i)];
+      const bool in_use = i < fan.used;
+      const Range& range = fan.ranges[static_cast<std::size_t>(i)];
       set_bounds(node, i, in_use ? range.box : Box{}, in_use ? slab_of(range) : Slab{});
     }
-    return index;
   }
 
   struct Slab {
@@ -230,7 +208,7 @@ class Builder {
     if (range.size() > largest_slab) return {};
     Eigen::Vector3d sum(0, 0, 0);
     for (int i = range.begin; i < range.end; ++i) {
-      const int face = order_[static_cast<std::size_t>(i)];
+      const int face = ranges_.order[static_cast<std::size_t>(i)];
       const Eigen::Vector3d& a = corner(face, 0);
       sum += (corner(face, 1) - a).cross(corner(face, 2) - a);
     }
@@ -243,7 +221,7 @@ class Builder {
     double hi = -lo;
     for (int i = range.begin; i < range.end; ++i) {
       for (int k = 0; k < 3; ++k) {
-        const double height = normal.dot(corner(order_[static_cast<std::size_t>(i)], k));
+        const double height = normal.dot(corner(ranges_.order[static_cast<std::size_t>(i)], k));
         lo = std::min(lo, height);
         hi = std::max(hi, height);
       }
@@ -263,41 +241,49 @@ class Builder {
     node.slab_hi[i] = slab.hi;
   }
 
-  std::int32_t make_leaf(const Range& range) {
+  std::int32_t make_leaf(const Range& range, Stretch& part) const {
     TriangleLeaf leaf{};
     for (int i = 0; i < leaf_size; ++i) {
       const auto slot = static_cast<std::size_t>(i);
       const int place = range.begin + std::min(i, range.size() - 1);
-      const int face = order_[static_cast<std::size_t>(place)];
+      const int face = ranges_.order[static_cast<std::size_t>(place)];
       leaf.face[slot] = i < range.size() ? face : ~face;
       for (int k = 0; k < 3; ++k) {
-        leaf.vertex[static_cast<std::size_t>(k)][slot] = placed(surface_.triangles(face, k));
+        leaf.vertex[static_cast<std::size_t>(k)][slot] = surface_.triangles(face, k);
       }
     }
-    tree_.leaves.push_back(leaf);
-    return static_cast<std::int32_t>(tree_.leaves.size()) - 1;
+    part.leaves.push_back(leaf);
+    return static_cast<std::int32_t>(part.leaves.size()) - 1;
   }
 
-  std::int32_t placed(std::int32_t vertex) {
-    std::int32_t& place = place_[static_cast<std::size_t>(vertex)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(tree_.vertices.size());
-      tree_.vertices.push_back(local_[static_cast<std::size_t>(vertex)]);
+  /// In the order in which the leaves use them.
+  void place_vertices() {
+    std::vector<std::int32_t> place(local_.size(), -1);
+    tree_.vertices.reserve(local_.size());
+    for (TriangleLeaf& leaf : tree_.leaves) {
+      for (std::size_t slot = 0; slot < leaf_size; ++slot) {
+        for (auto& corner : leaf.vertex) {
+          std::int32_t& own = place[static_cast<std::size_t>(corner[slot])];
+          if (own < 0) {
+            own = static_cast<std::int32_t>(tree_.vertices.size());
+            tree_.vertices.push_back(local_[static_cast<std::size_t>(corner[slot])]);
+          }
+          corner[slot] = own;
+        }
+      }
     }
-    return place;
   }
 
   const Surface& surface_;
   WideTree& tree_;
-  std::vector<Box> boxes_;
-  std::vector<int> order_;
+  int threads_;
+  BinnedRanges ranges_;
   std::vector<Eigen::Vector3d> local_;
-  std::vector<std::int32_t> place_;  // of a vertex among tree_.vertices, -1 = none yet
 };
 
 }  // namespace
 
-WideTree build_wide_tree(const Surface& surface) {
+WideTree build_wide_tree(const Surface& surface, int threads) {
   WideTree tree;
   const Eigen::Vector3d lower = surface.positions.colwise().minCoeff();
   const Eigen::Vector3d upper = surface.positions.colwise().maxCoeff();
@@ -307,7 +293,7 @@ WideTree build_wide_tree(const Surface& surface) {
   tree.scale = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
   tree.lower = tree.to_local(lower);
   tree.upper = tree.to_local(upper);
-  Builder(surface, tree).build();
+  Builder(surface, tree, threads).build();
   return tree;
 }
 

@@ -67,7 +67,7 @@ inline constexpr float box_margin = 0x1p-20F;
 inline constexpr int traversal_stack = 256;
 
 /// Binned surface-area heuristic (Wald 2007) that counts a leaf of one to four triangles as one.
-/// Precondition: at least one face. O(#F log #F).
-[[nodiscard]] WideTree build_wide_tree(const Surface& surface);
+/// Precondition: at least one face. O(#F log #F). The same tree from any number of threads.
+[[nodiscard]] WideTree build_wide_tree(const Surface& surface, int threads);
 
 }  // namespace curveskel

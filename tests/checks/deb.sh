@@ -26,7 +26,7 @@ needs contents ' \./usr/include/curveskel/extract\.hpp$'
 needs contents ' \./usr/share/doc/curveskel/README\.md$'
 needs contents ' \./usr/share/doc/curveskel/docs/formats\.md$'
 needs depends 'libc6 '
-needs depends 'libcholmod3 '
+needs depends 'libspqr2'
 lacks contents '/tests?/|_tests?$|\.cpp$|curveskel-shapes|curveskel-view'
 lacks depends 'libglfw|libimgui|libgl1'
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <future>
 #include <random>
@@ -12,6 +13,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/error.hpp>
+#include "contraction/solvers/elimination_tree.hpp"
 #include "meshes/shapes.hpp"
 
 namespace curveskel::cholesky_factor_laws {
@@ -103,6 +105,92 @@ TEST(CholeskyFactor, GivesEachOfTwoThreadsTheSameBytes) {
   for (const auto* found : {&here, &there}) {
     for (const Eigen::MatrixXd& x : *found) {
       EXPECT_EQ(std::memcmp(x.data(), here[0].data(), idx(x.size()) * sizeof(double)), 0);
+    }
+  }
+}
+
+/// Patterns on which a search has little to go by: apart, a star, all joined to all, a path, one,
+/// none.
+std::vector<SparseMatrix> odd_patterns() {
+  std::vector<SparseMatrix> matrices;
+  const auto add = [&](int count, const auto& joined) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < count; ++i) {
+      entries.emplace_back(i, i, count + 1);
+      for (int j = 0; j < i; ++j) {
+        if (!joined(i, j)) continue;
+        entries.emplace_back(i, j, -1);
+        entries.emplace_back(j, i, -1);
+      }
+    }
+    matrices.emplace_back(count, count);
+    matrices.back().setFromTriplets(entries.begin(), entries.end());
+  };
+  const auto never = [](int, int) { return false; };
+  add(300, never);
+  add(300, [](int, int j) { return j == 0; });
+  add(90, [](int, int) { return true; });
+  add(300, [](int i, int j) { return i == j + 1; });
+  add(400, [](int i, int j) { return i % 7 == j % 7 && i < j + 40; });  // seven bands
+  add(1, never);
+  add(0, never);
+  return matrices;
+}
+
+TEST(CholeskyFactor, SolvesWhateverThePattern) {
+  CholeskyFactor factor(2);
+  CholeskyFactor::Workspace workspace;
+  for (const SparseMatrix& h : odd_patterns()) {
+    factor.factorize(h);
+    const Eigen::MatrixXd r = random_columns(h.rows(), 2, 9);
+    const Eigen::MatrixXd x = factor.solve(r, workspace);
+    EXPECT_LE((h * x - r).norm(), 1e-12 * r.norm());
+  }
+}
+
+TEST(CholeskyFactor, IsTheSameFromAnyNumberOfThreads) {
+  std::vector<SparseMatrix> matrices = definite_matrices();
+  matrices.push_back(laplacian_and_areas(shapes::torus(3, 1, 90).surface, 1));
+  for (const SparseMatrix& h : matrices) {
+    const Eigen::MatrixXd r = random_columns(h.rows(), 3, 10);
+    CholeskyFactor::Workspace workspace;
+    CholeskyFactor alone(1);
+    alone.factorize(h);
+    const Eigen::MatrixXd wanted = alone.solve(r, workspace);
+    for (const int threads : {2, 5}) {
+      CholeskyFactor factor(threads);
+      factor.factorize(h);
+      const Eigen::MatrixXd x = factor.solve(r, workspace);
+      EXPECT_EQ(std::memcmp(x.data(), wanted.data(), idx(x.size()) * sizeof(double)), 0);
+    }
+  }
+}
+
+/// Each unknown has one place, and what joins two of them lies on one way to the root.
+TEST(EliminationTree, SeparatesWhatItCallsApart) {
+  std::vector<SparseMatrix> matrices = odd_patterns();
+  for (const SparseMatrix& h : definite_matrices()) matrices.push_back(h);
+  for (const SparseMatrix& h : matrices) {
+    const EliminationTree tree = dissect(h, 2);
+    std::vector<int> node_at(idx(h.rows()), -1);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+      for (int place = tree.nodes[i].pivots; place < tree.nodes[i].end; ++place) {
+        EXPECT_EQ(node_at[idx(place)], -1);
+        node_at[idx(place)] = static_cast<int>(i);
+      }
+    }
+    for (int v = 0; v < h.cols(); ++v) {
+      ASSERT_EQ(tree.unknown_at[idx(tree.place_of[idx(v)])], v);
+      ASSERT_GE(node_at[idx(tree.place_of[idx(v)])], 0);
+      for (SparseMatrix::InnerIterator entry(h, v); entry; ++entry) {
+        const int low = std::min(tree.place_of[idx(v)], tree.place_of[idx(entry.row())]);
+        const int high = std::max(tree.place_of[idx(v)], tree.place_of[idx(entry.row())]);
+        const EliminationNode& above = tree.nodes[idx(node_at[idx(high)])];
+        EXPECT_GE(low, above.first);
+        const std::vector<int>& border = tree.nodes[idx(node_at[idx(low)])].border;
+        EXPECT_TRUE(node_at[idx(low)] == node_at[idx(high)] ||
+                    std::binary_search(border.begin(), border.end(), high));
+      }
     }
   }
 }

@@ -463,6 +463,27 @@ TEST(SurfaceTree, TheOrderOfTheTrianglesDoesNotMatter) {
   }
 }
 
+TEST(SurfaceTree, IsTheSameFromAnyNumberOfThreads) {
+  const Surface surface = sphere(120, 0.3);  // more than one thread's part
+  ASSERT_GT(surface.triangles.rows(), 20000);
+  const SurfaceTree alone(surface, 1);
+  for (const int threads : {2, 5}) {
+    const SurfaceTree tree(surface, threads);
+    Points points(surface);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d p = points.next();
+      const Vector3d d = points.direction();
+      const SurfaceTree::Nearest nearest = tree.nearest(p);
+      EXPECT_EQ(nearest.triangle, alone.nearest(p).triangle);
+      EXPECT_EQ(nearest.distance, alone.nearest(p).distance);
+      EXPECT_EQ(tree.ray(p, d).triangle, alone.ray(p, d).triangle);
+      EXPECT_EQ(tree.inscribed_radius(p), alone.inscribed_radius(p));
+      const Vector3d vertex = surface.positions.row(i).transpose();
+      EXPECT_EQ(tree.inscribed_ball(vertex, d).radius, alone.inscribed_ball(vertex, d).radius);
+    }
+  }
+}
+
 TEST(SurfaceTree, DegenerateTrianglesChangeNothing) {
   const Surface surface = sphere(8, 0.2);
   Surface with = surface;

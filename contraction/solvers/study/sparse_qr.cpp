@@ -1,5 +1,9 @@
 // T. Davis: Algorithm 915, SuiteSparseQR, ACM TOMS 2011.
+#include <SuiteSparseQR_C.h>
+#include <dlfcn.h>
 #include <SuiteSparseQR.hpp>
+
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,16 +16,58 @@ namespace {
 
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
 
+/// Functions of the library, which is loaded when it is asked for: with the BLAS behind it, it
+/// takes longer to load than a small surface takes in all, and nearly no one asks.
+struct SuiteSparse {
+  /// Global, as the BLAS that comes with it is asked for by name.
+  void* library = dlopen(CURVESKEL_SPQR, RTLD_NOW | RTLD_GLOBAL);
+
+  template <typename Function>
+  [[nodiscard]] Function* find(const char* name) const {
+    return library == nullptr ? nullptr : reinterpret_cast<Function*>(dlsym(library, name));
+  }
+
+  decltype(cholmod_l_start)* start = find<decltype(cholmod_l_start)>("cholmod_l_start");
+  decltype(cholmod_l_finish)* finish = find<decltype(cholmod_l_finish)>("cholmod_l_finish");
+  decltype(cholmod_l_free_dense)* free_dense =
+      find<decltype(cholmod_l_free_dense)>("cholmod_l_free_dense");
+  decltype(SuiteSparseQR_C_symbolic)* symbolic =
+      find<decltype(SuiteSparseQR_C_symbolic)>("SuiteSparseQR_C_symbolic");
+  decltype(SuiteSparseQR_C_numeric)* numeric =
+      find<decltype(SuiteSparseQR_C_numeric)>("SuiteSparseQR_C_numeric");
+  decltype(SuiteSparseQR_C_qmult)* qmult =
+      find<decltype(SuiteSparseQR_C_qmult)>("SuiteSparseQR_C_qmult");
+  decltype(SuiteSparseQR_C_solve)* solve =
+      find<decltype(SuiteSparseQR_C_solve)>("SuiteSparseQR_C_solve");
+  decltype(SuiteSparseQR_C_free)* free =
+      find<decltype(SuiteSparseQR_C_free)>("SuiteSparseQR_C_free");
+
+  [[nodiscard]] bool is_whole() const {
+    return start != nullptr && finish != nullptr && free_dense != nullptr && symbolic != nullptr &&
+           numeric != nullptr && qmult != nullptr && solve != nullptr && free != nullptr;
+  }
+};
+
+const SuiteSparse& suite_sparse() {
+  static const SuiteSparse found;
+  if (!found.is_whole()) {
+    throw Error(Fault::solver, std::string("sparse QR: found no whole library ") + CURVESKEL_SPQR +
+                                   ", needed SuiteSparseQR; install it, or use the solver "
+                                   "cholesky");
+  }
+  return found;
+}
+
 class SparseQr final : public LeastSquaresBackend {
  public:
   SparseQr() {
-    cholmod_l_start(&common_);
+    library_.start(&common_);
     common_.print = 0;
     common_.SPQR_nthreads = 1;
   }
   ~SparseQr() override {
-    SuiteSparseQR_free(&factor_, &common_);
-    cholmod_l_finish(&common_);
+    library_.free(&factor_, &common_);
+    library_.finish(&common_);
   }
   SparseQr(const SparseQr&) = delete;
   SparseQr& operator=(const SparseQr&) = delete;
@@ -46,16 +92,14 @@ class SparseQr final : public LeastSquaresBackend {
     view.sorted = 1;
     view.packed = 1;
     if (!known) {
-      SuiteSparseQR_free(&factor_, &common_);
-      factor_ =
-          SuiteSparseQR_symbolic<double>(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, &view, &common_);
+      library_.free(&factor_, &common_);
+      factor_ = library_.symbolic(SPQR_ORDERING_DEFAULT, 1, &view, &common_);
     }
-    if (factor_ == nullptr ||
-        SuiteSparseQR_numeric<double>(SPQR_DEFAULT_TOL, &view, factor_, &common_) == 0) {
+    if (factor_ == nullptr || library_.numeric(SPQR_DEFAULT_TOL, &view, factor_, &common_) == 0) {
       fail(a, "could not be factorised");
     }
-    if (factor_->rank < a.cols()) {
-      fail(a, "has numerical rank " + std::to_string(factor_->rank));
+    if (factors().rank < a.cols()) {
+      fail(a, "has numerical rank " + std::to_string(factors().rank));
     }
     Solution solution;
     solution.x = least_squares(b);
@@ -69,11 +113,15 @@ class SparseQr final : public LeastSquaresBackend {
 
  private:
   [[nodiscard]] bool same_pattern(const SparseMatrix& a) const {
-    return factor_ != nullptr && factor_->narows == a.rows() &&
+    return factor_ != nullptr && factors().narows == a.rows() &&
            std::equal(outer_.begin(), outer_.end(), a.outerIndexPtr(),
                       a.outerIndexPtr() + a.outerSize() + 1) &&
            std::equal(inner_.begin(), inner_.end(), a.innerIndexPtr(),
                       a.innerIndexPtr() + a.nonZeros());
+  }
+
+  [[nodiscard]] const SuiteSparseQR_factorization<double>& factors() const {
+    return *static_cast<const SuiteSparseQR_factorization<double>*>(factor_->factors);
   }
 
   /// X = E (R \ (Q^T B)), all three columns at once.
@@ -87,17 +135,16 @@ class SparseQr final : public LeastSquaresBackend {
     view.x = right.data();
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* y = SuiteSparseQR_qmult<double>(SPQR_QTX, factor_, &view, &common_);
-    cholmod_dense* x = y != nullptr
-                           ? SuiteSparseQR_solve<double>(SPQR_RETX_EQUALS_B, factor_, y, &common_)
-                           : nullptr;
+    cholmod_dense* y = library_.qmult(SPQR_QTX, factor_, &view, &common_);
+    cholmod_dense* x =
+        y != nullptr ? library_.solve(SPQR_RETX_EQUALS_B, factor_, y, &common_) : nullptr;
     Positions result;
     if (x != nullptr) {
       result = Eigen::Map<const Columns>(static_cast<const double*>(x->x),
                                          static_cast<Eigen::Index>(x->nrow), 3);
     }
-    cholmod_l_free_dense(&y, &common_);
-    cholmod_l_free_dense(&x, &common_);
+    library_.free_dense(&y, &common_);
+    library_.free_dense(&x, &common_);
     if (result.size() == 0) {
       throw Error(Fault::solver, "sparse QR: back substitution failed for " +
                                      std::to_string(b.rows()) +
@@ -112,12 +159,13 @@ class SparseQr final : public LeastSquaresBackend {
     message += common_.status == CHOLMOD_OUT_OF_MEMORY
                    ? ": out of memory; use a coarser resolution or the solver cholesky"
                    : "; full column rank is needed: use smaller weights";
-    SuiteSparseQR_free(&factor_, &common_);
+    library_.free(&factor_, &common_);
     throw Error(Fault::solver, message);
   }
 
+  const SuiteSparse& library_ = suite_sparse();
   cholmod_common common_{};
-  SuiteSparseQR_factorization<double>* factor_ = nullptr;
+  SuiteSparseQR_C_factorization* factor_ = nullptr;
   std::vector<SuiteSparse_long> outer_;  // pattern of the analysed matrix, in long
   std::vector<SuiteSparse_long> inner_;
 };

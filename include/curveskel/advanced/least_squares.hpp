@@ -29,7 +29,7 @@ enum class Solver {
 
 inline constexpr NameTable<Solver, 10> solvers{{
     {Solver::automatic, "auto", "cholesky, the fastest and most robust at every size"},
-    {Solver::cholesky, "cholesky", "sparse Cholesky of the normal equations (CHOLMOD)"},
+    {Solver::cholesky, "cholesky", "sparse Cholesky of the normal equations"},
     {Solver::sparse_qr, "sparse-qr", "sparse QR (SuiteSparseQR)"},
     {Solver::dense_qr, "dense-qr", "dense Householder QR (Eigen), the paper's method 1"},
     {Solver::vcl_qr, "vcl-qr",
@@ -56,7 +56,7 @@ struct SolverOptions {
   double tolerance = 1e-10;             ///< iterative ones: stop at this Solution::residual
   int most_iterations = 1000000;        ///< iterative ones: give up where more would be needed
   std::filesystem::path program_cache;  ///< folder for compiled kernels; empty = compile each time
-  int threads = 0;  ///< of jor and jacobi: 0 = one per core; the result does not depend on it
+  int threads = 0;  ///< of cholesky, jor and jacobi: 0 = one per core; no result depends on it
 };
 
 /// Throws Error(Fault::usage) that names the first option out of its range, the value and the

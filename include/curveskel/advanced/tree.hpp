@@ -15,8 +15,8 @@ namespace curveskel {
 /// the triangles. Results do not depend on the number of threads.
 class SurfaceTree {
  public:
-  /// O(#F log #F). Precondition: at least one face.
-  explicit SurfaceTree(const Surface& surface);
+  /// O(#F log #F), on at most `threads` threads, 0 = one per core. Precondition: at least one face.
+  explicit SurfaceTree(const Surface& surface, int threads = 1);
   ~SurfaceTree();
   SurfaceTree(SurfaceTree&&) noexcept;
   SurfaceTree& operator=(SurfaceTree&&) noexcept;

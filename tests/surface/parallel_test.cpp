@@ -1,0 +1,65 @@
+// Laws of the loops on all cores.
+#include "base/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace curveskel::parallel_laws {
+namespace {
+
+TEST(ParallelFor, VisitsEachElementOnce) {
+  for (const int threads : {0, 1, 2, 7}) {
+    for (const std::size_t count : {0UL, 1UL, 5UL, 1000UL}) {
+      for (const std::size_t grain : {0UL, 1UL, 3UL, 5000UL}) {
+        std::vector<int> visits(count, 0);
+        parallel_for(count, grain, threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) ++visits[i];
+        });
+        EXPECT_EQ(visits, std::vector<int>(count, 1));
+      }
+    }
+  }
+}
+
+TEST(ParallelFor, EndsWithinItselfAndFromManyThreads) {
+  std::atomic<int> visits{0};
+  const auto nested = [&] {
+    for (int round = 0; round < 50; ++round) {
+      parallel_for(8, 1, 4, [&](std::size_t, std::size_t) {
+        parallel_for(8, 1, 4, [&](std::size_t, std::size_t) {
+          parallel_for(3, 1, 2, [&](std::size_t, std::size_t) { ++visits; });
+        });
+      });
+    }
+  };
+  {
+    std::vector<std::jthread> beside;
+    for (int i = 0; i < 4; ++i) beside.emplace_back(nested);
+    nested();
+  }
+  EXPECT_EQ(visits, 5 * 50 * 8 * 8 * 3);
+}
+
+TEST(ParallelFor, RethrowsTheFirstFailureAndDoesTheRest) {
+  for (const int threads : {1, 2, 6}) {
+    std::atomic<int> visits{0};
+    try {
+      parallel_for(100, 1, threads, [&](std::size_t begin, std::size_t) {
+        ++visits;
+        if (begin % 10 == 7) throw std::runtime_error(std::to_string(begin));
+      });
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "7");
+    }
+    EXPECT_EQ(visits, 100);
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::parallel_laws
