@@ -48,13 +48,18 @@ SkeletonGraph first_course(const Setting& in) {
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet
   const int uncovered = keep_inside(graph, in.working, in.partition, in.tree, anywhere);
   if (!in.guard.has_handles()) return graph;
-  if (uncovered == 0 && in.guard.finds_all_handles(graph, in.partition)) return graph;
-  graph = whole;
-  reroute_around_handles(graph, in.working, in.tree, in.partition, in.guard);
-  prune_blunt(graph, in.working, in.partition, limit);
-  keep_inside(graph, in.working, in.partition, in.tree, in.guard);
-  in.guard.pull_taut(graph, in.tree);
-  return graph;
+  const bool goes_round = in.guard.finds_all_handles(graph, in.partition);
+  if (uncovered == 0 && goes_round) return graph;
+  SkeletonGraph rerouted = whole;
+  reroute_around_handles(rerouted, in.working, in.tree, in.partition, in.guard);
+  prune_blunt(rerouted, in.working, in.partition, limit);
+  const int left = keep_inside(rerouted, in.working, in.partition, in.tree, in.guard);
+  // Where the surface meets itself no way need be inside, and the way round may lose its handle.
+  const bool is_better =
+      !goes_round || (left < uncovered && in.guard.finds_all_handles(rerouted, in.partition));
+  if (!is_better) return graph;
+  in.guard.pull_taut(rerouted, in.tree);
+  return rerouted;
 }
 
 }  // namespace curveskel

@@ -156,6 +156,11 @@ bool thin(SkeletonGraph& graph, const Setting& in) {
   return true;
 }
 
+bool thin_straight(SkeletonGraph& graph, const Setting& in) {
+  thin_straight_runs(graph, in.tree, in.spacing, in.tuning.spacing);
+  return true;
+}
+
 bool shortcut(SkeletonGraph& graph, const Setting& in) {
   cut_detours(graph, in.tree, in.tuning.relax);
   return true;
@@ -243,10 +248,13 @@ constexpr std::array settling{
     EmbedStep{"cut detours", step::shortcut, guarded},
     EmbedStep{"lengthen leaves", step::lengthen},
 };
-constexpr std::array mirroring{EmbedStep{"mirror", step::mirror, guarded}};
+constexpr std::array at_last{
+    EmbedStep{"mirror", step::mirror, guarded},
+    EmbedStep{"thin straight runs", step::thin_straight, guarded},
+};
 constexpr std::array full_phases{
     EmbedPhase{settling, true, 0.9},
-    EmbedPhase{mirroring, false, 0.95},
+    EmbedPhase{at_last, false, 0.95},
 };
 
 /// The radii stay with the points, so that the next step need not ask.

@@ -10,13 +10,23 @@ namespace curveskel {
 struct SpacingTuning {
   double least = 1.0 / 400;  ///< points need not be nearer, however thin the limb
   double most = 1.0 / 60;
-  double of_edge = 0.3;  ///< of the surface's mean edge, if that is more than `most`
+  double of_edge = 0.3;            ///< of the surface's mean edge, if that is more than `most`
+  double straight = 1.0 / 200;     ///< points on straight runs are no nearer at last
+  double bend = 0.1;               ///< inscribed radii: lesser bends are straight
+  double least_bend = 1.0 / 3200;  ///< the same, however thin the limb
 
-  /// For a part with this share of the extent of a whole, whose D these lengths are then of. The
-  /// smaller the part, the less there is to tell: below a seventh, points need not be nearer than
-  /// `most`.
+  /// For a part with this share of the extent of a whole, whose D these lengths are then of. A part
+  /// is measured out by its own length, too: its points are no farther apart than a twentieth of
+  /// it. The smaller the part, the less its straight runs have to tell.
   [[nodiscard]] SpacingTuning of_part(double share) const {
-    return {std::min(least / (share * share), most / share), most / share, of_edge};
+    SpacingTuning of;
+    of.most = std::min(most / share, 3 * most);
+    of.least = std::min(least / share, of.most);
+    of.of_edge = of_edge;
+    of.straight = std::min(straight / (share * share), most / share);
+    of.bend = bend;
+    of.least_bend = std::min(least_bend / (share * share), 4 * least_bend / share);
+    return of;
   }
 };
 

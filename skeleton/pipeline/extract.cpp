@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
@@ -24,14 +26,39 @@
 namespace curveskel {
 namespace {
 
+/// The components' skeletons, those led on to their rims that have any. Each by its own surface: in
+/// another component, which may overlap it, it is as good as outside.
+std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>& results,
+                                               const Surface& surface, const Parts& parts,
+                                               const SurfaceTree& tree_of_all,
+                                               const std::vector<std::vector<std::int32_t>>& rims) {
+  std::vector<std::vector<std::vector<std::int32_t>>> own(results.size());
+  for (const auto& rim : rims) {
+    if (rim.empty()) continue;
+    own[idx(parts.counted.component_of_vertex[rim.front()])].push_back(rim);
+  }
+  std::vector<Shared<CurveSkeleton>> skeletons;
+  skeletons.reserve(results.size());
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    skeletons.push_back(results[c].skeleton);
+    if (own[c].empty()) continue;
+    std::optional<SurfaceTree> its;
+    if (results.size() > 1) its.emplace(parts.components[c].surface);
+    CurveSkeleton led = *results[c].skeleton;
+    reach_rims(led, surface, its ? *its : tree_of_all, own[c]);
+    skeletons.back() = std::make_shared<const CurveSkeleton>(std::move(led));
+  }
+  return skeletons;
+}
+
 /// The components' skeletons one after the other; the vertex map goes from the whole surface.
-CurveSkeleton joined(const std::vector<ComponentResult>& results,
+CurveSkeleton joined(const std::vector<Shared<CurveSkeleton>>& skeletons,
                      const std::vector<Component>& parts, Eigen::Index vertices) {
   Eigen::Index nodes = 0;
   Eigen::Index edges = 0;
-  for (const ComponentResult& one : results) {
-    nodes += one.skeleton->nodes.rows();
-    edges += one.skeleton->edges.rows();
+  for (const auto& one : skeletons) {
+    nodes += one->nodes.rows();
+    edges += one->edges.rows();
   }
   CurveSkeleton whole;
   whole.nodes.resize(nodes, 3);
@@ -40,7 +67,7 @@ CurveSkeleton joined(const std::vector<ComponentResult>& results,
   whole.node_of_vertex.setConstant(vertices, -1);
   nodes = edges = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const CurveSkeleton& part = *results[c].skeleton;
+    const CurveSkeleton& part = *skeletons[c];
     whole.nodes.middleRows(nodes, part.nodes.rows()) = part.nodes;
     whole.radii.segment(nodes, part.radii.size()) = part.radii;
     whole.edges.middleRows(edges, part.edges.rows()) = part.edges.array() + static_cast<int>(nodes);
@@ -144,9 +171,10 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   }
   const Shared<CertifiedSkeleton> certified =
       stage("certify", stages.certified, certified_from(results, options), [&] {
-        CertifiedSkeleton made{joined(results, parts->components, surface.positions.rows()), {}};
         const SurfaceTree& tree = tree_of_all.get(results);
-        reach_rims(made.skeleton, surface, tree, options.rims);
+        CertifiedSkeleton made{joined(on_to_rims(results, surface, *parts, tree, options.rims),
+                                      parts->components, surface.positions.rows()),
+                               {}};
         made.certificate = evaluate({surface, tree, bounding_box_diagonal(surface.positions),
                                      parts->counted.components(), parts->counted.total_genus()},
                                     made.skeleton, options.certificate, monitor);

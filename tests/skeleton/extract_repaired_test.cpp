@@ -199,6 +199,17 @@ TEST(ExtractRepaired, KitsThatAreWrappedAsAWholeHaveTheirCurveInside) {
   }
 }
 
+/// Straps and laces that are folded and meet themselves have a curve, and each garment's open ends
+/// are reached within the garment.
+TEST(ExtractRepaired, GarmentsNeedNoWrap) {
+  const auto file = real_surface("characters/human-sintel.glb");
+  if (!file) GTEST_SKIP() << "needs the collection's characters";
+  const RepairedSurface repaired = repair(read_polygons(*file, {}), {}, {});
+  const RepairedExtraction found = extract_repaired(repaired, {}, {}, {});
+  EXPECT_FALSE(found.wrapped);
+  EXPECT_TRUE(holds(found));
+}
+
 TEST(ExtractRepaired, WrapsNothingUnlessItMay) {
   const RepairedSurface repaired = as_given(ragged());
   for (const Wrapping wrap : {Wrapping::never, Wrapping::all}) {  // all: it was done before

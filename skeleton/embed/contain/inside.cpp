@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -203,7 +204,12 @@ class Keeper {
     return is_covered(p, q, unused);
   }
 
-  CurvePoint centre(int vertex) const { return Point(balls_.centres.row(vertex)); }
+  /// With its radius, as the same balls are passed by one chain after the other.
+  const CurvePoint& centre(int vertex) {
+    const auto [at, is_new] = centres_.try_emplace(vertex, Point(balls_.centres.row(vertex)));
+    if (is_new) (void)at->second.radius(tree_);
+    return at->second;
+  }
 
   /// A point of the vertex' ball close to the vertex.
   Point under(int vertex) const {
@@ -281,6 +287,21 @@ class Keeper {
     return vertices;
   }
 
+  /// What has to come between the balls of two neighbours.
+  struct BallStep {
+    bool is_hidden = false;
+    std::vector<Point> between;
+  };
+
+  const BallStep& ball_step(int from, int to) {
+    const auto [at, is_new] = ball_steps_.try_emplace({from, to});
+    if (is_new && !sees(centre(from), centre(to))) {
+      at->second.between = way_below(from, to);
+      at->second.is_hidden = at->second.between.empty();
+    }
+    return at->second;
+  }
+
   struct Detour {
     std::vector<CurvePoint> points;
     int uncovered = 0;
@@ -292,13 +313,12 @@ class Keeper {
     Detour made;
     std::vector<CurvePoint> chain{p};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const CurvePoint next = centre(vertices[i]);
-      if (i > 0 && !sees(chain.back(), next)) {
-        const auto step = way_below(vertices[i - 1], vertices[i]);
-        if (step.empty()) made.hidden.emplace_back(vertices[i - 1], vertices[i]);
-        chain.insert(chain.end(), step.begin(), step.end());
+      if (i > 0) {
+        const BallStep& step = ball_step(vertices[i - 1], vertices[i]);
+        if (step.is_hidden) made.hidden.emplace_back(vertices[i - 1], vertices[i]);
+        chain.insert(chain.end(), step.between.begin(), step.between.end());
       }
-      chain.push_back(next);
+      chain.push_back(centre(vertices[i]));
     }
     chain.push_back(q);
     chain = shortcut(chain, tree_);
@@ -352,6 +372,8 @@ class Keeper {
   HomologyGuard& handles_;
   std::optional<BelowSurface> below_;
   BallChains chains_;
+  std::map<int, CurvePoint> centres_;                   ///< of the balls passed so far
+  std::map<std::pair<int, int>, BallStep> ball_steps_;  ///< of the steps taken so far
   int uncovered_ = 0;
   int detours_ = 0;       ///< of the arc at hand
   int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere

@@ -9,6 +9,7 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
 namespace {
@@ -40,14 +41,9 @@ Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& vertices
   return rim;
 }
 
-bool way_is_inside(const SurfaceTree& tree, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                   double most_step) {
-  constexpr int fewest = 8;
-  const int samples = std::max(fewest, static_cast<int>(std::ceil((to - from).norm() / most_step)));
-  for (int i = 1; i <= samples; ++i) {
-    if (tree.inscribed_radius(from + (to - from) * i / samples) <= 0) return false;
-  }
-  return true;
+bool way_is_inside(const SurfaceTree& tree, const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& to) {
+  return tree.inscribed_radius(to) > 0 && !crosses(tree, from, to);
 }
 
 void add_node(CurveSkeleton& skeleton, int neighbour, const Eigen::Vector3d& position,
@@ -120,7 +116,7 @@ class Reaching {
     const double distance = (rim.middle - p).norm();
     return distance <= nearness * std::max(radius, rim.mean_radius) &&
            rim.mean_radius >= least_width * radius &&
-           way_is_inside(tree_, p, end_of(rim, p), below_);
+           way_is_inside(tree_, p, end_of(rim, p));
   }
 
   /// The limb arrives at its node k from outside the ball there; within, it has no direction.

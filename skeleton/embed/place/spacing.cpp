@@ -35,6 +35,75 @@ std::vector<CurvePoint> spaced(const std::vector<Point>& line, const std::vector
 
 int fewest_points(const Arc& arc) { return arc.from == arc.to ? 3 : 1; }
 
+/// The points of a curve that tell its course (Ramer, Douglas and Peucker).
+class StraightRuns {
+ public:
+  StraightRuns(const std::vector<CurvePoint>& line, const SurfaceTree& tree, const Spacing& spacing,
+               const SpacingTuning& tuning)
+      : line_(line), tree_(tree), spacing_(spacing), tuning_(tuning), kept_(line.size(), 0) {
+    kept_.front() = kept_.back() = 1;
+    split(0, line.size() - 1);
+  }
+
+  /// Per point.
+  [[nodiscard]] const std::vector<char>& kept() const { return kept_; }
+
+ private:
+  void split(std::size_t first, std::size_t last) {
+    if (last - first < 2) return;
+    double worst = 0;
+    std::size_t at = first;
+    for (std::size_t k = first + 1; k < last; ++k) {
+      const double bend = bend_at(k, first, last);
+      if (bend <= worst) continue;
+      worst = bend;
+      at = k;
+    }
+    const Point& from = line_[first].place();
+    const Point& to = line_[last].place();
+    if (worst <= 1) {
+      if ((to - from).norm() <= spacing_.straight && !crosses(tree_, from, to)) return;
+      at = middle(first, last);
+    }
+    kept_[at] = 1;
+    split(first, at);
+    split(at, last);
+  }
+
+  /// How far place and radius are from the chord's, over what counts as straight.
+  [[nodiscard]] double bend_at(std::size_t k, std::size_t first, std::size_t last) const {
+    const Point& from = line_[first].place();
+    const Point chord = line_[last].place() - from;
+    const Point way = line_[k].place() - from;
+    const double squared = chord.squaredNorm();
+    const double share = squared > 0 ? std::clamp(way.dot(chord) / squared, 0.0, 1.0) : 0;
+    const double radius = line_[k].radius(tree_);
+    const double on_chord =
+        (1 - share) * line_[first].radius(tree_) + share * line_[last].radius(tree_);
+    const double off = std::max((way - share * chord).norm(), std::abs(radius - on_chord));
+    return off / std::max(tuning_.bend * radius, tuning_.least_bend);
+  }
+
+  /// The point nearest to the middle of the way.
+  [[nodiscard]] std::size_t middle(std::size_t first, std::size_t last) const {
+    const auto nearer = [&](std::size_t k) {
+      return std::abs((line_[k].place() - line_[first].place()).norm() -
+                      (line_[k].place() - line_[last].place()).norm());
+    };
+    std::size_t best = first + 1;
+    for (std::size_t k = best + 1; k < last; ++k) {
+      if (nearer(k) < nearer(best)) best = k;
+    }
+    return best;
+  }
+
+  const std::vector<CurvePoint>& line_;
+  const SurfaceTree& tree_;
+  const Spacing& spacing_;
+  const SpacingTuning& tuning_;
+  std::vector<char> kept_;
+};
+
 }  // namespace
 
 Spacing spacing_on(const Surface& surface, const SpacingTuning& tuning) {
@@ -45,7 +114,7 @@ Spacing spacing_on(const Surface& surface, const SpacingTuning& tuning) {
     }
   }
   const auto edges = static_cast<double>(surface.triangles.size());
-  return {tuning.least, std::max(tuning.most, tuning.of_edge * sum / edges)};
+  return {tuning.least, std::max(tuning.most, tuning.of_edge * sum / edges), tuning.straight};
 }
 
 void space_evenly(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing) {
@@ -85,6 +154,27 @@ void thin_out(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spac
       }
       kept.push_back(arc.points[i - 1]);
       last = i;
+    }
+    arc.points = std::move(kept);
+  }
+}
+
+void thin_straight_runs(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing,
+                        const SpacingTuning& tuning) {
+  for (Arc& arc : graph.arcs) {
+    const std::size_t least = arc.from == arc.to ? 2 : 1;
+    if (!arc.alive || arc.points.size() <= least) continue;
+    const auto line = graph.points_along(arc, tree);
+    const StraightRuns runs(line, tree, spacing, tuning);
+    std::vector<CurvePoint> kept;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      if (runs.kept()[i] != 0) kept.push_back(line[i]);
+    }
+    if (kept.size() < least) {
+      kept.clear();
+      for (std::size_t k = 1; k <= least; ++k) {
+        kept.push_back(line[k * (line.size() - 1) / (least + 1)]);
+      }
     }
     arc.points = std::move(kept);
   }

@@ -14,6 +14,7 @@ namespace curveskel {
 struct Spacing {
   double least = 1.0 / 400;
   double most = 1.0 / 60;
+  double straight = 1.0 / 400;  ///< on straight runs, at last
 };
 
 /// Of a surface: the points of an arc lie no farther apart than D / 60, or than the surface is
@@ -31,6 +32,13 @@ void space_by_radius(SkeletonGraph& graph, const SurfaceTree& tree, const Spacin
 /// where the balls of their neighbours overlap without them, or the line between these neighbours
 /// meets no surface.
 void thin_out(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing);
+
+/// Drops inner points of straight runs, those whose neighbours come no farther apart than
+/// `spacing.straight`: where the chord meets no surface, and places and radii lie within a tenth of
+/// the radius (`tuning.bend`) of what it has there. The same from either end of an arc. O(points x
+/// splits).
+void thin_straight_runs(SkeletonGraph& graph, const SurfaceTree& tree, const Spacing& spacing,
+                        const SpacingTuning& tuning);
 
 /// Takes the chord wherever the arc goes a detour within its own ball: between two points that
 /// lie in each other's balls it need not be longer than 1.4 chords. The chord lies in a ball, so
