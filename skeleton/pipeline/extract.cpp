@@ -29,9 +29,9 @@ namespace {
 /// The components' skeletons, those led on to their rims that have any. Each by its own surface: in
 /// another component, which may overlap it, it is as good as outside.
 std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>& results,
-                                               const Surface& surface, const Parts& parts,
-                                               const SurfaceTree& tree_of_all,
-                                               const std::vector<std::vector<std::int32_t>>& rims) {
+                                              const Surface& surface, const Parts& parts,
+                                              const SurfaceTree& tree_of_all,
+                                              const std::vector<std::vector<std::int32_t>>& rims) {
   std::vector<std::vector<std::vector<std::int32_t>>> own(results.size());
   for (const auto& rim : rims) {
     if (rim.empty()) continue;

@@ -31,7 +31,7 @@ Shape ragged() {
 std::vector<Shape> ragged_graphs() {
   const Shape y = shapes::tube_union("y", shapes::star(3, 2, 0.1));
   const Shape ring = shapes::torus(1, 0.06, 12);
-  return {ragged(), shapes::noisy(y, 0.108, 1), shapes::noisy(ring, 0.0405, 1)};
+  return {ragged(), shapes::noisy(y, 0.108, 1), shapes::noisy(ring, 0.05, 1)};
 }
 
 RepairedSurface as_given(const Shape& shape) { return repair(soup_of(shape.surface), {}, {}); }

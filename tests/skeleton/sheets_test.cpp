@@ -1,14 +1,12 @@
-// Laws of thin closed sheets: however thin one is, its curve stays inside, and nodes and work grow
-// with the working vertices alone.
+// Laws of thin closed sheets: however thin one is, its curve stays inside, with no more nodes than
+// the sheet has working vertices.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
-#include <iostream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -124,21 +122,13 @@ std::vector<Family> families() {
 }
 
 TEST(Sheets, HaveACurveInsideWithFewNodesHoweverThin) {
-  constexpr double most_nodes = 1;  // per working vertex
   for (const Family& family : families()) {
     for (const double thickness : {1e-2, 1e-3, 1e-4}) {
       const Extraction found = extract(family.make(thickness), {}, {});
       const std::string name = family.name + " " + std::to_string(thickness);
       EXPECT_TRUE(found.certificate.topology_correct()) << name;
       EXPECT_GE(found.certificate.inside_fraction, 0.9999) << name;
-      const auto nodes = double(found.skeleton.nodes.rows());
-      EXPECT_LE(nodes, most_nodes * found.components.front().working_vertices) << name;
-      if (getenv("SHOW")) {
-        std::cerr << name << " V " << found.components.front().working_vertices << " nodes "
-                  << nodes << " inside " << found.certificate.inside_fraction << " len "
-                  << found.certificate.length << " cov " << found.certificate.coverage << " tries "
-                  << found.history.size() << "\n";
-      }
+      EXPECT_LE(found.skeleton.nodes.rows(), found.components.front().working_vertices) << name;
     }
   }
 }

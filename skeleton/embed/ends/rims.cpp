@@ -115,8 +115,7 @@ class Reaching {
     const Eigen::Vector3d p = skeleton_.nodes.row(node);
     const double distance = (rim.middle - p).norm();
     return distance <= nearness * std::max(radius, rim.mean_radius) &&
-           rim.mean_radius >= least_width * radius &&
-           way_is_inside(tree_, p, end_of(rim, p));
+           rim.mean_radius >= least_width * radius && way_is_inside(tree_, p, end_of(rim, p));
   }
 
   /// The limb arrives at its node k from outside the ball there; within, it has no direction.
