@@ -59,7 +59,7 @@ Surface component(const ClosedParts& closed, const Orientation& orientation, std
 
 /// A car's body without its floor and windows, a mask, a dome: a flat sheet has no volume, the cap
 /// of a sphere up to 45 degrees .039 area^1.5, half a sphere .072, a cube .068.
-bool is_roomy(const JudgedPart& part) {
+bool is_roomy(const ComponentSums& part) {
   constexpr double least_volume = 0.04;  // of area^1.5
   return std::abs(part.volume) >= least_volume * std::pow(part.area, 1.5);
 }
@@ -94,7 +94,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
     const double most = options.most_added_area * part.area;
     part.is_body =
         !one_sided && std::abs(sums[c].volume) > least_volume * sums[c].area &&
-        (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(part) &&
+        (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&
                                      !crosses_itself(component(closed, judged.orientation, c))));
   }
   return judged;

@@ -157,7 +157,7 @@ TEST(ExtractRepaired, AWrapThatJoinsOrLosesLimbsIsNotTaken) {
   for (const int limbs : {3, 4, 5}) {
     SCOPED_TRACE(limbs);
     const Shape star = shapes::tube_union("star", shapes::star(limbs, 2, 0.2));
-    const Shape fewer = shapes::tube_union("fewer", shapes::star(limbs, 1, 0.2));
+    const Shape fewer = shapes::tube_union("fewer", shapes::star(limbs - 1, 2, 0.2));
     const CurveSkeleton own = extract(star.surface).skeleton;
     const FailingComponent failing{0, star.surface, star.genus, own};
     EXPECT_EQ(losses_by_wrap(failing, own), "");
