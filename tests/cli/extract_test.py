@@ -156,9 +156,13 @@ class Repair(CommandLineTest):
         for arguments, components in (((), 2), (("--wrap", "never"), 2), (("--wrap", "all"), 2),
                                       (("--wrap", "all", "--wrap-gap", "0.25"), 1),
                                       (("--wrap", "all", "--wrap-opening", "0.25"), 1)):
-            self.run_ok("extract", LINKED_RINGS, "-o", "x.json", "--report", report, *arguments,
-                        "--strict", cwd=self.folder)
+            result = run("extract", LINKED_RINGS, "-o", "x.json", "--report", report, *arguments,
+                         "--strict", cwd=self.folder)
+            # A wrap that spans a fourth of D is no longer the shape that was given.
+            self.assertEqual(result.code, 0 if components == 2 else 5, result.err)
             result = json.loads(report.read_text())
+            self.assertEqual(result["certificate"]["wrap_follows"], components == 2, arguments)
+            self.assertTrue(result["certificate"]["topology_correct"], arguments)
             self.assertEqual(result["surface"]["components"], components, arguments)
             self.assertEqual(result["repairs"]["wrapped_as_asked"], "all" in arguments)
             skeleton = json.loads((self.folder / "x.json").read_text())
