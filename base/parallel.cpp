@@ -5,9 +5,14 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 namespace curveskel {
 namespace {
@@ -17,11 +22,9 @@ class RangeJob {
  public:
   RangeJob(std::size_t count, std::size_t grain,
            const std::function<void(std::size_t, std::size_t)>& body)
-      : count_(count),
-        grain_(grain),
-        chunks_((count + grain - 1) / grain),
-        body_(body),
-        failures_(chunks_) {}
+      : count_(count), grain_(grain), chunks_((count + grain - 1) / grain), body_(body) {
+    failures_.resize(chunks_);
+  }
 
   [[nodiscard]] std::size_t chunks() const { return chunks_; }
 
@@ -108,9 +111,21 @@ class Crew {
   bool closing_ = false;
 };
 
+/// Of the calling thread: on Linux threads differ in it.
+int niceness() {
+#ifdef __linux__
+  return getpriority(PRIO_PROCESS, 0);
+#else
+  return 0;
+#endif
+}
+
+/// A thread is as nice as the one that started it, so callers that give way have a crew that does.
 Crew& crew() {
-  static Crew all;
-  return all;
+  static std::mutex mutex;
+  static std::map<int, Crew> crews;
+  const std::lock_guard lock(mutex);
+  return crews[niceness()];
 }
 
 }  // namespace

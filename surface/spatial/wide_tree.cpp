@@ -137,8 +137,9 @@ class Builder {
     tree_.nodes.emplace_back();
     std::array<std::int32_t, 4> child{-1, -1, -1, -1};
     for (std::size_t i = 0; i < static_cast<std::size_t>(fan.used); ++i) {
-      child[i] = fan.part[i] >= 0 ? append(fans, static_cast<std::size_t>(fan.part[i]), parts)
-                                  : append(parts[static_cast<std::size_t>(~fan.part[i])]);
+      const std::int32_t part = fan.part[i];
+      child[i] = part >= 0 ? append(fans, static_cast<std::size_t>(part), parts)
+                           : append(parts[static_cast<std::size_t>(-(part + 1))]);
     }
     set_children(tree_.nodes[static_cast<std::size_t>(index)], fan, child);
     return index;

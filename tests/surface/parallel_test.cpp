@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 namespace curveskel::parallel_laws {
 namespace {
@@ -60,6 +65,27 @@ TEST(ParallelFor, RethrowsTheFirstFailureAndDoesTheRest) {
     EXPECT_EQ(visits, 100);
   }
 }
+
+#ifdef __linux__
+// The pipeline gives way to the thread that draws; threads that stay must not forget that.
+TEST(ParallelFor, HelpersGiveWayAsTheirCallerDoes) {
+  const auto expect_all_as_nice = [] {
+    const int wanted = getpriority(PRIO_PROCESS, 0);
+    std::atomic<int> others{0};
+    parallel_for(40, 1, 4, [&](std::size_t, std::size_t) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      others += getpriority(PRIO_PROCESS, 0) == wanted ? 0 : 1;
+    });
+    EXPECT_EQ(others, 0) << "as nice as " << wanted;
+  };
+  for (const int nicer : {0, 2, 5}) {
+    std::jthread([&] {
+      setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + nicer);
+      expect_all_as_nice();
+    }).join();
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace curveskel::parallel_laws
