@@ -9,8 +9,8 @@
 
 #include <climits>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
+#include <memory>
 
 namespace curveskel {
 namespace {
@@ -25,17 +25,18 @@ bool unlimited(__rlimit_resource_t resource) {
 void use_large_pages() {
   // Addresses, not memory: only what is touched is taken. The heap grows beyond it as ever.
   constexpr std::size_t reserve = std::size_t{1} << 30U;
-  constexpr std::uintptr_t large_page = std::uintptr_t{1} << 21U;
+  constexpr std::size_t large_page = std::size_t{1} << 21U;
   if (!unlimited(RLIMIT_AS) || !unlimited(RLIMIT_DATA)) return;
   mallopt(M_ARENA_MAX, 1);  // threads would have heaps of their own, in small pages
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, INT_MAX);
   void* const memory = std::malloc(reserve);
   if (memory == nullptr) return;
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;
-  const std::uintptr_t last = (begin + reserve) / large_page * large_page;
-  madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  void* first = memory;
+  std::size_t space = reserve;
+  if (std::align(large_page, large_page, first, space) != nullptr) {
+    madvise(first, space / large_page * large_page, MADV_HUGEPAGE);
+  }
   std::free(memory);
 }
 

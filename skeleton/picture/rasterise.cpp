@@ -177,7 +177,9 @@ void draw_span(const std::array<const Corner*, 3>& corner, const Span& span, flo
   float* const x_of = rows.normal[0].data() + span.first;
   float* const y_of = rows.normal[1].data() + span.first;
   float* const z_of = rows.normal[2].data() + span.first;
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
   for (int i = 0; i < span.count; ++i) {
     const float b_free = span.b + span.b_step * static_cast<float>(i);
     const float c_free = span.c + span.c_step * static_cast<float>(i);
@@ -221,7 +223,7 @@ void draw_triangle(const std::array<const Corner*, 3>& given, SampleRows& rows) 
   const auto& [upper, middle, lower] = corner;
   // The first sample whose middle is beyond `place`; the same for both triangles at an edge.
   const auto sample_from = [](double place, int begin, int count) {
-    return static_cast<int>(std::clamp(place, 1.0 * begin, 1.0 * (begin + count)) + 0.5);
+    return static_cast<int>(std::lround(std::clamp(place, 1.0 * begin, 1.0 * (begin + count))));
   };
   const auto row_from = [&](double y) { return sample_from(y, rows.top, rows.height); };
   const int end = row_from(lower->y);

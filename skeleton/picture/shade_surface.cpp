@@ -62,7 +62,8 @@ void blur(std::vector<float>& values, int width, int height, int radius, int thr
 }
 
 unsigned char as_byte(float share) {
-  return static_cast<unsigned char>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
+  constexpr float to_nearest = 0.5F;  // std::lround is a call for each of millions
+  return static_cast<unsigned char>(std::clamp(share, 0.0F, 1.0F) * 255.0F + to_nearest);
 }
 
 /// What the shading needs of the window's pixels once all are drawn.

@@ -28,7 +28,7 @@ constexpr std::size_t least_fold = 3;       // moments of lower order vanish in 
 constexpr std::size_t most_fold = 8;
 constexpr std::size_t folds = most_fold - least_fold + 1;
 
-using Complex = std::complex<double>;
+using Moment = std::complex<double>;
 
 using CornerPoints = std::array<Eigen::Vector3d, 3>;
 
@@ -232,7 +232,7 @@ class Pose {
   std::vector<Eigen::Vector3d> directions_across(const Eigen::Vector3d& axis) const {
     const Eigen::Vector3d right = axis.unitOrthogonal();
     const Eigen::Vector3d up = axis.cross(right);
-    const std::array<Complex, folds> moments = angular_moments(right, up);
+    const std::array<Moment, folds> moments = angular_moments(right, up);
     for (std::size_t i = 0; i < folds; ++i) {
       if (std::abs(moments[i]) <= no_symmetry) continue;
       const std::size_t fold = least_fold + i;
@@ -250,34 +250,34 @@ class Pose {
 
   // The mean of (x + i y)^m over the surface for each fold m, the farthest vertex at |x + i y| = 1.
   // Over a triangle it is the mean of all products of m corners.
-  std::array<Complex, folds> angular_moments(const Eigen::Vector3d& right,
-                                             const Eigen::Vector3d& up) const {
+  std::array<Moment, folds> angular_moments(const Eigen::Vector3d& right,
+                                            const Eigen::Vector3d& up) const {
     const double farthest = std::sqrt(
         ((points_ * right).array().square() + (points_ * up).array().square()).maxCoeff());
-    std::array<Complex, folds> moments{};
+    std::array<Moment, folds> moments{};
     if (!(farthest > 0)) return moments;
     const auto place = [&](const Eigen::Vector3d& p) {
-      return Complex(p.dot(right), p.dot(up)) / farthest;
+      return Moment(p.dot(right), p.dot(up)) / farthest;
     };
     const auto sums =
         summed<1 + 2 * folds>([&](std::size_t index, std::array<ExactSum, 1 + 2 * folds>& part) {
           const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
           const double area = sheets_[index].area;
           part[0].add(area);
-          std::array<Complex, most_fold + 1> products{1};  // sums of all products of m corners
-          for (const Complex& corner : {place(p), place(q), place(r)}) {
+          std::array<Moment, most_fold + 1> products{1};  // sums of all products of m corners
+          for (const Moment& corner : {place(p), place(q), place(r)}) {
             for (std::size_t m = 1; m <= most_fold; ++m) products[m] += corner * products[m - 1];
           }
           for (std::size_t i = 0; i < folds; ++i) {
             const auto m = double(least_fold + i);
-            const Complex moment = area * products[least_fold + i] * (2 / ((m + 1) * (m + 2)));
+            const Moment moment = area * products[least_fold + i] * (2 / ((m + 1) * (m + 2)));
             part[1 + 2 * i].add(moment.real());
             part[2 + 2 * i].add(moment.imag());
           }
         });
     if (!(sums[0].value() > 0)) return moments;
     for (std::size_t i = 0; i < folds; ++i) {
-      moments[i] = Complex(sums[1 + 2 * i].value(), sums[2 + 2 * i].value()) / sums[0].value();
+      moments[i] = Moment(sums[1 + 2 * i].value(), sums[2 + 2 * i].value()) / sums[0].value();
     }
     return moments;
   }

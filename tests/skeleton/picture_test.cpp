@@ -17,6 +17,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,7 +94,7 @@ Fragments fragments_of(const Surface& surface, const View& view) {
   };
   const auto draw = [&](const FragmentRow& row) {
     std::copy(row.pixels.begin(), row.pixels.end(),
-              all.pixels.begin() + row.y * all.window.width + row.left);
+              all.pixels.begin() + std::ptrdiff_t{row.y} * all.window.width + row.left);
   };
   rasterise(surface, vertex_normals(surface), view, width, height, 0, begin, draw);
   return all;

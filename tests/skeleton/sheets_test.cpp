@@ -31,7 +31,7 @@ Surface sheet(const Middle& middle, const Cells& has, int across, int along, dou
     return (row(i) * (across + 1) + j) * 2 + side;
   };
   Surface surface;
-  surface.positions.resize(2 * rows * (across + 1), 3);
+  surface.positions.resize(Eigen::Index{2} * rows * (across + 1), 3);
   const double step = 1e-4;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j <= across; ++j) {

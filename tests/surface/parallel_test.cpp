@@ -44,6 +44,7 @@ TEST(ParallelFor, EndsWithinItselfAndFromManyThreads) {
   };
   {
     std::vector<std::jthread> beside;
+    beside.reserve(4);
     for (int i = 0; i < 4; ++i) beside.emplace_back(nested);
     nested();
   }

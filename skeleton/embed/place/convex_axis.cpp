@@ -39,6 +39,7 @@ std::vector<Point> vertices_farthest_out(const WorkingSurface& working) {
   std::sort(farthest.begin(), farthest.end());
   farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
   std::vector<Point> places;
+  places.reserve(farthest.size());
   for (const Eigen::Index vertex : farthest) {
     places.push_back(working.place(static_cast<int>(vertex)));
   }

@@ -32,21 +32,21 @@ bool is_convex_shape(const Surface& surface) {
 /// Along z, its middle at the origin.
 Surface prism(int sides, double radius, double height) {
   Surface prism;
-  prism.positions.resize(2 * sides + 2, 3);
-  prism.triangles.resize(4 * sides, 3);
-  prism.positions.row(2 * sides) << 0, 0, -height / 2;
-  prism.positions.row(2 * sides + 1) << 0, 0, height / 2;
+  prism.positions.resize(Eigen::Index{2} * sides + 2, 3);
+  prism.triangles.resize(Eigen::Index{4} * sides, 3);
+  prism.positions.row(Eigen::Index{2} * sides) << 0, 0, -height / 2;
+  prism.positions.row(Eigen::Index{2} * sides + 1) << 0, 0, height / 2;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * i / sides;
     const int next = (i + 1) % sides;
     for (const int level : {0, 1}) {
-      prism.positions.row(level * sides + i) << radius * std::cos(angle), radius * std::sin(angle),
-          (level - 0.5) * height;
+      prism.positions.row(Eigen::Index{level} * sides + i) << radius * std::cos(angle),
+          radius * std::sin(angle), (level - 0.5) * height;
     }
-    prism.triangles.row(4 * i) << i, next, sides + next;
-    prism.triangles.row(4 * i + 1) << i, sides + next, sides + i;
-    prism.triangles.row(4 * i + 2) << 2 * sides, next, i;
-    prism.triangles.row(4 * i + 3) << 2 * sides + 1, sides + i, sides + next;
+    prism.triangles.row(Eigen::Index{4} * i) << i, next, sides + next;
+    prism.triangles.row(Eigen::Index{4} * i + 1) << i, sides + next, sides + i;
+    prism.triangles.row(Eigen::Index{4} * i + 2) << 2 * sides, next, i;
+    prism.triangles.row(Eigen::Index{4} * i + 3) << 2 * sides + 1, sides + i, sides + next;
   }
   return prism;
 }
