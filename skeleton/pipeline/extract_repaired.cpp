@@ -65,7 +65,8 @@ Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap, const WrapB
             // Its own skeleton only tells how good the wrap is.
             for (int n = room.number + 1; n < room.log.next(); ++n) room.log.drop(n);
             if (found.certificate.correct()) {
-              const std::string losses = losses_by_wrap(failing, found.skeleton);
+              const std::string losses =
+                  losses_by_wrap(failing, found.skeleton, options.certificate, room.monitor);
               if (!losses.empty()) throw GaveUp(losses);
             }
             return Attempt{std::move(*wrapped), found.certificate};

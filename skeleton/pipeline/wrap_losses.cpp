@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/max_cardinality_matching.hpp>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -71,13 +72,20 @@ std::size_t tips_lost(const FailingComponent& failing, const CurveSkeleton& othe
 
 }  // namespace
 
-std::string losses_by_wrap(const FailingComponent& failing, const CurveSkeleton& from_wrap) {
-  constexpr double limb = 0.05;  // of the component's extent: no spike of noise
+std::string losses_by_wrap(const FailingComponent& failing, const CurveSkeleton& from_wrap,
+                           const CertificateOptions& options, const Monitor& monitor) {
+  constexpr double limb = 0.05;      // of the component's extent: no spike of noise
+  constexpr double no_longer = 0.1;  // of the vertices
   const double diagonal = bounding_box_diagonal(failing.surface.positions);
   const std::size_t lost = tips_lost(failing, from_wrap, limb * diagonal);
   if (lost == 0) return {};
+  const double own = evaluate(failing.surface, failing.skeleton, options, monitor).coverage;
+  const double its = evaluate(failing.surface, from_wrap, options, monitor).coverage;
+  if (its >= own - no_longer) return {};
   return "the wrap joins or loses limbs: " + std::to_string(lost) +
-         " tips of the surface's own curve have none of the wrap's beside them";
+         " tips of the surface's own curve have none of the wrap's beside them, and " +
+         std::to_string(std::lround(100 * (own - its))) +
+         " % of the surface's vertices are no longer near the curve";
 }
 
 }  // namespace curveskel
