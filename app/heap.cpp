@@ -1,7 +1,5 @@
 #include "app/heap.hpp"
 
-#include <cstdlib>
-
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <malloc.h>
 #include <sys/mman.h>

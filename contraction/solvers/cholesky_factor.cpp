@@ -55,7 +55,7 @@ std::string scientific(double value) {
   return text.data();
 }
 
-/// Where column j of a lower triangle begins that is stored column by column without gaps.
+/// The start of column j of a lower triangle that is stored column by column without gaps.
 std::size_t column_of_triangle(std::size_t order, std::size_t j) {
   return j * (2 * order - j + 1) / 2;
 }

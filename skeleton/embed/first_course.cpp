@@ -54,7 +54,7 @@ SkeletonGraph first_course(const Setting& in) {
   reroute_around_handles(rerouted, in.working, in.tree, in.partition, in.guard);
   prune_blunt(rerouted, in.working, in.partition, limit);
   const int left = keep_inside(rerouted, in.working, in.partition, in.tree, in.guard);
-  // Where the surface meets itself no way need be inside, and the way round may lose its handle.
+  // No way need be inside if the surface meets itself, and the way round may lose its handle.
   const bool is_better =
       !goes_round || (left < uncovered && in.guard.finds_all_handles(rerouted, in.partition));
   if (!is_better) return graph;

@@ -24,7 +24,7 @@ unsigned char byte_of(float value) {
   return static_cast<unsigned char>(std::clamp(value, 0.0F, 1.0F) * 255.0F + to_nearest);
 }
 
-/// What the filters read.
+/// The input of the filters.
 struct PaddedBytes {
   std::size_t stride;
   const unsigned char* bytes;

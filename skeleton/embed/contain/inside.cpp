@@ -287,7 +287,7 @@ class Keeper {
     return vertices;
   }
 
-  /// What has to come between the balls of two neighbours.
+  /// The balls that have to come between those of two neighbours.
   struct BallStep {
     bool is_hidden = false;
     std::vector<Point> between;
