@@ -139,8 +139,8 @@ class Dissection {
     arrange(domain, best_begin, best_end);
   }
 
-  /// In this order: the vertices before the level [begin, end) of the queue, with those of the level
-  /// that have no neighbour beyond it; the vertices after it; the rest of the level.
+  /// In this order: the vertices before the level [begin, end) of the queue, with those of the
+  /// level that have no neighbour beyond it; the vertices after it; the rest of the level.
   void arrange(Domain& domain, int begin, int end) {
     const int beyond = level(queue_[idx(begin)]) + 1;
     int lower = begin;
