@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double tube_factor = 2.5;  // of the inscribed radius
-constexpr int points_over_area = 10000;
+constexpr int points_over_area = 2500;
 
 /// Points in equal steps of area, triangle after triangle; within a triangle by a sequence that
 /// fills the square evenly (steps of the plastic number), folded at the diagonal.
