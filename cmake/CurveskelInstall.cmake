@@ -54,6 +54,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/read_rig.hpp
   include/curveskel/rig.hpp
   include/curveskel/rig_files.hpp
+  include/curveskel/rig_parts.hpp
 )
 set(CURVESKEL_PUBLIC_APP
   include/curveskel.hpp

@@ -37,6 +37,7 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include <curveskel/rig_parts.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>

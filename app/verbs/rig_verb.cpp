@@ -14,6 +14,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_files.hpp>
+#include <curveskel/rig_parts.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
@@ -39,6 +40,7 @@ struct RigArguments {
   RepairOptions repair;
   ExtractOptions extract;
   RigOptions rig;
+  PartOptions parts;
 };
 
 /// A skeleton of this surface is not mostly elsewhere.
@@ -90,6 +92,14 @@ std::ptrdiff_t count_tips(const Rig& rig) {
   });
 }
 
+std::string parts_in_words(const RigParts& parts) {
+  const auto followers = std::count_if(parts.parts.begin(), parts.parts.end(),
+                                       [](const RigPart& part) { return part.follows; });
+  if (followers == 0) return "";
+  return fmt::format("parts: {} of the body, {} that follow it (--follow 0: joints for all)\n",
+                     parts.parts.size() - static_cast<std::size_t>(followers), followers);
+}
+
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
@@ -103,11 +113,14 @@ int run_rig(RigArguments arguments, Session& session) {
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
   arguments.rig.faces_minus_z = soup.faces_minus_z;
   RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
+  arguments.parts.threads = arguments.threads;
+  const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
+  repaired = body_of(repaired, parts);
   const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
-  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
-                               repaired.surface, repaired.vertex_of_input, soup.positions);
-  std::vector<OutputFile> files;
   const Surface given{soup.positions, triangulate(soup)};
+  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
+                               repaired.surface, skeleton, repaired.vertex_of_input, given);
+  std::vector<OutputFile> files;
   fs::path name = arguments.mesh.stem();
   if (arguments.mesh.extension() == ".gz") name = name.stem();
   for (std::size_t i = 0; i < formats.size(); ++i) {
@@ -122,6 +135,7 @@ int run_rig(RigArguments arguments, Session& session) {
       fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
                   arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
                   count_tips(rig));
+  text += parts_in_words(parts);
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;
@@ -157,6 +171,10 @@ Verb add_rig(CLI::App& program) {
       "node of the skeleton, counted from 0 as in its JSON file, that all hangs from; -1 = chosen");
   add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
              "of straight limbs, in their radius: smaller gives more joints");
+  add_number(
+      *parser, "--follow", arguments->parts.follow, 0.0, 100.0,
+      "parts that reach out of the body no farther than this, in its thickness there, follow "
+      "it without joints of their own; 0 = none");
   add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
              "how gently the skin goes over from one joint to the next, in radii");
   add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,

@@ -37,10 +37,15 @@ void require_valid(const RigOptions& options);
                                                  const Eigen::VectorXi& vertex_of_input,
                                                  Eigen::Index vertices);
 
-/// The rig of the surface as a rig of what it was repaired from: `vertex_of_input` and `given` are
-/// as in RepairedSurface and PolygonSoup. Vertices that the repair left out (buttons, eyes, specks)
-/// move with the nearest corner of the triangle that is nearest to them.
+/// The rig of the surface as a rig of the whole file: `vertex_of_input` is as in RepairedSurface,
+/// `given` is the file's surface in triangles, `skeleton` the one of the rig. A vertex without a
+/// vertex of the surface follows the body: with all that hangs together with it (by faces, or in
+/// one place) rigidly, with the mean weights of the body where the two are nearest (over a tenth),
+/// as an eye or a button does; or each for itself as the nearest place of the body, where what
+/// hangs together is more than five radii of the body long, or sewn to it, as clothes are.
+/// O((#V + #F) log #F).
 [[nodiscard]] Rig rig_of_given(const Rig& rig, const Surface& surface,
-                               const Eigen::VectorXi& vertex_of_input, const Positions& given);
+                               const CurveSkeleton& skeleton,
+                               const Eigen::VectorXi& vertex_of_input, const Surface& given);
 
 }  // namespace curveskel

@@ -1,14 +1,11 @@
 #include <curveskel/make_rig.hpp>
 
 #include <algorithm>
-#include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/closed_manifold.hpp>
-#include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
@@ -40,21 +37,6 @@ CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton
                  });
   }
   return mapped;
-}
-
-int nearest_vertex(const SurfaceTree& tree, const Surface& surface,
-                   const Eigen::RowVector3d& point) {
-  const int triangle = tree.nearest(point.transpose()).triangle;
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (const int vertex : surface.triangles.row(triangle)) {
-    const double distance = (surface.positions.row(vertex) - point).squaredNorm();
-    if (distance < least) {
-      least = distance;
-      nearest = vertex;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -104,25 +86,6 @@ CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton, const Eigen::VectorXi
     if (vertex_of_input[v] >= 0) skeleton.node_of_vertex[vertex_of_input[v]] = given[v];
   }
   return skeleton;
-}
-
-Rig rig_of_given(const Rig& rig, const Surface& surface, const Eigen::VectorXi& vertex_of_input,
-                 const Positions& given) {
-  Rig result{rig.joints, rig.parents, rig.names, SkinWeights(given.rows(), rig.weights.cols())};
-  result.weights.reserve(Eigen::VectorXi::Constant(given.rows(), 4));
-  std::unique_ptr<const SurfaceTree> tree;
-  for (Eigen::Index v = 0; v < given.rows(); ++v) {
-    int vertex = vertex_of_input[v];
-    if (vertex < 0) {
-      if (!tree) tree = std::make_unique<const SurfaceTree>(surface);
-      vertex = nearest_vertex(*tree, surface, given.row(v));
-    }
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      result.weights.insert(v, it.col()) = it.value();
-    }
-  }
-  result.weights.makeCompressed();
-  return result;
 }
 
 }  // namespace curveskel

@@ -1,12 +1,13 @@
 #include "skeleton/certify/tube_share.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "skeleton/graph/sequence_tree.hpp"
+#include "surface/spatial/spread_points.hpp"
 
 namespace curveskel {
 namespace {
@@ -15,41 +16,6 @@ using Eigen::Vector3d;
 
 constexpr double tube_factor = 2.5;  // of the inscribed radius
 constexpr int points_over_area = 2500;
-
-/// Points in equal steps of area, triangle after triangle; within a triangle by a sequence that
-/// fills the square evenly (steps of the plastic number), folded at the diagonal.
-std::vector<Vector3d> spread_points(const Surface& surface) {
-  const Eigen::Index triangles = surface.triangles.rows();
-  const auto corner = [&](Eigen::Index t, int k) -> Vector3d {
-    return surface.positions.row(surface.triangles(t, k));
-  };
-  std::vector<double> area_up_to;
-  area_up_to.reserve(static_cast<std::size_t>(triangles));
-  double area = 0;
-  for (Eigen::Index t = 0; t < triangles; ++t) {
-    const Vector3d a = corner(t, 0);
-    area += 0.5 * (corner(t, 1) - a).cross(corner(t, 2) - a).norm();
-    area_up_to.push_back(area);
-  }
-  std::vector<Vector3d> points;
-  if (!(area > 0)) return points;
-  points.reserve(points_over_area);
-  Eigen::Index t = 0;
-  for (int i = 0; i < points_over_area; ++i) {
-    const double wanted = area * (i + 0.5) / points_over_area;
-    while (t + 1 < triangles && area_up_to[static_cast<std::size_t>(t)] < wanted) ++t;
-    double whole = 0;
-    double u = std::modf(0.5 + i * 0.7548776662466927, &whole);
-    double v = std::modf(0.5 + i * 0.5698402909980532, &whole);
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    const Vector3d a = corner(t, 0);
-    points.emplace_back(a + u * (corner(t, 1) - a) + v * (corner(t, 2) - a));
-  }
-  return points;
-}
 
 /// The pieces of the curve that the samples stand for, which are straight but for bends within a
 /// step: a hair may be thinner than the steps are long.
@@ -82,7 +48,7 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
     items.push_back({p - half, p + half, 0});
   }
   const SequenceTree tree(std::move(items));
-  const std::vector<Vector3d> points = spread_points(surface);
+  const std::vector<Vector3d> points = spread_points(surface, points_over_area);
   if (points.empty()) return 0;
   std::vector<char> near(points.size());
   parallel_for(points.size(), 256, curve.threads, [&](std::size_t begin, std::size_t end) {

@@ -132,17 +132,23 @@ TEST(RigOfGiven, MovesEachVertexAsTheOneItBecame) {
   for (std::size_t k = 0; k < points.size(); ++k)
     given.row(static_cast<Eigen::Index>(k)) = points[k];
   const Rig found = rig_of_given(
-      rig, s.surface,
+      rig, s.surface, s.skeleton,
       Eigen::Map<const Eigen::VectorXi>(became.data(), static_cast<Eigen::Index>(became.size())),
-      given);
+      {given, {}});
   EXPECT_EQ(found.joints, rig.joints);
   EXPECT_EQ(found.parents, rig.parents);
   EXPECT_EQ(found.names, rig.names);
   ASSERT_EQ(found.weights.rows(), given.rows());
   ASSERT_EQ(found.weights.cols(), rig.weights.cols());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    EXPECT_TRUE(same_row(found.weights, static_cast<Eigen::Index>(k), rig.weights, moves_as[k]))
-        << k;
+    const auto row = static_cast<Eigen::Index>(k);
+    if (became[k] >= 0) {
+      EXPECT_TRUE(same_row(found.weights, row, rig.weights, moves_as[k])) << k;
+    } else {  // as the nearest place, which lies beside the vertex
+      const Eigen::VectorXf apart =
+          Eigen::VectorXf(found.weights.row(row)) - Eigen::VectorXf(rig.weights.row(moves_as[k]));
+      EXPECT_LT(apart.lpNorm<1>(), 0.05) << k;
+    }
   }
 }
 
@@ -154,7 +160,7 @@ TEST(RigOfGiven, MovesWhatIsFarAwayToo) {
   const Eigen::RowVector3d last_tip = s.skeleton.nodes.row(last);
   Positions given(2, 3);
   given << 20 * first_tip, 20 * last_tip;
-  const Rig found = rig_of_given(rig, s.surface, Eigen::Vector2i(-1, -1), given);
+  const Rig found = rig_of_given(rig, s.surface, s.skeleton, Eigen::Vector2i(-1, -1), {given, {}});
   for (const Eigen::Index vertex : {0, 1}) {
     for (SkinWeights::InnerIterator it(found.weights, vertex); it; ++it) {
       const double to_first = (rig.joints.row(it.col()) - first_tip).norm();
@@ -163,6 +169,68 @@ TEST(RigOfGiven, MovesWhatIsFarAwayToo) {
     }
     EXPECT_NEAR(found.weights.row(vertex).sum(), 1, 1e-6);
   }
+}
+
+/// The file's surface: the subject's, and beside it a box of `size`, whose faces are of no one
+/// else.
+Surface with_box(const RigSubject& s, const Eigen::RowVector3d& middle, double size) {
+  const Surface box = shapes::box({size, size, size}, 2).surface;
+  Surface given = s.surface;
+  const Eigen::Index first = given.positions.rows();
+  const Eigen::Index faces = given.triangles.rows();
+  given.positions.conservativeResize(first + box.positions.rows(), 3);
+  given.triangles.conservativeResize(faces + box.triangles.rows(), 3);
+  given.positions.bottomRows(box.positions.rows()) = box.positions.rowwise() + middle;
+  given.triangles.bottomRows(box.triangles.rows()) =
+      box.triangles.array() + static_cast<std::int32_t>(first);
+  return given;
+}
+
+Eigen::VectorXi own_then_none(Eigen::Index own, Eigen::Index all) {
+  Eigen::VectorXi vertex_of_input = Eigen::VectorXi::Constant(all, -1);
+  vertex_of_input.head(own).setLinSpaced(static_cast<int>(own), 0, static_cast<int>(own) - 1);
+  return vertex_of_input;
+}
+
+TEST(RigOfGiven, MovesSmallFollowersRigidly) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  const Eigen::Index own = s.surface.positions.rows();
+  const double radius = s.skeleton.radii.maxCoeff();
+  for (const int vertex : {0, 57, 200, 391}) {
+    const Surface given = with_box(s, s.surface.positions.row(vertex % own), 0.7 * radius);
+    const Eigen::Index all = given.positions.rows();
+    const Rig found = rig_of_given(rig, s.surface, s.skeleton, own_then_none(own, all), given);
+    for (Eigen::Index v = own; v < all; ++v) {
+      EXPECT_TRUE(same_row(found.weights, v, found.weights, own)) << vertex;
+      EXPECT_NEAR(found.weights.row(v).sum(), 1, 1e-6);
+    }
+    for (Eigen::Index v = 0; v < own; ++v) {
+      ASSERT_TRUE(same_row(found.weights, v, rig.weights, v)) << vertex;
+    }
+  }
+}
+
+TEST(RigOfGiven, MovesClothesWithTheLimbsUnderThem) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  const Eigen::Index own = s.surface.positions.rows();
+  const Positions normals = vertex_normals(s.surface);
+  Surface given = s.surface;  // and the same once more, a little larger
+  given.positions.conservativeResize(2 * own, 3);
+  given.positions.bottomRows(own) =
+      s.surface.positions + 0.05 * s.skeleton.radii.minCoeff() * normals;
+  const Eigen::Index faces = s.surface.triangles.rows();
+  given.triangles.conservativeResize(2 * faces, 3);
+  given.triangles.bottomRows(faces) = s.surface.triangles.array() + static_cast<std::int32_t>(own);
+  const Rig found = rig_of_given(rig, s.surface, s.skeleton, own_then_none(own, 2 * own), given);
+  double most = 0;
+  for (Eigen::Index v = 0; v < own; ++v) {
+    const Eigen::VectorXf apart =
+        Eigen::VectorXf(found.weights.row(own + v)) - Eigen::VectorXf(rig.weights.row(v));
+    most = std::max(most, static_cast<double>(apart.lpNorm<1>()));
+  }
+  EXPECT_LT(most, 0.1);
 }
 
 }  // namespace

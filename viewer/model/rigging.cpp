@@ -12,8 +12,8 @@ std::shared_ptr<const Rig> rig_of(const Document& document, const RepairedSurfac
   RigOptions facing = options;
   facing.faces_minus_z = document.faces_minus_z;
   return std::make_shared<const Rig>(
-      rig_of_given(make_rig(repaired.surface, mapped, facing, monitor), repaired.surface,
-                   repaired.vertex_of_input, document.surface.positions));
+      rig_of_given(make_rig(repaired.surface, mapped, facing, monitor), repaired.surface, mapped,
+                   repaired.vertex_of_input, document.surface));
 }
 
 Moment moment_of(std::shared_ptr<const Rig> rig) {

@@ -1,0 +1,127 @@
+#include "rig/parts/body.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include "base/parallel.hpp"
+#include "surface/spatial/spread_points.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int probes = 200;                // vertices, and as many points over the area
+constexpr Eigen::Index most_balls = 1000;  // of a component
+
+// A ball is about a place if that lies in it or nearly so: balls touch the surface at some places
+// only.
+constexpr double about = 1.25;  // radii
+
+Eigen::Index stride_of(Eigen::Index vertices, Eigen::Index most) {
+  return std::max<Eigen::Index>(1, vertices / most);
+}
+
+/// The largest ball about the point; 0 if there is none.
+double largest_about(const std::vector<SurfaceTree::Ball>& balls, const Vector3d& point) {
+  double largest = 0;
+  for (const SurfaceTree::Ball& ball : balls) {
+    if (ball.radius <= largest) continue;
+    const double reach = about * ball.radius;
+    if ((ball.centre - point).squaredNorm() <= reach * reach) largest = ball.radius;
+  }
+  return largest;
+}
+
+}  // namespace
+
+ProbedPart probed(const Component& component) {
+  ProbedPart part;
+  part.places = spread_points(component.surface, probes);
+  const Positions& positions = component.surface.positions;
+  const Eigen::Index stride = stride_of(positions.rows(), probes);
+  for (Eigen::Index v = 0; v < positions.rows(); v += stride) {
+    part.places.emplace_back(positions.row(v));
+  }
+  for (const auto& p : positions.rowwise()) part.box.extend(p.transpose());
+  return part;
+}
+
+void BodySoFar::add(int number, const Component& component, int threads) {
+  const Surface& surface = component.surface;
+  Piece piece{number, {}, SurfaceTree(surface, threads), {}, {}};
+  for (const auto& p : surface.positions.rowwise()) piece.box.extend(p.transpose());
+  const Positions normals = vertex_normals(surface);
+  const double diagonal = piece.box.diagonal().norm();
+  const Eigen::Index stride = stride_of(surface.positions.rows(), most_balls);
+  for (Eigen::Index v = 0; v < surface.positions.rows(); v += stride) {
+    piece.places.emplace_back(surface.positions.row(v));
+  }
+  piece.balls.resize(piece.places.size());
+  parallel_for(piece.places.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3d inward = -normals.row(static_cast<Eigen::Index>(i) * stride).transpose();
+      if (!(inward.norm() > 0)) continue;
+      const SurfaceTree::Ball ball = piece.tree.inscribed_ball(piece.places[i], inward);
+      if (ball.radius < 0.5 * diagonal && piece.tree.inside(ball.centre)) piece.balls[i] = ball;
+    }
+  });
+  for (const SurfaceTree::Ball& ball : piece.balls) {
+    most_thickness_ = std::max(most_thickness_, ball.radius);
+  }
+  pieces_.push_back(std::move(piece));
+}
+
+BodySoFar::Contact BodySoFar::nearest(const Vector3d& place) const {
+  Contact contact{std::numeric_limits<double>::infinity(), -1, place};
+  for (const Piece& piece : pieces_) {
+    if (piece.box.exteriorDistance(place) >= contact.distance) continue;
+    const SurfaceTree::Nearest nearest = piece.tree.nearest(place, contact.distance);
+    if (nearest.triangle < 0) continue;
+    contact = {nearest.distance, piece.number, nearest.point};
+  }
+  return contact;
+}
+
+double BodySoFar::thickness_at(const Contact& contact) const {
+  const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece& one) {
+    return one.number == contact.component;
+  });
+  return largest_about(piece->balls, contact.point);
+}
+
+double BodySoFar::thickness_within(const ProbedPart& part, double distance) const {
+  constexpr std::size_t centres = 60;  // among the part's places
+  const std::size_t stride = std::max<std::size_t>(1, part.places.size() / centres);
+  std::vector<double> found;
+  for (const Piece& piece : pieces_) {
+    const Vector3d apart =
+        (part.box.min() - piece.box.max()).cwiseMax(piece.box.min() - part.box.max());
+    if (apart.cwiseMax(0).norm() > distance) continue;
+    for (const Vector3d& place : piece.places) {
+      if (part.box.exteriorDistance(place) > distance) continue;
+      for (std::size_t k = 0; k < part.places.size(); k += stride) {
+        if ((part.places[k] - place).squaredNorm() > distance * distance) continue;
+        found.push_back(largest_about(piece.balls, place));
+        break;
+      }
+    }
+  }
+  if (found.empty()) return 0;
+  const auto quartile = found.begin() + static_cast<std::ptrdiff_t>(found.size() * 3 / 4);
+  std::nth_element(found.begin(), quartile, found.end());
+  return *quartile;
+}
+
+double BodySoFar::distance_to_boxes(const Eigen::AlignedBox3d& box) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_) {
+    least = std::min(least, box.exteriorDistance(piece.box));
+  }
+  return least;
+}
+
+}  // namespace curveskel

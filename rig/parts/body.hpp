@@ -1,0 +1,55 @@
+// The components of a body so far, and how thick it is where.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/topology.hpp>
+
+namespace curveskel {
+
+/// A component as it is asked about: places on it, its extent.
+struct ProbedPart {
+  std::vector<Eigen::Vector3d> places;  ///< vertices, and points spread over its area
+  Eigen::AlignedBox3d box;
+
+  [[nodiscard]] double diagonal() const { return box.diagonal().norm(); }
+};
+
+[[nodiscard]] ProbedPart probed(const Component& component);
+
+class BodySoFar {
+ public:
+  void add(int number, const Component& component, int threads);
+
+  struct Contact {
+    double distance;
+    int component;
+    Eigen::Vector3d point;
+  };
+  /// The nearest place of the body. Precondition: it has a component.
+  [[nodiscard]] Contact nearest(const Eigen::Vector3d& place) const;
+
+  /// The radius of the largest inscribed ball of the component about the place.
+  [[nodiscard]] double thickness_at(const Contact& contact) const;
+  /// The upper quartile of the thickness of what lies within a distance of one of the places; 0
+  /// where nothing does.
+  [[nodiscard]] double thickness_within(const ProbedPart& part, double distance) const;
+  /// The largest radius of all.
+  [[nodiscard]] double most_thickness() const { return most_thickness_; }
+  [[nodiscard]] double distance_to_boxes(const Eigen::AlignedBox3d& box) const;
+
+ private:
+  struct Piece {
+    int number;
+    Eigen::AlignedBox3d box;
+    SurfaceTree tree;
+    std::vector<Eigen::Vector3d> places;   // on the surface
+    std::vector<SurfaceTree::Ball> balls;  // that touch it there
+  };
+  std::vector<Piece> pieces_;
+  double most_thickness_ = 0;
+};
+
+}  // namespace curveskel

@@ -1,0 +1,209 @@
+#include <curveskel/rig_parts.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
+#include "base/option_ranges.hpp"
+#include "rig/parts/body.hpp"
+#include "surface/repair/select_components.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d centroid(const Surface& surface) {
+  Vector3d sum = Vector3d::Zero();
+  double area = 0;
+  for (const auto& t : surface.triangles.rowwise()) {
+    const Eigen::RowVector3d a = surface.positions.row(t(0));
+    const Eigen::RowVector3d b = surface.positions.row(t(1));
+    const Eigen::RowVector3d c = surface.positions.row(t(2));
+    const double twice = (b - a).cross(c - a).norm();
+    sum += twice / 3 * (a + b + c).transpose();
+    area += twice;
+  }
+  return area > 0 ? Vector3d(sum / area) : Vector3d(surface.positions.row(0));
+}
+
+class PartFinder {
+ public:
+  PartFinder(const Surface& surface, const PartOptions& options, const Monitor& monitor)
+      : options_(options), monitor_(monitor) {
+    const Topology counted = topology(surface);
+    components_ = split_components(surface, counted);
+    found_.part_of_vertex = counted.component_of_vertex;
+    found_.parts.resize(components_.size());
+    double all = 0;
+    for (const Component& component : components_) {
+      areas_.push_back(area(component.surface));
+      all += areas_.back();
+    }
+    for (std::size_t c = 0; c < areas_.size(); ++c) found_.parts[c].area_share = areas_[c] / all;
+    by_area_.resize(components_.size());
+    std::iota(by_area_.begin(), by_area_.end(), 0);
+    // Mirror images differ by rounding.
+    std::stable_sort(by_area_.begin(), by_area_.end(), [&](int a, int b) {
+      return std::llround(1e6 * found_.parts[idx(a)].area_share) >
+             std::llround(1e6 * found_.parts[idx(b)].area_share);
+    });
+    diagonal_ = bounding_box_diagonal(surface.positions);
+  }
+
+  RigParts find() {
+    if (components_.size() < 2 || options_.follow <= 0) return std::move(found_);
+    pair_twins();
+    std::vector<char> decided(components_.size(), 0);
+    for (std::size_t rank = 0; rank < by_area_.size(); ++rank) {
+      monitor_.report("parts", static_cast<double>(rank) / static_cast<double>(by_area_.size()));
+      const int c = by_area_[rank];
+      if (decided[idx(c)] != 0) continue;
+      std::vector<int> together{c};
+      const int twin = found_.parts[idx(c)].twin;
+      if (rank > 0 && twin >= 0 && decided[idx(twin)] == 0) together.push_back(twin);
+      for (const int one : together) decided[idx(one)] = 1;
+      decide(together, rank == 0);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void decide(const std::vector<int>& together, bool is_first) {
+    double reach = 0;
+    for (const int c : together) {
+      if (is_first) continue;
+      measure(c);
+      reach += found_.parts[idx(c)].reach / static_cast<double>(together.size());
+    }
+    const bool follows = !is_first && reach < options_.follow;
+    for (const int c : together) {
+      RigPart& part = found_.parts[idx(c)];
+      part.follows = follows;
+      if (follows) continue;
+      part.host = -1;
+      body_.add(c, components_[idx(c)], options_.threads);
+    }
+  }
+
+  /// Sets the component's reach, and its host as if it followed.
+  void measure(int c) {
+    RigPart& part = found_.parts[idx(c)];
+    const ProbedPart probe = probed(components_[idx(c)]);
+    const double apart = body_.distance_to_boxes(probe.box);
+    if (apart > options_.follow * body_.most_thickness()) {
+      part.reach = apart / std::max(body_.most_thickness(), 1e-12 * diagonal_);
+      return;
+    }
+    std::vector<BodySoFar::Contact> contacts;
+    contacts.reserve(probe.places.size());
+    for (const Vector3d& place : probe.places) contacts.push_back(body_.nearest(place));
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    const std::size_t tenth = std::max<std::size_t>(3, contacts.size() / 10);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < std::min(tenth, contacts.size()); ++i) {
+      radii.push_back(body_.thickness_at(contacts[i]));
+    }
+    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
+    const double thickness =
+        std::max({radii[radii.size() / 2], body_.thickness_within(probe, 0.5 * probe.diagonal()),
+                  1e-12 * diagonal_});
+    part.host = contacts.front().component;
+    part.reach = contacts[contacts.size() * 98 / 100].distance / thickness;
+  }
+
+  /// Of the planes through the middle of the largest component's box the one that pairs most area.
+  void pair_twins() {
+    std::vector<Vector3d> middles;
+    for (const Component& component : components_) middles.push_back(centroid(component.surface));
+    const Positions& largest = components_[idx(by_area_[0])].surface.positions;
+    const Vector3d middle =
+        0.5 * (largest.colwise().minCoeff() + largest.colwise().maxCoeff()).transpose();
+    std::vector<int> best(components_.size(), -1);
+    double most = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<int> twins = twins_through(middles, axis, middle[axis]);
+      double paired = 0;
+      for (std::size_t c = 0; c < twins.size(); ++c) paired += twins[c] >= 0 ? areas_[c] : 0;
+      if (paired <= most) continue;
+      most = paired;
+      best = twins;
+    }
+    for (std::size_t c = 0; c < best.size(); ++c) found_.parts[c].twin = best[c];
+  }
+
+  [[nodiscard]] std::vector<int> twins_through(const std::vector<Vector3d>& middles, int axis,
+                                               double plane) const {
+    constexpr double least_alike = 0.97;  // areas
+    const double tolerance = 0.01 * diagonal_;
+    std::vector<int> twins(middles.size(), -1);
+    for (std::size_t i = 0; i < by_area_.size(); ++i) {
+      const std::size_t c = idx(by_area_[i]);
+      if (twins[c] >= 0) continue;
+      Vector3d image = middles[c];
+      image[axis] = 2 * plane - image[axis];
+      if ((image - middles[c]).norm() < tolerance) continue;
+      for (std::size_t j = i + 1; j < by_area_.size(); ++j) {
+        const std::size_t other = idx(by_area_[j]);
+        if (areas_[other] < least_alike * areas_[c]) break;
+        if (twins[other] >= 0 || (middles[other] - image).norm() > tolerance) continue;
+        twins[c] = static_cast<int>(other);
+        twins[other] = static_cast<int>(c);
+        break;
+      }
+    }
+    return twins;
+  }
+
+  const PartOptions& options_;
+  const Monitor& monitor_;
+  std::vector<Component> components_;
+  std::vector<double> areas_;
+  std::vector<int> by_area_;
+  double diagonal_ = 0;
+  BodySoFar body_;
+  RigParts found_;
+};
+
+}  // namespace
+
+void require_valid(const PartOptions& options) {
+  constexpr OptionRange follow{0, 100};
+  const OptionCheck check("PartOptions");
+  check.number("follow", options.follow, follow);
+  check.number("threads", options.threads, thread_range);
+}
+
+bool RigParts::all_body() const {
+  return std::none_of(parts.begin(), parts.end(), [](const RigPart& p) { return p.follows; });
+}
+
+RigParts find_parts(const Surface& surface, const PartOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  return PartFinder(surface, options, monitor).find();
+}
+
+RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts) {
+  RepairedSurface body = repaired;
+  if (parts.all_body()) return body;
+  const Topology counted = topology(repaired.surface);
+  std::vector<Fate> fates;
+  for (const RigPart& part : parts.parts) {
+    fates.push_back(part.follows ? Fate::not_chosen : Fate::kept);
+  }
+  const std::vector<std::int32_t> number = keep_components(body.surface, counted, fates);
+  for (int& v : body.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
+  std::erase_if(body.rims, [&](const auto& rim) { return number[idx(rim[0])] < 0; });
+  for (auto& rim : body.rims) {
+    for (std::int32_t& v : rim) v = number[idx(v)];
+  }
+  return body;
+}
+
+}  // namespace curveskel

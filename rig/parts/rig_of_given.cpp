@@ -1,0 +1,197 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/advanced/union_find.hpp>
+#include <curveskel/make_rig.hpp>
+#include "surface/repair/weld.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t most_joints = 4;
+
+/// What moves with the body without being of it, and hangs together.
+struct Follower {
+  std::vector<int> vertices;
+  bool sewn = false;  ///< to the body
+};
+
+std::vector<Follower> followers_of(const Surface& given, const Eigen::VectorXi& vertex_of_input) {
+  constexpr double one_place = 1e-6;  // of D
+  const Eigen::Index count = given.positions.rows();
+  UnionFind joined(count);
+  for (const auto& t : given.triangles.rowwise()) {
+    for (int k = 1; k < 3; ++k) joined.unite(t(0), t(k));
+  }
+  const auto place = nearby_vertices(given.positions, std::vector<bool>(idx(count), true),
+                                     one_place * bounding_box_diagonal(given.positions));
+  std::vector<char> sewn(idx(count), 0);
+  for (int v = 0; v < static_cast<int>(count); ++v) {
+    const int other = place[idx(v)];
+    const bool follows = vertex_of_input[v] < 0;
+    if (follows && vertex_of_input[other] < 0) joined.unite(v, other);
+    if (follows != (vertex_of_input[other] < 0)) sewn[idx(follows ? v : other)] = 1;
+  }
+  std::map<int, Follower> by_root;
+  for (int v = 0; v < static_cast<int>(count); ++v) {
+    if (vertex_of_input[v] >= 0) continue;
+    Follower& follower = by_root[joined.root(v)];
+    follower.vertices.push_back(v);
+    follower.sewn = follower.sewn || sewn[idx(v)] != 0;
+  }
+  std::vector<Follower> followers;
+  followers.reserve(by_root.size());
+  for (auto& [root, follower] : by_root) followers.push_back(std::move(follower));
+  return followers;
+}
+
+using Row = std::vector<std::pair<int, double>>;  // joint, share; joints ascending
+
+/// The largest shares, of sum 1.
+Row normalised(const std::map<int, double>& shares) {
+  Row row(shares.begin(), shares.end());
+  std::stable_sort(row.begin(), row.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  row.resize(std::min(row.size(), most_joints));
+  double sum = 0;
+  for (const auto& [joint, share] : row) sum += share;
+  for (auto& [joint, share] : row) share /= sum;
+  std::sort(row.begin(), row.end());
+  return row;
+}
+
+class Following {
+ public:
+  Following(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
+            const Surface& given)
+      : rig_(rig), surface_(surface), skeleton_(skeleton), given_(given), tree_(surface) {}
+
+  /// Calls set(vertex, row).
+  template <typename Set>
+  void follow(const Follower& follower, const Set& set) const {
+    std::vector<SurfaceTree::Nearest> contacts;
+    contacts.reserve(follower.vertices.size());
+    for (const int v : follower.vertices) {
+      contacts.push_back(tree_.nearest(given_.positions.row(v).transpose()));
+    }
+    if (moves_as_one(follower, contacts)) {
+      const Row row = mean_row(nearest_of(contacts));
+      for (const int v : follower.vertices) set(v, row);
+      return;
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      set(follower.vertices[k], mean_row({contacts[k]}));
+    }
+  }
+
+ private:
+  [[nodiscard]] bool moves_as_one(const Follower& follower,
+                                  const std::vector<SurfaceTree::Nearest>& contacts) const {
+    constexpr double longest = 5;  // radii
+    if (follower.sewn) return false;
+    double radius = 0;
+    for (const SurfaceTree::Nearest& contact : contacts) {
+      radius = std::max(radius, radius_at(contact.triangle));
+    }
+    const auto places = given_.positions(follower.vertices, Eigen::all);
+    const double diagonal = (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm();
+    return diagonal < longest * radius;
+  }
+
+  /// Of the skeleton's nodes for the corners the largest.
+  [[nodiscard]] double radius_at(int triangle) const {
+    if (skeleton_.radii.size() == 0 || skeleton_.node_of_vertex.size() == 0) return 0;
+    double radius = 0;
+    for (const int vertex : surface_.triangles.row(triangle)) {
+      const int node = skeleton_.node_of_vertex[vertex];
+      if (node >= 0) radius = std::max(radius, skeleton_.radii[node]);
+    }
+    return radius;
+  }
+
+  static std::vector<SurfaceTree::Nearest> nearest_of(std::vector<SurfaceTree::Nearest> contacts) {
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    const std::size_t tenth = std::max<std::size_t>(3, contacts.size() / 10);
+    contacts.resize(std::min(tenth, contacts.size()));
+    return contacts;
+  }
+
+  [[nodiscard]] Row mean_row(const std::vector<SurfaceTree::Nearest>& contacts) const {
+    std::map<int, double> shares;
+    for (const SurfaceTree::Nearest& contact : contacts) {
+      const std::array<double, 3> at = barycentric(contact);
+      for (int k = 0; k < 3; ++k) {
+        const int vertex = surface_.triangles(contact.triangle, k);
+        for (SkinWeights::InnerIterator it(rig_.weights, vertex); it; ++it) {
+          const double share = at[idx(k)] * static_cast<double>(it.value());
+          if (share > 0) shares[static_cast<int>(it.col())] += share;
+        }
+      }
+    }
+    return normalised(shares);
+  }
+
+  [[nodiscard]] std::array<double, 3> barycentric(const SurfaceTree::Nearest& contact) const {
+    const auto corner = [&](int k) -> Vector3d {
+      return surface_.positions.row(surface_.triangles(contact.triangle, k));
+    };
+    const auto twice_area = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+      return (b - a).cross(c - a).norm();
+    };
+    const std::array<double, 3> parts{twice_area(contact.point, corner(1), corner(2)),
+                                      twice_area(corner(0), contact.point, corner(2)),
+                                      twice_area(corner(0), corner(1), contact.point)};
+    const double sum = parts[0] + parts[1] + parts[2];
+    if (!(sum > 0)) return {1, 0, 0};
+    return {parts[0] / sum, parts[1] / sum, parts[2] / sum};
+  }
+
+  const Rig& rig_;
+  const Surface& surface_;
+  const CurveSkeleton& skeleton_;
+  const Surface& given_;
+  SurfaceTree tree_;
+};
+
+}  // namespace
+
+Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
+                 const Eigen::VectorXi& vertex_of_input, const Surface& given) {
+  const Eigen::Index count = given.positions.rows();
+  std::vector<Row> rows(idx(count));
+  for (Eigen::Index v = 0; v < count; ++v) {
+    if (vertex_of_input[v] < 0) continue;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex_of_input[v]); it; ++it) {
+      rows[idx(v)].emplace_back(static_cast<int>(it.col()), static_cast<double>(it.value()));
+    }
+  }
+  const std::vector<Follower> followers = followers_of(given, vertex_of_input);
+  if (!followers.empty()) {
+    const Following following(rig, surface, skeleton, given);
+    for (const Follower& follower : followers) {
+      following.follow(follower, [&](int v, const Row& row) { rows[idx(v)] = row; });
+    }
+  }
+  Rig result{rig.joints, rig.parents, rig.names, SkinWeights(count, rig.weights.cols())};
+  result.weights.reserve(Eigen::VectorXi::Constant(count, static_cast<int>(most_joints)));
+  for (Eigen::Index v = 0; v < count; ++v) {
+    for (const auto& [joint, share] : rows[idx(v)]) {
+      result.weights.insert(v, joint) = static_cast<float>(share);
+    }
+  }
+  result.weights.makeCompressed();
+  return result;
+}
+
+}  // namespace curveskel
