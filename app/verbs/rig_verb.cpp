@@ -1,5 +1,6 @@
 // curveskel rig: a surface file in, the same surface with joints and skin weights out.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/body_plan.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
@@ -41,6 +43,7 @@ struct RigArguments {
   ExtractOptions extract;
   RigOptions rig;
   PartOptions parts;
+  PlanOptions plan;
 };
 
 /// A skeleton of this surface is not mostly elsewhere.
@@ -100,6 +103,13 @@ std::string parts_in_words(const RigParts& parts) {
                      parts.parts.size() - static_cast<std::size_t>(followers), followers);
 }
 
+std::string plan_in_words(const BodyPlan& plan) {
+  if (plan.plan == BodyKind::none) return "";
+  std::string text = fmt::format("plan: {} ({})\n", name_of(body_kinds, plan.plan), plan.reason);
+  if (!plan.missing.empty()) text += fmt::format("missing: {}\n", fmt::join(plan.missing, ", "));
+  return text;
+}
+
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
@@ -118,7 +128,9 @@ int run_rig(RigArguments arguments, Session& session) {
   repaired = body_of(repaired, parts);
   const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   const Surface given{soup.positions, triangulate(soup)};
-  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, arguments.rig, monitor),
+  arguments.plan.faces_minus_z = soup.faces_minus_z;
+  const BodyPlan plan = find_plan(repaired.surface, skeleton, arguments.plan);
+  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, plan, arguments.rig, monitor),
                                repaired.surface, skeleton, repaired.vertex_of_input, given);
   std::vector<OutputFile> files;
   fs::path name = arguments.mesh.stem();
@@ -136,6 +148,7 @@ int run_rig(RigArguments arguments, Session& session) {
                   arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
                   count_tips(rig));
   text += parts_in_words(parts);
+  text += plan_in_words(plan);
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;

@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/joints.hpp>
 #include <curveskel/advanced/skin_weights.hpp>
+#include <curveskel/body_plan.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/rig.hpp>
@@ -28,6 +29,12 @@ void require_valid(const RigOptions& options);
 /// stop.
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options = {}, const Monitor& monitor = {});
+
+/// The same with the joints of a plan, which keep the names of their roles; the sides of the others
+/// are those of the plan's axes. The plan is of the same skeleton.
+[[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
+                           const BodyPlan& plan, const RigOptions& options = {},
+                           const Monitor& monitor = {});
 
 /// The skeleton with node_of_vertex, if it has one, by the vertices of the surface that was
 /// repaired instead of those given; -1 for vertices that only the repair made. `vertex_of_input` is

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The joints of a leg from above, and how far each lies below the trunk's curve, of its height
+/// above the ground there: means over artists' rigs.
+struct LegRule {
+  std::array<const char*, 4> roles;
+  std::array<double, 4> shares;
+};
+constexpr LegRule hind_leg{{"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}};
+constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "front_toe.L"},
+                            {0.14, 0.53, 0.87, 0.96}};
+
+void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const LegRule& rule,
+               const std::string& parent, std::vector<Place>& places) {
+  const Course course = mean_course(tree, pair);
+  const double top = course.points.front().y();
+  std::string above = parent;
+  std::size_t k = 0;
+  for (std::size_t joint = 0; joint < rule.roles.size(); ++joint) {
+    const double y = top - rule.shares[joint] * (top - tree.ground);
+    while (k + 1 < course.points.size() && course.points[k].y() > y) ++k;
+    places.push_back({rule.roles[joint], above, course.points[k], true, number,
+                      "at its share of the height of the trunk above the ground"});
+    above = rule.roles[joint];
+  }
+}
+
+struct Along {
+  std::vector<Vector3d> points;
+  std::vector<double> way;
+
+  [[nodiscard]] Vector3d at(double wanted) const {
+    std::size_t k = 0;
+    while (k + 2 < points.size() && way[k + 1] < wanted) ++k;
+    if (points.size() < 2) return points.front();
+    const double step = way[k + 1] - way[k];
+    const double share = step > 0 ? std::clamp((wanted - way[k]) / step, 0.0, 1.0) : 0;
+    return points[k] + share * (points[k + 1] - points[k]);
+  }
+  [[nodiscard]] double whole() const { return way.back(); }
+};
+
+Along along(const CurveTree& tree, const std::vector<int>& path) {
+  Along line;
+  for (const int node : path) {
+    line.points.push_back(tree.nodes[idx(node)]);
+    line.points.back().x() = tree.middle;
+    line.way.push_back(line.way.empty()
+                           ? 0
+                           : line.way.back() +
+                                 (line.points.back() - line.points[line.points.size() - 2]).norm());
+  }
+  return line;
+}
+
+/// The farthest node ahead of the front legs near the mirror plane: the nose.
+int nose_of(const CurveTree& tree, int front, const Ways& ways) {
+  int nose = front;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    const bool is_ahead =
+        tree.nodes[idx(node)].z() > tree.nodes[idx(front)].z() - 0.02 * tree.size &&
+        std::abs(tree.aside(node)) < 0.03 * tree.size;
+    if (is_ahead && ways.distance[idx(node)] > ways.distance[idx(nose)]) nose = node;
+  }
+  return nose;
+}
+
+/// From the hips to the front legs, and on to the head.
+void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>& places) {
+  const std::string share = "at its share of the way along the trunk";
+  Vector3d root = tree.nodes[idx(hips)];
+  root.x() = tree.middle;
+  places.push_back({"spine", "", root, true, -1, "where the hind legs meet the trunk"});
+  const Along back = along(tree, ways_from(tree, hips).path(front));
+  places.push_back({"spine.001", "spine", back.at(0.3 * back.whole()), true, -1, share});
+  places.push_back({"spine.002", "spine.001", back.at(0.65 * back.whole()), true, -1, share});
+  places.push_back({"chest", "spine.002", back.at(back.whole()), true, -1,
+                    "where the front legs meet the trunk"});
+  const Ways ways = ways_from(tree, front);
+  const int nose = nose_of(tree, front, ways);
+  if (nose == front) return;
+  const Along neck = along(tree, ways.path(nose));
+  places.push_back({"neck", "chest", neck.at(0.35 * neck.whole()), true, -1, share});
+  places.push_back({"head", "neck", neck.at(0.6 * neck.whole()), true, -1, share});
+}
+
+}  // namespace
+
+std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
+                                    const PlanFound& found) {
+  const LimbPair& hind = limbs.pairs[idx(found.legs[0])];
+  const LimbPair& front = limbs.pairs[idx(found.legs[1])];
+  std::vector<Place> places;
+  place_trunk(tree, hind.root, front.root, places);
+  place_leg(tree, hind, found.legs[0], hind_leg, "spine", places);
+  place_leg(tree, front, found.legs[1], front_leg, "chest", places);
+  return places;
+}
+
+std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const LimbPair& legs = limbs.pairs[idx(found.legs[0])];
+  Vector3d root = tree.nodes[idx(legs.root)];
+  root.x() = tree.middle;
+  std::vector<Place> places{{"spine", "", root, true, -1, "where the legs meet the trunk"}};
+  place_leg(tree, legs, found.legs[0], hind_leg, "spine", places);
+  return places;
+}
+
+}  // namespace curveskel
