@@ -126,7 +126,8 @@ int run_rig(RigArguments arguments, Session& session) {
   arguments.parts.threads = arguments.threads;
   const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
   repaired = body_of(repaired, parts);
-  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
+  CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
+  skeleton = dense_skeleton(repaired.surface, skeleton);
   const Surface given{soup.positions, triangulate(soup)};
   arguments.plan.faces_minus_z = soup.faces_minus_z;
   const BodyPlan plan = find_plan(repaired.surface, skeleton, arguments.plan);

@@ -23,6 +23,12 @@ struct RigOptions {
 /// range.
 void require_valid(const RigOptions& options);
 
+/// The skeleton with more nodes, after those given, half a radius apart or less: a straight stretch
+/// has few, but joints lie along it, and the skin on either side of a joint is its own. Vertices go
+/// to the nearest of the nodes about their node. Precondition: node_of_vertex, if there is one, is
+/// the surface's. O(#V + nodes made).
+[[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
+
 /// `place_joints`, `skin_weights`, then `name_sides` (rig/sides.hpp). A vertex that has no node (or
 /// none has) goes to the one whose ball is nearest. Precondition: a clean surface; node_of_vertex
 /// by its vertices, if there is one. Throws Error(Fault::input) as `place_joints`, Cancelled on a

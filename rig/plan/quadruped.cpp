@@ -22,10 +22,13 @@ constexpr LegRule hind_leg{{"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0
 constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "front_toe.L"},
                             {0.14, 0.53, 0.87, 0.96}};
 
+/// Below the first joint a leg hangs beside the body: the first one lies as far from the mirror
+/// plane as the second.
 void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const LegRule& rule,
                const std::string& parent, std::vector<Place>& places) {
   const Course course = mean_course(tree, pair);
   const double top = course.points.front().y();
+  const std::size_t first = places.size();
   std::string above = parent;
   std::size_t k = 0;
   for (std::size_t joint = 0; joint < rule.roles.size(); ++joint) {
@@ -35,6 +38,33 @@ void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const Le
                       "at its share of the height of the trunk above the ground"});
     above = rule.roles[joint];
   }
+  Vector3d& thigh = places[first].at;
+  thigh.x() = std::max(thigh.x(), places[first + 1].at.x());
+}
+
+/// The thighs of hind legs, which the curve leaves for the belly too early, lie half-way between
+/// the crossing and the ankles, and the root between the thighs.
+int hips_of(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, double ankle) {
+  const double crossing = tree.nodes[idx(hind.root)].z();
+  const double wanted = 0.5 * (crossing + ankle);
+  int best = hind.root;
+  for (const int node : limbs.trunk) {
+    const auto off = [&](int other) { return std::abs(tree.nodes[idx(other)].z() - wanted); };
+    if (off(node) < off(best)) best = node;
+  }
+  return best;
+}
+
+/// Sets the thigh over the root.
+void place_hind_leg(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, int number,
+                    std::vector<Place>& places) {
+  const std::size_t first = places.size();
+  place_leg(tree, hind, number, hind_leg, "spine", places);
+  Vector3d& thigh = places[first].at;
+  thigh.z() = 0.5 * (tree.nodes[idx(hind.root)].z() + places[first + 2].at.z());
+  Vector3d root = tree.nodes[idx(hips_of(tree, limbs, hind, places[first + 2].at.z()))];
+  root.x() = tree.middle;
+  places.push_back({"spine", "", root, true, -1, "on the trunk's curve between the thighs"});
 }
 
 struct Along {
@@ -80,9 +110,6 @@ int nose_of(const CurveTree& tree, int front, const Ways& ways) {
 /// From the hips to the front legs, and on to the head.
 void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>& places) {
   const std::string share = "at its share of the way along the trunk";
-  Vector3d root = tree.nodes[idx(hips)];
-  root.x() = tree.middle;
-  places.push_back({"spine", "", root, true, -1, "where the hind legs meet the trunk"});
   const Along back = along(tree, ways_from(tree, hips).path(front));
   places.push_back({"spine.001", "spine", back.at(0.3 * back.whole()), true, -1, share});
   places.push_back({"spine.002", "spine.001", back.at(0.65 * back.whole()), true, -1, share});
@@ -103,18 +130,15 @@ std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
   const LimbPair& hind = limbs.pairs[idx(found.legs[0])];
   const LimbPair& front = limbs.pairs[idx(found.legs[1])];
   std::vector<Place> places;
-  place_trunk(tree, hind.root, front.root, places);
-  place_leg(tree, hind, found.legs[0], hind_leg, "spine", places);
+  place_hind_leg(tree, limbs, hind, found.legs[0], places);
+  place_trunk(tree, hips_of(tree, limbs, hind, places[2].at.z()), front.root, places);
   place_leg(tree, front, found.legs[1], front_leg, "chest", places);
   return places;
 }
 
 std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  const LimbPair& legs = limbs.pairs[idx(found.legs[0])];
-  Vector3d root = tree.nodes[idx(legs.root)];
-  root.x() = tree.middle;
-  std::vector<Place> places{{"spine", "", root, true, -1, "where the legs meet the trunk"}};
-  place_leg(tree, legs, found.legs[0], hind_leg, "spine", places);
+  std::vector<Place> places;
+  place_hind_leg(tree, limbs, limbs.pairs[idx(found.legs[0])], found.legs[0], places);
   return places;
 }
 
