@@ -29,6 +29,13 @@ void require_valid(const RigOptions& options);
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options = {}, const Monitor& monitor = {});
 
+/// The same joints with new weights: each node of the skeleton goes with the nearest bone of
+/// `given` (rig/skin/given_joints.hpp), then `skin_weights`. For joints that somebody has placed;
+/// `given.weights` is not read. Errors as `make_rig`.
+[[nodiscard]] Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton,
+                                    const Rig& given, const SkinOptions& options = {},
+                                    const Monitor& monitor = {});
+
 /// The skeleton with node_of_vertex, if it has one, by the vertices of the surface that was
 /// repaired instead of those given; -1 for vertices that only the repair made. `vertex_of_input` is
 /// as in RepairedSurface, `vertices` those of the surface.
