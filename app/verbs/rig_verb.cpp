@@ -8,12 +8,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/body_plan.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
@@ -36,6 +38,8 @@ struct RigArguments {
   std::vector<std::string> outputs;
   std::string skeleton;  ///< empty = extract it
   bool quiet = false;
+  bool bare = false;
+  bool keep_rig = false;
   double time_limit_seconds = 0;
   int fair_iterations = 0;
   int threads = 0;
@@ -110,6 +114,57 @@ std::string plan_in_words(const BodyPlan& plan) {
   return text;
 }
 
+Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
+  std::optional<Rig> rig = read_rig(mesh, monitor);
+  if (rig) return std::move(*rig);
+  throw Error(Fault::input, mesh.string() +
+                                ": found no rig, needed one for --keep-rig, in a glTF file; "
+                                "leave out --keep-rig to have joints made");
+}
+
+bool is_gltf(const PolygonSoup& soup) {
+  return soup.format == SurfaceFormat::glb || soup.format == SurfaceFormat::gltf;
+}
+
+/// Where the file itself gets the rig, in the pose in which its vertices are stored.
+PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
+  const bool as_bound = !arguments.bare && !arguments.keep_rig;
+  PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
+  if (as_bound && soup.posed) {
+    session.terminal.warn(
+        "the joints rest in another pose than they were bound in; the new rig rests in the pose "
+        "in which the old one was bound (--bare keeps the pose at rest)");
+  }
+  return soup;
+}
+
+std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSoup& soup,
+                                  const Rig& rig, const std::vector<RigFormat>& formats,
+                                  Session& session) {
+  const Monitor monitor = session.monitor();
+  fs::path name = arguments.mesh.stem();
+  if (arguments.mesh.extension() == ".gz") name = name.stem();
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
+    std::string bytes;
+    if (arguments.bare || !is_gltf(soup)) {
+      const Surface given{soup.positions, triangulate(soup)};
+      bytes = format_rig(given, rig, formats[i], name.string(), program_and_version());
+    } else {
+      EditedFile edited = format_rig_into(arguments.mesh, rig, formats[i],
+                                          arguments.keep_rig ? OldRig::kept : OldRig::replaced,
+                                          name.string() + " rig", program_and_version(), monitor);
+      for (const std::string& note : edited.notes) {
+        if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
+      }
+      bytes = std::move(edited.bytes);
+    }
+    files.push_back({arguments.outputs[i], std::move(bytes)});
+  }
+  return files;
+}
+
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
@@ -120,27 +175,25 @@ int run_rig(RigArguments arguments, Session& session) {
 
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
-  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const PolygonSoup soup = read_to_rig(arguments, monitor, session);
   arguments.rig.faces_minus_z = soup.faces_minus_z;
+  std::optional<Rig> old_rig;
+  if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
   RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
   arguments.parts.threads = arguments.threads;
   const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
   repaired = body_of(repaired, parts);
   CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   skeleton = dense_skeleton(repaired.surface, skeleton);
-  const Surface given{soup.positions, triangulate(soup)};
   arguments.plan.faces_minus_z = soup.faces_minus_z;
-  const BodyPlan plan = find_plan(repaired.surface, skeleton, arguments.plan);
-  const Rig rig = rig_of_given(make_rig(repaired.surface, skeleton, plan, arguments.rig, monitor),
-                               repaired.surface, skeleton, repaired.vertex_of_input, given);
-  std::vector<OutputFile> files;
-  fs::path name = arguments.mesh.stem();
-  if (arguments.mesh.extension() == ".gz") name = name.stem();
-  for (std::size_t i = 0; i < formats.size(); ++i) {
-    monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    files.push_back({arguments.outputs[i],
-                     format_rig(given, rig, formats[i], name.string(), program_and_version())});
-  }
+  BodyPlan plan;
+  if (!old_rig) plan = find_plan(repaired.surface, skeleton, arguments.plan);
+  const Rig made =
+      old_rig ? weights_on_joints(repaired.surface, skeleton, *old_rig, arguments.rig.skin, monitor)
+              : make_planned_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
+  const Surface given{soup.positions, triangulate(soup)};
+  const Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
+  const std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -179,6 +232,11 @@ Verb add_rig(CLI::App& program) {
               "rig this one (of extract or view, corrected by hand, or of another program) "
               "instead of extracting one")
           ->type_name("FILE");
+  parser->add_flag("--bare", arguments->bare,
+                   "of a glTF file, too, the surface alone, without its materials and all else, "
+                   "instead of the file itself with the rig in it");
+  parser->add_flag("--keep-rig", arguments->keep_rig,
+                   "make no joints, but weights for those that the glTF file has");
   JointOptions& joints = arguments->rig.joints;
   add_number(
       *parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),

@@ -35,6 +35,7 @@ struct PolygonSoup {
   std::vector<std::int64_t> offsets;  ///< #P + 1 entries, the first 0
   SurfaceFormat format = SurfaceFormat::obj;
   bool faces_minus_z = false;  ///< figures look along -z, as in VRM 0.x; else nothing is known
+  bool posed = false;          ///< glTF: joints bend it away from the pose in which they were bound
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
   /// Vertices of the file with NaN or infinity: they have their rows, at the place of another, and
   /// no polygons.
@@ -45,12 +46,19 @@ struct PolygonSoup {
 /// The triangles as polygons, of no file.
 [[nodiscard]] PolygonSoup soup_of(const Surface& surface);
 
+struct ReadOptions {
+  /// glTF whose joints rest in another pose than they were bound in: all skinned meshes as they
+  /// were bound, where the topmost joint takes them, instead of as they rest.
+  bool as_bound = false;
+};
+
 /// Reads any supported file, gzipped or not (".ply.gz"); the format follows from the content where
 /// that is unambiguous and from the extension otherwise.
 /// Polygons of vertices with NaN or infinity are left out, if at least half of all remain.
 /// Throws Error(Fault::input) naming the file and, for text, the line. Time and memory linear in
 /// the file's size; a header's counts are checked against it before anything is allocated.
 [[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path,
-                                        const Monitor& monitor = {});
+                                        const Monitor& monitor = {},
+                                        const ReadOptions& options = {});
 
 }  // namespace curveskel

@@ -1,10 +1,13 @@
 // Rig files, out: glTF 2.0.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <curveskel/advanced/names.hpp>
+#include <curveskel/monitor.hpp>
 #include <curveskel/rig.hpp>
 #include <curveskel/surface.hpp>
 
@@ -27,5 +30,26 @@ inline constexpr NameTable<RigFormat, 2> rig_formats{{
 /// precision does not suffice for the coordinates. O(#V + #F + joints).
 [[nodiscard]] std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                      const std::string& name, const std::string& provenance);
+
+enum class OldRig { replaced, kept };
+
+struct EditedFile {
+  std::string bytes;
+  std::vector<std::string> notes;  ///< what a person should know, a line each
+};
+
+/// The glTF file itself with the rig in it: every byte of its buffers and every member of its JSON
+/// stays, but for what docs/formats.md lists. Appended are joints below a node named `name`, skins,
+/// inverse bind matrices, JOINTS_0 and WEIGHTS_0; files beside it (buffers, pictures) are taken in.
+/// A rig that is there goes, or is kept: then `rig` has the joints that `read_rig` finds in the
+/// file, and only their weights are written.
+/// Precondition: weights have a row for each vertex that `read_polygons` finds in the file (read
+/// `as_bound` where the old rig is replaced).
+/// Throws Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as
+/// `format_rig`. O(bytes of the file).
+[[nodiscard]] EditedFile format_rig_into(const std::filesystem::path& gltf, const Rig& rig,
+                                         RigFormat format, OldRig old_rig, const std::string& name,
+                                         const std::string& provenance,
+                                         const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -34,6 +34,9 @@ class JointReader {
     return joints_of_skin_.at(skin);
   }
 
+  /// Of each joint.
+  [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
+
   void write(Rig& rig) const {
     const auto count = static_cast<Eigen::Index>(nodes_.size());
     rig.joints.resize(count, 3);
@@ -136,13 +139,17 @@ std::optional<Rig> read_gltf_rig(const FileBytes& file, const Monitor& monitor) 
   const tinygltf::Model model = parse_gltf(file, monitor);
   const GltfScene scene = read_gltf_scene(file, model, monitor);
   if (scene.skinned.empty()) return std::nullopt;
+  return rig_of_scene(file, model, scene).rig;
+}
+
+GltfRig rig_of_scene(const FileBytes& file, const tinygltf::Model& model, const GltfScene& scene) {
   const JointReader joints(file, model, scene);
-  Rig rig;
-  joints.write(rig);
+  GltfRig found{{}, joints.nodes()};
+  joints.write(found.rig);
   WeightReader weights(file, model);
   for (const GltfSkinned& part : scene.skinned) weights.add(part, joints.joints_of(part.skin));
-  rig.weights = weights.weights(scene.soup.positions.rows(), rig.joints.rows());
-  return rig;
+  found.rig.weights = weights.weights(scene.soup.positions.rows(), found.rig.joints.rows());
+  return found;
 }
 
 }  // namespace curveskel

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"
 #include "surface/mesh/single_precision.hpp"
 
@@ -24,12 +24,6 @@ namespace curveskel {
 namespace {
 
 constexpr int first_joint_node = 2;
-
-/// Names of files need not be UTF-8, but JSON is.
-std::string as_utf8(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
 
 /// A glTF model that grows accessor by accessor, all in one buffer.
 class GltfWriter {
@@ -136,38 +130,18 @@ int add_normals(GltfWriter& writer, const Surface& surface) {
                     TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-/// JOINTS_0 and WEIGHTS_0: the four largest of each row, which sum to 1 in single precision.
+/// JOINTS_0 and WEIGHTS_0.
 void add_weights(GltfWriter& writer, const SkinWeights& weights,
                  std::map<std::string, int>& attributes) {
-  constexpr std::size_t most = 4;
-  const bool small = weights.cols() <= 256;
-  std::string which;
-  std::string shares;
-  for (Eigen::Index vertex = 0; vertex < weights.rows(); ++vertex) {
-    std::vector<std::pair<float, int>> row;
-    for (SkinWeights::InnerIterator it(weights, vertex); it; ++it) {
-      row.emplace_back(it.value(), static_cast<int>(it.col()));
-    }
-    std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
-      return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    row.resize(most, {0.0F, 0});
-    float sum = 0;
-    for (const auto& [share, joint] : row) sum += share;
-    for (const auto& [share, joint] : row) {
-      GltfWriter::put(shares, sum > 0 ? share / sum : 0);
-      if (small) {
-        GltfWriter::put(which, static_cast<std::uint8_t>(joint));
-      } else {
-        GltfWriter::put(which, static_cast<std::uint16_t>(joint));
-      }
-    }
-  }
-  attributes["JOINTS_0"] = writer.add(
-      which, small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-      TINYGLTF_TYPE_VEC4, idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
-  attributes["WEIGHTS_0"] = writer.add(shares, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4,
-                                       idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
+  const SkinRows rows = skin_rows(weights, 0, weights.rows());
+  attributes["JOINTS_0"] =
+      writer.add(rows.joints,
+                 rows.in_words ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+                               : TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                 TINYGLTF_TYPE_VEC4, idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
+  attributes["WEIGHTS_0"] =
+      writer.add(rows.weights, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4,
+                 idx(weights.rows()), TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 void add_mesh(GltfWriter& writer, const Surface& surface, const Rig& rig, const std::string& name) {
@@ -197,18 +171,13 @@ void add_nodes(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quat
   nodes[1].name = name;
   nodes[1].mesh = 0;
   nodes[1].skin = 0;
+  const std::vector<LocalFrame> frames = local_frames(rig, axes);
   for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
     const int parent = rig.parents[joint];
-    Eigen::Vector3d offset = rig.joints.row(joint).transpose();
-    Eigen::Quaterniond turn = axes[idx(joint)];
-    if (parent >= 0) {
-      const Eigen::Quaterniond back = axes[idx(parent)].conjugate();
-      offset = back * (offset - rig.joints.row(parent).transpose());
-      turn = (back * turn).normalized();
-    }
+    const Eigen::Quaterniond& turn = frames[idx(joint)].turn;
     tinygltf::Node& node = nodes[idx(first_joint_node + joint)];
     node.name = as_utf8(rig.names[idx(joint)]);
-    node.translation = numbers_of(offset.transpose());
+    node.translation = numbers_of(frames[idx(joint)].offset.transpose());
     node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
     nodes[parent < 0 ? 0 : idx(first_joint_node + parent)].children.push_back(first_joint_node +
                                                                               joint);
@@ -220,17 +189,10 @@ void add_nodes(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quat
 
 void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quaterniond>& axes) {
   tinygltf::Skin& skin = writer.model.skins.emplace_back();
-  std::string matrices;
   for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
     skin.joints.push_back(first_joint_node + joint);
-    const Eigen::Matrix3d back = axes[idx(joint)].conjugate().toRotationMatrix();
-    for (int column = 0; column < 3; ++column) {
-      GltfWriter::put_point(matrices, back.col(column).transpose());
-      GltfWriter::put(matrices, 0.0F);
-    }
-    GltfWriter::put_point(matrices, -(back * rig.joints.row(joint).transpose()).transpose());
-    GltfWriter::put(matrices, 1.0F);
   }
+  const std::string matrices = inverse_bind_matrices(rig, axes, Eigen::Affine3d::Identity());
   skin.inverseBindMatrices = writer.add(matrices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4,
                                         idx(rig.joints.rows()));
   skin.skeleton = 0;
@@ -240,14 +202,8 @@ void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quate
 
 std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                        const std::string& name, const std::string& provenance) {
-  constexpr Eigen::Index most_joints = 65536;
-  if (rig.joints.rows() > most_joints) {
-    throw Error(Fault::output, std::to_string(rig.joints.rows()) + " joints, needed at most " +
-                                   std::to_string(most_joints) +
-                                   "; choose fewer components or longer bones");
-  }
+  require_gltf_joints(rig);
   require_single_precision(surface.positions, "glTF");
-  require_single_range(rig.joints, "glTF");
   GltfWriter writer;
   writer.model.asset.version = "2.0";
   writer.model.asset.generator = as_utf8(provenance);

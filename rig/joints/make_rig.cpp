@@ -9,6 +9,7 @@
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
+#include "rig/skin/given_joints.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
@@ -39,6 +40,15 @@ CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton
   return mapped;
 }
 
+void require_nodes_for(const Surface& surface, const CurveSkeleton& skeleton,
+                       const std::string& caller) {
+  const Eigen::Index mapped = skeleton.node_of_vertex.size();
+  if (mapped == 0 || mapped == surface.positions.rows()) return;
+  throw Error(Fault::input, caller + ": the skeleton has nodes for " + std::to_string(mapped) +
+                                " vertices, needed one for each of the surface's " +
+                                std::to_string(surface.positions.rows()) + ", or none");
+}
+
 }  // namespace
 
 void require_valid(const RigOptions& options) {
@@ -48,22 +58,17 @@ void require_valid(const RigOptions& options) {
 
 Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
              const Monitor& monitor) {
-  return make_rig(surface, skeleton, BodyPlan{}, options, monitor);
+  return make_planned_rig(surface, skeleton, BodyPlan{}, options, monitor);
 }
 
-Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,
-             const RigOptions& options, const Monitor& monitor) {
+Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,
+                     const RigOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "make_rig", options.skin.threads);
   require_sound(skeleton, "make_rig");
-  const Eigen::Index mapped = skeleton.node_of_vertex.size();
-  if (mapped != 0 && mapped != surface.positions.rows()) {
-    throw Error(Fault::input, "make_rig: the skeleton has nodes for " + std::to_string(mapped) +
-                                  " vertices, needed one for each of the surface's " +
-                                  std::to_string(surface.positions.rows()) + ", or none");
-  }
+  require_nodes_for(surface, skeleton, "make_rig");
   monitor.report("joints", 0);
-  Joints joints = place_joints(skeleton, plan.joints, options.joints);
+  Joints joints = place_planned_joints(skeleton, plan.joints, options.joints);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights =
@@ -75,6 +80,25 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPl
   const bool front_is_back = plan.joints.empty() ? options.faces_minus_z : plan.axes(0, 0) < 0;
   name_sides(rig, front_is_back);
   for (std::size_t k = 0; k < plan.joints.size(); ++k) rig.names[k] = plan.joints[k].role;
+  return rig;
+}
+
+Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, const Rig& given,
+                      const SkinOptions& options, const Monitor& monitor) {
+  require_valid(options);
+  require_closed_manifold(surface, "weights_on_joints", options.threads);
+  require_sound(skeleton, "weights_on_joints");
+  require_nodes_for(surface, skeleton, "weights_on_joints");
+  if (given.joints.rows() == 0 || given.joints.rows() != given.parents.size()) {
+    throw Error(Fault::input, "weights_on_joints: " + std::to_string(given.joints.rows()) +
+                                  " joints and " + std::to_string(given.parents.size()) +
+                                  " parents, needed one parent for each of at least one joint");
+  }
+  monitor.report("joints", 0);
+  Rig rig{given.joints, given.parents, given.names, {}};
+  rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
+                             joints_of_nodes(skeleton, given),
+                             static_cast<int>(given.joints.rows()), options, monitor);
   return rig;
 }
 

@@ -15,7 +15,8 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_stl(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_om(const FileBytes& file, const Monitor& monitor);
-[[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor);  ///< and GLB
+[[nodiscard]] PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor,  ///< and GLB
+                                    const ReadOptions& options = {});
 [[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor);
@@ -27,7 +28,8 @@ namespace curveskel {
                                           const OffKeyword& keyword, const Monitor& monitor);
 
 /// The work of `read_polygons` once the file is in memory: positions are finite on return.
-[[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
+                                       const ReadOptions& options = {});
 
 /// True if the content can only be this format.
 [[nodiscard]] bool looks_like_obj(const FileBytes& file);

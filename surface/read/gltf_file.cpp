@@ -182,6 +182,10 @@ bool parse(const FileBytes& file, bool binary, const Monitor& monitor, tinygltf:
 
 }  // namespace
 
+std::string_view gltf_json(const FileBytes& file) {
+  return json_of(file, file.content.starts_with("glTF"));
+}
+
 tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
   const bool binary = file.content.starts_with("glTF");
   if (binary && file.content.substr(4, 4) == std::string_view("\1\0\0\0", 4)) refuse_version(file);

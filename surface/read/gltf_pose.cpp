@@ -113,6 +113,7 @@ class Blending {
 void move_all(GltfPlaced& placed, const Eigen::Affine3d& move) {
   placed.mirrored = move.linear().determinant() < 0;
   placed.positions = placed.modelled;
+  placed.move = move;
   if (move.matrix() == Eigen::Matrix4d::Identity()) return;
   for (Eigen::Vector3d& point : placed.positions) point = move * point;
 }
@@ -145,6 +146,18 @@ int node_above_joints(const std::vector<int>& joints, const std::vector<int>& pa
   };
   while (above >= 0 && !is_above_all()) above = parent(above);
   return above;
+}
+
+/// Of the joints the first with the fewest nodes above it, by its number in the skin.
+std::size_t topmost_joint(const std::vector<int>& joints, const std::vector<int>& parents) {
+  const auto depth = [&](int node) {
+    int above = 0;
+    while ((node = parents[static_cast<std::size_t>(node)]) >= 0) ++above;
+    return above;
+  };
+  const auto is_higher = [&](int a, int b) { return depth(a) < depth(b); };
+  return static_cast<std::size_t>(std::min_element(joints.begin(), joints.end(), is_higher) -
+                                  joints.begin());
 }
 
 }  // namespace
@@ -181,6 +194,7 @@ GltfSkinPose skin_pose(const FileBytes& file, const tinygltf::Model& model, int 
   const int above = node_above_joints(joints.joints, parents);
   pose.without_weights =
       above < 0 ? Eigen::Affine3d::Identity() : frames[static_cast<std::size_t>(above)];
+  pose.topmost = pose.joints[topmost_joint(joints.joints, parents)];
   return pose;
 }
 

@@ -21,6 +21,7 @@ namespace curveskel {
 struct GltfSkinPose {
   std::vector<Eigen::Affine3d> joints;  ///< frame of the joint times its inverse bind matrix
   Eigen::Affine3d without_weights;      ///< of meshes that have no weights, as Blender places them
+  Eigen::Affine3d topmost;              ///< that of the joint with the fewest nodes above it
 };
 
 struct GltfPlaced {
@@ -28,6 +29,7 @@ struct GltfPlaced {
   std::vector<Eigen::Vector3d> positions;
   bool mirrored = false;  ///< the faces look inwards unless they are turned round
   bool bent = false;      ///< no one move takes all from `modelled` to `positions`
+  Eigen::Affine3d move = Eigen::Affine3d::Identity();  ///< that move, where not `bent`
 };
 
 /// `frames` and `parents` are those of `GltfScene`.

@@ -24,8 +24,13 @@ constexpr std::string_view gltf_remedy = "export the file again";
 
 class SceneReader {
  public:
-  SceneReader(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor)
-      : file_(file), model_(model), monitor_(monitor), visited_(model.nodes.size(), false) {
+  SceneReader(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor,
+              const GltfReading& reading)
+      : file_(file),
+        model_(model),
+        monitor_(monitor),
+        reading_(reading),
+        visited_(model.nodes.size(), false) {
     scene_.soup.offsets.push_back(0);
     scene_.frames.assign(model.nodes.size(), unmoved());
     scene_.parents.assign(model.nodes.size(), -1);
@@ -35,17 +40,19 @@ class SceneReader {
     place_nodes();
     for (const int index : scene_.nodes) {
       const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-      if (node.mesh >= 0) read_mesh(node, scene_.frames[static_cast<std::size_t>(index)]);
+      if (node.mesh >= 0) read_mesh(node, index, scene_.frames[static_cast<std::size_t>(index)]);
     }
     if (model_.nodes.empty()) {
       for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
         tinygltf::Node node;
         node.mesh = mesh;
-        read_mesh(node, unmoved());
+        read_mesh(node, mesh, unmoved());
       }
     }
     if (any_bent_) rejoin_seams(std::move(seams_), coordinates_);
     scene_.soup.positions = positions_from(coordinates_);
+    scene_.soup.posed = any_bent_ || parts_apart_;
+    scene_.loose = positions_from(loose_);
     return std::move(scene_);
   }
 
@@ -145,20 +152,39 @@ class SceneReader {
     return result;
   }
 
-  void read_mesh(const tinygltf::Node& node, const Eigen::Affine3d& frame) {
+  void read_mesh(const tinygltf::Node& node, int index, const Eigen::Affine3d& frame) {
     const tinygltf::Mesh& mesh = gltf_element(file_, model_.meshes, node.mesh, "mesh");
     // Primitives with the same accessors share their vertices; others meet in coincident ones.
     std::map<std::vector<int>, Run> runs;
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    for (std::size_t number = 0; number < mesh.primitives.size(); ++number) {
+      const tinygltf::Primitive& primitive = mesh.primitives[number];
       const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-      if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
-          mode != TINYGLTF_MODE_TRIANGLE_FAN) {
-        continue;  // points and lines
-      }
+      const bool in_soup = mode == TINYGLTF_MODE_TRIANGLES ||
+                           mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+                           mode == TINYGLTF_MODE_TRIANGLE_FAN;
+      if (!in_soup && !reading_.with_loose) continue;            // points and lines
       if (!primitive.attributes.contains("POSITION")) continue;  // nothing to show, by the standard
-      const auto [entry, is_new] = runs.try_emplace(accessors_of_positions(primitive));
-      if (is_new) entry->second = append_positions(primitive, node, mesh, frame);
-      append_triangles(vertices_of(primitive, entry->second.count), mode, entry->second);
+      std::vector<int> key = accessors_of_positions(primitive);
+      key.push_back(in_soup ? 1 : 0);
+      const auto [entry, is_new] = runs.try_emplace(std::move(key));
+      Run& run = entry->second;
+      if (is_new) run = append_positions(primitive, node, mesh, frame, in_soup);
+      scene_.parts.push_back({index, node.mesh, static_cast<int>(number), in_soup, run.first,
+                              static_cast<std::int64_t>(run.count), run.move});
+      if (in_soup) append_triangles(vertices_of(primitive, run.count), mode, run);
+    }
+    if (node.skin >= 0) compare_moves(index);
+  }
+
+  /// A mesh has one skin, so one bind pose.
+  void compare_moves(int node) {
+    constexpr double alike = 1e-5;  // as for joints, see `placed_positions`
+    const auto first = std::find_if(scene_.parts.begin(), scene_.parts.end(),
+                                    [&](const GltfPart& part) { return part.node == node; });
+    for (auto part = first; part != scene_.parts.end(); ++part) {
+      const Eigen::Matrix4d difference = part->move.matrix() - first->move.matrix();
+      const double size = std::max(first->move.linear().norm(), first->move.translation().norm());
+      parts_apart_ = parts_apart_ || difference.norm() > alike * size;
     }
   }
 
@@ -167,25 +193,34 @@ class SceneReader {
     std::int64_t first = 0;
     std::size_t count = 0;
     bool mirrored = false;
+    Eigen::Affine3d move = unmoved();
   };
 
-  Run append_positions(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
-                       const tinygltf::Mesh& mesh, const Eigen::Affine3d& frame) {
+  /// Skinned ones as bound: as their topmost joint moves them.
+  [[nodiscard]] GltfPlaced placed(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                                  const tinygltf::Mesh& mesh, const Eigen::Affine3d& frame) {
     const auto& morph_weights = node.weights.empty() ? mesh.weights : node.weights;
-    const GltfPlaced placed =
-        placed_positions(file_, model_, primitive, morph_weights, node.skin < 0 ? frame : unmoved(),
-                         pose_of(node.skin), monitor_);
-    const auto first = static_cast<std::int64_t>(coordinates_.size() / 3);
+    const GltfSkinPose* pose = pose_of(node.skin);
+    const bool as_bound = reading_.as_bound && pose != nullptr;
+    return placed_positions(file_, model_, primitive, morph_weights,
+                            as_bound ? pose->topmost : frame, as_bound ? nullptr : pose, monitor_);
+  }
+
+  Run append_positions(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                       const tinygltf::Mesh& mesh, const Eigen::Affine3d& frame, bool in_soup) {
+    const GltfPlaced placed = this->placed(primitive, node, mesh, frame);
+    std::vector<double>& coordinates = in_soup ? coordinates_ : loose_;
+    const auto first = static_cast<std::int64_t>(coordinates.size() / 3);
     const std::size_t count = placed.positions.size();
-    if (coordinates_.size() / 3 + count > static_cast<std::size_t>(most_vertices)) {
+    if (coordinates.size() / 3 + count > static_cast<std::size_t>(most_vertices)) {
       file_.fail("more than " + std::to_string(most_vertices) + " vertices", "fewer",
                  "split or decimate the surface first");
     }
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& point = placed.positions[i];
-      coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
+      coordinates.insert(coordinates.end(), {point.x(), point.y(), point.z()});
     }
-    if (node.skin >= 0) {
+    if (node.skin >= 0 && in_soup) {
       scene_.skinned.push_back({&primitive, node.skin, first});
       any_bent_ = any_bent_ || placed.bent;
       for (std::size_t i = 0; i < count; ++i) {
@@ -193,7 +228,7 @@ class SceneReader {
         seams_.push_back({first + static_cast<std::int64_t>(i), placed.modelled[i]});
       }
     }
-    return {first, count, placed.mirrored};
+    return {first, count, placed.mirrored, placed.move};
   }
 
   /// Null: not skinned.
@@ -250,19 +285,26 @@ class SceneReader {
   const FileBytes& file_;
   const tinygltf::Model& model_;
   const Monitor& monitor_;
+  const GltfReading reading_;
   std::vector<bool> visited_;  // per node
   std::vector<double> coordinates_;
+  std::vector<double> loose_;
   std::map<int, GltfSkinPose> poses_;  // by skin
   std::vector<GltfSeamVertex> seams_;  // all vertices that skins move
   bool any_bent_ = false;
+  bool parts_apart_ = false;  // primitives of one mesh that joints move in different ways
   GltfScene scene_;
 };
 
 }  // namespace
 
 GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,
-                          const Monitor& monitor) {
-  return SceneReader(file, model, monitor).read();
+                          const Monitor& monitor, const GltfReading& reading) {
+  GltfScene scene = SceneReader(file, model, monitor, {false, reading.with_loose}).read();
+  if (!reading.as_bound || !scene.soup.posed) return scene;
+  scene = SceneReader(file, model, monitor, reading).read();
+  scene.soup.posed = true;
+  return scene;
 }
 
 }  // namespace curveskel

@@ -22,8 +22,27 @@ struct GltfSkinned {
   std::int64_t first_vertex;
 };
 
+/// One primitive where the scene shows it. Primitives of one mesh may share their vertices.
+struct GltfPart {
+  int node;  ///< in a file without nodes the mesh, which then stands for one
+  int mesh;
+  int primitive;  ///< of the mesh
+  bool in_soup;   ///< else points or lines, whose vertices are rows of `loose`
+  std::int64_t first_vertex;
+  std::int64_t count;
+  Eigen::Affine3d move;  ///< from the (morphed) positions in the file to the scene; the identity
+                         ///< where joints bend it
+};
+
+struct GltfReading {
+  bool as_bound = false;    ///< see `ReadOptions`
+  bool with_loose = false;  ///< points and lines, too
+};
+
 struct GltfScene {
   PolygonSoup soup;
+  std::vector<GltfPart> parts;          ///< in the order of the scene
+  Positions loose;                      ///< vertices of points and lines, only where asked for
   std::vector<GltfSkinned> skinned;     ///< once per node and accessor of positions
   std::vector<Eigen::Affine3d> frames;  ///< of each node, also of one outside the scene
   std::vector<int> parents;             ///< of each node; -1 = none
@@ -32,6 +51,6 @@ struct GltfScene {
 
 /// Valid as long as the model. Throws Error(Fault::input) where indices or numbers are wrong.
 [[nodiscard]] GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,
-                                        const Monitor& monitor);
+                                        const Monitor& monitor, const GltfReading& reading = {});
 
 }  // namespace curveskel

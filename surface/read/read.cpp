@@ -42,7 +42,8 @@ std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {
   return std::nullopt;
 }
 
-PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& monitor) {
+PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& monitor,
+                    const ReadOptions& options) {
   switch (format) {
     case SurfaceFormat::obj:
       return read_obj(file, monitor);
@@ -56,7 +57,7 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
       return read_om(file, monitor);
     case SurfaceFormat::gltf:
     case SurfaceFormat::glb:
-      return read_gltf(file, monitor);
+      return read_gltf(file, monitor, options);
     case SurfaceFormat::vtp:
       return read_vtp_surface(file, monitor);
     case SurfaceFormat::vtk:
@@ -85,7 +86,8 @@ PolygonSoup soup_of(const Surface& surface) {
   return soup;
 }
 
-PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
+PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
+                         const ReadOptions& options) {
   std::optional<SurfaceFormat> format = format_by_content(file);
   if (!format) {
     refuse_foreign_format(file);
@@ -96,7 +98,7 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
                   " and no known extension",
               "a surface as one of " + names_in(surface_formats), "convert it");
   }
-  PolygonSoup soup = read_as(*format, file, monitor);
+  PolygonSoup soup = read_as(*format, file, monitor, options);
   soup.file = file.path;
   drop_unplaced_vertices(soup, file);
   if (soup.offsets.size() < 2) {
@@ -112,9 +114,10 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor) {
   return soup;
 }
 
-PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& monitor) {
+PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& monitor,
+                          const ReadOptions& options) {
   monitor.report("read", 0);
-  return read_content(read_file(path, monitor), monitor);
+  return read_content(read_file(path, monitor), monitor, options);
 }
 
 }  // namespace curveskel

@@ -8,9 +8,9 @@
 
 namespace curveskel {
 
-PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor) {
+PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor, const ReadOptions& options) {
   const tinygltf::Model model = parse_gltf(file, monitor);
-  PolygonSoup soup = read_gltf_scene(file, model, monitor).soup;
+  PolygonSoup soup = read_gltf_scene(file, model, monitor, {options.as_bound, false}).soup;
   soup.format = looks_like_glb(file) ? SurfaceFormat::glb : SurfaceFormat::gltf;
   soup.faces_minus_z = model.extensions.contains("VRM");  // VRM 1.0 looks along z: "VRMC_vrm"
   return soup;

@@ -1,0 +1,100 @@
+#include "rig/gltf/add_gltf_rig.hpp"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/gltf/skin_numbers.hpp"
+#include "rig/joints/bone_axes.hpp"
+
+namespace curveskel {
+namespace {
+
+std::string free_name(const OrderedJson& nodes, const std::string& name) {
+  std::set<std::string> taken;
+  for (const OrderedJson& node : nodes) taken.insert(node.value("name", ""));
+  std::string free = name;
+  for (int k = 2; taken.contains(free); ++k) free = name + " " + std::to_string(k);
+  return free;
+}
+
+/// In the scene, not moved.
+std::size_t add_holder(OrderedJson& file, const std::string& name) {
+  OrderedJson& nodes = array_in(file, "nodes");
+  const std::size_t holder = nodes.size();
+  nodes.push_back({{"name", free_name(nodes, as_utf8(name))}});
+  if (file.contains("scenes")) {
+    OrderedJson& scene = file["scenes"].at(file.value("scene", std::size_t{0}));
+    array_in(scene, "nodes").push_back(holder);
+  }
+  return holder;
+}
+
+/// Returns the first of them; the others follow.
+std::size_t add_joint_nodes(OrderedJson& nodes, const Rig& rig,
+                            const std::vector<Eigen::Quaterniond>& axes, std::size_t holder) {
+  const std::size_t first = nodes.size();
+  const std::vector<LocalFrame> frames = local_frames(rig, axes);
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
+    const Eigen::Vector3d& at = frames[idx(joint)].offset;
+    const Eigen::Quaterniond& turn = frames[idx(joint)].turn;
+    nodes.push_back({{"name", as_utf8(rig.names[idx(joint)])},
+                     {"translation", {at.x(), at.y(), at.z()}},
+                     {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}});
+    const int parent = rig.parents[joint];
+    OrderedJson& above = nodes[parent < 0 ? holder : first + idx(parent)];
+    array_in(above, "children").push_back(nodes.size() - 1);
+  }
+  return first;
+}
+
+std::size_t add_skin(GltfDocument& document, const Rig& rig,
+                     const std::vector<Eigen::Quaterniond>& axes, const Eigen::Affine3d& move,
+                     std::size_t first, std::size_t holder) {
+  constexpr int of_floats = 5126;
+  const auto count = idx(rig.parents.size());
+  OrderedJson joints = OrderedJson::array();
+  for (std::size_t joint = 0; joint < count; ++joint) joints.push_back(first + joint);
+  const std::size_t matrices =
+      add_accessor(document, inverse_bind_matrices(rig, axes, move), "MAT4", of_floats, count);
+  OrderedJson& skins = array_in(document.json, "skins");
+  skins.push_back(
+      {{"inverseBindMatrices", matrices}, {"joints", std::move(joints)}, {"skeleton", holder}});
+  return skins.size() - 1;
+}
+
+}  // namespace
+
+void add_missing_nodes(GltfDocument& document) {
+  OrderedJson& file = document.json;
+  if (file.contains("nodes") && !file["nodes"].empty()) return;
+  OrderedJson all = OrderedJson::array();
+  for (std::size_t mesh = 0; mesh < array_in(file, "meshes").size(); ++mesh) {
+    array_in(file, "nodes").push_back({{"mesh", mesh}});
+    all.push_back(mesh);
+  }
+  OrderedJson& scenes = array_in(file, "scenes");
+  if (scenes.empty()) scenes.push_back(OrderedJson::object());
+  scenes.at(file.value("scene", std::size_t{0}))["nodes"] = std::move(all);
+}
+
+void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, const Rig& rig,
+                  const std::string& name, int holder) {
+  require_gltf_joints(rig);
+  const std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
+  const std::size_t above = holder >= 0 ? idx(holder) : add_holder(document.json, name);
+  const std::size_t first = add_joint_nodes(document.json["nodes"], rig, axes, above);
+  std::map<std::vector<double>, std::size_t> skin_of_move;
+  std::set<int> done;
+  for (const GltfPart& part : parts) {
+    if (!done.insert(part.node).second) continue;
+    const auto numbers = part.move.matrix().reshaped();
+    const auto [skin, is_new] =
+        skin_of_move.try_emplace(std::vector<double>(numbers.begin(), numbers.end()));
+    if (is_new) skin->second = add_skin(document, rig, axes, part.move, first, above);
+    document.json["nodes"][idx(part.node)]["skin"] = skin->second;
+  }
+}
+
+}  // namespace curveskel

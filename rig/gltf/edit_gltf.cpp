@@ -1,0 +1,166 @@
+// The input's own glTF file with a rig in it.
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/rig_files.hpp>
+#include "rig/gltf/add_gltf_rig.hpp"
+#include "rig/gltf/gltf_document.hpp"
+#include "rig/gltf/gltf_weights.hpp"
+#include "rig/gltf/remove_gltf_rig.hpp"
+#include "rig/gltf/skin_numbers.hpp"
+#include "rig/io/rig_formats.hpp"
+#include "surface/read/gltf_compression.hpp"
+#include "surface/read/gltf_file.hpp"
+#include "surface/read/placed_vertices.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr std::string_view bare_remedy = "use --bare, which writes the surface alone";
+
+void require_editable(const GltfDocument& document, const FileBytes& file) {
+  constexpr std::array<std::string_view, 3> no_editing{draco_extension, meshopt_extension,
+                                                       "EXT_mesh_gpu_instancing"};
+  for (const OrderedJson& used : document.json.value("extensionsUsed", OrderedJson::array())) {
+    const std::string name = used.is_string() ? used.get<std::string>() : "";
+    if (std::find(no_editing.begin(), no_editing.end(), name) == no_editing.end()) continue;
+    file.fail(
+        "the extension " + in_quotes(name) + ", with which meshes cannot be edited", "plain meshes",
+        "export the file without it (gltf-transform takes it out), or " + std::string(bare_remedy));
+  }
+}
+
+void require_rows(const GltfScene& scene, const Rig& rig, const FileBytes& file) {
+  const Eigen::Index rows = scene.soup.positions.rows();
+  if (rows == rig.weights.rows()) return;
+  file.fail(std::to_string(rows) + " vertices",
+            "the " + std::to_string(rig.weights.rows()) + " that the rig has weights for",
+            "leave the file alone while it is rigged");
+}
+
+/// Points and lines move with the nearest vertex.
+SkinWeights loose_weights(const GltfScene& scene, const Rig& rig, const FileBytes& file) {
+  if (scene.loose.rows() == 0) return {};
+  PolygonSoup soup = scene.soup;
+  drop_unplaced_vertices(soup, file);
+  const Surface surface{soup.positions, triangulate(soup)};
+  const SurfaceTree tree(surface);
+  std::vector<int> nearest;
+  for (const auto& place : scene.loose.rowwise()) {
+    const auto corners =
+        surface.triangles.row(place.allFinite() ? tree.nearest(place.transpose()).triangle : 0);
+    const auto distance = [&](int v) { return (surface.positions.row(v) - place).squaredNorm(); };
+    nearest.push_back(*std::min_element(corners.begin(), corners.end(),
+                                        [&](int a, int b) { return distance(a) < distance(b); }));
+  }
+  return chosen_rows(rig.weights, nearest);
+}
+
+/// Of each of the rig's joints the number in the skin: its own, else that of the nearest joint
+/// above it that is there, else -1.
+GltfSkinJoints joints_in_skin(const GltfRig& own, const std::vector<int>& skin_nodes, int skin) {
+  GltfSkinJoints found{skin, {}};
+  for (std::size_t joint = 0; joint < own.nodes.size(); ++joint) {
+    const auto place = std::find(skin_nodes.begin(), skin_nodes.end(), own.nodes[joint]);
+    const int parent = own.rig.parents[static_cast<Eigen::Index>(joint)];
+    found.joints.push_back(place != skin_nodes.end() ? static_cast<int>(place - skin_nodes.begin())
+                           : parent >= 0             ? found.joints[idx(parent)]
+                                                     : -1);
+  }
+  return found;
+}
+
+/// New weights for the skins that are there.
+void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf::Model& model,
+                   const GltfScene& scene, const GltfWeights& weights) {
+  const GltfRig own = rig_of_scene(file, model, scene);
+  if (own.nodes.size() != idx(weights.of_soup.cols())) {
+    file.fail(std::to_string(own.nodes.size()) + " joints in the file",
+              "the " + std::to_string(weights.of_soup.cols()) + " of the rig",
+              "give the joints that `read_rig` finds in this file");
+  }
+  std::vector<GltfPart> parts;
+  std::vector<GltfSkinJoints> joints;
+  for (const GltfPart& part : scene.parts) {
+    const int skin = model.nodes[idx(part.node)].skin;
+    if (skin < 0) continue;  // moves with its node, as before
+    parts.push_back(part);
+    joints.push_back(joints_in_skin(own, model.skins[idx(skin)].joints, skin));
+  }
+  write_gltf_weights(document, parts, weights, joints);
+}
+
+void replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
+                      const Rig& rig, const GltfWeights& weights, const std::string& name,
+                      std::vector<std::string>& notes) {
+  add_missing_nodes(document);
+  std::vector<bool> shown(document.json["nodes"].size(), scene.nodes.empty());
+  for (const int node : scene.nodes) shown[idx(node)] = true;
+  const RemovedRig removed = remove_gltf_rig(document, shown, file);
+  if (removed.joints > 0) {
+    notes.push_back("replaces a rig of " + std::to_string(removed.joints) + " joints" +
+                    (removed.channels > 0 ? ", with the " + std::to_string(removed.channels) +
+                                                " channels of animations that moved them"
+                                          : ""));
+  }
+  std::vector<GltfPart> parts = scene.parts;
+  for (GltfPart& part : parts) part.node = removed.new_node[idx(part.node)];
+  write_gltf_weights(document, parts, weights,
+                     std::vector<GltfSkinJoints>(parts.size(), GltfSkinJoints{-1, {}}));
+  const int holder = removed.holder;
+  const bool stays = holder >= 0 && shown[idx(holder)] &&
+                     scene.frames[idx(holder)].matrix() == Eigen::Matrix4d::Identity();
+  add_gltf_rig(document, parts, rig, name, stays ? removed.new_node[idx(holder)] : -1);
+}
+
+/// Beside what the file says of itself.
+void sign(GltfDocument& document, const std::string& provenance) {
+  OrderedJson& asset = document.json["asset"];
+  if (asset.contains("extras") && !asset["extras"].is_object()) return;
+  asset["extras"]["rigged_by"] = as_utf8(provenance);
+}
+
+}  // namespace
+
+EditedFile format_rig_into(const std::filesystem::path& gltf, const Rig& rig, RigFormat format,
+                           OldRig old_rig, const std::string& name, const std::string& provenance,
+                           const Monitor& monitor) {
+  const FileBytes file = read_file(gltf, monitor);
+  const tinygltf::Model model = parse_gltf(file, monitor);
+  const bool replaces = old_rig == OldRig::replaced;
+  const GltfScene scene = read_gltf_scene(file, model, monitor, {replaces, true});
+  require_rows(scene, rig, file);
+  EditedFile edited;
+  GltfDocument document = read_gltf_document(file, model, edited.notes, monitor);
+  require_editable(document, file);
+  const GltfWeights weights{rig.weights, loose_weights(scene, rig, file)};
+  try {
+    if (replaces) {
+      replace_gltf_rig(document, file, scene, rig, weights, name, edited.notes);
+    } else {
+      keep_gltf_rig(document, file, model, scene, weights);
+    }
+    sign(document, provenance);
+  } catch (const nlohmann::json::exception& failure) {
+    file.fail(std::string("JSON that is no valid glTF: ") + failure.what(), "glTF 2.0",
+              "export the file again, or " + std::string(bare_remedy));
+  } catch (const std::out_of_range& failure) {
+    file.fail(std::string("a number of what is not there: ") + failure.what(), "glTF 2.0",
+              "export the file again, or " + std::string(bare_remedy));
+  }
+  edited.bytes = format_gltf(std::move(document), format);
+  return edited;
+}
+
+}  // namespace curveskel

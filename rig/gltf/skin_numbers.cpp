@@ -1,0 +1,122 @@
+#include "rig/gltf/skin_numbers.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "surface/mesh/single_precision.hpp"
+
+namespace curveskel {
+namespace {
+
+template <typename Value>
+void put(std::string& bytes, Value value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// Largest first, of equal ones the first joint; always four.
+std::vector<std::pair<float, int>> four_largest(const SkinWeights& weights, Eigen::Index vertex,
+                                                const std::vector<int>& joints) {
+  constexpr std::size_t most = 4;
+  std::vector<std::pair<float, int>> row;
+  for (SkinWeights::InnerIterator it(weights, vertex); it; ++it) {
+    const int joint = joints.empty() ? static_cast<int>(it.col()) : joints[idx(it.col())];
+    const auto same =
+        std::find_if(row.begin(), row.end(), [&](const auto& one) { return one.second == joint; });
+    if (same != row.end()) {
+      same->first += it.value();
+    } else if (joint >= 0) {
+      row.emplace_back(it.value(), joint);
+    }
+  }
+  std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  row.resize(most, {0.0F, 0});
+  if (!(row.front().first > 0)) row.front().first = 1;
+  return row;
+}
+
+}  // namespace
+
+SkinRows skin_rows(const SkinWeights& weights, Eigen::Index first, Eigen::Index count,
+                   const std::vector<int>& joints) {
+  constexpr int most_in_bytes = 256;
+  SkinRows rows;
+  const int last = joints.empty() ? static_cast<int>(weights.cols()) - 1
+                                  : *std::max_element(joints.begin(), joints.end());
+  rows.in_words = last >= most_in_bytes;
+  for (Eigen::Index vertex = first; vertex < first + count; ++vertex) {
+    const auto row = four_largest(weights, vertex, joints);
+    float sum = 0;
+    for (const auto& [share, joint] : row) sum += share;
+    for (const auto& [share, joint] : row) {
+      put(rows.weights, share / sum);
+      if (rows.in_words) {
+        put(rows.joints, static_cast<std::uint16_t>(share > 0 ? joint : 0));
+      } else {
+        put(rows.joints, static_cast<std::uint8_t>(share > 0 ? joint : 0));
+      }
+    }
+  }
+  return rows;
+}
+
+SkinWeights chosen_rows(const SkinWeights& weights, const std::vector<int>& rows) {
+  SkinWeights chosen(static_cast<Eigen::Index>(rows.size()), weights.cols());
+  chosen.reserve(Eigen::VectorXi::Constant(chosen.rows(), 4));
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (SkinWeights::InnerIterator it(weights, rows[row]); it; ++it) {
+      chosen.insert(static_cast<Eigen::Index>(row), it.col()) = it.value();
+    }
+  }
+  chosen.makeCompressed();
+  return chosen;
+}
+
+std::vector<LocalFrame> local_frames(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes) {
+  std::vector<LocalFrame> frames;
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
+    const int parent = rig.parents[joint];
+    LocalFrame frame{rig.joints.row(joint).transpose(), axes[idx(joint)]};
+    if (parent >= 0) {
+      const Eigen::Quaterniond back = axes[idx(parent)].conjugate();
+      frame.offset = back * (frame.offset - rig.joints.row(parent).transpose());
+      frame.turn = (back * frame.turn).normalized();
+    }
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::string inverse_bind_matrices(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes,
+                                  const Eigen::Affine3d& move) {
+  std::string matrices;
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
+    const Eigen::Vector3d place = rig.joints.row(joint).transpose();
+    const Eigen::Affine3d back(axes[idx(joint)].conjugate() * Eigen::Translation3d(-place));
+    const Eigen::Matrix4d inverse_bind = (back * move).matrix();
+    for (const double number : inverse_bind.reshaped()) put(matrices, static_cast<float>(number));
+  }
+  return matrices;
+}
+
+void require_gltf_joints(const Rig& rig) {
+  constexpr Eigen::Index most_joints = 65536;
+  if (rig.joints.rows() > most_joints) {
+    throw Error(Fault::output, std::to_string(rig.joints.rows()) + " joints, needed at most " +
+                                   std::to_string(most_joints) +
+                                   "; choose fewer components or longer bones");
+  }
+  require_single_range(rig.joints, "glTF");
+}
+
+std::string as_utf8(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace curveskel

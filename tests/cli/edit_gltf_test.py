@@ -1,0 +1,114 @@
+"""Rigs in the input's own glTF file: what a user's file keeps. The collection's characters are
+there with CURVESKEL_COLLECTION."""
+
+import json
+import os
+import pathlib
+import struct
+import unittest
+
+from program import MESHES, Y, CommandLineTest
+
+# What an edit may change; everything else of the JSON stays as it is.
+TOUCHED = {"nodes", "meshes", "scenes", "skins", "animations", "buffers", "accessors",
+           "bufferViews", "asset"}
+
+
+def chunks(path):
+    """The JSON and the numbers of a GLB file."""
+    data = path.read_bytes()
+    assert data[:4] == b"glTF" and struct.unpack_from("<I", data, 8)[0] == len(data)
+    (length,) = struct.unpack_from("<I", data, 12)
+    return json.loads(data[20:20 + length]), data[28 + length:]
+
+
+def characters():
+    folder = os.environ.get("CURVESKEL_COLLECTION")
+    return sorted((pathlib.Path(folder) / "characters").glob("*.glb")) if folder else []
+
+
+def without_weights(meshes):
+    return [{**mesh, "primitives": [
+        {**primitive, "attributes": {name: accessor
+                                     for name, accessor in primitive["attributes"].items()
+                                     if not name.startswith(("JOINTS_", "WEIGHTS_"))}}
+        for primitive in mesh["primitives"]]} for mesh in meshes]
+
+
+class EditGltf(CommandLineTest):
+    def check(self, source, *options):
+        self.run_ok("rig", source, "-o", "out.glb", "-q", *options, cwd=self.folder)
+        before, numbers = chunks(source)
+        after, new_numbers = chunks(self.folder / "out.glb")
+        length = before["buffers"][0]["byteLength"]
+        self.assertEqual(new_numbers[:length], numbers[:length])
+        for name in before.keys() - TOUCHED:
+            self.assertEqual(before[name], after[name], name)
+        for name in ("accessors", "bufferViews"):
+            self.assertEqual(before[name], after[name][:len(before[name])])
+        self.assertEqual(without_weights(before["meshes"]), without_weights(after["meshes"]))
+        for mesh in after["meshes"]:
+            for primitive in mesh["primitives"]:
+                self.assertIn("WEIGHTS_0", primitive["attributes"])
+                self.assertNotIn("WEIGHTS_1", primitive["attributes"])
+        return before, after
+
+    @unittest.skipUnless(characters(), "needs the collection's characters: "
+                         "name its folder in CURVESKEL_COLLECTION")
+    def test_keeps_all_of_a_character(self):
+        for source in characters():
+            if source.stem == "human-sintel":
+                continue  # takes minutes
+            with self.subTest(source.name):
+                before, after = self.check(source)
+                self.assertEqual(len(after["skins"]), 1)
+                old = {before["nodes"][joint]["name"] for joint in before["skins"][0]["joints"]}
+                made = {after["nodes"][joint]["name"] for joint in after["skins"][0]["joints"]}
+                left = {node["name"] for node in after["nodes"]} - made
+                self.assertFalse(left & old)
+                # The armature that held the old joints holds the new ones, where it does not move.
+                armature = next(node for node in before["nodes"] if node["name"] == "Armature")
+                is_moved = not armature.keys().isdisjoint({"translation", "rotation", "scale",
+                                                           "matrix"})
+                holder = after["nodes"][after["skins"][0]["skeleton"]]
+                self.assertEqual(holder["name"] == "Armature", not is_moved)
+                self.assertEqual(len(after["nodes"]),
+                                 len(before["nodes"]) + len(made) - len(old) + is_moved)
+
+    @unittest.skipUnless(characters(), "needs the collection's characters: "
+                         "name its folder in CURVESKEL_COLLECTION")
+    def test_keeps_a_character_s_rig(self):
+        source = characters()[0]
+        before, after = self.check(source, "--keep-rig")
+        for name in ("nodes", "skins", "scenes"):
+            self.assertEqual(before[name], after[name])
+
+    def test_edits_what_it_has_made(self):
+        self.run_ok("rig", Y, "-o", "first.glb", cwd=self.folder)
+        before, after = self.check(self.folder / "first.glb")
+        self.assertEqual(len(before["nodes"]), len(after["nodes"]))  # the new rig is the old one
+        before, after = self.check(self.folder / "first.glb", "--keep-rig")
+        self.assertEqual(before["nodes"], after["nodes"])
+
+    def test_writes_the_surface_alone_on_request(self):
+        self.run_ok("rig", Y, "-o", "first.glb", cwd=self.folder)
+        source = self.folder / "first.glb"
+        text, numbers = chunks(source)
+        text["extras"] = {"mine": 1}
+        body = json.dumps(text).encode()
+        body += b" " * (-len(body) % 4)
+        source.write_bytes(b"glTF" + struct.pack("<III", 2, 28 + len(body) + len(numbers),
+                                                 len(body)) + b"JSON" + body
+                           + struct.pack("<I", len(numbers)) + b"BIN\0" + numbers)
+        self.run_ok("rig", source, "-o", "bare.glb", "--bare", cwd=self.folder)
+        self.assertNotIn("extras", chunks(self.folder / "bare.glb")[0])
+        self.check(source)
+        self.assertEqual(chunks(self.folder / "out.glb")[0]["extras"], {"mine": 1})
+
+    def test_keep_rig_needs_a_rig(self):
+        self.refused(3, "rig", Y, "-o", "out.glb", "--keep-rig", cwd=self.folder,
+                     says=["found no rig", "--keep-rig"])
+
+
+if __name__ == "__main__":
+    unittest.main()
