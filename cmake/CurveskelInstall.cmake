@@ -56,6 +56,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/rig.hpp
   include/curveskel/rig_files.hpp
   include/curveskel/rig_parts.hpp
+  include/curveskel/role_names.hpp
 )
 set(CURVESKEL_PUBLIC_APP
   include/curveskel.hpp

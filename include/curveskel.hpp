@@ -39,6 +39,7 @@
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/role_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>

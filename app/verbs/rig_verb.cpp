@@ -19,6 +19,7 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/role_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
@@ -26,6 +27,7 @@
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/rig_report.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -48,6 +50,8 @@ struct RigArguments {
   RigOptions rig;
   PartOptions parts;
   PlanOptions plan;
+  NameStyle names = NameStyle::automatic;
+  std::string report;  ///< empty = none
 };
 
 /// A skeleton of this surface is not mostly elsewhere.
@@ -165,11 +169,22 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
+void name_joints(Rig& rig, const BodyPlan& plan, NameStyle style, Session& session) {
+  if (!has_words(style, plan.plan)) {
+    session.terminal.warn(
+        fmt::format("--names {} has no words for the plan {}; joints have readable names instead",
+                    name_of(name_styles, style), name_of(body_kinds, plan.plan)));
+  }
+  name_roles(rig, plan, style);
+}
+
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
   for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
-  check_outputs(arguments.outputs, arguments.mesh);
+  std::vector<std::string> names = arguments.outputs;
+  if (!arguments.report.empty()) names.push_back(arguments.report);
+  check_outputs(names, arguments.mesh);
   session.interruption.limit(arguments.time_limit_seconds);
   arguments.rig.skin.threads = arguments.threads;
 
@@ -181,19 +196,29 @@ int run_rig(RigArguments arguments, Session& session) {
   if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
   RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
   arguments.parts.threads = arguments.threads;
+  // Joints, or a curve, that somebody has drawn may be for any part.
+  if (old_rig || !arguments.skeleton.empty()) arguments.parts.follow = 0;
   const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
   repaired = body_of(repaired, parts);
   CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   skeleton = dense_skeleton(repaired.surface, skeleton);
   arguments.plan.faces_minus_z = soup.faces_minus_z;
+  if (arguments.rig.joints.root >= 0) arguments.plan.plan = BodyKind::none;
   BodyPlan plan;
   if (!old_rig) plan = find_plan(repaired.surface, skeleton, arguments.plan);
   const Rig made =
       old_rig ? weights_on_joints(repaired.surface, skeleton, *old_rig, arguments.rig.skin, monitor)
               : make_planned_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
   const Surface given{soup.positions, triangulate(soup)};
-  const Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
-  const std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
+  Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
+  if (!old_rig) name_joints(rig, plan, arguments.names, session);
+  std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
+  if (!arguments.report.empty()) {
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
+    files.push_back(
+        {arguments.report, rig_report_json({given, rig, parts, plan,
+                                            arguments.mesh.filename().string(), so_far.count()})});
+  }
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -237,10 +262,19 @@ Verb add_rig(CLI::App& program) {
                    "instead of the file itself with the rig in it");
   parser->add_flag("--keep-rig", arguments->keep_rig,
                    "make no joints, but weights for those that the glTF file has");
+  parser
+      ->add_option("--report", arguments->report,
+                   "plan, roles, parts, joints and checks of the weights, as JSON")
+      ->type_name("FILE.json");
+  add_choice(*parser, "--plan", arguments->plan.plan, body_kinds, "how the body is built");
+  add_choice(*parser, "--up", arguments->plan.up, directions, "the body's up; auto = y");
+  add_choice(*parser, "--front", arguments->plan.front, directions,
+             "where the body looks; auto = of quadrupeds where their heads are, else z");
+  add_choice(*parser, "--names", arguments->names, name_styles, "what joints are called");
   JointOptions& joints = arguments->rig.joints;
-  add_number(
-      *parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
-      "node of the skeleton, counted from 0 as in its JSON file, that all hangs from; -1 = chosen");
+  add_number(*parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
+             "node of the skeleton, counted from 0 as in its JSON file, that all hangs from, "
+             "without a plan; -1 = chosen");
   add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
              "of straight limbs, in their radius: smaller gives more joints");
   add_number(
@@ -262,7 +296,8 @@ Verb add_rig(CLI::App& program) {
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  parser->footer(meanings("Formats", rig_formats));
+  parser->footer(meanings("Formats", rig_formats) + meanings("Plans", body_kinds) +
+                 meanings("Names", name_styles));
   return {parser, [arguments](Session& session) { return run_rig(*arguments, session); }};
 }
 

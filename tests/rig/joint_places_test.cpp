@@ -71,7 +71,8 @@ TEST(JointPlaces, AreNearerToEachOtherWhereAChainIsThin) {
   for (Eigen::Index node = 0; node < chain.nodes.rows(); ++node) {
     chain.radii[node] = radius_at(chain.nodes(node, 0));
   }
-  const Joints joints = place_joints(chain, {.bone_length = bone_length});
+  const Joints joints =
+      place_joints(chain, {.bone_length = bone_length, .straight_bone = 0, .least_bone = 0});
   EXPECT_EQ(joints.positions(0, 0), 0);  // from the thick end
   ASSERT_GE(joints.parents.size(), 8);
   for (Eigen::Index joint = 1; joint < joints.parents.size(); ++joint) {
@@ -80,6 +81,56 @@ TEST(JointPlaces, AreNearerToEachOtherWhereAChainIsThin) {
     const double wanted = bone_length * radius_at((from + to) / 2);
     EXPECT_GT(to - from, 0.75 * wanted) << joint;
     EXPECT_LT(to - from, 1.35 * wanted) << joint;
+  }
+}
+
+/// Thin limbs, straight and winding, on a thick body.
+CurveSkeleton spiny_body(double spine_radius) {
+  CurveSkeleton body = chain_through({{0, 0, 0}, {20, 0, 0}}, 1, 0.5);
+  const auto attach = [&](const CurveSkeleton& limb, int at) {
+    const Eigen::Index first = body.nodes.rows();
+    const Eigen::Index edges = body.edges.rows();
+    body.nodes.conservativeResize(first + limb.nodes.rows(), 3);
+    body.nodes.bottomRows(limb.nodes.rows()) = limb.nodes.rowwise() + body.nodes.row(at);
+    body.radii.conservativeResize(body.nodes.rows());
+    body.radii.tail(limb.nodes.rows()) = limb.radii;
+    body.edges.conservativeResize(edges + limb.edges.rows() + 1, 2);
+    body.edges.middleRows(edges, limb.edges.rows()) = limb.edges.array() + static_cast<int>(first);
+    body.edges.bottomRows(1) << at, static_cast<int>(first);
+  };
+  attach(chain_through({{0, 0.2, 0}, {0, 6, 0}}, spine_radius, 0.1), 10);
+  attach(chain_through({{0, 0.2, 0}, {0, 0.3, 0}}, spine_radius, 0.1), 20);
+  CurveSkeleton winding = chain_through({{0, 0, 0.2}, {0, 0, 8}}, spine_radius, 0.05);
+  for (Eigen::Index node = 0; node < winding.nodes.rows(); ++node) {
+    winding.nodes(node, 1) = 0.15 * std::sin(8 * winding.nodes(node, 2));
+  }
+  attach(winding, 30);
+  return body;
+}
+
+TEST(JointPlaces, AreNoBeadsOnThinLimbs) {
+  for (const double radius : {0.2, 0.05, 0.01}) {
+    for (const double scale : {0.01, 1.0, 50.0}) {
+      CurveSkeleton body = spiny_body(radius);
+      body.nodes *= scale;
+      body.radii *= scale;
+      const Joints joints = place_joints(body);
+      for (Eigen::Index joint = 0; joint < joints.parents.size(); ++joint) {
+        if (joints.parents[joint] < 0) continue;
+        const double bone =
+            (joints.positions.row(joint) - joints.positions.row(joints.parents[joint])).norm();
+        EXPECT_GE(bone, 0.02 * 20 * scale) << joints.names[idx(joint)] << " of " << radius;
+      }
+      // A stub shorter than the least bone has no joint; a straight spine of 6 is cut into bones of
+      // .6, 3 % of 20, and the rest into no more than fit.
+      Eigen::Index on_spine = 0;
+      for (const auto& place : joints.positions.rowwise()) {
+        const bool beside = std::abs(place.x() - 5 * scale) > 0.01 * scale;
+        on_spine += !beside && place.y() > 0.1 * scale && std::abs(place.z()) < 0.1 * scale ? 1 : 0;
+      }
+      EXPECT_LE(on_spine, 12);
+      EXPECT_LE(joints.parents.size(), (20 + 6 + 12) / 0.4);
+    }
   }
 }
 

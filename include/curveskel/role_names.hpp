@@ -1,0 +1,30 @@
+// What a rig's joints are called, in the words of the program that the rig is for.
+#pragma once
+
+#include <cstdint>
+
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/body_plan.hpp>
+#include <curveskel/rig.hpp>
+
+namespace curveskel {
+
+enum class NameStyle : std::uint8_t { automatic, neutral, vrm, mixamo, unreal, unity, rigify };
+inline constexpr NameTable<NameStyle, 7> name_styles{{
+    {NameStyle::automatic, "auto", "readable words with .L and .R, as Blender mirrors them"},
+    {NameStyle::neutral, "neutral", "joint_001 and so on"},
+    {NameStyle::vrm, "vrm", "VRM 1.0, of humanoids"},
+    {NameStyle::mixamo, "mixamo", "Mixamo, of humanoids"},
+    {NameStyle::unreal, "unreal", "Unreal's mannequin, of humanoids"},
+    {NameStyle::unity, "unity", "Unity and Godot, of humanoids"},
+    {NameStyle::rigify, "rigify", "Rigify's human or wolf"},
+}};
+
+/// True if the style has words for the plan; else `name_roles` takes the readable ones.
+[[nodiscard]] bool has_words(NameStyle style, BodyKind kind);
+
+/// Names the joints of the plan, which are the rig's first ones; the others keep their names, but
+/// in the neutral style. No two joints are called the same.
+void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style);
+
+}  // namespace curveskel

@@ -1,0 +1,139 @@
+#include <curveskel/role_names.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace curveskel {
+namespace {
+
+/// The words for one role; of a side the left ones.
+struct HumanWords {
+  std::string_view role;
+  std::string_view readable;
+  std::string_view mixamo;
+  std::string_view unreal;
+  std::string_view unity;
+  std::string_view rigify;
+};
+
+constexpr std::array<HumanWords, 14> human_words{{
+    {"hips", "hips", "mixamorig:Hips", "pelvis", "Hips", "spine"},
+    {"spine", "spine", "mixamorig:Spine", "spine_01", "Spine", "spine.001"},
+    {"chest", "chest", "mixamorig:Spine1", "spine_02", "Chest", "spine.002"},
+    {"upperChest", "upper_chest", "mixamorig:Spine2", "spine_03", "UpperChest", "spine.003"},
+    {"neck", "neck", "mixamorig:Neck", "neck_01", "Neck", "spine.004"},
+    {"head", "head", "mixamorig:Head", "head", "Head", "spine.006"},
+    {"leftShoulder", "shoulder.L", "mixamorig:LeftShoulder", "clavicle_l", "LeftShoulder",
+     "shoulder.L"},
+    {"leftUpperArm", "upper_arm.L", "mixamorig:LeftArm", "upperarm_l", "LeftUpperArm",
+     "upper_arm.L"},
+    {"leftLowerArm", "lower_arm.L", "mixamorig:LeftForeArm", "lowerarm_l", "LeftLowerArm",
+     "forearm.L"},
+    {"leftHand", "hand.L", "mixamorig:LeftHand", "hand_l", "LeftHand", "hand.L"},
+    {"leftUpperLeg", "upper_leg.L", "mixamorig:LeftUpLeg", "thigh_l", "LeftUpperLeg", "thigh.L"},
+    {"leftLowerLeg", "lower_leg.L", "mixamorig:LeftLeg", "calf_l", "LeftLowerLeg", "shin.L"},
+    {"leftFoot", "foot.L", "mixamorig:LeftFoot", "foot_l", "LeftFoot", "foot.L"},
+    {"leftToes", "toes.L", "mixamorig:LeftToeBase", "ball_l", "LeftToes", "toe.L"},
+}};
+
+struct BeastWords {
+  std::string_view role;
+  std::string_view readable;
+  std::string_view wolf;
+};
+
+constexpr std::array<BeastWords, 6> beast_words{{
+    {"spine", "hips", "spine.004"},
+    {"spine.001", "spine.001", "spine.005"},
+    {"spine.002", "spine.002", "spine.006"},
+    {"chest", "chest", "spine.008"},
+    {"neck", "neck", "spine.009"},
+    {"head", "head", "spine.011"},
+}};
+
+std::string right_of(std::string name) {
+  const auto swap_end = [&](std::string_view left, std::string_view right) {
+    if (!name.ends_with(left)) return false;
+    name.replace(name.size() - left.size(), left.size(), right);
+    return true;
+  };
+  if (swap_end(".L", ".R") || swap_end("_l", "_r")) return name;
+  const std::size_t at = name.find("Left");
+  if (at != std::string::npos) name.replace(at, 4, "Right");
+  return name;
+}
+
+std::string_view word(const HumanWords& words, NameStyle style) {
+  switch (style) {
+    case NameStyle::mixamo:
+      return words.mixamo;
+    case NameStyle::unreal:
+      return words.unreal;
+    case NameStyle::unity:
+      return words.unity;
+    case NameStyle::rigify:
+      return words.rigify;
+    default:
+      return words.readable;
+  }
+}
+
+std::string human_name(const std::string& role, NameStyle style) {
+  if (style == NameStyle::vrm) return role;
+  const bool is_right = role.starts_with("right");
+  const std::string left = is_right ? "left" + role.substr(5) : role;
+  for (const HumanWords& words : human_words) {
+    if (words.role != left) continue;
+    const std::string name(word(words, style));
+    return is_right ? right_of(name) : name;
+  }
+  return role;
+}
+
+std::string beast_name(const std::string& role, NameStyle style) {
+  for (const BeastWords& words : beast_words) {
+    if (words.role == role) {
+      return std::string(style == NameStyle::rigify ? words.wolf : words.readable);
+    }
+  }
+  return role;
+}
+
+std::string numbered(std::size_t number) {
+  std::array<char, 24> text{};
+  const int length = std::snprintf(text.data(), text.size(), "joint_%03zu", number);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+}  // namespace
+
+bool has_words(NameStyle style, BodyKind kind) {
+  if (style == NameStyle::automatic || style == NameStyle::neutral) return true;
+  if (style == NameStyle::rigify) return kind == BodyKind::humanoid || kind == BodyKind::quadruped;
+  return kind == BodyKind::humanoid;
+}
+
+void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
+  if (style == NameStyle::neutral) {
+    for (std::size_t k = 0; k < rig.names.size(); ++k) rig.names[k] = numbered(k + 1);
+    return;
+  }
+  const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
+  std::set<std::string> taken;
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    const std::string& role = plan.joints[k].role;
+    rig.names[k] =
+        plan.plan == BodyKind::humanoid ? human_name(role, words) : beast_name(role, words);
+    taken.insert(rig.names[k]);
+  }
+  for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {
+    while (!taken.insert(rig.names[k]).second) rig.names[k].insert(0, "extra_");
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,291 @@
+// Laws of plans: what a body is, where its roles lie, what they are called.
+#include <curveskel/body_plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/joints.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/role_names.hpp>
+#include "tests/rig/rig_subjects.hpp"
+
+namespace curveskel::plan_laws {
+namespace {
+
+using Eigen::RowVector3d;
+
+/// Places joined by edges; the left half also stands for the right one.
+struct Figure {
+  std::vector<RowVector3d> places;
+  std::vector<double> radii;
+  std::vector<std::pair<int, int>> edges;
+
+  int add(const RowVector3d& place, double radius, int from = -1) {
+    places.push_back(place);
+    radii.push_back(radius);
+    const int number = static_cast<int>(places.size()) - 1;
+    if (from >= 0) edges.emplace_back(from, number);
+    return number;
+  }
+  /// A limb of both sides through these places, from a place in the middle.
+  void add_pair(int from, const std::vector<RowVector3d>& limb, double radius) {
+    for (const double side : {1.0, -1.0}) {
+      int above = from;
+      for (const RowVector3d& place : limb) {
+        above = add({side * place.x(), place.y(), place.z()}, radius, above);
+      }
+    }
+  }
+};
+
+RigSubject subject_of(const std::string& name, const Figure& figure) {
+  CurveSkeleton graph;
+  const auto count = static_cast<Eigen::Index>(figure.places.size());
+  graph.nodes.resize(count, 3);
+  graph.radii.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    graph.nodes.row(k) = figure.places[idx(k)];
+    graph.radii[k] = figure.radii[idx(k)];
+  }
+  graph.edges.resize(static_cast<Eigen::Index>(figure.edges.size()), 2);
+  for (std::size_t e = 0; e < figure.edges.size(); ++e) {
+    graph.edges.row(static_cast<Eigen::Index>(e)) << figure.edges[e].first, figure.edges[e].second;
+  }
+  shapes::Shape shape = shapes::tube_union(name, graph);
+  graph.node_of_vertex.setConstant(shape.surface.positions.rows(), -1);
+  RigSubject subject{name, std::move(shape.surface), std::move(graph)};
+  subject.skeleton = dense_skeleton(subject.surface, subject.skeleton);
+  for (Eigen::Index v = 0; v < subject.surface.positions.rows(); ++v) {
+    Eigen::Index node = 0;
+    (subject.skeleton.nodes.rowwise() - subject.surface.positions.row(v))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&node);
+    subject.skeleton.node_of_vertex[v] = static_cast<int>(node);
+  }
+  return subject;
+}
+
+/// 20 high, looks along z, arms held out.
+RigSubject human() {
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
+  figure.add({0, 18.6, 0}, 1.3, neck);
+  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
+  return subject_of("human", figure);
+}
+
+/// 20 long, its head at +z or -z.
+RigSubject beast(double front) {
+  Figure figure;
+  const int rump = figure.add({0, 8, -6 * front}, 1.4);
+  const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
+  const int neck = figure.add({0, 10.5, 8 * front}, 0.8, withers);
+  figure.add({0, 11, 10.5 * front}, 1, neck);
+  figure.add({0, 7, -11 * front}, 0.5, rump);
+  figure.add_pair(rump, {{1.5, 6, -6.5 * front}, {1.5, 3, -7.5 * front}, {1.5, 0.5, -7 * front}},
+                  0.5);
+  figure.add_pair(withers, {{1.5, 6, 5 * front}, {1.5, 3, 5 * front}, {1.5, 0.5, 5 * front}}, 0.5);
+  return subject_of("beast", figure);
+}
+
+/// Six branches round a trunk, none of them down to the ground.
+RigSubject tree() {
+  Figure figure;
+  int below = figure.add({0, 0.8, 0}, 0.8);
+  for (const double height : {6.0, 9.0, 12.0}) {
+    const int fork = figure.add({0.2, height, 0.1}, 0.8, below);
+    figure.add({4, height + 3, 1.5}, 0.5, fork);
+    figure.add({-3.4, height + 2.1, -2.2}, 0.5, fork);
+    below = fork;
+  }
+  return subject_of("tree", figure);
+}
+
+RigSubject snake() {
+  Figure figure;
+  int before = figure.add({-10, 1, 0}, 0.8);
+  for (int k = 1; k <= 10; ++k) before = figure.add({2.0 * k - 10, 1, std::sin(k)}, 0.8, before);
+  return subject_of("snake", figure);
+}
+
+const PlannedJoint* joint_of(const BodyPlan& plan, const std::string& role) {
+  const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                  [&](const PlannedJoint& joint) { return joint.role == role; });
+  return found == plan.joints.end() ? nullptr : &*found;
+}
+
+void expect_near(const BodyPlan& plan, const std::string& role, const RowVector3d& place,
+                 double off) {
+  const PlannedJoint* joint = joint_of(plan, role);
+  ASSERT_NE(joint, nullptr) << role;
+  EXPECT_LT((joint->position - place).norm(), off) << role << " at " << joint->position;
+}
+
+TEST(FindPlan, HumanoidsHaveTheirJoints) {
+  const RigSubject subject = human();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  EXPECT_TRUE(plan.missing.empty());
+  expect_near(plan, "hips", {0, 10, 0}, 1.2);
+  expect_near(plan, "leftUpperLeg", {1.6, 9.4, 0}, 1);
+  expect_near(plan, "leftLowerLeg", {1.6, 5.5, 0}, 1);
+  expect_near(plan, "leftFoot", {1.6, 1.1, 0}, 0.6);
+  expect_near(plan, "rightFoot", {-1.6, 1.1, 0}, 0.6);
+  expect_near(plan, "leftUpperArm", {2.2, 15, 0}, 0.8);
+  expect_near(plan, "leftLowerArm", {4.6, 15, 0}, 0.8);
+  expect_near(plan, "head", {0, 16.9, 0}, 0.8);
+  ASSERT_FALSE(plan.joints.empty());
+  EXPECT_EQ(plan.joints.front().role, "hips");
+  EXPECT_EQ(plan.joints.front().parent, -1);
+}
+
+TEST(FindPlan, BothSidesAreAlike) {
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    std::size_t pairs = 0;
+    for (const PlannedJoint& joint : plan.joints) {
+      std::string other = joint.role;
+      if (other.starts_with("left")) other = "right" + other.substr(4);
+      if (other.ends_with(".L")) other.back() = 'R';
+      if (other == joint.role) continue;
+      const PlannedJoint* image = joint_of(plan, other);
+      if (image == nullptr) continue;
+      ++pairs;
+      EXPECT_GT(joint.position.x(), 0) << joint.role;
+      RowVector3d mirrored = image->position;
+      mirrored.x() *= -1;
+      EXPECT_LT((mirrored - joint.position).norm(), 0.02 * 20) << joint.role;
+    }
+    EXPECT_GE(pairs, 8U) << subject.name;
+  }
+}
+
+TEST(FindPlan, FollowsUpAndFront) {
+  const RigSubject subject = human();
+  const BodyPlan upright = find_plan(subject.surface, subject.skeleton);
+  // Lying: up is z, and the front is -y, as in Blender.
+  RigSubject turned = subject;
+  const auto turn = [](Positions& points) {
+    const Positions given = points;
+    points.col(1) = -given.col(2);
+    points.col(2) = given.col(1);
+  };
+  turn(turned.surface.positions);
+  turn(turned.skeleton.nodes);
+  PlanOptions options;
+  options.up = Direction::z;
+  const BodyPlan found = find_plan(turned.surface, turned.skeleton, options);
+  ASSERT_EQ(found.plan, BodyKind::humanoid);
+  ASSERT_EQ(found.joints.size(), upright.joints.size());
+  for (std::size_t k = 0; k < found.joints.size(); ++k) {
+    const RowVector3d& place = upright.joints[k].position;
+    EXPECT_EQ(found.joints[k].role, upright.joints[k].role);
+    EXPECT_LT((found.joints[k].position - RowVector3d(place.x(), -place.z(), place.y())).norm(),
+              0.4);
+  }
+  options.front = Direction::minus_z;
+  EXPECT_THROW((void)find_plan(turned.surface, turned.skeleton, options), Error);
+}
+
+TEST(FindPlan, QuadrupedsLookWhereTheirHeadsAre) {
+  for (const double front : {1.0, -1.0}) {
+    const RigSubject subject = beast(front);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+    EXPECT_EQ(plan.axes(2, 2), front);
+    expect_near(plan, "foot.L", {1.5 * front, 3, -7.4 * front}, 1.5);
+    expect_near(plan, "front_foot.R", {-1.5 * front, 1, 5 * front}, 1.5);
+    expect_near(plan, "spine", {0, 8, -6.5 * front}, 1.5);
+    const PlannedJoint* head = joint_of(plan, "head");
+    ASSERT_NE(head, nullptr);
+    EXPECT_GT(head->position.z() * front, 6);
+  }
+}
+
+TEST(FindPlan, NamesNoHumanOnATree) {
+  for (const RigSubject& subject : {tree(), snake()}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << subject.name;
+    EXPECT_TRUE(plan.joints.empty());
+    EXPECT_FALSE(plan.reason.empty());
+    PlanOptions options;
+    options.plan = BodyKind::humanoid;
+    EXPECT_TRUE(find_plan(subject.surface, subject.skeleton, options).joints.empty());
+    options.plan = BodyKind::none;
+    EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::none);
+  }
+}
+
+TEST(PlannedJoints, ComeFirstAndAreTheOnlyOnesOnTheirWay) {
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    const Joints joints = place_planned_joints(subject.skeleton, plan.joints);
+    ASSERT_GE(joints.names.size(), plan.joints.size());
+    for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      EXPECT_EQ(joints.names[k], plan.joints[k].role);
+      EXPECT_EQ(joints.parents[row], plan.joints[k].parent);
+      EXPECT_EQ(joints.positions.row(row), plan.joints[k].position);
+    }
+    EXPECT_EQ((joints.parents.array() < 0).count(), 1);
+    EXPECT_GE(joints.joint_of_node.minCoeff(), 0);
+    // A human's only others are beyond the head, the hands and the toes.
+    if (plan.plan != BodyKind::humanoid) continue;
+    for (Eigen::Index j = static_cast<Eigen::Index>(plan.joints.size()); j < joints.parents.size();
+         ++j) {
+      int above = joints.parents[j];
+      while (idx(above) >= plan.joints.size()) above = joints.parents[above];
+      const std::string& role = plan.joints[idx(above)].role;
+      EXPECT_TRUE(role == "head" || role.ends_with("Hand") || role.ends_with("Toes") ||
+                  role.ends_with("Foot"))
+          << joints.names[idx(j)] << " hangs from " << role;
+    }
+  }
+}
+
+TEST(PlannedRigs, HaveWeightsForEveryVertexAndTheRolesNames) {
+  for (const RigSubject& subject : {human(), beast(-1)}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    const Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
+      EXPECT_NEAR(rig.weights.row(v).sum(), 1, 1e-5);
+    }
+    for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+      EXPECT_EQ(rig.names[k], plan.joints[k].role);
+    }
+  }
+}
+
+TEST(RoleNames, AreUniqueAndOfTheirStyle) {
+  for (const RigSubject& subject : {human(), beast(1), tree()}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    for (const auto& style : name_styles) {
+      Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+      name_roles(rig, plan, style.value);
+      const std::set<std::string> names(rig.names.begin(), rig.names.end());
+      EXPECT_EQ(names.size(), rig.names.size()) << subject.name << ' ' << style.name;
+      const bool is_human = plan.plan == BodyKind::humanoid;
+      EXPECT_EQ(names.count("mixamorig:LeftUpLeg") > 0,
+                is_human && style.value == NameStyle::mixamo);
+      EXPECT_EQ(names.count("calf_r") > 0, is_human && style.value == NameStyle::unreal);
+      EXPECT_EQ(names.count("rightLowerLeg") > 0, is_human && style.value == NameStyle::vrm);
+      EXPECT_EQ(names.count("RightLowerLeg") > 0, is_human && style.value == NameStyle::unity);
+      EXPECT_EQ(names.count("forearm.R") > 0, is_human && style.value == NameStyle::rigify);
+      EXPECT_EQ(names.count("upper_leg.L") > 0, is_human && style.value == NameStyle::automatic);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::plan_laws
