@@ -41,7 +41,7 @@ Glb glb_of(const std::string& bytes) {
   return {Json::parse(bytes.substr(20, length)), bytes.substr(28 + std::size_t{length})};
 }
 
-std::string bytes_of(Glb glb) {
+std::string bytes_of(const Glb& glb) {
   std::string json = glb.json.dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   std::string bytes = "glTF";
@@ -120,7 +120,7 @@ TEST_F(EditGltf, EveryByteOfTheBuffersStaysWhereItWas) {
     EXPECT_EQ(edited.glb.json["buffers"][0]["byteLength"], edited.glb.numbers.size());
     const Json& views = edited.subject.json()["bufferViews"];
     for (std::size_t k = 0; k < views.size(); ++k) {
-      const auto content = [k](const Json& view, const std::string& numbers) {
+      const auto content = [](const Json& view, const std::string& numbers) {
         return numbers.substr(view.value("byteOffset", std::size_t{0}), view["byteLength"]);
       };
       const Json& after = edited.glb.json["bufferViews"][k];

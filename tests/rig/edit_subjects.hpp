@@ -334,7 +334,7 @@ class EditSubject {
       for (Eigen::Index k = 0; k < 16; ++k) put(matrices, inverse(k));
     }
     add_node({{"name", "old helper"}}, parent);
-    const auto hand = static_cast<std::size_t>(holder + 2);
+    const auto hand = static_cast<std::size_t>(holder) + 2;
     json_["nodes"][hand]["children"].push_back(json_["nodes"].size());
     json_["nodes"].push_back({{"name", "sword"}, {"mesh", 1}, {"translation", {0, 0, 3}}});
     json_["skins"] = {

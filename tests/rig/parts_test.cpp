@@ -114,8 +114,10 @@ TEST(FindParts, ZeroGivesAllJoints) {
 }
 
 TEST(FindParts, DoesNotDependOnThreads) {
+  constexpr int balls = 30;
   std::vector<Shape> many;
-  for (int k = 0; k < 30; ++k) {
+  many.reserve(balls);
+  for (int k = 0; k < balls; ++k) {
     many.push_back(ball_at(0.1 + 0.01 * k, {0.35 * k - 5, std::sin(k), 1 + std::cos(k)}));
   }
   const Shape shape = together(with_body(std::move(many)));
