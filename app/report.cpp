@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 namespace curveskel {
@@ -217,6 +218,24 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"certificate", to_json(record.extraction.certificate)}};
 }
 
+Json to_json(const JointHits& hits) {
+  return {{"hits", hits.hits},
+          {"overlap", hits.overlap},
+          {"precision", hits.precision},
+          {"recall", hits.recall}};
+}
+
+Json to_json(const std::optional<PoseDistance>& poses, const std::string& missing) {
+  if (!poses) return {{"missing", missing}};
+  return {
+      {"number", poses->poses}, {"mean_distance", poses->mean_distance}, {"shared", poses->shared}};
+}
+
+Json to_json(const std::optional<WeightDifference>& weights, const std::string& missing) {
+  if (!weights) return {{"missing", missing}};
+  return {{"precision", weights->precision}, {"recall", weights->recall}, {"l1", weights->l1}};
+}
+
 /// The number of threads that were allowed.
 unsigned threads_of(const ExtractOptions& options) {
   return options.threads > 0 ? static_cast<unsigned>(options.threads)
@@ -267,6 +286,24 @@ std::string evaluation_json(const std::string& surface_file, const std::string& 
                         {{"this", side(evaluation.common_ground.a)},
                          {"other", side(evaluation.common_ground.b)}}}};
   }
+  return text_of(json, 2) + "\n";
+}
+
+std::string rig_comparison_json(const std::string& rig_file, const std::string& truth_file,
+                                const RigComparison& comparison) {
+  const Json json = {{"program", program_and_version()},
+                     {"rig", rig_file},
+                     {"truth", truth_file},
+                     {"joints", comparison.joints},
+                     {"truth_joints", comparison.truth_joints},
+                     {"joints_to_joints", comparison.joints_to_joints},
+                     {"joints_to_bones", comparison.joints_to_bones},
+                     {"bones_to_bones", comparison.bones_to_bones},
+                     {"root_distance", comparison.root_distance},
+                     {"by_thickness", to_json(comparison.by_thickness)},
+                     {"by_size", to_json(comparison.by_size)},
+                     {"poses", to_json(comparison.poses, comparison.not_posed)},
+                     {"weights", to_json(comparison.weights, comparison.not_weighed)}};
   return text_of(json, 2) + "\n";
 }
 

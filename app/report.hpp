@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/compare_rigs.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
@@ -53,6 +54,11 @@ struct Evaluation {
 [[nodiscard]] std::string evaluation_json(const std::string& surface_file,
                                           const std::string& skeleton_file,
                                           const Evaluation& evaluation);
+
+/// The rig of one file beside that of the other, the truth. Ends with a newline.
+[[nodiscard]] std::string rig_comparison_json(const std::string& rig_file,
+                                              const std::string& truth_file,
+                                              const RigComparison& comparison);
 
 /// The largest resident memory of the process so far.
 [[nodiscard]] std::size_t peak_memory_bytes();

@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """usage: rig_truth.py PROGRAM FOLDER [OPTION...]
 
-How near the joints of `curveskel rig` (with these options) are to those that people have placed: for
-each NAME.joints.json of FOLDER with a surface NAME.ply or NAME.obj beside it. Distances are over the
-diagonal of the surface's joints; of the people's joints only those inside the surface count, and
-none of faces, toes and helpers.
+How near the rigs of `curveskel rig` (with these options) are to those that people have made.
+
+Each NAME.glb of FOLDER that has a rig: a new rig beside the old one, as `curveskel evaluate
+--rig-truth` compares them (docs/numbers.md). Lengths in percent of the longest side of the box.
+
+Each NAME.joints.json of FOLDER with a surface NAME.ply or NAME.obj beside it: joints alone.
+Distances are over the diagonal of the surface's joints; of the people's joints only those inside the
+surface count, and none of faces, toes and helpers.
 """
 import json
 import math
@@ -13,6 +17,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 ASIDE = ("toe", "tongue", "orbicularis", "oris", "levator", "risorius", "eye", "temporalis", "jaw",
          "special")
@@ -50,10 +55,64 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def main(program, folder, *options):
+def has_rig(glb):
+    data = glb.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    return bool(json.loads(data[20:20 + length]).get("skins"))
+
+
+def compared(program, character, options):
+    """The comparison with the character's own rig, and the seconds that the rig took."""
+    with tempfile.TemporaryDirectory() as place:
+        rig = pathlib.Path(place) / "rig.glb"
+        begin = time.monotonic()
+        subprocess.run([program, "rig", character, "-o", rig, "-q", *options], check=True,
+                       stderr=subprocess.DEVNULL)
+        seconds = time.monotonic() - begin
+        found = subprocess.run(
+            [program, "evaluate", rig, "--rig-truth", character, "--json", "-", "-q"], check=True,
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    return json.loads(found.stdout), seconds
+
+
+def numbers_of(program, character, options):
+    made, seconds = compared(program, character, options)
+    nothing = math.nan
+    return {
+        "joints": made["joints"],
+        "artist's": made["truth_joints"],
+        "joints to joints": 100 * made["joints_to_joints"],
+        "to bones": 100 * made["joints_to_bones"],
+        "bones to bones": 100 * made["bones_to_bones"],
+        "precision 5 %": made["by_size"]["precision"],
+        "recall 5 %": made["by_size"]["recall"],
+        "overlap, thickness": made["by_thickness"]["overlap"],
+        "root": 100 * made["root_distance"],
+        "poses": 100 * made["poses"].get("mean_distance", nothing),
+        "shared": made["poses"].get("shared", nothing),
+        "seconds": seconds,
+    }
+
+
+def print_rigs(program, characters, options):
+    rows = {}
+    for character in characters:
+        rows[character.stem] = numbers_of(program, character, options)
+    names = list(next(iter(rows.values())))
+    print("| character | " + " | ".join(names) + " |")
+    print("|" + "---|" * (len(names) + 1))
+    rows["**mean**"] = {
+        name: mean([row[name] for row in rows.values() if not math.isnan(row[name])] or [math.nan])
+        for name in names}
+    for stem, row in rows.items():
+        cells = [f"{value}" if isinstance(value, int) else f"{value:.2f}" for value in row.values()]
+        print(f"| {stem} | " + " | ".join(cells) + " |")
+
+
+def print_joints(program, truths, options):
     print("| surface | joints | people's | of theirs to ours / D | within 3 % | of ours to theirs |")
     print("|---|---|---|---|---|---|")
-    for truth in sorted(pathlib.Path(folder).glob("*.joints.json")):
+    for truth in truths:
         stem = truth.name.removesuffix(".joints.json")
         meshes = [truth.with_name(stem + end) for end in (".ply", ".obj")]
         mesh = next((file for file in meshes if file.exists()), None)
@@ -71,6 +130,18 @@ def main(program, folder, *options):
         back = nearest(ours, theirs, diagonal)
         print(f"| {stem} | {len(ours)} | {len(theirs)} | {mean(away):.4f} "
               f"| {mean([a < NEAR for a in away]):.2f} | {mean(back):.4f} |")
+
+
+def main(program, folder, *options):
+    folder = pathlib.Path(folder)
+    characters = [file for file in sorted(folder.glob("*.glb")) if has_rig(file)]
+    truths = sorted(folder.glob("*.joints.json"))
+    if not characters and not truths:
+        sys.exit(f"{folder}: neither a NAME.glb with a rig nor a NAME.joints.json")
+    if characters:
+        print_rigs(program, characters, options)
+    if truths:
+        print_joints(program, truths, options)
 
 
 if __name__ == "__main__":

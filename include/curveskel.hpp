@@ -21,6 +21,7 @@
 #include <curveskel/body_plan.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/clean.hpp>
+#include <curveskel/compare_rigs.hpp>
 #include <curveskel/contract.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/edit.hpp>

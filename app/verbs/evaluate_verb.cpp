@@ -1,15 +1,18 @@
-// curveskel evaluate: the certificate of any skeleton file.
+// curveskel evaluate: the certificate of any skeleton file, or a rig beside somebody's.
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/certificate.hpp>
+#include <curveskel/compare_rigs.hpp>
 #include <curveskel/evaluate_repaired.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
@@ -17,6 +20,7 @@
 #include "app/command_line.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/rig_comparison_table.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -26,6 +30,7 @@ struct EvaluateArguments {
   std::filesystem::path mesh;
   std::filesystem::path skeleton;
   std::filesystem::path against;
+  std::filesystem::path rig_truth;  ///< then `mesh` is a rig, and there is no skeleton
   std::string json;
   bool quiet = false;
   bool strict = false;
@@ -60,8 +65,44 @@ std::string evaluation_table(const Evaluation& evaluation) {
   return text;
 }
 
+RiggedSurface rigged_surface(const std::filesystem::path& path, const Monitor& monitor) {
+  const PolygonSoup soup = read_polygons(path, monitor);
+  std::optional<Rig> rig = read_rig(path, monitor);
+  if (rig && rig->joints.rows() > 0) {
+    return {{soup.positions, triangulate(soup)}, std::move(*rig)};
+  }
+  throw Error(Fault::input, path.string() +
+                                ": found no rig, needed joints with weights, in a glTF file; "
+                                "make one with curveskel rig");
+}
+
+int run_rig_truth(const EvaluateArguments& arguments, Session& session) {
+  if (!arguments.json.empty()) check_outputs({arguments.json}, arguments.rig_truth);
+  const Monitor monitor = session.monitor();
+  const RiggedSurface rig = rigged_surface(arguments.mesh, monitor);
+  const RiggedSurface truth = rigged_surface(arguments.rig_truth, monitor);
+  const RigComparison comparison = compare_rigs(rig, truth, monitor);
+  session.terminal.end_progress();
+  if (!arguments.json.empty()) {
+    write_outputs({{arguments.json,
+                    rig_comparison_json(arguments.mesh.filename().string(),
+                                        arguments.rig_truth.filename().string(), comparison)}},
+                  session);
+  }
+  if (!arguments.quiet) session.terminal.result(rig_comparison_table(comparison));
+  return ExitCode::done;
+}
+
+void require_one_task(const EvaluateArguments& arguments) {
+  if (arguments.skeleton.empty() == !arguments.rig_truth.empty()) return;
+  throw UsageError(arguments.skeleton.empty()
+                       ? "SKELETON is required, or --rig-truth with another rig"
+                       : "--rig-truth compares rigs; leave out SKELETON");
+}
+
 int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
+  require_one_task(arguments);
   if (!arguments.json.empty()) {
     check_outputs({arguments.json}, arguments.mesh);
     check_outputs({arguments.json}, arguments.skeleton);
@@ -69,6 +110,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.json == "-") session.terminal.keep_output_clean();
 
   session.interruption.limit(arguments.time_limit_seconds);
+  if (!arguments.rig_truth.empty()) return run_rig_truth(arguments, session);
   const Monitor monitor = session.monitor();
   const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
   RepairedSurface repaired = repair(read_polygons(arguments.mesh, monitor), arguments.repair,
@@ -105,14 +147,15 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
 Verb add_evaluate(CLI::App& program) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* parser = program.add_subcommand(
-      "evaluate", "Print the certificate of a skeleton file, this program's or another's");
-  parser->add_option("MESH", arguments->mesh, "the surface that it is the skeleton of")
+      "evaluate", "Print the certificate of a skeleton file, or compare two rigs");
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "the surface that it is the skeleton of; with --rig-truth a rig")
       ->required()
       ->type_name("");
   parser
       ->add_option("SKELETON", arguments->skeleton,
                    "skeleton file: obj, ply, cgal, swc, vtp, graphml or json")
-      ->required()
       ->type_name("");
   parser->add_option("--json", arguments->json, "the certificate as JSON; - is standard output")
       ->type_name("FILE");
@@ -121,6 +164,11 @@ Verb add_evaluate(CLI::App& program) {
                    "another skeleton file: distances to it, and which of both is more central "
                    "where both run")
       ->type_name("SKELETON");
+  parser
+      ->add_option("--rig-truth", arguments->rig_truth,
+                   "the rig that somebody has made of the same surface: how near the joints of "
+                   "MESH come to it, its weights and how it bends")
+      ->type_name("RIG.glb");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag(

@@ -7,6 +7,8 @@ import unittest
 
 from program import LINKED_RINGS, TORUS, Y, CommandLineTest, run
 
+USAGE, INPUT = 2, 3
+
 
 def ply(path):
     """Counts from the header, then the vertices of a binary PLY in double precision."""
@@ -200,6 +202,36 @@ class Evaluate(CommandLineTest):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
         result = self.run_ok("evaluate", Y, "y.obj", "--json", "-", cwd=self.folder)
         self.assertTrue(json.loads(result.out)["certificate"]["topology_correct"])
+
+    def test_a_rig_beside_itself_and_beside_one_with_fewer_joints(self):
+        for name, options in (("fine.glb", ("--bone-length", "3")), ("coarse.glb", ())):
+            self.run_ok("rig", Y, "-o", name, *options, cwd=self.folder)
+        found = {}
+        for truth in ("fine.glb", "coarse.glb"):
+            result = self.run_ok("evaluate", "fine.glb", "--rig-truth", truth, "--json", "x.json",
+                                 cwd=self.folder)
+            found[truth] = json.loads((self.folder / "x.json").read_text())
+            self.assertEqual(found[truth]["truth"], truth)
+            self.assertIn("joints to joints", result.out.decode())
+        same = found["fine.glb"]
+        self.assertEqual((same["joints_to_joints"], same["by_size"]["overlap"]), (0, 1))
+        self.assertEqual((same["weights"]["l1"], same["poses"]["mean_distance"]), (0, 0))
+        other = found["coarse.glb"]
+        self.assertGreater(other["joints"], other["truth_joints"])
+        self.assertGreater(other["joints_to_joints"], 0)
+        self.assertIn("joints", other["weights"]["missing"])
+        result = self.run_ok("evaluate", "fine.glb", "--rig-truth", "coarse.glb", "--json", "-",
+                             cwd=self.folder)
+        self.assertEqual(json.loads(result.out), other)
+
+    def test_a_rig_is_compared_with_a_rig_and_a_surface_with_a_skeleton(self):
+        self.run_ok("rig", Y, "-o", "y.glb", cwd=self.folder)
+        self.refused(USAGE, "evaluate", Y, cwd=self.folder, says=["SKELETON", "--rig-truth"])
+        self.refused(USAGE, "evaluate", "y.glb", "x.obj", "--rig-truth", "y.glb", cwd=self.folder,
+                     says=["--rig-truth", "SKELETON"])
+        for rig, truth in ((Y, "y.glb"), ("y.glb", Y)):
+            self.refused(INPUT, "evaluate", rig, "--rig-truth", truth, cwd=self.folder,
+                         says=[Y.name, "no rig", "curveskel rig"])
 
 
 class Rig(CommandLineTest):
