@@ -112,10 +112,6 @@ Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
                                 "leave out --keep-rig to have joints made");
 }
 
-bool is_gltf(const PolygonSoup& soup) {
-  return soup.format == SurfaceFormat::glb || soup.format == SurfaceFormat::gltf;
-}
-
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
   const bool as_bound = !arguments.bare && !arguments.keep_rig;
@@ -137,20 +133,22 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    std::string bytes;
-    if (arguments.bare || !is_gltf(soup)) {
-      const Surface given{soup.positions, triangulate(soup)};
-      bytes = format_rig(given, rig, formats[i], name.string(), program_and_version());
-    } else {
-      EditedFile edited = format_rig_into(arguments.mesh, rig, formats[i],
-                                          arguments.keep_rig ? OldRig::kept : OldRig::replaced,
-                                          name.string() + " rig", program_and_version(), monitor);
-      for (const std::string& note : edited.notes) {
-        if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
-      }
-      bytes = std::move(edited.bytes);
+    std::optional<EditedFile> edited;
+    if (!arguments.bare) {
+      edited = format_rig_into(arguments.mesh, rig,
+                               {formats[i], arguments.keep_rig ? OldRig::kept : OldRig::replaced,
+                                name.string() + " rig", program_and_version()},
+                               monitor);
     }
-    files.push_back({arguments.outputs[i], std::move(bytes)});
+    if (!edited) {
+      const Surface given{soup.positions, triangulate(soup)};
+      edited =
+          EditedFile{format_rig(given, rig, formats[i], name.string(), program_and_version()), {}};
+    }
+    for (const std::string& note : edited->notes) {
+      if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
+    }
+    files.push_back({arguments.outputs[i], std::move(edited->bytes)});
   }
   return files;
 }
@@ -218,7 +216,7 @@ Verb add_rig(CLI::App& program) {
               "instead of extracting one")
           ->type_name("FILE");
   parser->add_flag("--bare", arguments->bare,
-                   "of a glTF file, too, the surface alone, without its materials and all else, "
+                   "write the surface alone, without materials and all else that the file has, "
                    "instead of the file itself with the rig in it");
   parser->add_flag("--keep-rig", arguments->keep_rig,
                    "make no joints, but weights for those that the glTF file has");

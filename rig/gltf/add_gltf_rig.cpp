@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"
 
@@ -52,12 +53,11 @@ std::size_t add_joint_nodes(OrderedJson& nodes, const Rig& rig,
 std::size_t add_skin(GltfDocument& document, const Rig& rig,
                      const std::vector<Eigen::Quaterniond>& axes, const Eigen::Affine3d& move,
                      std::size_t first, std::size_t holder) {
-  constexpr int of_floats = 5126;
   const auto count = idx(rig.parents.size());
   OrderedJson joints = OrderedJson::array();
   for (std::size_t joint = 0; joint < count; ++joint) joints.push_back(first + joint);
   const std::size_t matrices =
-      add_accessor(document, inverse_bind_matrices(rig, axes, move), "MAT4", of_floats, count);
+      add_accessor(document, inverse_bind_matrices(rig, axes, move), "MAT4", gltf_float, count);
   OrderedJson& skins = array_in(document.json, "skins");
   skins.push_back(
       {{"inverseBindMatrices", matrices}, {"joints", std::move(joints)}, {"skeleton", holder}});

@@ -72,9 +72,10 @@ class EditGltf : public testing::Test {
     EditSubject subject(folder_.path(), one);
     PolygonSoup soup = read_polygons(subject.path(), {}, {true});
     Rig rig = random_rig(soup.positions.rows(), joints, "bone ");
-    const std::string bytes = format_rig_into(subject.path(), rig, RigFormat::glb, OldRig::replaced,
-                                              "holder rig", "a test")
-                                  .bytes;
+    const std::string bytes =
+        format_rig_into(subject.path(), rig,
+                        {RigFormat::glb, OldRig::replaced, "holder rig", "a test"})
+            ->bytes;
     const fs::path path = folder_.write("edited.glb", bytes);
     return {std::move(subject), std::move(soup), std::move(rig), path, glb_of(bytes)};
   }
@@ -82,8 +83,8 @@ class EditGltf : public testing::Test {
   [[nodiscard]] std::string refusal(const fs::path& file) const {
     try {
       const auto rows = read_polygons(file, {}, {true}).positions.rows();
-      (void)format_rig_into(file, random_rig(rows, 3, "bone "), RigFormat::glb, OldRig::replaced,
-                            "", "");
+      (void)*format_rig_into(file, random_rig(rows, 3, "bone "),
+                             {RigFormat::glb, OldRig::replaced, "", ""});
     } catch (const Error& error) {
       EXPECT_EQ(error.fault(), Fault::input);
       return error.what();
@@ -345,7 +346,7 @@ TEST_F(EditGltf, KeepsARigThatIsThere) {
     Rig rig = *read_rig(subject.path(), {});
     rig.weights = random_rig(soup.positions.rows(), one.old_rig, "").weights;
     const std::string bytes =
-        format_rig_into(subject.path(), rig, RigFormat::glb, OldRig::kept, "", "a test").bytes;
+        format_rig_into(subject.path(), rig, {RigFormat::glb, OldRig::kept, "", "a test"})->bytes;
     const Glb glb = glb_of(bytes);
     expect_valid(glb);
     for (const char* member : {"skins", "animations", "scenes", "materials"}) {
@@ -374,12 +375,30 @@ TEST_F(EditGltf, TakesInFilesBesideIt) {
             std::string("\x89PNG\r\n\x1a\n not a true picture", 27));
 }
 
+TEST_F(EditGltf, KeepsChunksThatNobodyKnows) {
+  const EditSubject subject(folder_.path(), {.name = "chunks"});
+  Glb glb{subject.json(), subject.buffers()[0]};
+  glb.numbers.resize((glb.numbers.size() + 3) / 4 * 4);
+  const std::string chunk("\4\0\0\0MINEabcd", 12);
+  std::string bytes = bytes_of(glb) + chunk;
+  const auto size = static_cast<std::uint32_t>(bytes.size());
+  std::memcpy(&bytes.at(8), &size, sizeof size);
+  const fs::path file = folder_.write("chunks.glb", bytes);
+  const auto rows = read_polygons(file).positions.rows();
+  const auto edited = format_rig_into(file, random_rig(rows, 3, "bone "));
+  ASSERT_TRUE(edited);
+  EXPECT_TRUE(edited->bytes.ends_with(chunk));
+  std::uint32_t said = 0;
+  std::memcpy(&said, &edited->bytes.at(8), sizeof said);
+  EXPECT_EQ(said, edited->bytes.size());
+}
+
 TEST_F(EditGltf, SaysWhichPictureIsMissing) {
   const EditSubject subject(folder_.path(), edit_cases()[9]);
   fs::remove(folder_.path() / "a picture.png");
   const auto rows = read_polygons(subject.path()).positions.rows();
-  const EditedFile edited = format_rig_into(subject.path(), random_rig(rows, 3, "bone "),
-                                            RigFormat::glb, OldRig::replaced, "", "");
+  const EditedFile edited = *format_rig_into(subject.path(), random_rig(rows, 3, "bone "),
+                                             {RigFormat::glb, OldRig::replaced, "", ""});
   ASSERT_EQ(edited.notes.size(), 1U);
   EXPECT_NE(edited.notes[0].find("a%20picture.png"), std::string::npos);
   EXPECT_EQ(glb_of(edited.bytes).json["images"][0]["uri"], "a%20picture.png");
@@ -388,9 +407,10 @@ TEST_F(EditGltf, SaysWhichPictureIsMissing) {
 TEST_F(EditGltf, TextHoldsWhatTheBinaryFileHolds) {
   for_all_cases([&](const EditCase& one) {
     const Edited edited = edit(one);
-    Json text = Json::parse(format_rig_into(edited.subject.path(), edited.rig, RigFormat::gltf,
-                                            OldRig::replaced, "holder rig", "a test")
-                                .bytes);
+    Json text =
+        Json::parse(format_rig_into(edited.subject.path(), edited.rig,
+                                    {RigFormat::gltf, OldRig::replaced, "holder rig", "a test"})
+                        ->bytes);
     EXPECT_EQ(text["buffers"][0]["uri"],
               "data:application/octet-stream;base64," + encodings::base64(edited.glb.numbers));
     text["buffers"][0].erase("uri");
@@ -432,7 +452,7 @@ TEST_F(EditGltf, AFileWithoutNodesGetsSome) {
   const Rig rig = random_rig(soup.positions.rows(), 4, "bone ");
   const fs::path path = folder_.write(
       "with.glb",
-      format_rig_into(file, rig, RigFormat::glb, OldRig::replaced, "rig", "a test").bytes);
+      format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes);
   EXPECT_LT((read_polygons(path).positions - soup.positions).norm(), 1e-5);
   EXPECT_EQ(read_rig(path, {})->names, rig.names);
 }
