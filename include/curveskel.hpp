@@ -18,6 +18,7 @@
 #include <curveskel/advanced/skin_weights.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/body_plan.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/contract.hpp>

@@ -1,5 +1,6 @@
 // curveskel rig: a surface file in, the same surface with joints and skin weights out.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/body_plan.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
@@ -45,6 +47,7 @@ struct RigArguments {
   ExtractOptions extract;
   RigOptions rig;
   PartOptions parts;
+  PlanOptions plan;
 };
 
 /// A skeleton of this surface is not mostly elsewhere.
@@ -153,6 +156,13 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
+std::string plan_in_words(const BodyPlan& plan) {
+  if (plan.plan == BodyKind::none) return "";
+  std::string text = fmt::format("plan: {} ({})\n", name_of(body_kinds, plan.plan), plan.reason);
+  if (!plan.missing.empty()) text += fmt::format("missing: {}\n", fmt::join(plan.missing, ", "));
+  return text;
+}
+
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
@@ -171,10 +181,14 @@ int run_rig(RigArguments arguments, Session& session) {
   arguments.parts.threads = arguments.threads;
   const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
   repaired = body_of(repaired, parts);
-  const CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
+  CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
+  skeleton = dense_skeleton(repaired.surface, skeleton);
+  arguments.plan.faces_minus_z = soup.faces_minus_z;
+  const BodyPlan plan =
+      old_rig ? BodyPlan{} : find_plan(repaired.surface, skeleton, arguments.plan);
   const Rig made =
       old_rig ? weights_on_joints(repaired.surface, skeleton, *old_rig, arguments.rig.skin, monitor)
-              : make_rig(repaired.surface, skeleton, arguments.rig, monitor);
+              : make_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
   const Surface given{soup.positions, triangulate(soup)};
   const Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
   const std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
@@ -186,6 +200,7 @@ int run_rig(RigArguments arguments, Session& session) {
                   arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
                   count_tips(rig));
   text += parts_in_words(parts);
+  text += plan_in_words(plan);
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;

@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/joints.hpp>
 #include <curveskel/advanced/skin_weights.hpp>
+#include <curveskel/body_plan.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/rig.hpp>
@@ -22,6 +23,12 @@ struct RigOptions {
 /// range.
 void require_valid(const RigOptions& options);
 
+/// The skeleton with more nodes, after those given, half a radius apart or less: a straight stretch
+/// has few, but joints lie along it, and the skin on either side of a joint is its own. Vertices go
+/// to the nearest of the nodes about their node. Precondition: node_of_vertex, if there is one, is
+/// the surface's. O(#V + nodes made).
+[[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
+
 /// `place_joints`, `skin_weights`, then `name_sides` (rig/sides.hpp). A vertex that has no node (or
 /// none has) goes to the one whose ball is nearest. Precondition: a clean surface; node_of_vertex
 /// by its vertices, if there is one. Throws Error(Fault::input) as `place_joints`, Cancelled on a
@@ -29,6 +36,11 @@ void require_valid(const RigOptions& options);
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options = {}, const Monitor& monitor = {});
 
+/// The same with the joints of a plan, which keep the names of their roles; the sides of the others
+/// are those of the plan's axes. The plan is of the same skeleton.
+[[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
+                           const BodyPlan& plan, const RigOptions& options = {},
+                           const Monitor& monitor = {});
 /// The same joints with new weights: each node of the skeleton goes with the nearest bone of
 /// `given` (rig/skin/given_joints.hpp), then `skin_weights`. For joints that somebody has placed;
 /// `given.weights` is not read. Errors as `make_rig`.

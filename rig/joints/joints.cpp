@@ -26,19 +26,32 @@ struct LimbSample {
 struct Limb {
   std::vector<int> nodes;  ///< upper end first
   std::vector<LimbSample> samples;
+  double length = 0;
 };
+
+double longest_side(const Positions& nodes) {
+  return (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff();
+}
 
 class JointPlacer {
  public:
-  JointPlacer(const CurveSkeleton& skeleton, const JointOptions& options)
+  JointPlacer(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
+              const JointOptions& options)
       : skeleton_(skeleton),
+        planned_(planned),
         options_(options),
-        tree_(rooted_tree(skeleton, options.root)),
-        radii_(usable_radii(skeleton)) {
+        tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node)),
+        radii_(usable_radii(skeleton)),
+        least_length_(options.least_bone * longest_side(skeleton.nodes)),
+        least_radius_(options.straight_bone * longest_side(skeleton.nodes) / options.bone_length) {
     joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
+    above_ = tree_.parent;
+    for (std::size_t k = 0; k < tree_.roots.size(); ++k)
+      above_[idx(tree_.roots[k])] = tree_.above[k];
   }
 
   Joints place() {
+    place_planned();
     for (std::size_t component = 0; component < tree_.roots.size(); ++component) {
       part_ = component == 0 ? "" : "part" + std::to_string(component + 1) + "_";
       limbs_ = 0;
@@ -62,14 +75,35 @@ class JointPlacer {
     return static_cast<int>(points_.size()) - 1;
   }
 
+  /// Each node up to the next planned joint belongs to the last one before it on the way from the
+  /// root.
+  void place_planned() {
+    for (const PlannedJoint& joint : planned_) add(joint.position, joint.parent, joint.role);
+    for (std::size_t k = 0; k < planned_.size(); ++k) {
+      const PlannedJoint& joint = planned_[k];
+      if (joint.node < 0) continue;
+      int node = above_[idx(joint.node)];
+      for (; node >= 0 && joints_.joint_of_node[node] < 0; node = above_[idx(node)]) {
+        joints_.joint_of_node[node] = joint.parent;
+      }
+      joints_.joint_of_node[joint.node] = static_cast<int>(k);
+    }
+  }
+
   void place_component(int root, int above) {
-    const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
-    joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), parent, part_ + "root");
+    if (joints_.joint_of_node[root] < 0) {
+      const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
+      joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), parent, part_ + "root");
+    }
     std::vector<int> open{root};  // upper ends of limbs yet to be placed
     while (!open.empty()) {
       const int upper = open.back();
       open.pop_back();
       for (const int child : tree_.children[idx(upper)]) {
+        if (joints_.joint_of_node[child] >= 0) {  // planned
+          open.push_back(child);
+          continue;
+        }
         const int lower = place_limb(limb_from(upper, child));
         if (!tree_.children[idx(lower)].empty()) open.push_back(lower);
       }
@@ -82,11 +116,10 @@ class JointPlacer {
     while (tree_.children[idx(limb.nodes.back())].size() == 1) {
       limb.nodes.push_back(tree_.children[idx(limb.nodes.back())].front());
     }
-    double length = 0;
     for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
-      length += (point(limb.nodes[k]) - point(limb.nodes[k - 1])).norm();
+      limb.length += (point(limb.nodes[k]) - point(limb.nodes[k - 1])).norm();
     }
-    sample(limb, length);
+    sample(limb, limb.length);
     return limb;
   }
 
@@ -112,7 +145,7 @@ class JointPlacer {
       for (int piece = 1; piece <= pieces; ++piece) {
         const double share = static_cast<double>(piece) / pieces;
         const double radius = from_radius + share * (to_radius - from_radius);
-        way += step.norm() / pieces / radius;
+        way += step.norm() / pieces / std::max(radius, least_radius_);
         since += step.norm() / pieces;
         const bool is_last = piece == pieces && k + 1 == limb.nodes.size();
         if (since < 0.5 * finest && !is_last) continue;
@@ -167,7 +200,8 @@ class JointPlacer {
       const Eigen::Vector3d arm = limb.samples[k].point - from;
       const double share = std::clamp(arm.dot(bone) / squared, 0.0, 1.0);
       const double off = (arm - share * bone).squaredNorm();
-      deviation = std::max(deviation, off / (limb.samples[k].radius * limb.samples[k].radius));
+      const double radius = std::max(limb.samples[k].radius, least_radius_);
+      deviation = std::max(deviation, off / (radius * radius));
     }
     const double length = (limb.samples[j].way - limb.samples[i].way) / options_.bone_length;
     return 1 + length * length + deviation / (options_.bend * options_.bend);
@@ -184,6 +218,9 @@ class JointPlacer {
     for (std::size_t j = first + 1; j < count; ++j) {
       for (std::size_t i = j; i-- > first;) {
         if (i + 1 < j && limb.samples[j].way - limb.samples[i].way > longest) break;
+        const bool is_whole = i == first && j == last;
+        const double chord = (limb.samples[j].point - limb.samples[i].point).norm();
+        if (!is_whole && chord < least_length_) continue;
         const double with = sum[i] + cost(limb, i, j);
         if (with < sum[j]) {
           sum[j] = with;
@@ -199,6 +236,11 @@ class JointPlacer {
 
   /// Returns the limb's lower end.
   int place_limb(const Limb& limb) {
+    if (limb.length < least_length_) {
+      const int joint = joints_.joint_of_node[limb.nodes.front()];
+      for (const int node : limb.nodes) joints_.joint_of_node[node] = joint;
+      return limb.nodes.back();
+    }
     const std::string name = part_ + "limb" + std::to_string(++limbs_);
     const int upper = joints_.joint_of_node[limb.nodes.front()];
     const int lower = limb.nodes.back();
@@ -224,9 +266,13 @@ class JointPlacer {
   }
 
   const CurveSkeleton& skeleton_;
+  const std::vector<PlannedJoint>& planned_;
   const JointOptions& options_;
   const RootedTree tree_;
+  std::vector<int> above_;  // by node: towards the root, across components
   const Eigen::VectorXd radii_;
+  const double least_length_;  // of a bone
+  const double least_radius_;  // in which a way is measured
   std::string part_;
   int limbs_ = 0;
   std::vector<Eigen::RowVector3d> points_;
@@ -239,13 +285,21 @@ class JointPlacer {
 void require_valid(const JointOptions& options) {
   constexpr OptionRange node{-1};
   constexpr OptionRange radii{0.01, 1e6};
+  constexpr OptionRange shares{0, 1};
   const OptionCheck check("JointOptions");
   check.number("root", options.root, node);
   check.number("bone_length", options.bone_length, radii);
   check.number("bend", options.bend, radii);
+  check.number("straight_bone", options.straight_bone, shares);
+  check.number("least_bone", options.least_bone, shares);
 }
 
 Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) {
+  return place_joints(skeleton, {}, options);
+}
+
+Joints place_joints(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
+                    const JointOptions& options) {
   require_valid(options);
   require_sound(skeleton, "place_joints");
   const Eigen::Index nodes = skeleton.nodes.rows();
@@ -257,7 +311,7 @@ Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) 
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }
-  return JointPlacer(skeleton, options).place();
+  return JointPlacer(skeleton, planned, options).place();
 }
 
 }  // namespace curveskel

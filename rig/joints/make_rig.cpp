@@ -58,12 +58,17 @@ void require_valid(const RigOptions& options) {
 
 Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
              const Monitor& monitor) {
+  return make_rig(surface, skeleton, BodyPlan{}, options, monitor);
+}
+
+Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,
+             const RigOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "make_rig", options.skin.threads);
   require_sound(skeleton, "make_rig");
   require_nodes_for(surface, skeleton, "make_rig");
   monitor.report("joints", 0);
-  Joints joints = place_joints(skeleton, options.joints);
+  Joints joints = place_joints(skeleton, plan.joints, options.joints);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights =
@@ -72,7 +77,9 @@ Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOpt
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
-  name_sides(rig, options.faces_minus_z);
+  const bool front_is_back = plan.joints.empty() ? options.faces_minus_z : plan.axes(0, 0) < 0;
+  name_sides(rig, front_is_back);
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) rig.names[k] = plan.joints[k].role;
   return rig;
 }
 

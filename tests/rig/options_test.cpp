@@ -190,12 +190,14 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   }
   {
     using O = JointOptions;
-    [[maybe_unused]] const auto& [a, b, c] = O{};
+    [[maybe_unused]] const auto& [a, b, c, d, e] = O{};
     const std::string radii = "0.01..1000000";
     expect_ranges<O>("JointOptions",
                      {option("root", &O::root, "-1 or more", {-1, largest}, {-2}),
                       option("bone_length", &O::bone_length, radii, {0.01, 1e6}, {0, -1, 2e6}),
-                      option("bend", &O::bend, radii, {0.01, 1e6}, {0, -1, 2e6})});
+                      option("bend", &O::bend, radii, {0.01, 1e6}, {0, -1, 2e6}),
+                      option("straight_bone", &O::straight_bone, "0..1", {0, 1}, {-1, 2}),
+                      option("least_bone", &O::least_bone, "0..1", {0, 1}, {-1, 2})});
   }
   {
     using O = SkinOptions;

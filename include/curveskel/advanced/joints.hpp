@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/body_plan.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/surface.hpp>
 
@@ -15,6 +16,10 @@ struct JointOptions {
   double bone_length = 6;  ///< that a straight limb is cut into, of the radius along it; 0.01..1e6
   double bend =
       0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; same range
+  // Of the longest side of the skeleton's box; 0..1.
+  double straight_bone = 0.03;  ///< that a straight limb is cut into at least, however thin it is:
+                                ///< fins, plates and spikes are no chains of beads
+  double least_bone = 0.02;     ///< nothing shorter becomes a bone of its own
 };
 
 /// Throws Error(Fault::usage) that names the first option out of its range, the value and the
@@ -36,12 +41,19 @@ struct Joints {
 /// length times radius; without junctions the end with the larger ball, or the middle if other
 /// components hang from it. A cycle is cut where the ways from the root meet. Along a limb the
 /// joints minimise, over all choices (dynamic programming), the sum over bones of 1 + (length /
-/// (bone_length r))^2 + (deviation / (bend r))^2, lengths measured in the radius r where they are,
-/// deviation the largest distance of the curve from the bone. Components hang from each other where
-/// they overlap or are nearest, in a tree from the heaviest (length times radius) or that of a
-/// wanted root, so that there is one root; each is rooted where it hangs. Throws
-/// Error(Fault::input) where the root is no node, or there is none. O(#N log #N), a hundred times
-/// as much where there are many junctions.
+/// (bone_length r))^2 + (deviation / (bend r))^2, lengths measured in the radius r where they are
+/// (or in that of which straight_bone is so many), deviation the largest distance of the curve from
+/// the bone. Components hang from each other where they overlap or are nearest, in a tree from the
+/// heaviest (length times radius) or that of a wanted root, so that there is one root; each is
+/// rooted where it hangs. Throws Error(Fault::input) where the root is no node, or there is none.
+/// O(#N log #N), a hundred times as much where there are many junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
+
+/// The same with the planned joints first, under the names of their roles, from the first of them
+/// as the root; what lies between them on the curve has no others. Beyond hands joints may lie half
+/// as near to each other as elsewhere.
+[[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton,
+                                  const std::vector<PlannedJoint>& planned,
+                                  const JointOptions& options = {});
 
 }  // namespace curveskel

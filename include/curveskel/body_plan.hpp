@@ -1,0 +1,82 @@
+// How a body is built: which limbs are legs and arms, where its head is, and the joints that an
+// animator would give it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+enum class BodyKind : std::uint8_t {
+  automatic,
+  none,
+  humanoid,
+  quadruped,
+  bird,
+  tailed_biped,
+  other
+};
+inline constexpr NameTable<BodyKind, 7> body_kinds{{
+    {BodyKind::automatic, "auto", "found from the curve"},
+    {BodyKind::none, "none", "not looked for: joints where the curve has them, no roles"},
+    {BodyKind::humanoid, "humanoid", "upright on one pair of legs, with arms"},
+    {BodyKind::quadruped, "quadruped", "on two pairs of legs"},
+    {BodyKind::bird, "bird", "on one pair of legs, with wings"},
+    {BodyKind::tailed_biped, "biped-with-tail", "on one pair of legs, leaning ahead of a tail"},
+    {BodyKind::other, "other", "none of these: a fish, a tree, a thing"},
+}};
+
+/// Directions of a file.
+enum class Direction : std::uint8_t { automatic, x, y, z, minus_x, minus_y, minus_z };
+inline constexpr NameTable<Direction, 7> directions{{
+    {Direction::automatic, "auto", "found"},
+    {Direction::x, "x", ""},
+    {Direction::y, "y", ""},
+    {Direction::z, "z", ""},
+    {Direction::minus_x, "-x", ""},
+    {Direction::minus_y, "-y", ""},
+    {Direction::minus_z, "-z", ""},
+}};
+
+struct PlanOptions {
+  BodyKind plan = BodyKind::automatic;
+  Direction up = Direction::automatic;     ///< automatic: y, as in glTF
+  Direction front = Direction::automatic;  ///< automatic: of quadrupeds by their heads and ears, of
+                                           ///< others z, or -z if `faces_minus_z`
+  bool faces_minus_z = false;              ///< what the file says, as VRM 0.x does
+};
+
+/// A joint that a plan asks for.
+struct PlannedJoint {
+  std::string role;  ///< of humanoids in VRM's words (hips, leftUpperArm), of others in Rigify's
+                     ///< (spine, thigh.L, front_shin.R)
+  int parent = -1;   ///< among the planned joints, before it; -1 = the root, which is the first
+  int node = -1;     ///< of the skeleton, that it is nearest to; -1: between its neighbours'
+  Eigen::RowVector3d position;
+  std::string reason;  ///< why it lies there
+};
+
+struct BodyPlan {
+  BodyKind plan = BodyKind::none;
+  std::string reason;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: to the body's left, up, its front
+  std::vector<PlannedJoint> joints;                    ///< the root first; empty for other and none
+  std::vector<std::string> missing;                    ///< required roles that have no joint
+};
+
+/// Tips that are each other's mirror images make pairs of limbs; what lies between their crossings
+/// and the tips in the mirror plane is the trunk. Pairs that reach the ground are legs. Places
+/// along limbs are shares of their height or length, means over artists' rigs, and features of the
+/// curve: where legs part, where an arm leaves the trunk, the narrowest place of a wrist and of a
+/// neck. docs/rigging.md has the rules. Precondition: node_of_vertex is the surface's. O(#V + #N
+/// times the number of tips).
+[[nodiscard]] BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
+                                 const PlanOptions& options = {});
+
+}  // namespace curveskel

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/make_rig.hpp>
+#include "rig/joints/rooted_tree.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The new nodes of each edge, from its first to its second node.
+struct Pieces {
+  int first = 0;  ///< new node
+  int count = 0;
+};
+
+}  // namespace
+
+CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton) {
+  constexpr double longest = 0.5;   // radii
+  constexpr double finest = 0.002;  // of the longest side of the box
+  const Eigen::Index nodes = skeleton.nodes.rows();
+  if (nodes < 2) return skeleton;
+  const Eigen::VectorXd radii = usable_radii(skeleton);
+  const double least =
+      finest *
+      (skeleton.nodes.colwise().maxCoeff() - skeleton.nodes.colwise().minCoeff()).maxCoeff();
+  CurveSkeleton dense = skeleton;
+  std::vector<Pieces> pieces;
+  std::vector<Eigen::RowVector4d> added;  // place, radius
+  std::vector<Eigen::RowVector2i> edges;
+  for (const auto& edge : skeleton.edges.rowwise()) {
+    const Eigen::RowVector3d from = skeleton.nodes.row(edge[0]);
+    const Eigen::RowVector3d to = skeleton.nodes.row(edge[1]);
+    const double step = std::max(longest * std::min(radii[edge[0]], radii[edge[1]]), least);
+    const int count = static_cast<int>(std::ceil((to - from).norm() / step - 1e-9)) - 1;
+    pieces.push_back(
+        {static_cast<int>(nodes) + static_cast<int>(added.size()), std::max(count, 0)});
+    int before = edge[0];
+    for (int k = 1; k <= count; ++k) {
+      const double share = static_cast<double>(k) / (count + 1);
+      Eigen::RowVector4d node;
+      node << from + share * (to - from), (1 - share) * radii[edge[0]] + share * radii[edge[1]];
+      const int number = static_cast<int>(nodes) + static_cast<int>(added.size());
+      added.push_back(node);
+      edges.emplace_back(before, number);
+      before = number;
+    }
+    edges.emplace_back(before, edge[1]);
+  }
+  const auto all = nodes + static_cast<Eigen::Index>(added.size());
+  dense.nodes.conservativeResize(all, 3);
+  dense.radii = radii;
+  dense.radii.conservativeResize(all);
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const auto row = nodes + static_cast<Eigen::Index>(k);
+    dense.nodes.row(row) = added[k].head<3>();
+    dense.radii[row] = added[k][3];
+  }
+  dense.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    dense.edges.row(static_cast<Eigen::Index>(k)) = edges[k];
+  }
+  // A vertex goes to the nearest place of the half edges round its node.
+  std::vector<std::vector<int>> beside(idx(nodes));
+  for (std::size_t e = 0; e < pieces.size(); ++e) {
+    for (int k = 0; k < pieces[e].count; ++k) {
+      const bool is_first_half = 2 * k + 1 < pieces[e].count + 1;
+      const int node = skeleton.edges(static_cast<Eigen::Index>(e), is_first_half ? 0 : 1);
+      beside[idx(node)].push_back(pieces[e].first + k);
+    }
+  }
+  for (Eigen::Index v = 0; v < dense.node_of_vertex.size(); ++v) {
+    const int given = dense.node_of_vertex[v];
+    if (given < 0) continue;
+    const Eigen::RowVector3d place = surface.positions.row(v);
+    double nearest = (dense.nodes.row(given) - place).squaredNorm();
+    for (const int node : beside[idx(given)]) {
+      const double distance = (dense.nodes.row(node) - place).squaredNorm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      dense.node_of_vertex[v] = node;
+    }
+  }
+  return dense;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+// Shares of the body's height or size; means over artists' rigs lie well within.
+bool is_leg(const CurveTree& tree, const LimbPair& pair) {
+  const Vector3d& root = tree.nodes[idx(pair.root)];
+  const Vector3d& tip = tree.nodes[idx(pair.path.back())];
+  const bool reaches_ground = pair.lowest < tree.ground + 0.06 * tree.height;
+  const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
+  const bool mostly_down = std::abs(tip.x() - root.x()) < 0.45 * pair.length;
+  return reaches_ground && pair.length > 0.1 * tree.size && goes_down && mostly_down;
+}
+
+/// Of the upper pairs that begin no lower than the legs the one that reaches farthest sideways: not
+/// the longest, which may be pigtails.
+int find_arms(const CurveTree& tree, const Limbs& limbs, int leg) {
+  const double hips = tree.nodes[idx(limbs.pairs[idx(leg)].root)].y();
+  int arms = -1;
+  double farthest = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    if (is_leg(tree, pair) || pair.length <= 0.12 * tree.size) continue;
+    if (tree.nodes[idx(pair.root)].y() <= hips - 0.02 * tree.height) continue;
+    const double aside = std::abs(tree.aside(pair.path.back()));
+    if (aside <= farthest) continue;
+    farthest = aside;
+    arms = k;
+  }
+  return arms;
+}
+
+struct Posture {
+  double lean = 0;  // degrees of the trunk from upright
+  double back = 0;  // of the size, that the trunk reaches behind the legs
+};
+
+Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms) {
+  const Vector3d hips = tree.nodes[idx(limbs.pairs[idx(leg)].root)];
+  Vector3d top = hips;
+  double rearmost = hips.z();
+  for (const int node : limbs.trunk) {
+    const Vector3d& p = tree.nodes[idx(node)];
+    if (p.y() > top.y()) top = p;
+    rearmost = std::min(rearmost, p.z());
+  }
+  if (arms >= 0) top = tree.nodes[idx(limbs.pairs[idx(arms)].root)];
+  const Vector3d trunk = top - hips;
+  const double length = std::max(trunk.norm(), 1e-9 * tree.size);
+  return {std::acos(std::clamp(trunk.y() / length, -1.0, 1.0)) * 180 / std::numbers::pi,
+          (hips.z() - rearmost) / tree.size};
+}
+
+std::string rounded(double value) { return std::to_string(std::lround(value)); }
+
+void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
+  const int leg = found.legs.front();
+  const Posture posture = posture_of(tree, limbs, leg, found.arms);
+  const std::string leans = "the trunk leans by " + rounded(posture.lean) + " degrees, " +
+                            rounded(100 * posture.back) + " % of the size lies behind the legs";
+  const double leg_length = limbs.pairs[idx(leg)].length;
+  const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;
+  if (found.arms >= 0 && posture.lean < 35 && posture.back < 0.2) {
+    found.plan = BodyKind::humanoid;
+    found.reason = "one pair of legs and one of arms above them; " + leans;
+  } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
+    found.plan = BodyKind::bird;
+    found.reason = "one pair of legs, wings longer than these; " + leans;
+  } else {
+    found.plan = BodyKind::tailed_biped;
+    found.reason = "one pair of legs; " + leans;
+  }
+}
+
+}  // namespace
+
+PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
+  PlanFound found;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (is_leg(tree, limbs.pairs[idx(k)])) found.legs.push_back(k);
+  }
+  const std::size_t legs = found.legs.size();
+  if (legs == 0) {
+    found.reason = "no pair of limbs reaches the ground";
+    return found;
+  }
+  if (legs >= 3) {
+    found.reason = std::to_string(legs) + " pairs of limbs reach the ground";
+    found.legs.clear();
+    return found;
+  }
+  if (legs == 2) {
+    found.plan = BodyKind::quadruped;
+    found.reason = "two pairs of limbs reach the ground";
+  } else {
+    found.arms = find_arms(tree, limbs, found.legs.front());
+    name_biped(tree, limbs, found);
+  }
+  const bool fits = wanted == BodyKind::automatic || wanted == found.plan ||
+                    (legs == 1 && wanted != BodyKind::quadruped && wanted != BodyKind::other &&
+                     (wanted != BodyKind::humanoid || found.arms >= 0));
+  if (!fits) {
+    found.reason = "asked for another plan, for which the curve has not the limbs; " + found.reason;
+    found.plan = BodyKind::other;
+  } else if (wanted != BodyKind::automatic && wanted != found.plan) {
+    found.reason = "as asked; " + found.reason;
+    found.plan = wanted;
+  }
+  return found;
+}
+
+bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const double a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)].z();
+  const double b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)].z();
+  const double ahead = std::max(a, b);
+  const double behind = std::min(a, b);
+  double trunk_top[2] = {tree.ground, tree.ground};
+  for (const int node : limbs.trunk) {
+    const Vector3d& p = tree.nodes[idx(node)];
+    if (p.z() > ahead) trunk_top[0] = std::max(trunk_top[0], p.y());
+    if (p.z() < behind) trunk_top[1] = std::max(trunk_top[1], p.y());
+  }
+  double surface_top[2] = {tree.ground, tree.ground};
+  for (const Vector3d& p : tree.vertices) {
+    if (p.z() > ahead) surface_top[0] = std::max(surface_top[0], p.y());
+    if (p.z() < behind) surface_top[1] = std::max(surface_top[1], p.y());
+  }
+  double ears = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    const bool is_one = std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
+    if (is_one || pair.length <= 0.05 * tree.size) continue;
+    ears += (tree.nodes[idx(pair.root)].z() > 0.5 * (a + b) ? 1 : -1) * pair.length;
+  }
+  const auto sign = [](double value) { return value > 0 ? 1 : (value < 0 ? -1 : 0); };
+  return sign(trunk_top[0] - trunk_top[1]) + sign(surface_top[0] - surface_top[1]) + sign(ears) < 0;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,128 @@
+#include "rig/plan/curve_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/joints/rooted_tree.hpp"
+#include "surface/spatial/spread_points.hpp"
+
+namespace curveskel {
+
+using Eigen::Vector3d;
+
+bool CurveTree::is_tip(int node) const { return neighbours[idx(node)].size() == 1; }
+double CurveTree::aside(int node) const { return nodes[idx(node)].x() - middle; }
+
+CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
+                     const Eigen::Matrix3d& axes) {
+  constexpr int spread = 20000;
+  CurveTree tree;
+  const auto in_frame = [&](const Vector3d& p) -> Vector3d { return axes * p; };
+  for (const auto& node : skeleton.nodes.rowwise()) tree.nodes.push_back(in_frame(node));
+  const Eigen::VectorXd radii = usable_radii(skeleton);
+  tree.radii.assign(radii.begin(), radii.end());
+  tree.neighbours.resize(tree.nodes.size());
+  const auto join = [&](int a, int b) {
+    tree.neighbours[idx(a)].push_back(b);
+    tree.neighbours[idx(b)].push_back(a);
+  };
+  const RootedTree rooted = rooted_tree(skeleton, -1);
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    if (rooted.parent[idx(node)] >= 0) join(node, rooted.parent[idx(node)]);
+  }
+  for (std::size_t k = 0; k < rooted.roots.size(); ++k) {
+    if (rooted.above[k] >= 0) join(rooted.roots[k], rooted.above[k]);
+  }
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d high = -low;
+  for (const auto& position : surface.positions.rowwise()) {
+    const Vector3d p = in_frame(position);
+    tree.vertices.push_back(p);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  tree.node_of_vertex.assign(tree.vertices.size(), -1);
+  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    tree.node_of_vertex[idx(v)] = skeleton.node_of_vertex[v];
+  }
+  for (const Vector3d& p : spread_points(surface, spread)) tree.spread.push_back(in_frame(p));
+  tree.size = (high - low).maxCoeff();
+  tree.ground = low.y();
+  tree.height = high.y() - low.y();
+  tree.middle = 0.5 * (low.x() + high.x());
+  return tree;
+}
+
+std::vector<int> Ways::path(int to) const {
+  std::vector<int> nodes{to};
+  while (before[idx(nodes.back())] >= 0) nodes.push_back(before[idx(nodes.back())]);
+  std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+Ways ways_from(const CurveTree& tree, int node) {
+  Ways ways;
+  ways.before.assign(tree.nodes.size(), -1);
+  ways.distance.assign(tree.nodes.size(), std::numeric_limits<double>::infinity());
+  ways.distance[idx(node)] = 0;
+  std::vector<int> open{node};
+  while (!open.empty()) {
+    const int at = open.back();
+    open.pop_back();
+    for (const int next : tree.neighbours[idx(at)]) {
+      if (ways.distance[idx(next)] < std::numeric_limits<double>::infinity()) continue;
+      ways.before[idx(next)] = at;
+      ways.distance[idx(next)] =
+          ways.distance[idx(at)] + (tree.nodes[idx(next)] - tree.nodes[idx(at)]).norm();
+      open.push_back(next);
+    }
+  }
+  return ways;
+}
+
+namespace {
+
+struct Sampled {
+  std::vector<double> way;  // from the beginning
+  double whole = 0;
+};
+
+Sampled ways_along(const CurveTree& tree, const std::vector<int>& path) {
+  Sampled sampled;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (k > 0) {
+      sampled.whole += (tree.nodes[idx(path[k])] - tree.nodes[idx(path[k - 1])]).norm();
+    }
+    sampled.way.push_back(sampled.whole);
+  }
+  return sampled;
+}
+
+}  // namespace
+
+Course mean_course(const CurveTree& tree, const LimbPair& pair) {
+  constexpr std::size_t samples = 400;
+  Course course{std::vector<Vector3d>(samples, Vector3d::Zero()),
+                std::vector<double>(samples, 0.0)};
+  for (const bool is_left : {true, false}) {
+    const std::vector<int>& path = is_left ? pair.path : pair.mirror;
+    const Sampled along = ways_along(tree, path);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double way = along.whole * static_cast<double>(i) / (samples - 1);
+      while (k + 2 < path.size() && along.way[k + 1] < way) ++k;
+      const std::size_t next = std::min(k + 1, path.size() - 1);
+      const double step = along.way[next] - along.way[k];
+      const double share = step > 0 ? std::clamp((way - along.way[k]) / step, 0.0, 1.0) : 0;
+      Vector3d point = (1 - share) * tree.nodes[idx(path[k])] + share * tree.nodes[idx(path[next])];
+      if (!is_left) point.x() = 2 * tree.middle - point.x();
+      course.points[i] += 0.5 * point;
+      course.radii[i] +=
+          0.5 * ((1 - share) * tree.radii[idx(path[k])] + share * tree.radii[idx(path[next])]);
+    }
+  }
+  return course;
+}
+
+}  // namespace curveskel

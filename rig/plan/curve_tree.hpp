@@ -1,0 +1,67 @@
+// The curve of a body as a tree in the body's own frame: x to its left, y up, z to its front.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+struct CurveTree {
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<double> radii;
+  std::vector<std::vector<int>> neighbours;
+  std::vector<Eigen::Vector3d> vertices;  ///< of the surface
+  std::vector<int> node_of_vertex;        ///< -1 = none
+  std::vector<Eigen::Vector3d> spread;    ///< points evenly over the surface
+  double size = 0;                        ///< longest side of the surface's box
+  double ground = 0;                      ///< lowest y
+  double height = 0;
+  double middle = 0;  ///< x of the mirror plane
+
+  [[nodiscard]] bool is_tip(int node) const;
+  [[nodiscard]] double aside(int node) const;  ///< x from the mirror plane
+};
+
+/// Components hang together as in the rig; cycles are cut.
+[[nodiscard]] CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
+                                   const Eigen::Matrix3d& axes);
+
+/// From one node to all.
+struct Ways {
+  std::vector<int> before;  ///< -1 for the beginning
+  std::vector<double> distance;
+
+  /// From the beginning on; only `to` where there is no way.
+  [[nodiscard]] std::vector<int> path(int to) const;
+};
+[[nodiscard]] Ways ways_from(const CurveTree& tree, int node);
+
+/// A pair of limbs, by its left one.
+struct LimbPair {
+  int root = -1;            ///< node of the trunk
+  std::vector<int> path;    ///< from the root to its farthest tip
+  std::vector<int> mirror;  ///< the same of the right one
+  double length = 0;
+  double lowest = 0;          ///< y of its surface
+  std::vector<int> vertices;  ///< of the left one
+};
+
+struct Limbs {
+  std::vector<char> is_trunk;   ///< by node
+  std::vector<int> trunk;       ///< nodes
+  std::vector<LimbPair> pairs;  ///< the longest first
+};
+
+[[nodiscard]] Limbs find_limbs(const CurveTree& tree);
+
+/// A pair's course as the mean of both sides, on the left, in equal shares of its length.
+struct Course {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> radii;
+};
+[[nodiscard]] Course mean_course(const CurveTree& tree, const LimbPair& pair);
+
+}  // namespace curveskel

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/curve_tree.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of the body's size. Below the first a tip lies in the mirror plane, within the second an
+// unpaired one still counts so.
+constexpr double in_plane = 0.006;
+constexpr double nearly_in_plane = 0.015;
+constexpr double alike = 0.06;  // so near is a mirror image
+
+class LimbFinder {
+ public:
+  explicit LimbFinder(const CurveTree& tree) : tree_(tree) {
+    for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+      if (!tree.is_tip(node)) continue;
+      tips_.push_back(node);
+      ways_.emplace(node, ways_from(tree, node));
+    }
+  }
+
+  Limbs find() {
+    pair_tips();
+    find_trunk();
+    for (const std::vector<int>& part : parts_beside_trunk()) add_pair(part);
+    std::stable_sort(limbs_.pairs.begin(), limbs_.pairs.end(),
+                     [](const LimbPair& a, const LimbPair& b) { return a.length > b.length; });
+    return std::move(limbs_);
+  }
+
+ private:
+  /// Left tips and their images: the nearest pairs first.
+  void pair_tips() {
+    std::vector<std::tuple<double, int, int>> candidates;
+    for (const int left : tips_) {
+      if (tree_.aside(left) <= in_plane * tree_.size) continue;
+      for (const int right : tips_) {
+        if (tree_.aside(right) >= -in_plane * tree_.size) continue;
+        Vector3d image = tree_.nodes[idx(right)];
+        image.x() = 2 * tree_.middle - image.x();
+        const double off = (image - tree_.nodes[idx(left)]).norm();
+        if (off < alike * tree_.size) candidates.emplace_back(off, left, right);
+      }
+    }
+    std::sort(candidates.begin(), candidates.end());
+    std::vector<char> taken(tree_.nodes.size(), 0);
+    for (const auto& [off, left, right] : candidates) {
+      if (taken[idx(left)] != 0 || taken[idx(right)] != 0) continue;
+      taken[idx(left)] = taken[idx(right)] = 1;
+      mate_[left] = right;
+    }
+    for (const int tip : tips_) {
+      const double aside = std::abs(tree_.aside(tip)) / tree_.size;
+      if (aside <= in_plane || (aside <= nearly_in_plane && taken[idx(tip)] == 0)) {
+        ends_.push_back(tip);
+      }
+    }
+  }
+
+  /// Where the way from a tip to its image crosses the mirror plane: of what lies near the plane
+  /// the node that is as far from both.
+  [[nodiscard]] int crossing(int left, int right) const {
+    const Ways& from_left = ways_.at(left);
+    const Ways& from_right = ways_.at(right);
+    const std::vector<int> path = from_left.path(right);
+    double least = std::numeric_limits<double>::infinity();
+    for (const int node : path) least = std::min(least, std::abs(tree_.aside(node)));
+    const double near = std::max(0.01 * tree_.size, 1.5 * least);
+    int best = path.front();
+    double best_off = std::numeric_limits<double>::infinity();
+    for (const int node : path) {
+      if (std::abs(tree_.aside(node)) >= near && std::abs(tree_.aside(node)) > least) continue;
+      const double off = std::abs(from_left.distance[idx(node)] - from_right.distance[idx(node)]);
+      if (off >= best_off) continue;
+      best_off = off;
+      best = node;
+    }
+    return best;
+  }
+
+  void find_trunk() {
+    limbs_.is_trunk.assign(tree_.nodes.size(), 0);
+    for (const auto& [left, right] : mate_) {
+      const int node = crossing(left, right);
+      if (std::find(ends_.begin(), ends_.end(), node) == ends_.end()) ends_.push_back(node);
+    }
+    if (ends_.empty()) {
+      ends_.push_back(static_cast<int>(std::max_element(tree_.radii.begin(), tree_.radii.end()) -
+                                       tree_.radii.begin()));
+    }
+    // In a tree the ways between all ends are those from one of them to the others.
+    const Ways ways = ways_from(tree_, ends_.front());
+    for (const int end : ends_) {
+      for (const int node : ways.path(end)) limbs_.is_trunk[idx(node)] = 1;
+    }
+    for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
+      if (limbs_.is_trunk[idx(node)] != 0) limbs_.trunk.push_back(node);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::vector<int>> parts_beside_trunk() const {
+    std::vector<std::vector<int>> parts;
+    std::vector<char> seen = limbs_.is_trunk;
+    for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
+      if (seen[idx(node)] != 0) continue;
+      seen[idx(node)] = 1;
+      std::vector<int> part{node};
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        for (const int next : tree_.neighbours[idx(part[k])]) {
+          if (seen[idx(next)] != 0) continue;
+          seen[idx(next)] = 1;
+          part.push_back(next);
+        }
+      }
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  void add_pair(const std::vector<int>& part) {
+    LimbPair pair;
+    for (const int node : part) {
+      for (const int next : tree_.neighbours[idx(node)]) {
+        if (pair.root < 0 && limbs_.is_trunk[idx(next)] != 0) pair.root = next;
+      }
+    }
+    int farthest = -1;
+    for (const int node : part) {
+      if (pair.root < 0 || mate_.count(node) == 0) continue;
+      const double length = ways_.at(node).distance[idx(pair.root)];
+      if (farthest >= 0 && length <= pair.length) continue;
+      farthest = node;
+      pair.length = length;
+    }
+    if (farthest < 0) return;
+    const Ways from_root = ways_from(tree_, pair.root);
+    pair.path = from_root.path(farthest);
+    pair.mirror = from_root.path(mate_.at(farthest));
+    std::vector<char> is_own(tree_.nodes.size(), 0);
+    for (const int node : part) is_own[idx(node)] = 1;
+    pair.lowest = std::numeric_limits<double>::infinity();
+    for (const int node : part) pair.lowest = std::min(pair.lowest, tree_.nodes[idx(node)].y());
+    for (std::size_t v = 0; v < tree_.vertices.size(); ++v) {
+      const int node = tree_.node_of_vertex[v];
+      if (node < 0 || is_own[idx(node)] == 0) continue;
+      pair.vertices.push_back(static_cast<int>(v));
+      pair.lowest = std::min(pair.lowest, tree_.vertices[v].y());
+    }
+    limbs_.pairs.push_back(std::move(pair));
+  }
+
+  const CurveTree& tree_;
+  std::vector<int> tips_;
+  std::map<int, Ways> ways_;  // by tip
+  std::map<int, int> mate_;   // left tip -> right tip
+  std::vector<int> ends_;     // of the trunk
+  Limbs limbs_;
+};
+
+}  // namespace
+
+Limbs find_limbs(const CurveTree& tree) { return LimbFinder(tree).find(); }
+
+}  // namespace curveskel

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+class Humanoid {
+ public:
+  Humanoid(const CurveTree& tree, const Limbs& limbs, const PlanFound& found)
+      : tree_(tree),
+        leg_(limbs.pairs[idx(found.legs.front())]),
+        arm_(limbs.pairs[idx(found.arms)]),
+        leg_pair_(found.legs.front()),
+        arm_pair_(found.arms) {
+    for (const int node : limbs.trunk) trunk_.push_back(tree.nodes[idx(node)]);
+    std::sort(trunk_.begin(), trunk_.end(),
+              [](const Vector3d& a, const Vector3d& b) { return a.y() < b.y(); });
+  }
+
+  std::vector<Place> places() {
+    place_leg();
+    place_arm();
+    place_trunk();
+    return std::move(places_);
+  }
+
+ private:
+  void add(const std::string& role, const std::string& parent, const Vector3d& at, int pair,
+           const std::string& reason, bool on_curve = true) {
+    places_.push_back({role, parent, at, on_curve, pair, reason});
+  }
+
+  void place_leg() {
+    const Course course = mean_course(tree_, leg_);
+    const std::size_t count = course.points.size();
+    // Where legs part: the curve's ball is clear of the mirror plane.
+    std::size_t parts = 0;
+    while (parts + 1 < count &&
+           std::abs(course.points[parts].x() - tree_.middle) <= course.radii[parts]) {
+      ++parts;
+    }
+    if (parts + 1 == count) parts = 0;
+    const double crotch = course.points[parts].y();
+    const double above = 0.9 * course.radii[std::min(parts + 8, count - 1)];
+    hip_height_ = std::min(crotch + above, std::max(tree_.nodes[idx(leg_.root)].y(), crotch));
+    std::vector<double> aside;
+    for (std::size_t k = parts; k < std::min(parts + 60, count); ++k) {
+      aside.push_back(std::abs(course.points[k].x() - tree_.middle));
+    }
+    std::nth_element(aside.begin(), aside.begin() + std::ptrdiff_t(aside.size() / 2), aside.end());
+    const auto down_to = [&](double y) {
+      std::size_t k = parts;
+      while (k + 1 < count && course.points[k].y() > y) ++k;
+      return course.points[k];
+    };
+    hip_ = {tree_.middle + aside[aside.size() / 2], hip_height_, down_to(hip_height_).z()};
+    const auto at_share = [&](double share) {
+      return down_to(tree_.ground + share * (hip_height_ - tree_.ground));
+    };
+    const Vector3d ankle = at_share(0.115);
+    double toes = -std::numeric_limits<double>::infinity();
+    for (const int v : leg_.vertices) toes = std::max(toes, tree_.vertices[idx(v)].z());
+    if (leg_.vertices.empty()) toes = course.points.back().z();
+    add("leftUpperLeg", "hips", hip_, leg_pair_, "above the place where the legs part");
+    add("leftLowerLeg", "leftUpperLeg", at_share(0.56), leg_pair_,
+        ".56 of the hips' height above the ground");
+    add("leftFoot", "leftLowerLeg", ankle, leg_pair_, ".115 of the hips' height above the ground");
+    add("leftToes", "leftFoot",
+        {ankle.x(), tree_.ground + 0.02 * tree_.height, ankle.z() + 0.55 * (toes - ankle.z())},
+        leg_pair_, ".55 of the way from the ankle to the tip of the foot");
+  }
+
+  void place_arm() {
+    const Course course = mean_course(tree_, arm_);
+    const std::size_t count = course.points.size();
+    const Vector3d& root = tree_.nodes[idx(arm_.root)];
+    const double trunk_radius = tree_.radii[idx(arm_.root)];
+    std::vector<double> middle_radii(course.radii.begin() + std::ptrdiff_t(0.35 * double(count)),
+                                     course.radii.begin() + std::ptrdiff_t(0.6 * double(count)));
+    const auto median = middle_radii.begin() + std::ptrdiff_t(middle_radii.size() / 2);
+    std::nth_element(middle_radii.begin(), median, middle_radii.end());
+    std::size_t leaves = 0;
+    while (leaves + 1 < count && (course.points[leaves] - root).norm() <= trunk_radius) ++leaves;
+    if (leaves + 1 == count) leaves = 0;
+    std::size_t begins = leaves;
+    while (begins + 1 < count && (course.points[begins] - course.points[leaves]).norm() < *median) {
+      ++begins;
+    }
+    shoulder_ = course.points[begins];
+    double reach = (course.points.back() - shoulder_).norm();
+    for (const int v : arm_.vertices) {
+      reach = std::max(reach, (tree_.vertices[idx(v)] - shoulder_).norm());
+    }
+    const std::size_t wrist = wrist_of(course, begins, reach);
+    const double half = 0.5 * (course.points[wrist] - shoulder_).norm();
+    std::size_t elbow = begins;
+    while (elbow < wrist && (course.points[elbow] - shoulder_).norm() < half) ++elbow;
+    add("leftUpperArm", "leftShoulder", shoulder_, arm_pair_,
+        "an arm's radius beyond the place where the curve leaves the trunk");
+    add("leftLowerArm", "leftUpperArm", course.points[elbow], arm_pair_,
+        "half of the way from the shoulder to the wrist");
+    add("leftHand", "leftLowerArm", course.points[wrist], arm_pair_,
+        "the narrowest place about .68 of the way to the fingertips");
+  }
+
+  /// Narrow, and not far from where wrists are.
+  [[nodiscard]] std::size_t wrist_of(const Course& course, std::size_t begins, double reach) const {
+    std::vector<std::size_t> candidates;
+    std::vector<double> radii;
+    for (std::size_t k = begins; k < course.points.size(); ++k) {
+      const double share = (course.points[k] - shoulder_).norm() / reach;
+      if (share <= 0.55 || share >= 0.8) continue;
+      candidates.push_back(k);
+      radii.push_back(course.radii[k]);
+    }
+    if (candidates.empty()) return begins + (course.points.size() - begins) * 68 / 100;
+    const auto median = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+    std::nth_element(radii.begin(), median, radii.end());
+    const double usual = std::max(*median, 1e-9 * tree_.size);
+    std::size_t best = candidates.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t k : candidates) {
+      const double share = (course.points[k] - shoulder_).norm() / reach;
+      const double cost = course.radii[k] / usual + 1.25 * std::abs(share - 0.68);
+      if (cost >= least) continue;
+      least = cost;
+      best = k;
+    }
+    return best;
+  }
+
+  /// z of the trunk's curve at a height.
+  [[nodiscard]] double depth_at(double y) const {
+    const double lowest = hip_height_ - 0.02 * tree_.height;
+    const Vector3d* below = nullptr;
+    for (const Vector3d& p : trunk_) {
+      if (p.y() <= lowest) continue;
+      if (p.y() >= y) {
+        if (below == nullptr || p.y() - below->y() < 1e-12 * tree_.size) return p.z();
+        const double share = (y - below->y()) / (p.y() - below->y());
+        return below->z() + share * (p.z() - below->z());
+      }
+      below = &p;
+    }
+    return below == nullptr ? hip_.z() : below->z();
+  }
+
+  /// The height at which the body is narrowest between the arms and the head.
+  [[nodiscard]] double neck_height() const {
+    constexpr int slices = 60;
+    const double from = tree_.nodes[idx(arm_.root)].y();
+    double top = from;
+    for (const Vector3d& p : tree_.vertices) {
+      if (std::abs(p.x() - tree_.middle) < 0.05 * tree_.height) top = std::max(top, p.y());
+    }
+    const double step = 0.75 * (top - from) / (slices - 1);
+    std::vector<std::vector<double>> asides(slices);
+    const double thickness = 0.012 * tree_.height;
+    for (const Vector3d& p : tree_.spread) {
+      const double aside = std::abs(p.x() - tree_.middle);
+      if (aside >= 0.16 * tree_.height) continue;
+      for (int k = 0; k < slices; ++k) {
+        if (std::abs(p.y() - from - step * k) < thickness) asides[idx(k)].push_back(aside);
+      }
+    }
+    std::vector<double> widths(slices, std::numeric_limits<double>::infinity());
+    for (int k = 0; k < slices; ++k) {
+      std::vector<double>& slice = asides[idx(k)];
+      if (slice.size() < 4) continue;
+      const auto most = slice.begin() + std::ptrdiff_t(double(slice.size() - 1) * 0.95);
+      std::nth_element(slice.begin(), most, slice.end());
+      widths[idx(k)] = *most;
+    }
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < slices; ++k) {
+      double width = 0;
+      for (int j = k - 2; j <= k + 2; ++j) width += widths[idx(std::clamp(j, 0, slices - 1))] / 5;
+      if (width >= least) continue;
+      least = width;
+      best = k;
+    }
+    return from + step * best;
+  }
+
+  void place_trunk() {
+    const double ground = tree_.ground;
+    const double head = neck_height() + 0.004 * tree_.height;
+    const double hips = ground + 0.984 * (hip_height_ - ground);
+    const auto at = [&](double share) -> Vector3d {
+      const double y = hips + share * (head - hips);
+      return {tree_.middle, y, depth_at(y)};
+    };
+    add("hips", "", {tree_.middle, hips, hip_.z()}, -1, "between the upper legs");
+    const std::vector<std::pair<const char*, double>> spine{
+        {"spine", 0.16}, {"chest", 0.36}, {"upperChest", 0.58}, {"neck", 0.83}};
+    std::string parent = "hips";
+    for (const auto& [role, share] : spine) {
+      add(role, parent, at(share), -1, "at its share of the way from the hips to the head");
+      parent = role;
+    }
+    add("head", "neck", {tree_.middle, head, depth_at(head)}, -1,
+        "above the narrowest place of the neck");
+    Vector3d collar = at(0.78);
+    double chest = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& p : tree_.spread) {
+      const bool is_near = std::abs(p.y() - collar.y()) < 0.02 * tree_.height &&
+                           std::abs(p.x() - tree_.middle) < 0.06 * tree_.height;
+      if (is_near) chest = std::max(chest, p.z());
+    }
+    if (std::isfinite(chest)) collar.z() += 0.55 * (chest - collar.z());
+    collar.x() += 0.22 * (shoulder_.x() - tree_.middle);
+    collar.y() -= 0.012 * tree_.height;
+    add("leftShoulder", "upperChest", collar, arm_pair_,
+        ".22 of the upper arm's distance from the middle, ahead of the spine", false);
+  }
+
+  const CurveTree& tree_;
+  const LimbPair& leg_;
+  const LimbPair& arm_;
+  int leg_pair_;
+  int arm_pair_;
+  std::vector<Vector3d> trunk_;  // from below
+  double hip_height_ = 0;
+  Vector3d hip_ = Vector3d::Zero();
+  Vector3d shoulder_ = Vector3d::Zero();
+  std::vector<Place> places_;
+};
+
+}  // namespace
+
+std::vector<Place> humanoid_places(const CurveTree& tree, const Limbs& limbs,
+                                   const PlanFound& found) {
+  return Humanoid(tree, limbs, found).places();
+}
+
+}  // namespace curveskel

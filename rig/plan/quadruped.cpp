@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The joints of a leg from above, and how far each lies below the trunk's curve, of its height
+/// above the ground there: means over artists' rigs.
+struct LegRule {
+  std::array<const char*, 4> roles;
+  std::array<double, 4> shares;
+};
+constexpr LegRule hind_leg{{"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}};
+constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "front_toe.L"},
+                            {0.14, 0.53, 0.87, 0.96}};
+
+/// Below the first joint a leg hangs beside the body: the first one lies as far from the mirror
+/// plane as the second.
+void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const LegRule& rule,
+               const std::string& parent, std::vector<Place>& places) {
+  const Course course = mean_course(tree, pair);
+  const double top = course.points.front().y();
+  const std::size_t first = places.size();
+  std::string above = parent;
+  std::size_t k = 0;
+  for (std::size_t joint = 0; joint < rule.roles.size(); ++joint) {
+    const double y = top - rule.shares[joint] * (top - tree.ground);
+    while (k + 1 < course.points.size() && course.points[k].y() > y) ++k;
+    places.push_back({rule.roles[joint], above, course.points[k], true, number,
+                      "at its share of the height of the trunk above the ground"});
+    above = rule.roles[joint];
+  }
+  Vector3d& thigh = places[first].at;
+  thigh.x() = std::max(thigh.x(), places[first + 1].at.x());
+}
+
+/// The thighs of hind legs, which the curve leaves for the belly too early, lie half-way between
+/// the crossing and the ankles, and the root between the thighs.
+int hips_of(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, double ankle) {
+  const double crossing = tree.nodes[idx(hind.root)].z();
+  const double wanted = 0.5 * (crossing + ankle);
+  int best = hind.root;
+  for (const int node : limbs.trunk) {
+    const auto off = [&](int other) { return std::abs(tree.nodes[idx(other)].z() - wanted); };
+    if (off(node) < off(best)) best = node;
+  }
+  return best;
+}
+
+/// Sets the thigh over the root.
+void place_hind_leg(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, int number,
+                    std::vector<Place>& places) {
+  const std::size_t first = places.size();
+  place_leg(tree, hind, number, hind_leg, "spine", places);
+  Vector3d& thigh = places[first].at;
+  thigh.z() = 0.5 * (tree.nodes[idx(hind.root)].z() + places[first + 2].at.z());
+  Vector3d root = tree.nodes[idx(hips_of(tree, limbs, hind, places[first + 2].at.z()))];
+  root.x() = tree.middle;
+  places.push_back({"spine", "", root, true, -1, "on the trunk's curve between the thighs"});
+}
+
+struct Along {
+  std::vector<Vector3d> points;
+  std::vector<double> way;
+
+  [[nodiscard]] Vector3d at(double wanted) const {
+    std::size_t k = 0;
+    while (k + 2 < points.size() && way[k + 1] < wanted) ++k;
+    if (points.size() < 2) return points.front();
+    const double step = way[k + 1] - way[k];
+    const double share = step > 0 ? std::clamp((wanted - way[k]) / step, 0.0, 1.0) : 0;
+    return points[k] + share * (points[k + 1] - points[k]);
+  }
+  [[nodiscard]] double whole() const { return way.back(); }
+};
+
+Along along(const CurveTree& tree, const std::vector<int>& path) {
+  Along line;
+  for (const int node : path) {
+    line.points.push_back(tree.nodes[idx(node)]);
+    line.points.back().x() = tree.middle;
+    line.way.push_back(line.way.empty()
+                           ? 0
+                           : line.way.back() +
+                                 (line.points.back() - line.points[line.points.size() - 2]).norm());
+  }
+  return line;
+}
+
+/// The farthest node ahead of the front legs near the mirror plane: the nose.
+int nose_of(const CurveTree& tree, int front, const Ways& ways) {
+  int nose = front;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    const bool is_ahead =
+        tree.nodes[idx(node)].z() > tree.nodes[idx(front)].z() - 0.02 * tree.size &&
+        std::abs(tree.aside(node)) < 0.03 * tree.size;
+    if (is_ahead && ways.distance[idx(node)] > ways.distance[idx(nose)]) nose = node;
+  }
+  return nose;
+}
+
+/// From the hips to the front legs, and on to the head.
+void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>& places) {
+  const std::string share = "at its share of the way along the trunk";
+  const Along back = along(tree, ways_from(tree, hips).path(front));
+  places.push_back({"spine.001", "spine", back.at(0.3 * back.whole()), true, -1, share});
+  places.push_back({"spine.002", "spine.001", back.at(0.65 * back.whole()), true, -1, share});
+  places.push_back({"chest", "spine.002", back.at(back.whole()), true, -1,
+                    "where the front legs meet the trunk"});
+  const Ways ways = ways_from(tree, front);
+  const int nose = nose_of(tree, front, ways);
+  if (nose == front) return;
+  const Along neck = along(tree, ways.path(nose));
+  places.push_back({"neck", "chest", neck.at(0.35 * neck.whole()), true, -1, share});
+  places.push_back({"head", "neck", neck.at(0.6 * neck.whole()), true, -1, share});
+}
+
+}  // namespace
+
+std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
+                                    const PlanFound& found) {
+  const LimbPair& hind = limbs.pairs[idx(found.legs[0])];
+  const LimbPair& front = limbs.pairs[idx(found.legs[1])];
+  std::vector<Place> places;
+  place_hind_leg(tree, limbs, hind, found.legs[0], places);
+  place_trunk(tree, hips_of(tree, limbs, hind, places[2].at.z()), front.root, places);
+  place_leg(tree, front, found.legs[1], front_leg, "chest", places);
+  return places;
+}
+
+std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  std::vector<Place> places;
+  place_hind_leg(tree, limbs, limbs.pairs[idx(found.legs[0])], found.legs[0], places);
+  return places;
+}
+
+}  // namespace curveskel

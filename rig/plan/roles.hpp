@@ -1,0 +1,43 @@
+// The places of joints, by the plan of the body. All in the frame of the curve's tree.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <curveskel/body_plan.hpp>
+#include "rig/plan/curve_tree.hpp"
+
+namespace curveskel {
+
+struct PlanFound {
+  BodyKind plan = BodyKind::other;
+  std::string reason;
+  std::vector<int> legs;  ///< pairs; of quadrupeds two
+  int arms = -1;          ///< pair; -1 = none
+};
+
+[[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted);
+
+/// A joint in the frame; of a pair the left one, whose right one is its mirror image.
+struct Place {
+  std::string role;
+  std::string parent;  ///< role; empty = the root
+  Eigen::Vector3d at;
+  bool on_curve = true;  ///< else no node is its own
+  int pair = -1;         ///< on whose curve; -1 = the trunk
+  std::string reason;
+};
+
+[[nodiscard]] std::vector<Place> humanoid_places(const CurveTree& tree, const Limbs& limbs,
+                                                 const PlanFound& found);
+/// `found.legs` hind legs first.
+[[nodiscard]] std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
+                                                  const PlanFound& found);
+/// Birds, bipeds with tails.
+[[nodiscard]] std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs,
+                                              const PlanFound& found);
+
+/// True if a quadruped's head is at its rear: what is called front is its back.
+[[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found);
+
+}  // namespace curveskel
