@@ -115,8 +115,13 @@ Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
                                 "leave out --keep-rig to have joints made");
 }
 
+OldRig old_rig_in(const RigArguments& arguments) {
+  return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
+}
+
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
+  if (!arguments.bare) require_editable(arguments.mesh, old_rig_in(arguments), monitor);
   const bool as_bound = !arguments.bare && !arguments.keep_rig;
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
   if (as_bound && soup.posed) {
@@ -127,9 +132,10 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
   return soup;
 }
 
+/// `summary` gets a line about an old rig.
 std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSoup& soup,
                                   const Rig& rig, const std::vector<RigFormat>& formats,
-                                  Session& session) {
+                                  Session& session, std::string& summary) {
   const Monitor monitor = session.monitor();
   fs::path name = arguments.mesh.stem();
   if (arguments.mesh.extension() == ".gz") name = name.stem();
@@ -138,10 +144,10 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
     std::optional<EditedFile> edited;
     if (!arguments.bare) {
-      edited = format_rig_into(arguments.mesh, rig,
-                               {formats[i], arguments.keep_rig ? OldRig::kept : OldRig::replaced,
-                                name.string() + " rig", program_and_version()},
-                               monitor);
+      edited = format_rig_into(
+          arguments.mesh, rig,
+          {formats[i], old_rig_in(arguments), name.string() + " rig", program_and_version()},
+          monitor);
     }
     if (!edited) {
       const Surface given{soup.positions, triangulate(soup)};
@@ -150,6 +156,10 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     }
     for (const std::string& note : edited->notes) {
       if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
+    }
+    if (edited->joints_replaced > 0) {
+      summary = fmt::format("replaced: a rig of {} joints, {} channels of animations\n",
+                            edited->joints_replaced, edited->channels_removed);
     }
     files.push_back({arguments.outputs[i], std::move(edited->bytes)});
   }
@@ -191,7 +201,9 @@ int run_rig(RigArguments arguments, Session& session) {
               : make_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
   const Surface given{soup.positions, triangulate(soup)};
   const Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
-  const std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
+  std::string old_rig_in_words;
+  const std::vector<OutputFile> files =
+      rig_files(arguments, soup, rig, formats, session, old_rig_in_words);
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -201,6 +213,7 @@ int run_rig(RigArguments arguments, Session& session) {
                   count_tips(rig));
   text += parts_in_words(parts);
   text += plan_in_words(plan);
+  text += old_rig_in_words;
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;

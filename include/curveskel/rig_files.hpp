@@ -43,7 +43,9 @@ struct EditOptions {
 
 struct EditedFile {
   std::string bytes;
-  std::vector<std::string> notes;  ///< what a person should know, a line each
+  std::vector<std::string> notes;  ///< what is missing or left out, a line each
+  int joints_replaced = 0;         ///< of an old rig
+  int channels_removed = 0;        ///< of animations that moved them
 };
 
 /// The file itself with the rig in it. Of glTF every byte of the buffers and every member of the
@@ -62,5 +64,9 @@ struct EditedFile {
                                                         const Rig& rig,
                                                         const EditOptions& options = {},
                                                         const Monitor& monitor = {});
+
+/// Throws Error(Fault::input) where `format_rig_into` would, before a rig is made. O(bytes).
+void require_editable(const std::filesystem::path& input, OldRig old_rig,
+                      const Monitor& monitor = {});
 
 }  // namespace curveskel

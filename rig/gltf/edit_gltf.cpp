@@ -2,6 +2,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -32,7 +33,7 @@ namespace {
 
 constexpr std::string_view bare_remedy = "use --bare, which writes the surface alone";
 
-void require_editable(const GltfDocument& document, const FileBytes& file) {
+void refuse_instancing(const GltfDocument& document, const FileBytes& file) {
   constexpr std::string_view instancing = "EXT_mesh_gpu_instancing";
   const OrderedJson used = document.json.value("extensionsUsed", OrderedJson::array());
   if (std::find(used.begin(), used.end(), std::string(instancing)) == used.end()) return;
@@ -100,19 +101,18 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
   write_gltf_weights(document, parts, weights, joints);
 }
 
-void replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
-                      const Rig& rig, const GltfWeights& weights, const std::string& name,
-                      std::vector<std::string>& notes) {
-  add_missing_nodes(document);
-  std::vector<bool> shown(document.json["nodes"].size(), scene.nodes.empty());
+/// By node.
+std::vector<bool> shown_nodes(const GltfDocument& document, const GltfScene& scene) {
+  std::vector<bool> shown(document.json.at("nodes").size(), scene.nodes.empty());
   for (const int node : scene.nodes) shown[idx(node)] = true;
-  const RemovedRig removed = remove_gltf_rig(document, shown, file);
-  if (removed.joints > 0) {
-    notes.push_back("replaces a rig of " + std::to_string(removed.joints) + " joints" +
-                    (removed.channels > 0 ? ", with the " + std::to_string(removed.channels) +
-                                                " channels of animations that moved them"
-                                          : ""));
-  }
+  return shown;
+}
+
+RemovedRig replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
+                            const Rig& rig, const GltfWeights& weights, const std::string& name) {
+  add_missing_nodes(document);
+  const std::vector<bool> shown = shown_nodes(document, scene);
+  RemovedRig removed = remove_gltf_rig(document, shown, file);
   std::vector<GltfPart> parts = scene.parts;
   for (GltfPart& part : parts) part.node = removed.new_node[idx(part.node)];
   write_gltf_weights(document, parts, weights,
@@ -121,6 +121,7 @@ void replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfS
   const bool stays = holder >= 0 && shown[idx(holder)] &&
                      scene.frames[idx(holder)].matrix() == Eigen::Matrix4d::Identity();
   add_gltf_rig(document, parts, rig, name, stays ? removed.new_node[idx(holder)] : -1);
+  return removed;
 }
 
 /// Beside what the file says of itself.
@@ -128,6 +129,18 @@ void sign(GltfDocument& document, const std::string& provenance) {
   OrderedJson& asset = document.json["asset"];
   if (asset.contains("extras") && !asset["extras"].is_object()) return;
   asset["extras"]["rigged_by"] = as_utf8(provenance);
+}
+
+/// Of what the parser took all the same.
+[[noreturn]] void refuse_broken(const FileBytes& file, const std::exception_ptr& failure) {
+  const std::string remedy = "export the file again, or " + std::string(bare_remedy);
+  try {
+    std::rethrow_exception(failure);
+  } catch (const nlohmann::json::exception& broken) {
+    file.fail(std::string("JSON that is no valid glTF: ") + broken.what(), "glTF 2.0", remedy);
+  } catch (const std::out_of_range& broken) {
+    file.fail(std::string("a number of what is not there: ") + broken.what(), "glTF 2.0", remedy);
+  }
 }
 
 EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,
@@ -138,22 +151,21 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   require_rows(scene.soup.positions.rows(), rig, file);
   EditedFile edited;
   GltfDocument document = read_gltf_document(file, model, edited.notes, monitor);
-  require_editable(document, file);
+  refuse_instancing(document, file);
   const GltfWeights weights{rig.weights, loose_weights(scene, rig, file)};
   try {
     decode_gltf(document, model);
     if (replaces) {
-      replace_gltf_rig(document, file, scene, rig, weights, options.name, edited.notes);
+      const RemovedRig removed =
+          replace_gltf_rig(document, file, scene, rig, weights, options.name);
+      edited.joints_replaced = removed.joints;
+      edited.channels_removed = removed.channels;
     } else {
       keep_gltf_rig(document, file, model, scene, weights);
     }
     sign(document, options.provenance);
-  } catch (const nlohmann::json::exception& failure) {
-    file.fail(std::string("JSON that is no valid glTF: ") + failure.what(), "glTF 2.0",
-              "export the file again, or " + std::string(bare_remedy));
-  } catch (const std::out_of_range& failure) {
-    file.fail(std::string("a number of what is not there: ") + failure.what(), "glTF 2.0",
-              "export the file again, or " + std::string(bare_remedy));
+  } catch (const std::exception&) {
+    refuse_broken(file, std::current_exception());
   }
   edited.bytes = format_gltf(std::move(document), options.format);
   return edited;
@@ -177,6 +189,24 @@ std::optional<EditedFile> dress_obj(const FileBytes& file, const Rig& rig,
 }
 
 }  // namespace
+
+void require_editable(const std::filesystem::path& input, OldRig old_rig, const Monitor& monitor) {
+  const FileBytes file = read_file(input, monitor);
+  const auto format = surface_format_of(file);
+  if (format != SurfaceFormat::glb && format != SurfaceFormat::gltf) return;
+  const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
+  const GltfScene scene = read_gltf_scene(file, model, monitor);
+  std::vector<std::string> notes;
+  GltfDocument document = read_gltf_document(file, model, notes, monitor);
+  refuse_instancing(document, file);
+  if (old_rig == OldRig::kept) return;
+  try {
+    add_missing_nodes(document);
+    (void)remove_gltf_rig(document, shown_nodes(document, scene), file);
+  } catch (const std::exception&) {
+    refuse_broken(file, std::current_exception());
+  }
+}
 
 std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
                                           const EditOptions& options, const Monitor& monitor) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "rig/gltf/gltf_pictures.hpp"
+#include "rig/gltf/skin_numbers.hpp"
 
 namespace curveskel {
 namespace {
@@ -148,7 +149,8 @@ class Pictures {
     }
     const std::size_t view = add_view(document_, bytes);
     OrderedJson& images = array_in(document_.json, "images");
-    images.push_back({{"name", path.stem().string()}, {"mimeType", *type}, {"bufferView", view}});
+    images.push_back(
+        {{"name", as_utf8(path.stem().string())}, {"mimeType", *type}, {"bufferView", view}});
     OrderedJson& textures = array_in(document_.json, "textures");
     textures.push_back({{"source", images.size() - 1}});
     return textures.size() - 1;
@@ -181,7 +183,7 @@ void add_emission(OrderedJson& result, const std::optional<std::array<double, 3>
 
 OrderedJson gltf_material(const std::string& name, const MtlMaterial& material,
                           Pictures& pictures) {
-  OrderedJson result{{"name", name}};
+  OrderedJson result{{"name", as_utf8(name)}};
   const auto texture = [&](const char* key) -> std::optional<OrderedJson> {
     const auto picture = material.pictures.find(key);
     if (picture == material.pictures.end()) return std::nullopt;
@@ -228,7 +230,7 @@ void add_obj_materials(GltfDocument& document, const ObjFile& obj, const FileByt
     if (found == library.end() && !library.empty()) {
       notes.push_back("the material " + in_quotes(name) + " is in no library");
     }
-    OrderedJson material = found == library.end() ? OrderedJson{{"name", name}}
+    OrderedJson material = found == library.end() ? OrderedJson{{"name", as_utf8(name)}}
                                                   : gltf_material(name, found->second, pictures);
     array_in(document.json, "materials").push_back(std::move(material));
   }

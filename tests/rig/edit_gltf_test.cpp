@@ -64,6 +64,7 @@ struct Edited {
   Rig rig;
   fs::path path;
   Glb glb;
+  int joints_replaced;
 };
 
 class EditGltf : public testing::Test {
@@ -72,24 +73,29 @@ class EditGltf : public testing::Test {
     EditSubject subject(folder_.path(), one);
     PolygonSoup soup = read_polygons(subject.path(), {}, {true});
     Rig rig = random_rig(soup.positions.rows(), joints, "bone ");
-    const std::string bytes =
-        format_rig_into(subject.path(), rig,
-                        {RigFormat::glb, OldRig::replaced, "holder rig", "a test"})
-            ->bytes;
-    const fs::path path = folder_.write("edited.glb", bytes);
-    return {std::move(subject), std::move(soup), std::move(rig), path, glb_of(bytes)};
+    const EditedFile edited = *format_rig_into(
+        subject.path(), rig, {RigFormat::glb, OldRig::replaced, "holder rig", "a test"});
+    const fs::path path = folder_.write("edited.glb", edited.bytes);
+    return {std::move(subject),   std::move(soup),       std::move(rig), path,
+            glb_of(edited.bytes), edited.joints_replaced};
   }
 
+  /// The same before a rig is made and after.
   [[nodiscard]] std::string refusal(const fs::path& file) const {
-    try {
-      const auto rows = read_polygons(file, {}, {true}).positions.rows();
-      (void)*format_rig_into(file, random_rig(rows, 3, "bone "),
-                             {RigFormat::glb, OldRig::replaced, "", ""});
-    } catch (const Error& error) {
-      EXPECT_EQ(error.fault(), Fault::input);
-      return error.what();
-    }
-    return "";
+    const auto message_of = [](const auto& act) -> std::string {
+      try {
+        act();
+      } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::input);
+        return error.what();
+      }
+      return "";
+    };
+    const auto rows = read_polygons(file, {}, {true}).positions.rows();
+    const std::string late =
+        message_of([&] { (void)format_rig_into(file, random_rig(rows, 3, "bone ")); });
+    EXPECT_EQ(message_of([&] { require_editable(file, OldRig::replaced); }), late);
+    return late;
   }
 
   OwnFolder folder_;
@@ -189,6 +195,7 @@ TEST_F(EditGltf, NodesThatAreNoJointsStay) {
     EXPECT_EQ(after.size(), place + 1 + idx(edited.rig.joints.rows()));
     std::set<std::string> names;
     for (const Json& node : after) EXPECT_TRUE(names.insert(node["name"]).second) << node["name"];
+    EXPECT_EQ(edited.joints_replaced > 0, one.old_rig > 0);
     if (one.old_rig == 0) return;
     ASSERT_EQ(edited.glb.json["animations"].size(), 1U);  // "both", without its first channel
     ASSERT_EQ(edited.glb.json["animations"][0]["channels"].size(), 1U);
