@@ -86,14 +86,18 @@ void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, co
   const std::size_t above = holder >= 0 ? idx(holder) : add_holder(document.json, name);
   const std::size_t first = add_joint_nodes(document.json["nodes"], rig, axes, above);
   std::map<std::vector<double>, std::size_t> skin_of_move;
-  std::set<int> done;
+  std::map<int, const GltfPart*> first_part;  // by node; rather of the soup
   for (const GltfPart& part : parts) {
-    if (!done.insert(part.node).second) continue;
+    const GltfPart*& known = first_part[part.node];
+    if (known == nullptr || (part.in_soup && !known->in_soup)) known = &part;
+  }
+  for (const auto& [node, first_of_node] : first_part) {
+    const GltfPart& part = *first_of_node;
     const auto numbers = part.move.matrix().reshaped();
     const auto [skin, is_new] =
         skin_of_move.try_emplace(std::vector<double>(numbers.begin(), numbers.end()));
     if (is_new) skin->second = add_skin(document, rig, axes, part.move, first, above);
-    document.json["nodes"][idx(part.node)]["skin"] = skin->second;
+    document.json["nodes"][idx(node)]["skin"] = skin->second;
   }
 }
 
