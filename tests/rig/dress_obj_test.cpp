@@ -150,7 +150,9 @@ TEST_F(DressObj, KeepsTheVerticesAndCopiesThoseAtSeams) {
     for (Eigen::Index v = 0; v < count; ++v) vertex_at[place(torus.positions, v)] = v;
     for (Eigen::Index v = 0; v < soup.positions.rows(); ++v) {
       const Eigen::Index own = vertex_at.at(place(soup.positions, v));
-      if (v < count) EXPECT_EQ(own, v);
+      if (v < count) {
+        EXPECT_EQ(own, v);
+      }
       EXPECT_LT((Eigen::MatrixXf(found.weights.row(v)) - expected.row(own)).norm(), 1e-6F);
     }
   }
@@ -191,7 +193,9 @@ TEST_F(DressObj, EveryCornerHasWhatItsFaceNames) {
         }
         const Eigen::RowVector3f normal = Eigen::Map<const Eigen::RowVector3f>(&normals[3 * v]);
         EXPECT_NEAR(normal.norm(), 1, 1e-6);
-        if (subject.normals) EXPECT_FLOAT_EQ(normal[f % 2 == 0 ? 2 : 0], 1);
+        if (subject.normals) {
+          EXPECT_FLOAT_EQ(normal[f % 2 == 0 ? 2 : 0], 1);
+        }
       }
       face += static_cast<Eigen::Index>(corners.size() / 3);
     }

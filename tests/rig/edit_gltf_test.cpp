@@ -321,12 +321,16 @@ void expect_valid(const Glb& glb) {
   }
   std::set<int> children;
   for (const Json& node : json["nodes"]) {
-    if (node.contains("children")) EXPECT_FALSE(node["children"].empty());
+    if (node.contains("children")) {
+      EXPECT_FALSE(node["children"].empty());
+    }
     for (const int child : node.value("children", Json::array())) {
       EXPECT_LT(child, static_cast<int>(json["nodes"].size()));
       EXPECT_TRUE(children.insert(child).second) << child;
     }
-    if (node.contains("skin")) EXPECT_LT(node["skin"], json["skins"].size());
+    if (node.contains("skin")) {
+      EXPECT_LT(node["skin"], json["skins"].size());
+    }
   }
   for (const Json& scene : json["scenes"]) {
     for (const int root : scene["nodes"]) EXPECT_FALSE(children.contains(root)) << root;
