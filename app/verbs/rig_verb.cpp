@@ -107,6 +107,13 @@ std::string parts_in_words(const RigParts& parts) {
                      parts.parts.size() - static_cast<std::size_t>(followers), followers);
 }
 
+std::string plan_in_words(const BodyPlan& plan) {
+  if (plan.plan == BodyKind::none) return "";
+  std::string text = fmt::format("plan: {} ({})\n", name_of(body_kinds, plan.plan), plan.reason);
+  if (!plan.missing.empty()) text += fmt::format("missing: {}\n", fmt::join(plan.missing, ", "));
+  return text;
+}
+
 Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
   std::optional<Rig> rig = read_rig(mesh, monitor);
   if (rig) return std::move(*rig);
@@ -166,13 +173,6 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
-std::string plan_in_words(const BodyPlan& plan) {
-  if (plan.plan == BodyKind::none) return "";
-  std::string text = fmt::format("plan: {} ({})\n", name_of(body_kinds, plan.plan), plan.reason);
-  if (!plan.missing.empty()) text += fmt::format("missing: {}\n", fmt::join(plan.missing, ", "));
-  return text;
-}
-
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
@@ -194,11 +194,11 @@ int run_rig(RigArguments arguments, Session& session) {
   CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
   skeleton = dense_skeleton(repaired.surface, skeleton);
   arguments.plan.faces_minus_z = soup.faces_minus_z;
-  const BodyPlan plan =
-      old_rig ? BodyPlan{} : find_plan(repaired.surface, skeleton, arguments.plan);
+  BodyPlan plan;
+  if (!old_rig) plan = find_plan(repaired.surface, skeleton, arguments.plan);
   const Rig made =
       old_rig ? weights_on_joints(repaired.surface, skeleton, *old_rig, arguments.rig.skin, monitor)
-              : make_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
+              : make_planned_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
   const Surface given{soup.positions, triangulate(soup)};
   const Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
   std::string old_rig_in_words;

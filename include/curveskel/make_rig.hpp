@@ -38,9 +38,10 @@ void require_valid(const RigOptions& options);
 
 /// The same with the joints of a plan, which keep the names of their roles; the sides of the others
 /// are those of the plan's axes. The plan is of the same skeleton.
-[[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
-                           const BodyPlan& plan, const RigOptions& options = {},
-                           const Monitor& monitor = {});
+[[nodiscard]] Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton,
+                                   const BodyPlan& plan, const RigOptions& options = {},
+                                   const Monitor& monitor = {});
+
 /// The same joints with new weights: each node of the skeleton goes with the nearest bone of
 /// `given` (rig/skin/given_joints.hpp), then `skin_weights`. For joints that somebody has placed;
 /// `given.weights` is not read. Errors as `make_rig`.

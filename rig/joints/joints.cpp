@@ -295,11 +295,11 @@ void require_valid(const JointOptions& options) {
 }
 
 Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) {
-  return place_joints(skeleton, {}, options);
+  return place_planned_joints(skeleton, {}, options);
 }
 
-Joints place_joints(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
-                    const JointOptions& options) {
+Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
+                            const JointOptions& options) {
   require_valid(options);
   require_sound(skeleton, "place_joints");
   const Eigen::Index nodes = skeleton.nodes.rows();

@@ -58,17 +58,17 @@ void require_valid(const RigOptions& options) {
 
 Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
              const Monitor& monitor) {
-  return make_rig(surface, skeleton, BodyPlan{}, options, monitor);
+  return make_planned_rig(surface, skeleton, BodyPlan{}, options, monitor);
 }
 
-Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,
-             const RigOptions& options, const Monitor& monitor) {
+Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,
+                     const RigOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "make_rig", options.skin.threads);
   require_sound(skeleton, "make_rig");
   require_nodes_for(surface, skeleton, "make_rig");
   monitor.report("joints", 0);
-  Joints joints = place_joints(skeleton, plan.joints, options.joints);
+  Joints joints = place_planned_joints(skeleton, plan.joints, options.joints);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights =

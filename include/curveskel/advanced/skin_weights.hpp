@@ -13,7 +13,7 @@ namespace curveskel {
 struct SkinOptions {
   /// Width of the passage from one joint to the next, in units of the distance from the
   /// skin to the curve; 0.001..1000.
-  double softness = 1;
+  double softness = 0.5;
   int most_joints = 4;         ///< that move one vertex; 1..8
   double least_weight = 0.01;  ///< smaller shares in a vertex are left out; 0..0.1
   int threads = 0;             ///< 0 = one per core; the result does not depend on it
