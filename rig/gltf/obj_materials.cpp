@@ -103,13 +103,15 @@ void read_library(const fs::path& path, MtlLibrary& library, const Monitor& moni
   }
 }
 
-/// One name with blanks in it, or several names.
+/// Several names, where there are files of all, else one name with blanks in it.
 std::vector<fs::path> library_files(const fs::path& folder, const std::string& named) {
-  std::error_code ignored;
-  if (fs::is_regular_file(folder / named, ignored)) return {folder / named};
   std::vector<fs::path> files;
   std::istringstream words(named);
-  for (std::string word; words >> word;) files.push_back(folder / word);
+  std::error_code ignored;
+  for (std::string word; words >> word;) {
+    if (!fs::is_regular_file(folder / word, ignored)) return {folder / named};
+    files.push_back(folder / word);
+  }
   return files;
 }
 
@@ -188,7 +190,10 @@ OrderedJson gltf_material(const std::string& name, const MtlMaterial& material,
     const auto picture = material.pictures.find(key);
     if (picture == material.pictures.end()) return std::nullopt;
     const auto index = pictures.texture(picture->second);
-    return index ? std::optional<OrderedJson>({{"index", *index}}) : std::nullopt;
+    if (!index) return std::nullopt;
+    OrderedJson reference = OrderedJson::object();
+    reference["index"] = *index;
+    return reference;
   };
   OrderedJson& look = result["pbrMetallicRoughness"];
   const auto base = texture("map_kd");

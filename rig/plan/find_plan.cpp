@@ -1,5 +1,6 @@
 #include <curveskel/body_plan.hpp>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -42,6 +42,8 @@ class Bones {
     if (all_.empty()) all_.push_back({0, 0});
   }
 
+  /// The joint at the upper end of the nearest bone, or at its lower end where the point lies
+  /// beyond.
   [[nodiscard]] int joint_at(const Eigen::RowVector3d& point) const {
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -85,9 +87,23 @@ class Bones {
 
 Eigen::VectorXi joints_of_nodes(const CurveSkeleton& skeleton, const Rig& given) {
   const Bones bones(skeleton, given);
+  const Eigen::VectorXd radii = usable_radii(skeleton);
+  const auto count = given.parents.size();
+  Eigen::VectorXd reach = Eigen::VectorXd::Zero(count);  // of the curve beyond a joint, in radii
   Eigen::VectorXi joints(skeleton.nodes.rows());
   for (Eigen::Index node = 0; node < joints.size(); ++node) {
-    joints[node] = bones.joint_at(skeleton.nodes.row(node));
+    const int joint = joints[node] = bones.joint_at(skeleton.nodes.row(node));
+    const double distance = (skeleton.nodes.row(node) - given.joints.row(joint)).norm();
+    reach[joint] = std::max(reach[joint], distance / radii[node]);
+  }
+  std::vector<bool> is_end(idx(count), true);
+  for (int joint = 0; joint < static_cast<int>(count); ++joint) {
+    const int parent = given.parents[joint];
+    if (parent >= 0) is_end[idx(parent)] = false;
+    if (parent < 0 || reach[joint] >= 1) is_end[idx(joint)] = false;
+  }
+  for (int& joint : joints) {
+    if (is_end[idx(joint)]) joint = given.parents[joint];
   }
   return joints;
 }
