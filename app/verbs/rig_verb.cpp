@@ -126,12 +126,13 @@ Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
                                 "leave out --keep-rig to have joints made");
 }
 
-bool is_gltf(const PolygonSoup& soup) {
-  return soup.format == SurfaceFormat::glb || soup.format == SurfaceFormat::gltf;
+OldRig old_rig_in(const RigArguments& arguments) {
+  return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
 }
 
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
+  if (!arguments.bare) require_editable(arguments.mesh, old_rig_in(arguments), monitor);
   const bool as_bound = !arguments.bare && !arguments.keep_rig;
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
   if (as_bound && soup.posed) {
@@ -142,29 +143,36 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
   return soup;
 }
 
+/// `summary` gets a line about an old rig.
 std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSoup& soup,
                                   const Rig& rig, const std::vector<RigFormat>& formats,
-                                  Session& session) {
+                                  Session& session, std::string& summary) {
   const Monitor monitor = session.monitor();
   fs::path name = arguments.mesh.stem();
   if (arguments.mesh.extension() == ".gz") name = name.stem();
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    std::string bytes;
-    if (arguments.bare || !is_gltf(soup)) {
-      const Surface given{soup.positions, triangulate(soup)};
-      bytes = format_rig(given, rig, formats[i], name.string(), program_and_version());
-    } else {
-      EditedFile edited = format_rig_into(arguments.mesh, rig, formats[i],
-                                          arguments.keep_rig ? OldRig::kept : OldRig::replaced,
-                                          name.string() + " rig", program_and_version(), monitor);
-      for (const std::string& note : edited.notes) {
-        if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
-      }
-      bytes = std::move(edited.bytes);
+    std::optional<EditedFile> edited;
+    if (!arguments.bare) {
+      edited = format_rig_into(
+          arguments.mesh, rig,
+          {formats[i], old_rig_in(arguments), name.string() + " rig", program_and_version()},
+          monitor);
     }
-    files.push_back({arguments.outputs[i], std::move(bytes)});
+    if (!edited) {
+      const Surface given{soup.positions, triangulate(soup)};
+      edited =
+          EditedFile{format_rig(given, rig, formats[i], name.string(), program_and_version()), {}};
+    }
+    for (const std::string& note : edited->notes) {
+      if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
+    }
+    if (edited->joints_replaced > 0) {
+      summary = fmt::format("replaced: a rig of {} joints, {} channels of animations\n",
+                            edited->joints_replaced, edited->channels_removed);
+    }
+    files.push_back({arguments.outputs[i], std::move(edited->bytes)});
   }
   return files;
 }
@@ -212,7 +220,9 @@ int run_rig(RigArguments arguments, Session& session) {
   const Surface given{soup.positions, triangulate(soup)};
   Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
   if (!old_rig) name_joints(rig, plan, arguments.names, session);
-  std::vector<OutputFile> files = rig_files(arguments, soup, rig, formats, session);
+  std::string old_rig_in_words;
+  std::vector<OutputFile> files =
+      rig_files(arguments, soup, rig, formats, session, old_rig_in_words);
   if (!arguments.report.empty()) {
     const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
     files.push_back(
@@ -228,6 +238,7 @@ int run_rig(RigArguments arguments, Session& session) {
                   count_tips(rig));
   text += parts_in_words(parts);
   text += plan_in_words(plan);
+  text += old_rig_in_words;
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
   return ExitCode::done;
@@ -258,7 +269,7 @@ Verb add_rig(CLI::App& program) {
               "instead of extracting one")
           ->type_name("FILE");
   parser->add_flag("--bare", arguments->bare,
-                   "of a glTF file, too, the surface alone, without its materials and all else, "
+                   "write the surface alone, without materials and all else that the file has, "
                    "instead of the file itself with the rig in it");
   parser->add_flag("--keep-rig", arguments->keep_rig,
                    "make no joints, but weights for those that the glTF file has");

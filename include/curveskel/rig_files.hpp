@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,23 +34,39 @@ inline constexpr NameTable<RigFormat, 2> rig_formats{{
 
 enum class OldRig { replaced, kept };
 
-struct EditedFile {
-  std::string bytes;
-  std::vector<std::string> notes;  ///< what a person should know, a line each
+struct EditOptions {
+  RigFormat format = RigFormat::glb;
+  OldRig old_rig = OldRig::replaced;
+  std::string name;        ///< of the node that holds all joints
+  std::string provenance;  ///< `asset.extras.rigged_by`; the generator of what was no glTF
 };
 
-/// The glTF file itself with the rig in it: every byte of its buffers and every member of its JSON
-/// stays, but for what docs/formats.md lists. Appended are joints below a node named `name`, skins,
-/// inverse bind matrices, JOINTS_0 and WEIGHTS_0; files beside it (buffers, pictures) are taken in.
-/// A rig that is there goes, or is kept: then `rig` has the joints that `read_rig` finds in the
-/// file, and only their weights are written.
+struct EditedFile {
+  std::string bytes;
+  std::vector<std::string> notes;  ///< what is missing or left out, a line each
+  int joints_replaced = 0;         ///< of an old rig
+  int channels_removed = 0;        ///< of animations that moved them
+};
+
+/// The file itself with the rig in it. Of glTF every byte of the buffers and every member of the
+/// JSON stays, but for what docs/formats.md lists; appended are joints, skins, inverse bind
+/// matrices, JOINTS_0 and WEIGHTS_0; files beside it (buffers, pictures) are taken in, compressed
+/// meshes made plain. A rig that is there goes, or is kept: then `rig` has the joints that
+/// `read_rig` finds in the file, and only their weights are written. OBJ with materials, texture
+/// coordinates or normals becomes glTF that has them: the vertices of the file in their order, then
+/// copies for corners with other texture coordinates or normals. Nothing for all other files, for
+/// which `format_rig` loses nothing.
 /// Precondition: weights have a row for each vertex that `read_polygons` finds in the file (read
 /// `as_bound` where the old rig is replaced).
 /// Throws Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as
 /// `format_rig`. O(bytes of the file).
-[[nodiscard]] EditedFile format_rig_into(const std::filesystem::path& gltf, const Rig& rig,
-                                         RigFormat format, OldRig old_rig, const std::string& name,
-                                         const std::string& provenance,
-                                         const Monitor& monitor = {});
+[[nodiscard]] std::optional<EditedFile> format_rig_into(const std::filesystem::path& input,
+                                                        const Rig& rig,
+                                                        const EditOptions& options = {},
+                                                        const Monitor& monitor = {});
+
+/// Throws Error(Fault::input) where `format_rig_into` would, before a rig is made. O(bytes).
+void require_editable(const std::filesystem::path& input, OldRig old_rig,
+                      const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"
 
@@ -52,12 +53,11 @@ std::size_t add_joint_nodes(OrderedJson& nodes, const Rig& rig,
 std::size_t add_skin(GltfDocument& document, const Rig& rig,
                      const std::vector<Eigen::Quaterniond>& axes, const Eigen::Affine3d& move,
                      std::size_t first, std::size_t holder) {
-  constexpr int of_floats = 5126;
   const auto count = idx(rig.parents.size());
   OrderedJson joints = OrderedJson::array();
   for (std::size_t joint = 0; joint < count; ++joint) joints.push_back(first + joint);
   const std::size_t matrices =
-      add_accessor(document, inverse_bind_matrices(rig, axes, move), "MAT4", of_floats, count);
+      add_accessor(document, inverse_bind_matrices(rig, axes, move), "MAT4", gltf_float, count);
   OrderedJson& skins = array_in(document.json, "skins");
   skins.push_back(
       {{"inverseBindMatrices", matrices}, {"joints", std::move(joints)}, {"skeleton", holder}});
@@ -86,14 +86,18 @@ void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, co
   const std::size_t above = holder >= 0 ? idx(holder) : add_holder(document.json, name);
   const std::size_t first = add_joint_nodes(document.json["nodes"], rig, axes, above);
   std::map<std::vector<double>, std::size_t> skin_of_move;
-  std::set<int> done;
+  std::map<int, const GltfPart*> first_part;  // by node; rather of the soup
   for (const GltfPart& part : parts) {
-    if (!done.insert(part.node).second) continue;
+    const GltfPart*& known = first_part[part.node];
+    if (known == nullptr || (part.in_soup && !known->in_soup)) known = &part;
+  }
+  for (const auto& [node, first_of_node] : first_part) {
+    const GltfPart& part = *first_of_node;
     const auto numbers = part.move.matrix().reshaped();
     const auto [skin, is_new] =
         skin_of_move.try_emplace(std::vector<double>(numbers.begin(), numbers.end()));
     if (is_new) skin->second = add_skin(document, rig, axes, part.move, first, above);
-    document.json["nodes"][idx(part.node)]["skin"] = skin->second;
+    document.json["nodes"][idx(node)]["skin"] = skin->second;
   }
 }
 

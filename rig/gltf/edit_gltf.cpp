@@ -1,8 +1,9 @@
-// The input's own glTF file with a rig in it.
+// The input's own file with a rig in it.
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
+#include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -15,12 +16,15 @@
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
 #include "rig/gltf/add_gltf_rig.hpp"
+#include "rig/gltf/gltf_decoded.hpp"
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/gltf_weights.hpp"
+#include "rig/gltf/obj_document.hpp"
+#include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/remove_gltf_rig.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_formats.hpp"
-#include "surface/read/gltf_compression.hpp"
+#include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/placed_vertices.hpp"
 
@@ -29,20 +33,16 @@ namespace {
 
 constexpr std::string_view bare_remedy = "use --bare, which writes the surface alone";
 
-void require_editable(const GltfDocument& document, const FileBytes& file) {
-  constexpr std::array<std::string_view, 3> no_editing{draco_extension, meshopt_extension,
-                                                       "EXT_mesh_gpu_instancing"};
-  for (const OrderedJson& used : document.json.value("extensionsUsed", OrderedJson::array())) {
-    const std::string name = used.is_string() ? used.get<std::string>() : "";
-    if (std::find(no_editing.begin(), no_editing.end(), name) == no_editing.end()) continue;
-    file.fail(
-        "the extension " + in_quotes(name) + ", with which meshes cannot be edited", "plain meshes",
-        "export the file without it (gltf-transform takes it out), or " + std::string(bare_remedy));
-  }
+void refuse_instancing(const GltfDocument& document, const FileBytes& file) {
+  constexpr std::string_view instancing = "EXT_mesh_gpu_instancing";
+  const OrderedJson used = document.json.value("extensionsUsed", OrderedJson::array());
+  if (std::find(used.begin(), used.end(), std::string(instancing)) == used.end()) return;
+  file.fail("the extension " + in_quotes(instancing) + ", which repeats a mesh without nodes",
+            "a node for each mesh that is shown",
+            "export the file without it, or " + std::string(bare_remedy));
 }
 
-void require_rows(const GltfScene& scene, const Rig& rig, const FileBytes& file) {
-  const Eigen::Index rows = scene.soup.positions.rows();
+void require_rows(Eigen::Index rows, const Rig& rig, const FileBytes& file) {
   if (rows == rig.weights.rows()) return;
   file.fail(std::to_string(rows) + " vertices",
             "the " + std::to_string(rig.weights.rows()) + " that the rig has weights for",
@@ -101,19 +101,18 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
   write_gltf_weights(document, parts, weights, joints);
 }
 
-void replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
-                      const Rig& rig, const GltfWeights& weights, const std::string& name,
-                      std::vector<std::string>& notes) {
-  add_missing_nodes(document);
-  std::vector<bool> shown(document.json["nodes"].size(), scene.nodes.empty());
+/// By node.
+std::vector<bool> shown_nodes(const GltfDocument& document, const GltfScene& scene) {
+  std::vector<bool> shown(document.json.at("nodes").size(), scene.nodes.empty());
   for (const int node : scene.nodes) shown[idx(node)] = true;
-  const RemovedRig removed = remove_gltf_rig(document, shown, file);
-  if (removed.joints > 0) {
-    notes.push_back("replaces a rig of " + std::to_string(removed.joints) + " joints" +
-                    (removed.channels > 0 ? ", with the " + std::to_string(removed.channels) +
-                                                " channels of animations that moved them"
-                                          : ""));
-  }
+  return shown;
+}
+
+RemovedRig replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
+                            const Rig& rig, const GltfWeights& weights, const std::string& name) {
+  add_missing_nodes(document);
+  const std::vector<bool> shown = shown_nodes(document, scene);
+  RemovedRig removed = remove_gltf_rig(document, shown, file);
   std::vector<GltfPart> parts = scene.parts;
   for (GltfPart& part : parts) part.node = removed.new_node[idx(part.node)];
   write_gltf_weights(document, parts, weights,
@@ -122,6 +121,7 @@ void replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfS
   const bool stays = holder >= 0 && shown[idx(holder)] &&
                      scene.frames[idx(holder)].matrix() == Eigen::Matrix4d::Identity();
   add_gltf_rig(document, parts, rig, name, stays ? removed.new_node[idx(holder)] : -1);
+  return removed;
 }
 
 /// Beside what the file says of itself.
@@ -131,36 +131,92 @@ void sign(GltfDocument& document, const std::string& provenance) {
   asset["extras"]["rigged_by"] = as_utf8(provenance);
 }
 
-}  // namespace
+/// Of what the parser took all the same.
+[[noreturn]] void refuse_broken(const FileBytes& file, const std::exception_ptr& failure) {
+  const std::string remedy = "export the file again, or " + std::string(bare_remedy);
+  try {
+    std::rethrow_exception(failure);
+  } catch (const nlohmann::json::exception& broken) {
+    file.fail(std::string("JSON that is no valid glTF: ") + broken.what(), "glTF 2.0", remedy);
+  } catch (const std::out_of_range& broken) {
+    file.fail(std::string("a number of what is not there: ") + broken.what(), "glTF 2.0", remedy);
+  }
+}
 
-EditedFile format_rig_into(const std::filesystem::path& gltf, const Rig& rig, RigFormat format,
-                           OldRig old_rig, const std::string& name, const std::string& provenance,
-                           const Monitor& monitor) {
-  const FileBytes file = read_file(gltf, monitor);
-  const tinygltf::Model model = parse_gltf(file, monitor);
-  const bool replaces = old_rig == OldRig::replaced;
+EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,
+                     const Monitor& monitor) {
+  const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
+  const bool replaces = options.old_rig == OldRig::replaced;
   const GltfScene scene = read_gltf_scene(file, model, monitor, {replaces, true});
-  require_rows(scene, rig, file);
+  require_rows(scene.soup.positions.rows(), rig, file);
   EditedFile edited;
   GltfDocument document = read_gltf_document(file, model, edited.notes, monitor);
-  require_editable(document, file);
+  refuse_instancing(document, file);
   const GltfWeights weights{rig.weights, loose_weights(scene, rig, file)};
   try {
+    decode_gltf(document, model);
     if (replaces) {
-      replace_gltf_rig(document, file, scene, rig, weights, name, edited.notes);
+      const RemovedRig removed =
+          replace_gltf_rig(document, file, scene, rig, weights, options.name);
+      edited.joints_replaced = removed.joints;
+      edited.channels_removed = removed.channels;
     } else {
       keep_gltf_rig(document, file, model, scene, weights);
     }
-    sign(document, provenance);
-  } catch (const nlohmann::json::exception& failure) {
-    file.fail(std::string("JSON that is no valid glTF: ") + failure.what(), "glTF 2.0",
-              "export the file again, or " + std::string(bare_remedy));
-  } catch (const std::out_of_range& failure) {
-    file.fail(std::string("a number of what is not there: ") + failure.what(), "glTF 2.0",
-              "export the file again, or " + std::string(bare_remedy));
+    sign(document, options.provenance);
+  } catch (const std::exception&) {
+    refuse_broken(file, std::current_exception());
   }
-  edited.bytes = format_gltf(std::move(document), format);
+  edited.bytes = format_gltf(std::move(document), options.format);
   return edited;
+}
+
+/// Nothing: the file has no more than a bare rig has.
+std::optional<EditedFile> dress_obj(const FileBytes& file, const Rig& rig,
+                                    const EditOptions& options, const Monitor& monitor) {
+  const ObjFile obj = read_obj_file(file, monitor);
+  if (!obj.has_looks()) return std::nullopt;
+  require_rows(static_cast<Eigen::Index>(obj.places.size() / 3), rig, file);
+  EditedFile edited;
+  ObjDocument made = obj_document(obj, file, file.path.stem().string(), edited.notes, monitor);
+  const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
+  write_gltf_weights(made.document, made.parts, {rows, {}},
+                     std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
+  add_gltf_rig(made.document, made.parts, rig, options.name);
+  made.document.json["asset"]["generator"] = as_utf8(options.provenance);
+  edited.bytes = format_gltf(std::move(made.document), options.format);
+  return edited;
+}
+
+}  // namespace
+
+void require_editable(const std::filesystem::path& input, OldRig old_rig, const Monitor& monitor) {
+  const FileBytes file = read_file(input, monitor);
+  const auto format = surface_format_of(file);
+  if (format != SurfaceFormat::glb && format != SurfaceFormat::gltf) return;
+  const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
+  const GltfScene scene = read_gltf_scene(file, model, monitor);
+  std::vector<std::string> notes;
+  GltfDocument document = read_gltf_document(file, model, notes, monitor);
+  refuse_instancing(document, file);
+  if (old_rig == OldRig::kept) return;
+  try {
+    add_missing_nodes(document);
+    (void)remove_gltf_rig(document, shown_nodes(document, scene), file);
+  } catch (const std::exception&) {
+    refuse_broken(file, std::current_exception());
+  }
+}
+
+std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
+                                          const EditOptions& options, const Monitor& monitor) {
+  const FileBytes file = read_file(input, monitor);
+  const auto format = surface_format_of(file);
+  if (format == SurfaceFormat::glb || format == SurfaceFormat::gltf) {
+    return edit_gltf(file, rig, options, monitor);
+  }
+  if (format == SurfaceFormat::obj) return dress_obj(file, rig, options, monitor);
+  return std::nullopt;
 }
 
 }  // namespace curveskel

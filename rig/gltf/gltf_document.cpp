@@ -2,7 +2,7 @@
 
 #include <tiny_gltf.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +25,12 @@ void put_word(std::string& bytes, std::size_t number) {
   bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
+/// A place that meshopt leaves for programs that do not decompress.
+bool holds_nothing(const OrderedJson& buffer) {
+  const OrderedJson::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
+  return buffer.contains(fallback) && buffer[fallback] == true;
+}
+
 /// All buffers one after the other, and the views where their bytes are now.
 void join_buffers(GltfDocument& document, const tinygltf::Model& model) {
   OrderedJson& buffers = array_in(document.json, "buffers");
@@ -32,6 +38,7 @@ void join_buffers(GltfDocument& document, const tinygltf::Model& model) {
   for (std::size_t k = 0; k < buffers.size() && k < model.buffers.size(); ++k) {
     pad(document.numbers, '\0');
     begins.push_back(document.numbers.size());
+    if (holds_nothing(buffers[k])) continue;
     const auto& bytes = model.buffers[k].data;
     document.numbers.append(bytes.begin(), bytes.end());
   }
@@ -44,6 +51,22 @@ void join_buffers(GltfDocument& document, const tinygltf::Model& model) {
   OrderedJson first = buffers.empty() ? OrderedJson::object() : buffers.front();
   first.erase("uri");
   buffers = OrderedJson::array({std::move(first)});
+}
+
+/// Of a binary file what follows its JSON, without the first chunk of numbers.
+std::string unknown_chunks(const FileBytes& file) {
+  const std::string_view bytes = file.content;
+  if (!bytes.starts_with("glTF")) return "";
+  const auto word = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return std::size_t{number};
+  };
+  const std::size_t end = std::min(bytes.size(), word(8));
+  std::size_t at = 20 + word(12);
+  const bool has_numbers = at + 8 <= end && bytes.substr(at + 4, 4) == std::string_view("BIN\0", 4);
+  if (has_numbers) at += 8 + word(at);
+  return at < end ? std::string(bytes.substr(at, end - at)) : "";
 }
 
 void require_four_gigabytes(std::size_t size) {
@@ -67,6 +90,7 @@ GltfDocument read_gltf_document(const FileBytes& file, const tinygltf::Model& mo
   try {
     document.json = OrderedJson::parse(gltf_json(file));
     join_buffers(document, model);
+    document.chunks = unknown_chunks(file);
     take_in_pictures(document, file, notes, monitor);
   } catch (const nlohmann::json::exception& failure) {
     file.fail(std::string("what the JSON parser refuses: ") + failure.what(), "glTF 2.0",
@@ -109,7 +133,7 @@ std::string format_gltf(GltfDocument document, RigFormat format) {
   }
   std::string json = dumped();
   pad(json, ' ');
-  const std::size_t size = 28 + json.size() + document.numbers.size();
+  const std::size_t size = 28 + json.size() + document.numbers.size() + document.chunks.size();
   require_four_gigabytes(size);
   std::string bytes = "glTF";
   bytes.reserve(size);
@@ -121,6 +145,7 @@ std::string format_gltf(GltfDocument document, RigFormat format) {
   put_word(bytes, document.numbers.size());
   bytes += std::string_view("BIN\0", 4);
   bytes += document.numbers;
+  bytes += document.chunks;
   return bytes;
 }
 

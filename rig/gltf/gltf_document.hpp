@@ -24,6 +24,7 @@ using OrderedJson = nlohmann::ordered_json;
 struct GltfDocument {
   OrderedJson json;
   std::string numbers;
+  std::string chunks;  ///< of a binary file those behind the numbers, which only some program knows
 };
 
 /// The bytes of the first buffer, unchanged, then those of the others. Files of pictures that are
@@ -41,7 +42,7 @@ struct GltfDocument {
 std::size_t add_view(GltfDocument& document, std::string_view bytes, int target = 0);
 
 /// The rows as a buffer view with an accessor of its own; returns the accessor. `type` as in glTF:
-/// "VEC4"; `component` 5121 = bytes, 5123 = words, 5125 = double words, 5126 = floats.
+/// "VEC4"; `component` and `target` as in rig/gltf/number_bytes.hpp.
 std::size_t add_accessor(GltfDocument& document, std::string_view rows, const std::string& type,
                          int component, std::size_t count, int target = 0);
 

@@ -85,10 +85,11 @@ int renumber_animations(OrderedJson& file, const std::vector<int>& new_node) {
 }
 
 bool names_nodes(std::string key) {
-  constexpr std::array<std::string_view, 6> parts{"node",   "bone",   "joint",
-                                                  "source", "center", "ids"};
+  constexpr std::array<std::string_view, 3> parts{"node", "bone", "joint"};
+  constexpr std::array<std::string_view, 3> whole{"source", "center", "ids"};
   for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::any_of(parts.begin(), parts.end(),
+  return std::find(whole.begin(), whole.end(), key) != whole.end() ||
+         std::any_of(parts.begin(), parts.end(),
                      [&](std::string_view part) { return key.find(part) != key.npos; });
 }
 

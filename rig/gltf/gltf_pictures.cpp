@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include <curveskel/error.hpp>
+#include "rig/gltf/skin_numbers.hpp"
 
 namespace curveskel {
 namespace {
@@ -74,6 +74,7 @@ void take_in_pictures(GltfDocument& document, const FileBytes& file,
       continue;
     }
     image.erase("uri");
+    if (!image.contains("name")) image["name"] = as_utf8(path->stem().string());
     image["mimeType"] = *type;
     image["bufferView"] = add_view(document, bytes);
   }

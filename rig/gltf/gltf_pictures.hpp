@@ -13,7 +13,8 @@
 
 namespace curveskel {
 
-/// Pictures that are files of their own become buffer views; those in the JSON stay there. `notes`
+/// Pictures that are files of their own become buffer views, named as the files if they have no
+/// name; those in the JSON stay there. `notes`
 /// gets a line for each that is not found or no picture that glTF knows: it stays as it is named.
 void take_in_pictures(GltfDocument& document, const FileBytes& file,
                       std::vector<std::string>& notes, const Monitor& monitor);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 
 namespace curveskel {
@@ -15,13 +16,10 @@ namespace {
 using SkinAccessors = std::pair<std::size_t, std::size_t>;
 
 SkinAccessors add_rows(GltfDocument& document, const SkinRows& rows, std::size_t count) {
-  constexpr int array_buffer = 34962;
-  constexpr int of_bytes = 5121;
-  constexpr int of_words = 5123;
-  constexpr int of_floats = 5126;
-  const std::size_t joints = add_accessor(document, rows.joints, "VEC4",
-                                          rows.in_words ? of_words : of_bytes, count, array_buffer);
-  return {joints, add_accessor(document, rows.weights, "VEC4", of_floats, count, array_buffer)};
+  const std::size_t joints =
+      add_accessor(document, rows.joints, "VEC4", rows.in_words ? gltf_uint16 : gltf_uint8, count,
+                   gltf_vertices);
+  return {joints, add_accessor(document, rows.weights, "VEC4", gltf_float, count, gltf_vertices)};
 }
 
 /// Every mesh of these nodes is shown by one node alone.

@@ -7,15 +7,11 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "rig/gltf/number_bytes.hpp"
 #include "surface/mesh/single_precision.hpp"
 
 namespace curveskel {
 namespace {
-
-template <typename Value>
-void put(std::string& bytes, Value value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 /// Largest first, of equal ones the first joint; always four.
 std::vector<std::pair<float, int>> four_largest(const SkinWeights& weights, Eigen::Index vertex,
@@ -54,11 +50,11 @@ SkinRows skin_rows(const SkinWeights& weights, Eigen::Index first, Eigen::Index 
     float sum = 0;
     for (const auto& [share, joint] : row) sum += share;
     for (const auto& [share, joint] : row) {
-      put(rows.weights, share / sum);
+      put_number(rows.weights, share / sum);
       if (rows.in_words) {
-        put(rows.joints, static_cast<std::uint16_t>(share > 0 ? joint : 0));
+        put_number(rows.joints, static_cast<std::uint16_t>(share > 0 ? joint : 0));
       } else {
-        put(rows.joints, static_cast<std::uint8_t>(share > 0 ? joint : 0));
+        put_number(rows.joints, static_cast<std::uint8_t>(share > 0 ? joint : 0));
       }
     }
   }
@@ -99,7 +95,8 @@ std::string inverse_bind_matrices(const Rig& rig, const std::vector<Eigen::Quate
     const Eigen::Vector3d place = rig.joints.row(joint).transpose();
     const Eigen::Affine3d back(axes[idx(joint)].conjugate() * Eigen::Translation3d(-place));
     const Eigen::Matrix4d inverse_bind = (back * move).matrix();
-    for (const double number : inverse_bind.reshaped()) put(matrices, static_cast<float>(number));
+    for (const double number : inverse_bind.reshaped())
+      put_number(matrices, static_cast<float>(number));
   }
   return matrices;
 }

@@ -16,6 +16,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"
 #include "surface/mesh/single_precision.hpp"
@@ -98,34 +99,10 @@ int add_positions(GltfWriter& writer, const Positions& positions) {
   return accessor;
 }
 
-/// Vertices in one place share a normal, or seams would be seen as creases.
-Positions normals_across_seams(const Surface& surface) {
-  Positions normals = vertex_normals(surface);
-  const auto place = [&](int vertex) {
-    const auto point = surface.positions.row(vertex);
-    return std::tuple(point.x(), point.y(), point.z());
-  };
-  std::vector<int> order(idx(normals.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
-  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (end = first; end < order.size() && place(order[end]) == place(order[first]); ++end) {
-      sum += normals.row(order[end]);
-    }
-    if (end - first == 1 || sum.norm() < 0.1) continue;  // two sides of a sheet keep theirs
-    for (std::size_t k = first; k < end; ++k) normals.row(order[k]) = sum.normalized();
-  }
-  return normals;
-}
-
 int add_normals(GltfWriter& writer, const Surface& surface) {
   const Positions normals = normals_across_seams(surface);
   std::string rows;
-  for (const auto& normal : normals.rowwise()) {
-    const bool usable = normal.allFinite() && normal.squaredNorm() > 0.5;
-    GltfWriter::put_point(rows, usable ? Eigen::RowVector3d(normal) : Eigen::RowVector3d(0, 0, 1));
-  }
+  for (const auto& normal : normals.rowwise()) GltfWriter::put_point(rows, normal);
   return writer.add(rows, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, idx(normals.rows()),
                     TINYGLTF_TARGET_ARRAY_BUFFER);
 }

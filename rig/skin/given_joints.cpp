@@ -14,29 +14,36 @@ namespace {
 
 struct Bone {
   int upper;
-  int lower;  ///< the same as `upper` for a joint that has neither parent nor children
+  int lower;  ///< the same as `upper` for a joint none of whose bones lies inside
 };
 
 class Bones {
  public:
   Bones(const CurveSkeleton& skeleton, const Rig& given)
       : skeleton_(skeleton), given_(given), radii_(usable_radii(skeleton)) {
-    std::vector<bool> has_bone(idx(given.parents.size()), false);
-    for (int joint = 0; joint < static_cast<int>(given.parents.size()); ++joint) {
-      const int parent = given.parents[joint];
-      if (parent < 0) continue;
-      all_.push_back({parent, joint});
-      has_bone[idx(parent)] = has_bone[idx(joint)] = true;
+    const auto count = static_cast<int>(given.parents.size());
+    std::vector<Bone> outside;
+    std::vector<bool> has_bone(idx(count), false);
+    for (int joint = 0; joint < count; ++joint) {
+      if (given.parents[joint] < 0) continue;
+      const Bone bone{given.parents[joint], joint};
+      if (is_inside(bone)) {
+        all_.push_back(bone);
+        has_bone[idx(bone.upper)] = has_bone[idx(bone.lower)] = true;
+      } else {
+        outside.push_back(bone);
+      }
     }
-    for (std::size_t joint = 0; joint < has_bone.size(); ++joint) {
-      if (!has_bone[joint]) all_.push_back({static_cast<int>(joint), static_cast<int>(joint)});
+    for (int joint = 0; joint < count; ++joint) {
+      const Bone alone{joint, joint};
+      if (!has_bone[idx(joint)] && is_inside(alone)) all_.push_back(alone);
     }
-    std::vector<Bone> inside;
-    std::copy_if(all_.begin(), all_.end(), std::back_inserter(inside),
-                 [this](const Bone& bone) { return is_inside(bone); });
-    if (!inside.empty()) all_ = std::move(inside);
+    if (all_.empty()) all_ = outside;
+    if (all_.empty()) all_.push_back({0, 0});
   }
 
+  /// The joint at the upper end of the nearest bone, or at its lower end where the point lies
+  /// beyond.
   [[nodiscard]] int joint_at(const Eigen::RowVector3d& point) const {
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -80,9 +87,23 @@ class Bones {
 
 Eigen::VectorXi joints_of_nodes(const CurveSkeleton& skeleton, const Rig& given) {
   const Bones bones(skeleton, given);
+  const Eigen::VectorXd radii = usable_radii(skeleton);
+  const auto count = given.parents.size();
+  Eigen::VectorXd reach = Eigen::VectorXd::Zero(count);  // of the curve beyond a joint, in radii
   Eigen::VectorXi joints(skeleton.nodes.rows());
   for (Eigen::Index node = 0; node < joints.size(); ++node) {
-    joints[node] = bones.joint_at(skeleton.nodes.row(node));
+    const int joint = joints[node] = bones.joint_at(skeleton.nodes.row(node));
+    const double distance = (skeleton.nodes.row(node) - given.joints.row(joint)).norm();
+    reach[joint] = std::max(reach[joint], distance / radii[node]);
+  }
+  std::vector<bool> is_end(idx(count), true);
+  for (int joint = 0; joint < static_cast<int>(count); ++joint) {
+    const int parent = given.parents[joint];
+    if (parent >= 0) is_end[idx(parent)] = false;
+    if (parent < 0 || reach[joint] >= 1) is_end[idx(joint)] = false;
+  }
+  for (int& joint : joints) {
+    if (is_end[idx(joint)]) joint = given.parents[joint];
   }
   return joints;
 }

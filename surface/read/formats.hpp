@@ -1,6 +1,8 @@
 // One reader per file format; `read_polygons` chooses among them.
 #pragma once
 
+#include <optional>
+
 #include <curveskel/monitor.hpp>
 #include <curveskel/read.hpp>
 #include "surface/read/file_bytes.hpp"
@@ -26,6 +28,9 @@ namespace curveskel {
 /// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
 [[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,
                                           const OffKeyword& keyword, const Monitor& monitor);
+
+/// By the content where that is unambiguous, else by the extension.
+[[nodiscard]] std::optional<SurfaceFormat> surface_format_of(const FileBytes& file);
 
 /// The work of `read_polygons` once the file is in memory: positions are finite on return.
 [[nodiscard]] PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,

@@ -68,9 +68,10 @@ std::optional<std::string> json_for_tinygltf(std::string_view json, bool binary)
   return file.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
 }
 
-void decompress_gltf(const FileBytes& file, tinygltf::Model& model, const Monitor& monitor) {
+void decompress_gltf(const FileBytes& file, tinygltf::Model& model, GltfAttributes attributes,
+                     const Monitor& monitor) {
   decompress_meshopt(file, model, monitor);
-  decompress_draco(file, model, monitor);
+  decompress_draco(file, model, attributes, monitor);
 }
 
 }  // namespace curveskel

@@ -68,13 +68,13 @@ class DracoPrimitive {
         primitive_(primitive),
         extension_(primitive.extensions.at(std::string(draco_extension))) {}
 
-  void decode() {
+  void decode(GltfAttributes attributes) {
     if (!extension_.IsObject() || !extension_.Get("attributes").IsObject()) refuse("no attributes");
     mesh_ = decoded();
     add_indices();
     for (auto& [name, accessor] : primitive_.attributes) {
-      const bool places =
-          name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+      const bool places = attributes == GltfAttributes::all || name == "POSITION" ||
+                          name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
       const tinygltf::Value& id = extension_.Get("attributes").Get(name);
       if (places && id.IsNumber()) accessor = add_attribute(name, accessor, id.GetNumberAsInt());
     }
@@ -187,12 +187,14 @@ bool has_plain_numbers(const tinygltf::Model& model, const tinygltf::Primitive& 
 
 }  // namespace
 
-void decompress_draco(const FileBytes& file, tinygltf::Model& model, const Monitor& monitor) {
+void decompress_draco(const FileBytes& file, tinygltf::Model& model, GltfAttributes attributes,
+                      const Monitor& monitor) {
   for (tinygltf::Mesh& mesh : model.meshes) {
     for (tinygltf::Primitive& primitive : mesh.primitives) {
       if (!primitive.extensions.contains(std::string(draco_extension))) continue;
       monitor.report("read", 0.3);
-      if (!has_plain_numbers(model, primitive)) DracoPrimitive(file, model, primitive).decode();
+      if (!has_plain_numbers(model, primitive))
+        DracoPrimitive(file, model, primitive).decode(attributes);
     }
   }
 }

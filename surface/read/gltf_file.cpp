@@ -186,7 +186,8 @@ std::string_view gltf_json(const FileBytes& file) {
   return json_of(file, file.content.starts_with("glTF"));
 }
 
-tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
+tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor,
+                           GltfAttributes attributes) {
   const bool binary = file.content.starts_with("glTF");
   if (binary && file.content.substr(4, 4) == std::string_view("\1\0\0\0", 4)) refuse_version(file);
   if (binary) check_chunks(file);
@@ -212,7 +213,7 @@ tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor) {
     refuse_version(file);
   }
   check_required(file, model.extensionsRequired);
-  decompress_gltf(file, model, monitor);
+  decompress_gltf(file, model, attributes, monitor);
   return model;
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "surface/read/file_bytes.hpp"
+#include "surface/read/gltf_compression.hpp"
 
 namespace tinygltf {
 class Model;
@@ -14,7 +15,8 @@ namespace curveskel {
 /// Text or GLB, with the buffers beside it; pictures are not loaded.
 /// Compressed geometry is decompressed. Throws Error(Fault::input), by name for glTF 1.0 and for
 /// required extensions that change the geometry and are not known here.
-[[nodiscard]] tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] tinygltf::Model parse_gltf(const FileBytes& file, const Monitor& monitor,
+                                         GltfAttributes attributes = GltfAttributes::placing);
 
 /// The file's JSON: the first chunk of GLB, else all. Precondition: `parse_gltf` took the file.
 [[nodiscard]] std::string_view gltf_json(const FileBytes& file);

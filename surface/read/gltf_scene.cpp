@@ -179,9 +179,11 @@ class SceneReader {
   /// A mesh has one skin, so one bind pose.
   void compare_moves(int node) {
     constexpr double alike = 1e-5;  // as for joints, see `placed_positions`
-    const auto first = std::find_if(scene_.parts.begin(), scene_.parts.end(),
-                                    [&](const GltfPart& part) { return part.node == node; });
+    const auto first =
+        std::find_if(scene_.parts.begin(), scene_.parts.end(),
+                     [&](const GltfPart& part) { return part.node == node && part.in_soup; });
     for (auto part = first; part != scene_.parts.end(); ++part) {
+      if (!part->in_soup) continue;
       const Eigen::Matrix4d difference = part->move.matrix() - first->move.matrix();
       const double size = std::max(first->move.linear().norm(), first->move.translation().norm());
       parts_apart_ = parts_apart_ || difference.norm() > alike * size;

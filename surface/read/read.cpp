@@ -74,6 +74,11 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
 
 }  // namespace
 
+std::optional<SurfaceFormat> surface_format_of(const FileBytes& file) {
+  const std::optional<SurfaceFormat> format = format_by_content(file);
+  return format ? format : format_by_extension(file.path);
+}
+
 PolygonSoup soup_of(const Surface& surface) {
   PolygonSoup soup;
   soup.positions = surface.positions;
@@ -88,11 +93,8 @@ PolygonSoup soup_of(const Surface& surface) {
 
 PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
                          const ReadOptions& options) {
-  std::optional<SurfaceFormat> format = format_by_content(file);
-  if (!format) {
-    refuse_foreign_format(file);
-    format = format_by_extension(file.path);
-  }
+  if (!format_by_content(file)) refuse_foreign_format(file);
+  const std::optional<SurfaceFormat> format = surface_format_of(file);
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",

@@ -64,6 +64,7 @@ struct Edited {
   Rig rig;
   fs::path path;
   Glb glb;
+  int joints_replaced;
 };
 
 class EditGltf : public testing::Test {
@@ -72,23 +73,29 @@ class EditGltf : public testing::Test {
     EditSubject subject(folder_.path(), one);
     PolygonSoup soup = read_polygons(subject.path(), {}, {true});
     Rig rig = random_rig(soup.positions.rows(), joints, "bone ");
-    const std::string bytes = format_rig_into(subject.path(), rig, RigFormat::glb, OldRig::replaced,
-                                              "holder rig", "a test")
-                                  .bytes;
-    const fs::path path = folder_.write("edited.glb", bytes);
-    return {std::move(subject), std::move(soup), std::move(rig), path, glb_of(bytes)};
+    const EditedFile edited = *format_rig_into(
+        subject.path(), rig, {RigFormat::glb, OldRig::replaced, "holder rig", "a test"});
+    const fs::path path = folder_.write("edited.glb", edited.bytes);
+    return {std::move(subject),   std::move(soup),       std::move(rig), path,
+            glb_of(edited.bytes), edited.joints_replaced};
   }
 
+  /// The same before a rig is made and after.
   [[nodiscard]] std::string refusal(const fs::path& file) const {
-    try {
-      const auto rows = read_polygons(file, {}, {true}).positions.rows();
-      (void)format_rig_into(file, random_rig(rows, 3, "bone "), RigFormat::glb, OldRig::replaced,
-                            "", "");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.fault(), Fault::input);
-      return error.what();
-    }
-    return "";
+    const auto message_of = [](const auto& act) -> std::string {
+      try {
+        act();
+      } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::input);
+        return error.what();
+      }
+      return "";
+    };
+    const auto rows = read_polygons(file, {}, {true}).positions.rows();
+    const std::string late =
+        message_of([&] { (void)format_rig_into(file, random_rig(rows, 3, "bone ")); });
+    EXPECT_EQ(message_of([&] { require_editable(file, OldRig::replaced); }), late);
+    return late;
   }
 
   OwnFolder folder_;
@@ -188,6 +195,7 @@ TEST_F(EditGltf, NodesThatAreNoJointsStay) {
     EXPECT_EQ(after.size(), place + 1 + idx(edited.rig.joints.rows()));
     std::set<std::string> names;
     for (const Json& node : after) EXPECT_TRUE(names.insert(node["name"]).second) << node["name"];
+    EXPECT_EQ(edited.joints_replaced > 0, one.old_rig > 0);
     if (one.old_rig == 0) return;
     ASSERT_EQ(edited.glb.json["animations"].size(), 1U);  // "both", without its first channel
     ASSERT_EQ(edited.glb.json["animations"][0]["channels"].size(), 1U);
@@ -313,12 +321,16 @@ void expect_valid(const Glb& glb) {
   }
   std::set<int> children;
   for (const Json& node : json["nodes"]) {
-    if (node.contains("children")) EXPECT_FALSE(node["children"].empty());
+    if (node.contains("children")) {
+      EXPECT_FALSE(node["children"].empty());
+    }
     for (const int child : node.value("children", Json::array())) {
       EXPECT_LT(child, static_cast<int>(json["nodes"].size()));
       EXPECT_TRUE(children.insert(child).second) << child;
     }
-    if (node.contains("skin")) EXPECT_LT(node["skin"], json["skins"].size());
+    if (node.contains("skin")) {
+      EXPECT_LT(node["skin"], json["skins"].size());
+    }
   }
   for (const Json& scene : json["scenes"]) {
     for (const int root : scene["nodes"]) EXPECT_FALSE(children.contains(root)) << root;
@@ -345,7 +357,7 @@ TEST_F(EditGltf, KeepsARigThatIsThere) {
     Rig rig = *read_rig(subject.path(), {});
     rig.weights = random_rig(soup.positions.rows(), one.old_rig, "").weights;
     const std::string bytes =
-        format_rig_into(subject.path(), rig, RigFormat::glb, OldRig::kept, "", "a test").bytes;
+        format_rig_into(subject.path(), rig, {RigFormat::glb, OldRig::kept, "", "a test"})->bytes;
     const Glb glb = glb_of(bytes);
     expect_valid(glb);
     for (const char* member : {"skins", "animations", "scenes", "materials"}) {
@@ -374,12 +386,30 @@ TEST_F(EditGltf, TakesInFilesBesideIt) {
             std::string("\x89PNG\r\n\x1a\n not a true picture", 27));
 }
 
+TEST_F(EditGltf, KeepsChunksThatNobodyKnows) {
+  const EditSubject subject(folder_.path(), {.name = "chunks"});
+  Glb glb{subject.json(), subject.buffers()[0]};
+  glb.numbers.resize((glb.numbers.size() + 3) / 4 * 4);
+  const std::string chunk("\4\0\0\0MINEabcd", 12);
+  std::string bytes = bytes_of(glb) + chunk;
+  const auto size = static_cast<std::uint32_t>(bytes.size());
+  std::memcpy(&bytes.at(8), &size, sizeof size);
+  const fs::path file = folder_.write("chunks.glb", bytes);
+  const auto rows = read_polygons(file).positions.rows();
+  const auto edited = format_rig_into(file, random_rig(rows, 3, "bone "));
+  ASSERT_TRUE(edited);
+  EXPECT_TRUE(edited->bytes.ends_with(chunk));
+  std::uint32_t said = 0;
+  std::memcpy(&said, &edited->bytes.at(8), sizeof said);
+  EXPECT_EQ(said, edited->bytes.size());
+}
+
 TEST_F(EditGltf, SaysWhichPictureIsMissing) {
   const EditSubject subject(folder_.path(), edit_cases()[9]);
   fs::remove(folder_.path() / "a picture.png");
   const auto rows = read_polygons(subject.path()).positions.rows();
-  const EditedFile edited = format_rig_into(subject.path(), random_rig(rows, 3, "bone "),
-                                            RigFormat::glb, OldRig::replaced, "", "");
+  const EditedFile edited = *format_rig_into(subject.path(), random_rig(rows, 3, "bone "),
+                                             {RigFormat::glb, OldRig::replaced, "", ""});
   ASSERT_EQ(edited.notes.size(), 1U);
   EXPECT_NE(edited.notes[0].find("a%20picture.png"), std::string::npos);
   EXPECT_EQ(glb_of(edited.bytes).json["images"][0]["uri"], "a%20picture.png");
@@ -388,9 +418,10 @@ TEST_F(EditGltf, SaysWhichPictureIsMissing) {
 TEST_F(EditGltf, TextHoldsWhatTheBinaryFileHolds) {
   for_all_cases([&](const EditCase& one) {
     const Edited edited = edit(one);
-    Json text = Json::parse(format_rig_into(edited.subject.path(), edited.rig, RigFormat::gltf,
-                                            OldRig::replaced, "holder rig", "a test")
-                                .bytes);
+    Json text =
+        Json::parse(format_rig_into(edited.subject.path(), edited.rig,
+                                    {RigFormat::gltf, OldRig::replaced, "holder rig", "a test"})
+                        ->bytes);
     EXPECT_EQ(text["buffers"][0]["uri"],
               "data:application/octet-stream;base64," + encodings::base64(edited.glb.numbers));
     text["buffers"][0].erase("uri");
@@ -432,7 +463,7 @@ TEST_F(EditGltf, AFileWithoutNodesGetsSome) {
   const Rig rig = random_rig(soup.positions.rows(), 4, "bone ");
   const fs::path path = folder_.write(
       "with.glb",
-      format_rig_into(file, rig, RigFormat::glb, OldRig::replaced, "rig", "a test").bytes);
+      format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes);
   EXPECT_LT((read_polygons(path).positions - soup.positions).norm(), 1e-5);
   EXPECT_EQ(read_rig(path, {})->names, rig.names);
 }

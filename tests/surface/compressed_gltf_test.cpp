@@ -15,8 +15,10 @@
 
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
+#include <curveskel/rig_files.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/real_surfaces.hpp"
+#include "tests/rig/random_rigs.hpp"
 #include "tests/rig/rigged_bar.hpp"
 #include "tests/surface/gltf_by_the_rule.hpp"
 #include "tests/surface/reading.hpp"
@@ -219,6 +221,33 @@ TEST(CompressedGltf, IsReadAsWhatWentIn) {
       const Eigen::RowVectorXf sums =
           Eigen::RowVectorXf::Ones(found->weights.rows()) * found->weights;
       EXPECT_LT((sums - shares).cwiseAbs().maxCoeff(), 1e-5F);
+    }
+  }
+}
+
+TEST(CompressedGltf, IsMadePlainWhereARigIsPutIntoIt) {
+  const OwnFolder folder;
+  for (const auto& [name, parts] : packed_bars()) {
+    SCOPED_TRACE(name);
+    const auto file = folder.write("x.glb", glb_of(parts));
+    const PolygonSoup soup = read_polygons(file, {}, {true});
+    const Rig rig = random_rig(soup.positions.rows(), 5, "bone ");
+    const auto edited = format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", ""});
+    ASSERT_TRUE(edited);
+    for (const char* extension : {"EXT_meshopt_compression", "KHR_draco_mesh_compression"}) {
+      EXPECT_EQ(edited->bytes.find(extension), std::string::npos);
+    }
+    EXPECT_EQ(edited->bytes.find("extensions"), std::string::npos);
+    const auto path = folder.write("edited.glb", edited->bytes);
+    const PolygonSoup found = read_polygons(path, {});
+    ASSERT_EQ(found.positions.rows(), soup.positions.rows());
+    EXPECT_LT((found.positions - soup.positions).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_EQ(found.corners, soup.corners);
+    const auto vertices = GltfByTheRule(path).vertices();
+    ASSERT_EQ(vertices.size(), static_cast<std::size_t>(soup.positions.rows()));
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const auto row = soup.positions.row(static_cast<Eigen::Index>(v));
+      EXPECT_LT((vertices[v].placed.transpose() - row).norm(), 1e-5) << v;
     }
   }
 }

@@ -1,0 +1,113 @@
+#include "rig/gltf/obj_file.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <curveskel/advanced/indices.hpp>
+#include "surface/read/formats.hpp"
+#include "surface/read/text_cursor.hpp"
+
+namespace curveskel {
+namespace {
+
+/// -1 where it is none of those so far or to come; counted from 1, or from -1 backwards.
+std::int32_t index_from_zero(std::int64_t number, std::size_t so_far) {
+  const std::int64_t index = number < 0 ? static_cast<std::int64_t>(so_far) + number : number - 1;
+  return index < 0 || index >= most_vertices ? -1 : static_cast<std::int32_t>(index);
+}
+
+/// v, v/vt, v//vn or v/vt/vn.
+ObjCorner read_corner(TextCursor& text, const ObjFile& obj) {
+  ObjCorner corner;
+  corner.place = index_from_zero(text.integer("a vertex index"), obj.places.size() / 3);
+  const auto is_number = [&] {
+    return text.peek() == '-' || (text.peek() >= '0' && text.peek() <= '9');
+  };
+  if (text.peek() != '/') return corner;
+  text.skip(1);
+  if (is_number()) {
+    corner.texture = index_from_zero(text.integer("an index"), obj.textures.size());
+  }
+  if (text.peek() != '/') return corner;
+  text.skip(1);
+  if (is_number()) corner.normal = index_from_zero(text.integer("an index"), obj.normals.size());
+  return corner;
+}
+
+void read_face(TextCursor& text, ObjFile& obj, int material) {
+  for (text.skip_blanks(); !text.at_line_end() && text.peek() != '#'; text.skip_blanks()) {
+    obj.corners.push_back(read_corner(text, obj));
+    text.word();
+  }
+  obj.offsets.push_back(static_cast<std::int64_t>(obj.corners.size()));
+  obj.material_of_face.push_back(material);
+}
+
+/// The rest of the line, blanks within it kept: names may have them.
+std::string rest_of_line(TextCursor& text) {
+  std::string rest;
+  for (text.skip_blanks(); !text.at_line_end(); text.skip(1)) rest += text.peek();
+  while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\r' || rest.back() == '\t')) {
+    rest.pop_back();
+  }
+  return rest;
+}
+
+template <std::size_t Count>
+std::array<float, Count> read_numbers(TextCursor& text) {
+  std::array<float, Count> numbers{};
+  for (float& number : numbers) {
+    text.skip_blanks();
+    if (text.at_line_end()) break;
+    number = static_cast<float>(text.coordinate("a number"));
+  }
+  return numbers;
+}
+
+int number_of(std::vector<std::string>& names, const std::string& name) {
+  const auto known = std::find(names.begin(), names.end(), name);
+  const auto number = static_cast<int>(known - names.begin());
+  if (known == names.end()) names.push_back(name);
+  return number;
+}
+
+}  // namespace
+
+ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
+  ObjFile obj;
+  int material = -1;
+  TextCursor text(file);
+  for (std::int64_t row = 0; !text.done(); ++row) {
+    if (row % rows_per_report == 0) monitor.report("write", text.fraction());
+    text.skip_blanks();
+    if (text.accept("v")) {
+      text.read_vertex(obj.places);
+    } else if (text.accept("vt")) {
+      obj.textures.push_back(read_numbers<2>(text));
+    } else if (text.accept("vn")) {
+      obj.normals.push_back(read_numbers<3>(text));
+    } else if (text.accept("f")) {
+      read_face(text, obj, material);
+    } else if (text.accept("usemtl")) {
+      material = number_of(obj.materials, rest_of_line(text));
+    } else if (text.accept("mtllib")) {
+      obj.libraries.push_back(rest_of_line(text));
+    } else if (text.peek() == '#') {
+      text.skip_line();
+      continue;
+    }
+    text.skip_continued_line();
+  }
+  for (ObjCorner& corner : obj.corners) {
+    if (corner.place < 0 || idx(corner.place) >= obj.places.size() / 3) {
+      file.fail("a vertex index that is not there",
+                "one of the " + std::to_string(obj.places.size() / 3) + " vertices",
+                "export the file again");
+    }
+    if (corner.texture >= static_cast<std::int64_t>(obj.textures.size())) corner.texture = -1;
+    if (corner.normal >= static_cast<std::int64_t>(obj.normals.size())) corner.normal = -1;
+  }
+  return obj;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,276 @@
+// Laws of rigs for OBJ files with materials: what a corner of a face names is there in glTF.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
+#include <curveskel/rig_files.hpp>
+#include "tests/own_folder.hpp"
+#include "tests/rig/random_rigs.hpp"
+#include "tests/surface/encodings.hpp"
+
+namespace curveskel::dress_obj_laws {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string png("\x89PNG\r\n\x1a\n not a true picture", 27);
+
+struct Glb {
+  Json json;
+  std::string numbers;
+
+  explicit Glb(const std::string& bytes) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, &bytes.at(12), sizeof length);
+    json = Json::parse(bytes.substr(20, length));
+    numbers = bytes.substr(28 + std::size_t{length});
+  }
+
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> values(std::size_t accessor) const {
+    const Json& view =
+        json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+    std::vector<Value> result(view["byteLength"].get<std::size_t>() / sizeof(Value));
+    std::memcpy(result.data(), &numbers.at(view["byteOffset"].get<std::size_t>()),
+                result.size() * sizeof(Value));
+    return result;
+  }
+};
+
+/// A torus whose every face has texture coordinates of its own kind: by its row, so that each
+/// vertex has up to `seams` of them; faces in `materials` runs.
+struct ObjSubject {
+  int seams = 3;
+  int materials = 2;
+  bool normals = false;
+  bool backwards = false;  ///< negative indices
+
+  [[nodiscard]] std::string text() const {
+    const Surface torus = torus_surface();
+    std::ostringstream obj;
+    obj.precision(17);
+    if (materials > 0) obj << "mtllib looks of it.mtl\n";
+    for (const auto& v : torus.positions.rowwise()) {
+      obj << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    }
+    for (int seam = 0; seam < seams; ++seam) obj << "vt " << 0.1 * seam << " 0.25\n";
+    if (normals) obj << "vn 0 0 2\nvn 1 0 0\n";
+    const int vertices = static_cast<int>(torus.positions.rows());
+    const Eigen::Index faces = torus.triangles.rows();
+    for (Eigen::Index f = 0; f < faces; ++f) {
+      if (materials > 0 && f * materials % faces < materials) {
+        obj << "usemtl m " << f * materials / faces << '\n';
+      }
+      obj << 'f';
+      for (const int v : torus.triangles.row(f)) {
+        obj << ' ' << (backwards ? v - vertices : v + 1);
+        if (seams > 0) obj << '/' << texture_of(f) + 1;
+        if (normals) obj << (seams > 0 ? "/" : "//") << f % 2 + 1;
+      }
+      obj << '\n';
+    }
+    return obj.str();
+  }
+
+  [[nodiscard]] int texture_of(Eigen::Index face) const {
+    return static_cast<int>(face) % std::max(seams, 1);
+  }
+};
+
+std::vector<ObjSubject> subjects() {
+  return {{},
+          {.seams = 1, .materials = 1},
+          {.seams = 0, .materials = 3},
+          {.seams = 5, .materials = 0},
+          {.seams = 0, .materials = 0, .normals = true},
+          {.seams = 2, .materials = 4, .normals = true, .backwards = true}};
+}
+
+class DressObj : public testing::Test {
+ protected:
+  [[nodiscard]] EditedFile dressed(const std::string& obj, const Rig& rig) const {
+    const auto edited = format_rig_into(folder_.write("a thing.obj", obj), rig,
+                                        {RigFormat::glb, OldRig::replaced, "rig", "a test"});
+    EXPECT_TRUE(edited);
+    return *edited;
+  }
+
+  void write_materials() const {
+    (void)folder_.write("looks of it.mtl",
+                        "newmtl m 0\nKd 0.25 0.5 1\nd 0.5\nNs 250\n"
+                        "newmtl m 1\nKd 0.1 0.1 0.1\nmap_Kd -s 1 1 1 skin one.png\nKe 0 0 0\n"
+                        "newmtl m 2\nmap_Kd C:\\work\\skin one.png\nmap_Ke none.png\nPm 1\n"
+                        "newmtl m 3\nmap_Kd painting.tga\nmap_d painting.tga\n");
+    (void)folder_.write("skin one.png", png);
+    (void)folder_.write("painting.tga", "no glTF has this");
+  }
+
+  OwnFolder folder_;
+  const Rig rig_ = random_rig(torus_surface().positions.rows(), 9, "bone ");
+};
+
+TEST_F(DressObj, KeepsTheVerticesAndCopiesThoseAtSeams) {
+  write_materials();
+  const Surface torus = torus_surface();
+  const Eigen::Index count = torus.positions.rows();
+  for (const ObjSubject& subject : subjects()) {
+    const EditedFile edited = dressed(subject.text(), rig_);
+    const fs::path file = folder_.write("dressed.glb", edited.bytes);
+    const PolygonSoup soup = read_polygons(file, {});
+    ASSERT_GE(soup.positions.rows(), count);
+    EXPECT_LT((soup.positions.topRows(count) - torus.positions).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(soup.positions.rows() > count, subject.seams > 1 || subject.normals);
+    EXPECT_EQ(soup.corners.size(), idx(torus.triangles.size()));
+    const Rig found = *read_rig(file, {});
+    const fs::path bare =
+        folder_.write("bare.glb", format_rig(torus, rig_, RigFormat::glb, "", ""));
+    const Eigen::MatrixXf expected = read_rig(bare, {})->weights;
+    std::map<std::array<float, 3>, Eigen::Index> vertex_at;
+    const auto place = [&](const Positions& all, Eigen::Index v) -> std::array<float, 3> {
+      const Eigen::RowVector3f at = all.row(v).cast<float>();
+      return {at.x(), at.y(), at.z()};
+    };
+    for (Eigen::Index v = 0; v < count; ++v) vertex_at[place(torus.positions, v)] = v;
+    for (Eigen::Index v = 0; v < soup.positions.rows(); ++v) {
+      const Eigen::Index own = vertex_at.at(place(soup.positions, v));
+      if (v < count) {
+        EXPECT_EQ(own, v);
+      }
+      EXPECT_LT((Eigen::MatrixXf(found.weights.row(v)) - expected.row(own)).norm(), 1e-6F);
+    }
+  }
+}
+
+/// By material, every triangle with the places, texture coordinates and normals of its corners.
+TEST_F(DressObj, EveryCornerHasWhatItsFaceNames) {
+  write_materials();
+  const Surface torus = torus_surface();
+  for (const ObjSubject& subject : subjects()) {
+    const Glb glb(dressed(subject.text(), rig_).bytes);
+    const Json& primitives = glb.json["meshes"][0]["primitives"];
+    const auto runs = static_cast<std::size_t>(std::max(subject.materials, 1));
+    ASSERT_EQ(primitives.size(), runs);
+    const Json& attributes = primitives[0]["attributes"];
+    const auto places = glb.values<float>(attributes["POSITION"]);
+    const auto normals = glb.values<float>(attributes["NORMAL"]);
+    const auto textures = attributes.contains("TEXCOORD_0")
+                              ? glb.values<float>(attributes["TEXCOORD_0"])
+                              : std::vector<float>();
+    EXPECT_EQ(textures.empty(), subject.seams == 0);
+    Eigen::Index face = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
+      EXPECT_EQ(primitives[run]["attributes"], attributes);  // all share their vertices
+      EXPECT_EQ(primitives[run].value("material", -1), subject.materials > 0 ? int(run) : -1);
+      const auto corners = glb.values<std::uint32_t>(primitives[run]["indices"]);
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const std::size_t v = corners[c];
+        const auto f = face + static_cast<Eigen::Index>(c / 3);
+        const Eigen::RowVector3d at =
+            torus.positions.row(torus.triangles(f, static_cast<Eigen::Index>(c % 3)));
+        EXPECT_NEAR(
+            (Eigen::Map<const Eigen::RowVector3f>(&places[3 * v]).cast<double>() - at).norm(), 0,
+            1e-6);
+        if (subject.seams > 0) {
+          EXPECT_FLOAT_EQ(textures[2 * v], 0.1F * float(subject.texture_of(f)));
+          EXPECT_FLOAT_EQ(textures[2 * v + 1], 0.75F);
+        }
+        const Eigen::RowVector3f normal = Eigen::Map<const Eigen::RowVector3f>(&normals[3 * v]);
+        EXPECT_NEAR(normal.norm(), 1, 1e-6);
+        if (subject.normals) {
+          EXPECT_FLOAT_EQ(normal[f % 2 == 0 ? 2 : 0], 1);
+        }
+      }
+      face += static_cast<Eigen::Index>(corners.size() / 3);
+    }
+    EXPECT_EQ(face, torus.triangles.rows());
+  }
+}
+
+TEST_F(DressObj, MaterialsAreThoseOfTheLibrary) {
+  write_materials();
+  const EditedFile edited = dressed(ObjSubject{.materials = 5}.text(), rig_);
+  const Glb glb(edited.bytes);
+  const Json& materials = glb.json["materials"];
+  ASSERT_EQ(materials.size(), 5U);
+  for (int m = 0; m < 5; ++m) EXPECT_EQ(materials[idx(m)]["name"], "m " + std::to_string(m));
+  EXPECT_EQ(materials[0]["pbrMetallicRoughness"]["baseColorFactor"], Json({0.25, 0.5, 1.0, 0.5}));
+  EXPECT_EQ(materials[0]["pbrMetallicRoughness"]["roughnessFactor"], 0.5);
+  EXPECT_EQ(materials[0]["alphaMode"], "BLEND");
+  EXPECT_FALSE(materials[1].contains("alphaMode"));
+  EXPECT_FALSE(materials[1].contains("emissiveFactor"));
+  EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"], Json({1.0, 1.0, 1.0, 1.0}));
+  EXPECT_EQ(materials[2]["pbrMetallicRoughness"]["metallicFactor"], 1.0);
+  EXPECT_FALSE(materials[4].contains("pbrMetallicRoughness"));  // in no library
+  ASSERT_EQ(glb.json["images"].size(), 1U);                     // one picture, two materials
+  for (const std::size_t m : {1U, 2U}) {
+    EXPECT_EQ(materials[m]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+  }
+  const Json& view =
+      glb.json["bufferViews"][glb.json["images"][0]["bufferView"].get<std::size_t>()];
+  EXPECT_EQ(glb.numbers.substr(view["byteOffset"], view["byteLength"]), png);
+  const auto is_noted = [&](const std::string& word) {
+    return std::any_of(edited.notes.begin(), edited.notes.end(), [&](const std::string& note) {
+      return note.find(word) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_noted("none.png"));
+  EXPECT_TRUE(is_noted("painting.tga"));
+  EXPECT_TRUE(is_noted("\"m 4\""));
+  EXPECT_FALSE(is_noted("skin one"));
+}
+
+TEST_F(DressObj, AMissingLibraryIsNamed) {
+  const EditedFile edited = dressed(ObjSubject{}.text(), rig_);
+  ASSERT_FALSE(edited.notes.empty());
+  EXPECT_NE(edited.notes[0].find("looks of it.mtl"), std::string::npos);
+  EXPECT_EQ(Glb(edited.bytes).json["materials"].size(), 2U);
+}
+
+/// Polygons are triangulated with their texture coordinates; a face without a place is left out.
+TEST_F(DressObj, PolygonsKeepTheirTextureCoordinates) {
+  const std::string obj =
+      "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 nan\nv 1 3 1\n"
+      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+      "f 1/1 2/2 3/3 4/4\nf 4/4 3/3 6\nf 1/1 5/2 3/3\n";
+  const Glb glb(dressed(obj, random_rig(6, 3, "bone ")).bytes);
+  const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+  const auto corners = glb.values<std::uint32_t>(primitive["indices"]);
+  const auto textures = glb.values<float>(primitive["attributes"]["TEXCOORD_0"]);
+  ASSERT_EQ(corners.size(), 9U);
+  const std::array<std::array<float, 2>, 4> expected{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  for (std::size_t c = 0; c < 6; ++c) {
+    ASSERT_LT(corners[c], 4U);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(textures[2 * corners[c] + k], expected.at(corners[c]).at(k));
+    }
+  }
+  for (const float number : glb.values<float>(primitive["attributes"]["POSITION"])) {
+    EXPECT_TRUE(std::isfinite(number));
+  }
+}
+
+TEST_F(DressObj, NothingWhereThereIsNothingToKeep) {
+  const std::string plain = ObjSubject{.seams = 0, .materials = 0}.text();
+  EXPECT_FALSE(format_rig_into(folder_.write("plain.obj", plain), rig_));
+  EXPECT_FALSE(format_rig_into(folder_.write("plain.off", encodings::off("OFF")), rig_));
+}
+
+}  // namespace
+}  // namespace curveskel::dress_obj_laws
