@@ -3,12 +3,17 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -62,6 +67,7 @@ Surface rounded(const ExactMesh& mesh) {
 struct Growing {
   ExactMesh mesh;
   double volume = 0;
+  int cavities = 0;  ///< filled so far
   bool is_united = false;
 };
 
@@ -72,48 +78,165 @@ bool has_volume_of_union(double found, double one, double other) {
   return found >= std::max(one, other) - rounding * sum && found <= sum * (1 + rounding);
 }
 
+/// Without faces that have no area; false if they cannot be taken out.
+bool begin(Growing& body, const Surface& surface) {
+  body.mesh = exact_mesh(surface);
+  body.volume = volume(surface);
+  const bool taken_out = pmp::remove_degenerate_faces(body.mesh);
+  body.mesh.collect_garbage();
+  return taken_out && CGAL::is_closed(body.mesh) && CGAL::is_valid_polygon_mesh(body.mesh);
+}
+
 /// Either the union or the reason why there is none.
 struct UnionOrReason {
   std::optional<Growing> body;
   std::string why;
 };
 
+/// The exact points of a mesh that have doubles in their place.
+class RoundedPoints {
+ public:
+  explicit RoundedPoints(ExactMesh& mesh) : mesh_(mesh) {
+    for (const auto v : mesh.vertices()) {
+      const auto& p = CGAL::exact(mesh.point(v));
+      const UnitingKernel::Point_3 nearest(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
+                                           CGAL::to_double(p.z()));
+      if (nearest == mesh.point(v)) continue;
+      exact_.emplace(v, mesh.point(v));
+      mesh.point(v) = nearest;
+    }
+  }
+
+  /// Gives back the points of faces that cross others, or have no area, because of the rounding.
+  /// True if there were none.
+  bool give_back_crossing() {
+    std::vector<ExactMesh::Face_index> crossing;
+    std::vector<ExactMesh::Face_index> flat;
+    const auto rounded = faces_with_rounded_points();
+    for (const auto f : rounded) {
+      if (pmp::is_degenerate_triangle_face(f, mesh_)) flat.push_back(f);
+    }
+    if (flat.empty()) {
+      std::vector<std::pair<ExactMesh::Face_index, ExactMesh::Face_index>> pairs;
+      pmp::self_intersections(rounded, mesh_, std::back_inserter(pairs));
+      for (const auto& [f, g] : pairs) crossing.insert(crossing.end(), {f, g});
+    }
+    for (const auto& faces : {flat, crossing}) {
+      for (const auto f : faces) give_back(f);
+    }
+    return flat.empty() && crossing.empty();
+  }
+
+  void give_back_all() {
+    for (const auto& [v, p] : exact_) mesh_.point(v) = p;
+    exact_.clear();
+  }
+
+ private:
+  [[nodiscard]] std::vector<ExactMesh::Face_index> faces_with_rounded_points() const {
+    std::vector<ExactMesh::Face_index> faces;
+    for (const auto& [v, p] : exact_) {
+      for (const auto f : CGAL::faces_around_target(mesh_.halfedge(v), mesh_)) faces.push_back(f);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  void give_back(ExactMesh::Face_index f) {
+    for (const auto v : CGAL::vertices_around_face(mesh_.halfedge(f), mesh_)) {
+      const auto found = exact_.find(v);
+      if (found == exact_.end()) continue;
+      mesh_.point(v) = found->second;
+      exact_.erase(found);
+    }
+  }
+
+  ExactMesh& mesh_;
+  std::map<ExactMesh::Vertex_index, UnitingKernel::Point_3> exact_;
+};
+
+/// Points of intersection of faces between such points have numbers several times as long each
+/// time: doubles take their place wherever no faces cross for it.
+void round_where_nothing_crosses(ExactMesh& mesh) {
+  constexpr int rounds = 4;  // most crossings are gone after one
+  RoundedPoints points(mesh);
+  for (int round = 0; round < rounds; ++round) {
+    if (points.give_back_crossing()) return;
+  }
+  points.give_back_all();
+}
+
+/// A double is enough to tell a hollow from a body.
+double rough_volume(const ExactMesh& mesh, const std::vector<ExactMesh::Face_index>& faces) {
+  using Eigen::Vector3d;
+  const auto place = [&](ExactMesh::Vertex_index v) -> Vector3d {
+    const auto& p = mesh.point(v);
+    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  };
+  const Vector3d origin = place(mesh.target(mesh.halfedge(faces.front())));
+  double sum = 0;
+  for (const auto f : faces) {
+    const auto h = mesh.halfedge(f);
+    const Vector3d a = place(mesh.source(h)) - origin;
+    const Vector3d b = place(mesh.target(h)) - origin;
+    const Vector3d c = place(mesh.target(mesh.next(h))) - origin;
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
+/// Of the boundary of a body all but the outer component; false if there are several of these.
+bool fill_cavities(Growing& body) {
+  ExactMesh& mesh = body.mesh;
+  auto number = mesh.add_property_map<ExactMesh::Face_index, std::size_t>("f:part", 0).first;
+  const std::size_t parts = pmp::connected_components(mesh, number);
+  std::vector<std::vector<ExactMesh::Face_index>> faces(parts);
+  for (const auto f : mesh.faces()) faces[number[f]].push_back(f);
+  std::vector<std::size_t> outer;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const double its = rough_volume(mesh, faces[part]);
+    if (its <= 0) continue;
+    outer.push_back(part);
+    body.volume = its;
+  }
+  if (outer.size() != 1) return false;
+  body.cavities += static_cast<int>(parts) - 1;
+  if (parts > 1) {
+    pmp::keep_connected_components(mesh, outer, number);
+    mesh.collect_garbage();
+  }
+  mesh.remove_property_map(number);
+  return true;
+}
+
+constexpr const char* touching = "they touch in an edge or a vertex only, where no body can be one";
+
 UnionOrReason union_of(const Growing& one, const Growing& other) {
   ExactMesh a = one.mesh;
   ExactMesh b = other.mesh;
   Growing found;
   found.is_united = true;
+  found.cavities = one.cavities + other.cavities;
   try {
     const auto strictly = CGAL::parameters::throw_on_self_intersection(true);
     if (!pmp::corefine_and_compute_union(a, b, found.mesh, strictly)) {
-      return {std::nullopt, "they touch so that the union would be no manifold"};
+      return {std::nullopt, touching};
     }
   } catch (const pmp::Corefinement::Self_intersection_exception&) {
     return {std::nullopt, "one crosses itself where they meet"};
   } catch (const CGAL::Failure_exception&) {
     return {std::nullopt, "one has no clear inside where they meet"};
   }
+  pmp::duplicate_non_manifold_vertices(found.mesh);
   found.mesh.collect_garbage();
-  found.volume = CGAL::to_double(pmp::volume(found.mesh));
-  if (!has_volume_of_union(found.volume, one.volume, other.volume)) {
+  if (!CGAL::is_valid_polygon_mesh(found.mesh)) return {std::nullopt, touching};
+  if (!has_volume_of_union(CGAL::to_double(pmp::volume(found.mesh)), one.volume, other.volume)) {
     return {std::nullopt, "one crosses itself, so that the union has not its volume"};
   }
+  if (!fill_cavities(found)) return {std::nullopt, touching};
+  round_where_nothing_crosses(found.mesh);
   return {std::move(found), {}};
-}
-
-/// Of the boundary of a connected body all but the outer component. Returns how many went.
-int fill_cavities(ExactMesh& mesh) {
-  auto number = mesh.add_property_map<ExactMesh::Face_index, std::size_t>("f:part", 0).first;
-  const std::size_t parts = pmp::connected_components(mesh, number);
-  if (parts < 2) return 0;
-  const auto vertices = mesh.vertices();
-  const auto outermost = *std::min_element(
-      vertices.begin(), vertices.end(),
-      [&](const auto& a, const auto& b) { return mesh.point(a).x() < mesh.point(b).x(); });
-  const std::size_t outer = number[mesh.face(mesh.halfedge(outermost))];
-  pmp::keep_connected_components(mesh, std::vector{outer}, number);
-  mesh.collect_garbage();
-  return static_cast<int>(parts) - 1;
 }
 
 std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& joined) {
@@ -124,9 +247,7 @@ std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& j
     if (!bodies[idx(root)].is_united) continue;
     if (place[idx(root)] < 0) {
       place[idx(root)] = static_cast<int>(result.size());
-      ExactMesh& mesh = bodies[idx(root)].mesh;
-      const int cavities = fill_cavities(mesh);
-      result.push_back({{}, rounded(mesh), cavities});
+      result.push_back({{}, rounded(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
     }
     result[idx(place[idx(root)])].parts.push_back(c);
   }
@@ -141,14 +262,18 @@ class Uniting {
         is_open_(meeting.size(), 1),
         joined_(static_cast<std::int64_t>(parts.size())),
         bodies_(parts.size()) {
+    std::vector<char> is_fit(parts.size(), 0);
     for (const auto& [a, b] : meeting) {
       for (const int c : {a, b}) {
-        Growing& its = bodies_[idx(c)];
-        if (its.mesh.number_of_faces() > 0) continue;
-        its.mesh = exact_mesh(parts[idx(c)].surface);
-        pmp::remove_degenerate_faces(its.mesh);
-        its.volume = volume(parts[idx(c)].surface);
+        if (bodies_[idx(c)].mesh.number_of_faces() > 0) continue;
+        is_fit[idx(c)] = begin(bodies_[idx(c)], parts[idx(c)].surface) ? 1 : 0;
       }
+    }
+    for (std::size_t pair = 0; pair < meeting.size(); ++pair) {
+      const auto& [a, b] = meeting[pair];
+      if (is_fit[idx(a)] && is_fit[idx(b)]) continue;
+      is_open_[pair] = 0;
+      refused_.push_back({a, b, "one has faces without area that cannot be taken out"});
     }
   }
 
@@ -231,6 +356,7 @@ class Uniting {
       const Growing& one = bodies_[idx(other_than(root, pair))];
       CGAL::copy_face_graph(one.mesh, others.mesh);
       others.volume += one.volume;
+      others.cavities += one.cavities;
     }
     UnionOrReason outcome = union_of(bodies_[idx(root)], others);
     if (!outcome.body && pairs.size() > 1) {

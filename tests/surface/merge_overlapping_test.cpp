@@ -231,7 +231,8 @@ Shape crossing_itself() {
 }
 
 TEST(Merging, LeavesApartWhatCrossesItselfAndSaysSo) {
-  const std::vector<Shape> parts{crossing_itself(), shapes::ellipsoid({1, 1, 1}, 3)};
+  const Shape small = shapes::ellipsoid({0.3, 0.3, 0.3}, 3);
+  const std::vector<Shape> parts{crossing_itself(), at(small, 0, 0, 0.4)};
   const RepairedSurface result = merged(parts);
   const Merging& merging = result.repairs.merging;
   EXPECT_TRUE(merging.bodies.empty());
@@ -241,6 +242,10 @@ TEST(Merging, LeavesApartWhatCrossesItselfAndSaysSo) {
   EXPECT_NE(merging.apart.front().why.find("crosses itself"), std::string::npos);
   EXPECT_EQ(result.surface.positions.rows(),
             shapes::together("parts", parts).surface.positions.rows());
+}
+
+TEST(Merging, TakesWhatCrossesItselfInsideTheOther) {
+  expect_one_body(merged({crossing_itself(), ball()}), 2);
 }
 
 /// Six slabs round a hollow.
@@ -258,7 +263,8 @@ TEST(Merging, FillsTheHollowsBetweenParts) {
 
 TEST(Merging, OfManyPartsLosesNone) {
   std::vector<Shape> chain;
-  for (int i = 0; i < 30; ++i) chain.push_back(at(ball(), 1.3 * i, 0.1 * (i % 3), 0));
+  const Shape bead = shapes::ellipsoid({1, 1, 1}, 2);
+  for (int i = 0; i < 30; ++i) chain.push_back(at(bead, 1.3 * i, 0.1 * (i % 3), 0));
   expect_one_body(merged(chain), 30);
   std::vector<Shape> star{shapes::ellipsoid({3, 3, 3}, 4)};
   for (std::uint64_t i = 0; i < 30; ++i) {
