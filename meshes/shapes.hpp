@@ -100,7 +100,7 @@ struct TubeUnionOptions {
 [[nodiscard]] CurveSkeleton random_graph(std::uint64_t seed, int nodes, int loops, double radius);
 
 /// One of the parts that assets are made of, each about as long as `size`, turned as it likes.
-enum class PartKind : std::uint8_t { box, ball, rod, sheet, ribbon };
+enum class PartKind : std::uint8_t { box, ball, rod, sheet, ribbon };  // ribbons: 24 flat cells
 struct AssortedPart {
   PartKind kind = PartKind::box;
   double size = 1;       ///< its longest extent

@@ -87,13 +87,12 @@ std::vector<int> nodes_of(const std::vector<shapes::AssortedPart>& parts,
   return counts;
 }
 
-/// Straight parts need no more than 5. A ribbon, bent by 3 radians, needs chords that stay inside,
-/// of an angle a with (1 - cos(a / 2)) size / 2 = thickness / 2; it has no more than twice as many.
-double most_nodes(const shapes::AssortedPart& part) {
-  constexpr double straight = 5;
-  if (part.kind != shapes::PartKind::ribbon) return straight;
-  const double angle = 2 * std::acos(1 - part.thickness / part.size);
-  return straight + 2 * 3 / angle;
+/// Straight parts need no more than 5. A ribbon is a chain of flat cells, and thin enough that its
+/// curve may have to bend with each: it has fewer than two nodes a cell.
+int most_nodes(const shapes::AssortedPart& part) {
+  constexpr int straight = 5;
+  constexpr int cells_of_ribbon = 24;
+  return part.kind == shapes::PartKind::ribbon ? 2 * cells_of_ribbon : straight;
 }
 
 /// Boxes, balls, rods, sheets and ribbons, thin and thick: none longer than 4 % of the whole.
