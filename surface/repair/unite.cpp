@@ -1,19 +1,16 @@
 #include "surface/repair/unite.hpp"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,12 +23,12 @@ namespace curveskel {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using UnitingKernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using ExactMesh = CGAL::Surface_mesh<UnitingKernel::Point_3>;
+using UnitingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using BodyMesh = CGAL::Surface_mesh<UnitingKernel::Point_3>;
 
-ExactMesh exact_mesh(const Surface& surface) {
-  ExactMesh mesh;
-  using Vertex = ExactMesh::Vertex_index;
+BodyMesh body_mesh(const Surface& surface) {
+  BodyMesh mesh;
+  using Vertex = BodyMesh::Vertex_index;
   for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
   const auto vertex = [](std::int32_t v) { return Vertex(static_cast<std::uint32_t>(v)); };
   for (const auto& t : surface.triangles.rowwise()) {
@@ -40,16 +37,15 @@ ExactMesh exact_mesh(const Surface& surface) {
   return mesh;
 }
 
-Surface rounded(const ExactMesh& mesh) {
+Surface surface_of(const BodyMesh& mesh) {
   Surface surface;
   surface.positions.resize(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
   surface.triangles.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
   std::vector<std::int32_t> number(mesh.num_vertices(), -1);
   std::int32_t vertices = 0;
   for (const auto v : mesh.vertices()) {
-    const auto& p = CGAL::exact(mesh.point(v));
-    surface.positions.row(vertices) << CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-        CGAL::to_double(p.z());
+    const auto& p = mesh.point(v);
+    surface.positions.row(vertices) << p.x(), p.y(), p.z();
     number[v] = vertices++;
   }
   Eigen::Index faces = 0;
@@ -65,7 +61,7 @@ Surface rounded(const ExactMesh& mesh) {
 
 /// A body while others are added to it.
 struct Growing {
-  ExactMesh mesh;
+  BodyMesh mesh;
   double volume = 0;
   int cavities = 0;  ///< filled so far
   bool is_united = false;
@@ -78,13 +74,17 @@ bool has_volume_of_union(double found, double one, double other) {
   return found >= std::max(one, other) - rounding * sum && found <= sum * (1 + rounding);
 }
 
-/// Without faces that have no area; false if they cannot be taken out.
-bool begin(Growing& body, const Surface& surface) {
-  body.mesh = exact_mesh(surface);
+/// Without faces that have no area. Returns why it cannot be united with anything, else nothing:
+/// CGAL's unions need surfaces that cross themselves nowhere.
+std::string begin(Growing& body, const Surface& surface) {
+  body.mesh = body_mesh(surface);
   body.volume = volume(surface);
   const bool taken_out = pmp::remove_degenerate_faces(body.mesh);
   body.mesh.collect_garbage();
-  return taken_out && CGAL::is_closed(body.mesh) && CGAL::is_valid_polygon_mesh(body.mesh);
+  if (!taken_out || !CGAL::is_closed(body.mesh) || !CGAL::is_valid_polygon_mesh(body.mesh)) {
+    return "one has faces without area that cannot be taken out";
+  }
+  return pmp::does_self_intersect(body.mesh) ? "one crosses itself" : "";
 }
 
 /// Either the union or the reason why there is none.
@@ -93,86 +93,11 @@ struct UnionOrReason {
   std::string why;
 };
 
-/// The exact points of a mesh that have doubles in their place.
-class RoundedPoints {
- public:
-  explicit RoundedPoints(ExactMesh& mesh) : mesh_(mesh) {
-    for (const auto v : mesh.vertices()) {
-      const auto& p = CGAL::exact(mesh.point(v));
-      const UnitingKernel::Point_3 nearest(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                                           CGAL::to_double(p.z()));
-      if (nearest == mesh.point(v)) continue;
-      exact_.emplace(v, mesh.point(v));
-      mesh.point(v) = nearest;
-    }
-  }
-
-  /// Gives back the points of faces that cross others, or have no area, because of the rounding.
-  /// True if there were none.
-  bool give_back_crossing() {
-    std::vector<ExactMesh::Face_index> crossing;
-    std::vector<ExactMesh::Face_index> flat;
-    const auto rounded = faces_with_rounded_points();
-    for (const auto f : rounded) {
-      if (pmp::is_degenerate_triangle_face(f, mesh_)) flat.push_back(f);
-    }
-    if (flat.empty()) {
-      std::vector<std::pair<ExactMesh::Face_index, ExactMesh::Face_index>> pairs;
-      pmp::self_intersections(rounded, mesh_, std::back_inserter(pairs));
-      for (const auto& [f, g] : pairs) crossing.insert(crossing.end(), {f, g});
-    }
-    for (const auto& faces : {flat, crossing}) {
-      for (const auto f : faces) give_back(f);
-    }
-    return flat.empty() && crossing.empty();
-  }
-
-  void give_back_all() {
-    for (const auto& [v, p] : exact_) mesh_.point(v) = p;
-    exact_.clear();
-  }
-
- private:
-  [[nodiscard]] std::vector<ExactMesh::Face_index> faces_with_rounded_points() const {
-    std::vector<ExactMesh::Face_index> faces;
-    for (const auto& [v, p] : exact_) {
-      for (const auto f : CGAL::faces_around_target(mesh_.halfedge(v), mesh_)) faces.push_back(f);
-    }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    return faces;
-  }
-
-  void give_back(ExactMesh::Face_index f) {
-    for (const auto v : CGAL::vertices_around_face(mesh_.halfedge(f), mesh_)) {
-      const auto found = exact_.find(v);
-      if (found == exact_.end()) continue;
-      mesh_.point(v) = found->second;
-      exact_.erase(found);
-    }
-  }
-
-  ExactMesh& mesh_;
-  std::map<ExactMesh::Vertex_index, UnitingKernel::Point_3> exact_;
-};
-
-/// Points of intersection of faces between such points have numbers several times as long each
-/// time: doubles take their place wherever no faces cross for it.
-void round_where_nothing_crosses(ExactMesh& mesh) {
-  constexpr int rounds = 4;  // most crossings are gone after one
-  RoundedPoints points(mesh);
-  for (int round = 0; round < rounds; ++round) {
-    if (points.give_back_crossing()) return;
-  }
-  points.give_back_all();
-}
-
-/// A double is enough to tell a hollow from a body.
-double rough_volume(const ExactMesh& mesh, const std::vector<ExactMesh::Face_index>& faces) {
+double volume_within(const BodyMesh& mesh, const std::vector<BodyMesh::Face_index>& faces) {
   using Eigen::Vector3d;
-  const auto place = [&](ExactMesh::Vertex_index v) -> Vector3d {
+  const auto place = [&](BodyMesh::Vertex_index v) -> Vector3d {
     const auto& p = mesh.point(v);
-    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+    return {p.x(), p.y(), p.z()};
   };
   const Vector3d origin = place(mesh.target(mesh.halfedge(faces.front())));
   double sum = 0;
@@ -188,14 +113,14 @@ double rough_volume(const ExactMesh& mesh, const std::vector<ExactMesh::Face_ind
 
 /// Of the boundary of a body all but the outer component; false if there are several of these.
 bool fill_cavities(Growing& body) {
-  ExactMesh& mesh = body.mesh;
-  auto number = mesh.add_property_map<ExactMesh::Face_index, std::size_t>("f:part", 0).first;
+  BodyMesh& mesh = body.mesh;
+  auto number = mesh.add_property_map<BodyMesh::Face_index, std::size_t>("f:part", 0).first;
   const std::size_t parts = pmp::connected_components(mesh, number);
-  std::vector<std::vector<ExactMesh::Face_index>> faces(parts);
+  std::vector<std::vector<BodyMesh::Face_index>> faces(parts);
   for (const auto f : mesh.faces()) faces[number[f]].push_back(f);
   std::vector<std::size_t> outer;
   for (std::size_t part = 0; part < parts; ++part) {
-    const double its = rough_volume(mesh, faces[part]);
+    const double its = volume_within(mesh, faces[part]);
     if (its <= 0) continue;
     outer.push_back(part);
     body.volume = its;
@@ -210,11 +135,13 @@ bool fill_cavities(Growing& body) {
   return true;
 }
 
+constexpr const char* crossing = "their union would cross itself";
 constexpr const char* touching = "they touch in an edge or a vertex only, where no body can be one";
 
-UnionOrReason union_of(const Growing& one, const Growing& other) {
-  ExactMesh a = one.mesh;
-  ExactMesh b = other.mesh;
+/// As both are.
+UnionOrReason union_as_given(const Growing& one, const Growing& other) {
+  BodyMesh a = one.mesh;
+  BodyMesh b = other.mesh;
   Growing found;
   found.is_united = true;
   found.cavities = one.cavities + other.cavities;
@@ -224,19 +151,44 @@ UnionOrReason union_of(const Growing& one, const Growing& other) {
       return {std::nullopt, touching};
     }
   } catch (const pmp::Corefinement::Self_intersection_exception&) {
-    return {std::nullopt, "one crosses itself where they meet"};
+    return {std::nullopt, crossing};
   } catch (const CGAL::Failure_exception&) {
     return {std::nullopt, "one has no clear inside where they meet"};
   }
-  pmp::duplicate_non_manifold_vertices(found.mesh);
   found.mesh.collect_garbage();
-  if (!CGAL::is_valid_polygon_mesh(found.mesh)) return {std::nullopt, touching};
-  if (!has_volume_of_union(CGAL::to_double(pmp::volume(found.mesh)), one.volume, other.volume)) {
-    return {std::nullopt, "one crosses itself, so that the union has not its volume"};
+  const double its_volume = CGAL::to_double(pmp::volume(found.mesh));
+  if (!has_volume_of_union(its_volume, one.volume, other.volume)) {
+    return {std::nullopt, "what came of them has not the volume of a union"};
   }
   if (!fill_cavities(found)) return {std::nullopt, touching};
-  round_where_nothing_crosses(found.mesh);
+  if (pmp::does_self_intersect(found.mesh)) return {std::nullopt, crossing};
   return {std::move(found), {}};
+}
+
+/// A little larger in all directions: faces that lay in those of another lie in them no more.
+Growing grown(const Growing& body, double by) {
+  Growing result = body;
+  const auto box = pmp::bbox(body.mesh);
+  const double middle[] = {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
+                           (box.zmin() + box.zmax()) / 2};
+  const double factor[] = {1 + by / (box.xmax() - box.xmin()), 1 + by / (box.ymax() - box.ymin()),
+                           1 + by / (box.zmax() - box.zmin())};
+  for (const auto v : result.mesh.vertices()) {
+    auto& p = result.mesh.point(v);
+    p = UnitingKernel::Point_3(middle[0] + factor[0] * (p.x() - middle[0]),
+                               middle[1] + factor[1] * (p.y() - middle[1]),
+                               middle[2] + factor[2] * (p.z() - middle[2]));
+  }
+  result.volume *= factor[0] * factor[1] * factor[2];
+  return result;
+}
+
+/// Where coordinates as doubles make slivers cross one another, once more with the second a
+/// millionth of the extent larger.
+UnionOrReason union_of(const Growing& one, const Growing& other, double extent) {
+  UnionOrReason found = union_as_given(one, other);
+  if (found.body || found.why != crossing) return found;
+  return union_as_given(one, grown(other, 1e-6 * extent));
 }
 
 std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& joined) {
@@ -247,7 +199,7 @@ std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& j
     if (!bodies[idx(root)].is_united) continue;
     if (place[idx(root)] < 0) {
       place[idx(root)] = static_cast<int>(result.size());
-      result.push_back({{}, rounded(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
+      result.push_back({{}, surface_of(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
     }
     result[idx(place[idx(root)])].parts.push_back(c);
   }
@@ -262,18 +214,24 @@ class Uniting {
         is_open_(meeting.size(), 1),
         joined_(static_cast<std::int64_t>(parts.size())),
         bodies_(parts.size()) {
-    std::vector<char> is_fit(parts.size(), 0);
+    std::vector<std::string> unfit(parts.size());
+    Eigen::AlignedBox3d box;
     for (const auto& [a, b] : meeting) {
       for (const int c : {a, b}) {
         if (bodies_[idx(c)].mesh.number_of_faces() > 0) continue;
-        is_fit[idx(c)] = begin(bodies_[idx(c)], parts[idx(c)].surface) ? 1 : 0;
+        unfit[idx(c)] = begin(bodies_[idx(c)], parts[idx(c)].surface);
+        const Positions& positions = parts[idx(c)].surface.positions;
+        box.extend(Eigen::Vector3d(positions.colwise().minCoeff()));
+        box.extend(Eigen::Vector3d(positions.colwise().maxCoeff()));
       }
     }
+    if (!meeting.empty()) extent_ = box.diagonal().norm();
     for (std::size_t pair = 0; pair < meeting.size(); ++pair) {
       const auto& [a, b] = meeting[pair];
-      if (is_fit[idx(a)] && is_fit[idx(b)]) continue;
+      const std::string& why = unfit[idx(a)].empty() ? unfit[idx(b)] : unfit[idx(a)];
+      if (why.empty()) continue;
       is_open_[pair] = 0;
-      refused_.push_back({a, b, "one has faces without area that cannot be taken out"});
+      refused_.push_back({a, b, why});
     }
   }
 
@@ -358,7 +316,7 @@ class Uniting {
       others.volume += one.volume;
       others.cavities += one.cavities;
     }
-    UnionOrReason outcome = union_of(bodies_[idx(root)], others);
+    UnionOrReason outcome = union_of(bodies_[idx(root)], others, extent_);
     if (!outcome.body && pairs.size() > 1) {
       const auto half = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
       unite_with(hub, {pairs.begin(), half}, monitor);
@@ -384,6 +342,7 @@ class Uniting {
   UnionFind joined_;
   std::vector<Growing> bodies_;
   std::vector<RefusedUnion> refused_;
+  double extent_ = 0;  ///< of all parts together
 };
 
 }  // namespace

@@ -30,11 +30,12 @@ struct Unions {
   std::vector<RefusedUnion> refused;
 };
 
-/// Unites along `meeting` pairs, those with the fewest triangles first, so that each triangle is
-/// copied O(log parts) times. Points of intersection are exact until the end, when each is rounded
-/// to the nearest doubles. A union is refused, and its parts stay as they are, where a surface
-/// crosses itself at the other, where they touch in an edge or a vertex so that what comes of it
-/// would be no manifold, or where it has not the volume of a union. Throws Cancelled on a stop.
+/// Unites along `meeting` pairs, those with the fewest triangles first. Each point of intersection
+/// is rounded to the nearest doubles. Where bodies then cross themselves (faces in one plane leave
+/// slivers) they are united once more with one of them larger by a millionth of the parts' extent;
+/// so no body crosses itself. A union is refused, and its parts stay as they are, where a surface
+/// crosses itself, where they touch in an edge or a vertex only so that what comes of it would be
+/// no manifold, or where it has not the volume of a union. Throws Cancelled on a stop.
 /// Deterministic.
 [[nodiscard]] Unions unite(const std::vector<Component>& parts,
                            const std::vector<std::pair<int, int>>& meeting, const Monitor& monitor);

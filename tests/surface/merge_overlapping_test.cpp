@@ -52,11 +52,11 @@ Shape ball() { return shapes::ellipsoid({1, 1, 1}, 3); }
 
 Shape capsule() { return shapes::tube("capsule", shapes::straight(4), shapes::constant(0.5), 16); }
 
-void expect_one_body(const RepairedSurface& result, std::size_t parts, int genus = 0) {
+void expect_one_body(const RepairedSurface& result, std::size_t parts) {
   expect_closed_outward_manifold(result.surface);
   const Topology counted = topology(result.surface);
   EXPECT_EQ(counted.components(), 1);
-  EXPECT_EQ(counted.total_genus(), genus);
+  EXPECT_EQ(counted.total_genus(), 0);
   const Merging& merging = result.repairs.merging;
   EXPECT_EQ(merging.components, static_cast<int>(parts));
   ASSERT_EQ(merging.bodies.size(), 1U);
@@ -221,18 +221,17 @@ TEST(Merging, OfBoxesThatTouchIsSaid) {
   }
 }
 
-/// Along an eight whose one half is open: its middle is passed twice.
+/// Once round one half of a figure of eight, and through its own beginning.
 Shape crossing_itself() {
   const shapes::Curve eight = [](double t) -> Eigen::Vector3d {
-    const double angle = 2 * std::numbers::pi * (0.3 + 0.9 * t);
+    const double angle = std::numbers::pi * (-0.1 + 1.2 * t);
     return {3 * std::sin(angle), 3 * std::sin(angle) * std::cos(angle), 0};
   };
   return shapes::tube("eight", eight, shapes::constant(0.4), 16);
 }
 
 TEST(Merging, LeavesApartWhatCrossesItselfAndSaysSo) {
-  const Shape small = shapes::ellipsoid({0.3, 0.3, 0.3}, 3);
-  const std::vector<Shape> parts{crossing_itself(), at(small, 0, 0, 0.4)};
+  const std::vector<Shape> parts{crossing_itself(), shapes::ellipsoid({1, 1, 1}, 3)};
   const RepairedSurface result = merged(parts);
   const Merging& merging = result.repairs.merging;
   EXPECT_TRUE(merging.bodies.empty());
@@ -242,11 +241,6 @@ TEST(Merging, LeavesApartWhatCrossesItselfAndSaysSo) {
   EXPECT_NE(merging.apart.front().why.find("crosses itself"), std::string::npos);
   EXPECT_EQ(result.surface.positions.rows(),
             shapes::together("parts", parts).surface.positions.rows());
-}
-
-/// The closed half of the eight is a handle of both.
-TEST(Merging, TakesWhatCrossesItselfInsideTheOther) {
-  expect_one_body(merged({crossing_itself(), ball()}), 2, 1);
 }
 
 /// Six slabs round a hollow.
@@ -264,8 +258,7 @@ TEST(Merging, FillsTheHollowsBetweenParts) {
 
 TEST(Merging, OfManyPartsLosesNone) {
   std::vector<Shape> chain;
-  const Shape bead = shapes::ellipsoid({1, 1, 1}, 2);
-  for (int i = 0; i < 30; ++i) chain.push_back(at(bead, 1.3 * i, 0.1 * (i % 3), 0));
+  for (int i = 0; i < 30; ++i) chain.push_back(at(ball(), 1.3 * i, 0.1 * (i % 3), 0));
   expect_one_body(merged(chain), 30);
   std::vector<Shape> star{shapes::ellipsoid({3, 3, 3}, 4)};
   for (std::uint64_t i = 0; i < 30; ++i) {
