@@ -27,6 +27,9 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
              "chosen; below "
              "about 0.001 the wrap is too large to be made");
   add_number(parser, "--wrap-opening", options.wrap_gap, 0.0, 0.5, "its former name")->group("");
+  parser.add_flag("--merge-overlapping", options.merge_overlapping,
+                  "components that cross or touch become one body, those inside another are left "
+                  "out; what merely comes near stays apart");
   parser.parse_complete_callback([&options] {
     if (options.wrap == Wrapping::never && options.wrap_gap > 0) {
       throw CLI::ValidationError("--wrap-gap", "needs a wrap, so not --wrap never");

@@ -57,6 +57,24 @@ Json to_json(const Changes& c) {
           {"lines", c.lines}};
 }
 
+/// null where it was not asked for.
+Json to_json(const Merging& m) {
+  if (m.components == 0) return nullptr;
+  Json covered = Json::array();
+  for (const auto& one : m.covered) {
+    covered.push_back({{"component", one.component}, {"inside", one.inside}});
+  }
+  Json apart = Json::array();
+  for (const auto& one : m.apart) {
+    apart.push_back({{"component", one.component}, {"other", one.other}, {"why", one.why}});
+  }
+  return {{"components", m.components},
+          {"bodies", m.bodies},
+          {"covered", std::move(covered)},
+          {"apart", std::move(apart)},
+          {"cavities_filled", m.cavities_filled}};
+}
+
 Json to_json(const Repairs& r) {
   return {{"vertices_joined", r.vertices_joined},
           {"vertices_copied", r.vertices_copied},
@@ -77,17 +95,15 @@ Json to_json(const Repairs& r) {
           {"wrap_distance", r.wrap_distance},
           {"wrap_mean_distance", r.wrap_mean_distance},
           {"wrap_followed", r.wrap_followed},
+          {"merging", to_json(r.merging)},
           {"lines", r.lines}};
 }
 
 Json to_json(const RepairOptions& o) {
-  return {{"join_distance", o.join_distance},
-          {"least_area", o.least_area},
-          {"components", o.components},
-          {"most_added_area", o.most_added_area},
-          {"least_crumb", o.least_crumb},
-          {"wrap", name_of(wrappings, o.wrap)},
-          {"wrap_gap", o.wrap_gap}};
+  return {{"join_distance", o.join_distance}, {"least_area", o.least_area},
+          {"components", o.components},       {"most_added_area", o.most_added_area},
+          {"least_crumb", o.least_crumb},     {"wrap", name_of(wrappings, o.wrap)},
+          {"wrap_gap", o.wrap_gap},           {"merge_overlapping", o.merge_overlapping}};
 }
 
 Json to_json(const ContractionOptions& o) {
@@ -152,6 +168,8 @@ Json to_json(const ComponentRecord& c, bool with_times) {
   return {{"vertices", c.vertices},
           {"working_vertices", c.working_vertices},
           {"genus", c.genus},
+          {"inside_component", c.inside_component < 0 ? Json(nullptr) : Json(c.inside_component)},
+          {"overlaps", c.overlaps},
           {"stop", name_of(stops, c.stop)},
           {"contraction", std::move(steps)}};
 }

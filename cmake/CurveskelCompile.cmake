@@ -41,7 +41,11 @@ function(curveskel_units target)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   set(units "")
-  foreach(heavy IN ITEMS "CGAL/" "OpenMesh/" "(nlohmann/|tiny_gltf)")
+  foreach(heavy IN ITEMS
+      "corefinement=CGAL/.*/corefinement" "CGAL=CGAL/" "OpenMesh=OpenMesh/"
+      "nlohmann=(nlohmann/|tiny_gltf)")
+    string(REGEX MATCH "^[A-Za-z]+" name ${heavy})
+    string(REGEX REPLACE "^[A-Za-z]+=" "" heavy ${heavy})
     set(group "")
     foreach(source IN LISTS sources)
       file(STRINGS ${source} includes REGEX "^#include <${heavy}" LIMIT_COUNT 1)
@@ -51,13 +55,13 @@ function(curveskel_units target)
     endforeach()
     if(group)
       list(REMOVE_ITEM sources ${group})
-      string(REGEX MATCH "[A-Za-z]+" name ${heavy})
       curveskel_unit(${name} ${group})
     endif()
   endforeach()
   # GCC believes that CGAL's new cells may be null.
-  set_source_files_properties(${PROJECT_BINARY_DIR}/units/CGAL.cpp PROPERTIES
-    COMPILE_OPTIONS -Wno-null-dereference)
+  set_source_files_properties(
+    ${PROJECT_BINARY_DIR}/units/CGAL.cpp ${PROJECT_BINARY_DIR}/units/corefinement.cpp
+    PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
   # With sanitizers GCC believes that OpenMesh copies properties that were never set.
   set_source_files_properties(${PROJECT_BINARY_DIR}/units/OpenMesh.cpp PROPERTIES
     COMPILE_OPTIONS "-Wno-null-dereference;-Wno-maybe-uninitialized")

@@ -99,6 +99,18 @@ struct TubeUnionOptions {
 /// most 4; radius between `radius` and 1.5 `radius`.
 [[nodiscard]] CurveSkeleton random_graph(std::uint64_t seed, int nodes, int loops, double radius);
 
+/// One of the parts that assets are made of, each about as long as `size`, turned as it likes.
+enum class PartKind : std::uint8_t { box, ball, rod, sheet, ribbon };  // ribbons: 24 flat cells
+struct AssortedPart {
+  PartKind kind = PartKind::box;
+  double size = 1;       ///< its longest extent
+  double thickness = 1;  ///< its shortest
+  Shape shape;
+};
+/// So many parts that touch nowhere, of sizes from 1 / 100 to 1 of the largest and thicknesses from
+/// 1 / 300 of the size up, on a jittered grid.
+[[nodiscard]] std::vector<AssortedPart> assorted_parts(int count, std::uint64_t seed);
+
 /// The tubes round a random graph of 9 to 13 nodes and 0 to 3 loops; "random-seed-N".
 [[nodiscard]] Shape random_tubes(int seed);
 
@@ -114,6 +126,9 @@ struct TubeUnionOptions {
 [[nodiscard]] Shape noisy(Shape shape, double sigma, std::uint64_t seed);
 /// Each triangle cut into four at its edges' midpoints.
 [[nodiscard]] Shape subdivided(Shape shape);
+/// Rolled round the y axis: what lies at height z over x goes to the angle x / `radius` on the
+/// circle of radius `radius` + z. The caller keeps x within a turn and z above -`radius`. No axis.
+[[nodiscard]] Shape rolled(Shape shape, double radius);
 /// All shapes in one surface, which the caller has kept apart.
 [[nodiscard]] Shape together(std::string name, const std::vector<Shape>& parts);
 

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -92,6 +93,17 @@ Shape subdivided(Shape shape) {
     fine.triangles.row(4 * f + 3) << half[0], half[1], half[2];
   }
   shape.surface = std::move(fine);
+  return shape;
+}
+
+Shape rolled(Shape shape, double radius) {
+  for (auto p : shape.surface.positions.rowwise()) {
+    const double angle = p.x() / radius;
+    const double out = radius + p.z();
+    p << out * std::sin(angle), p.y(), out * std::cos(angle) - radius;
+  }
+  shape.axis = {};
+  shape.tips = shape.junctions = -1;
   return shape;
 }
 

@@ -61,7 +61,9 @@ struct ComponentRecord {
   int vertices = 0;          ///< of the surface passed in
   int working_vertices = 0;  ///< after coarsening or refining
   int genus = 0;
-  std::vector<Step> steps;  ///< of the last contraction
+  int inside_component = -1;  ///< the smallest that it lies wholly inside of; -1 = free
+  std::vector<int> overlaps;  ///< the components that it crosses or touches, ascending
+  std::vector<Step> steps;    ///< of the last contraction
   Stop stop = Stop::iterations;
 };
 

@@ -43,6 +43,9 @@ struct RepairOptions {
   /// chosen among 1/100, 1/40 and 1/15: the narrowest that encloses something, or after an
   /// extraction the one whose skeleton explains most.
   double wrap_gap = 0;
+  /// Components that cross or touch one another become one body, their exact union; those that lie
+  /// wholly inside another are left out. What merely comes near stays apart.
+  bool merge_overlapping = false;
 
   [[nodiscard]] bool operator==(const RepairOptions&) const = default;
 };
@@ -50,6 +53,24 @@ struct RepairOptions {
 /// Throws Error(Fault::usage) that names the first option out of its range, the value and the
 /// range.
 void require_valid(const RepairOptions& options);
+
+/// What came of RepairOptions::merge_overlapping. Components are numbered as they are without it.
+struct Merging {
+  struct Covered {
+    int component = 0;
+    int inside = 0;  ///< the smallest component around it
+  };
+  struct Apart {
+    int component = 0;
+    int other = 0;    ///< it meets this one
+    std::string why;  ///< they did not become one body
+  };
+  int components = 0;                    ///< before; 0 = not asked for
+  std::vector<std::vector<int>> bodies;  ///< the components of each body that is made of several
+  std::vector<Covered> covered;          ///< left out; their vertices follow the body's nearest
+  std::vector<Apart> apart;
+  int cavities_filled = 0;  ///< that the components of a body close in between them
+};
 
 /// The repairs beyond those that `Changes` counts. `lines` says the same in words.
 struct Repairs {
@@ -73,6 +94,7 @@ struct Repairs {
   double wrap_mean_distance = 0;  ///< mean over the wrap's area, of D
   double wrap_followed = 1;       ///< share of the repaired surface's area that lies within D / 100
                                   ///< of the faces given, D of what is wrapped; 1 without a wrap
+  Merging merging;
   std::vector<std::string> lines;
 };
 
@@ -90,8 +112,8 @@ struct RepairedSurface {
 /// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is
 /// no orientable 2-manifold, closes holes (see `close_surface`), wraps what still encloses nothing
 /// (see `wrap`) if the wrap holds more than its own thickness. With `Wrapping::all`, wraps what the
-/// file holds, whole or not. Then leaves out coincident copies of components, crumbs, specks,
-/// sheets, and all but the largest components if so wanted.
+/// file holds, whole or not. Then leaves out coincident copies of components, crumbs, specks and
+/// sheets, merges components that overlap and leaves out all but the largest, if so wanted.
 /// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.
 /// Deterministic. As fast as `clean` for a whole surface.
 [[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options = {},

@@ -22,6 +22,7 @@
 #include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
+#include "surface/mesh/overlaps.hpp"
 
 namespace curveskel {
 namespace {
@@ -159,7 +160,8 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   const Shared<Parts> parts = stage("normalise", stages.parts, {}, [&] {
     Topology counted = topology(surface);
     auto components = split_components(surface, counted);
-    return Parts{std::move(counted), std::move(components)};
+    auto overlaps = overlaps_of(surface, counted, monitor);
+    return Parts{std::move(counted), std::move(components), std::move(overlaps)};
   });
   TreeOfAll tree_of_all(surface, *parts, kept, options.threads);
   auto results = component_results(*parts, options, monitor,
@@ -167,6 +169,8 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   for (ComponentResult& one : results) {
     for (const StageTime& time : one.times) stage.clock.add(time);
     taken.insert(taken.end(), one.reused.begin(), one.reused.end());
+    one.record.inside_component = parts->overlaps.around[result.components.size()];
+    one.record.overlaps = parts->overlaps.met[result.components.size()];
     result.components.push_back(std::move(one.record));
   }
   const Shared<CertifiedSkeleton> certified =

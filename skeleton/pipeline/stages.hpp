@@ -19,6 +19,7 @@
 #include "skeleton/cut/as_contracted.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
 #include "skeleton/pipeline/stage_clock.hpp"
+#include "surface/mesh/overlaps.hpp"
 #include "surface/resample/canonical.hpp"
 
 namespace curveskel {
@@ -103,6 +104,7 @@ struct ComponentStages {
 struct Parts {
   Topology counted;
   std::vector<Component> components;
+  Overlaps overlaps;
 };
 
 struct CertifiedSkeleton {

@@ -1,7 +1,10 @@
 #include "surface/repair/describe_repairs.hpp"
 
+#include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "surface/repair/close_surface.hpp"
 
@@ -26,6 +29,44 @@ void line(Repairs& repairs, const Monitor& monitor, std::int64_t count, const st
   if (count == 0) return;
   repairs.lines.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + " " + what);
   monitor.say(repairs.lines.back());
+}
+
+/// "0, 2, 5", of many the first few.
+std::string list_of(const std::vector<int>& components) {
+  constexpr std::size_t shown = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, components.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(components[i]);
+  }
+  if (components.size() <= shown) return text;
+  return text + " and " + std::to_string(components.size() - shown) + " more";
+}
+
+/// What was merged, by the numbers of the components without merging.
+void describe_merging(Repairs& repairs, const Monitor& monitor) {
+  const Merging& merging = repairs.merging;
+  for (const auto& body : merging.bodies) {
+    line(repairs, monitor, static_cast<std::int64_t>(body.size()), "component", "components",
+         "that overlap became one body: " + list_of(body));
+  }
+  std::vector<int> covered;
+  for (const auto& one : merging.covered) covered.push_back(one.component);
+  line(repairs, monitor, static_cast<std::int64_t>(covered.size()), "component", "components",
+       "left out, inside another: " + list_of(covered));
+  line(repairs, monitor, merging.cavities_filled, "cavity", "cavities",
+       "filled between components that became one body");
+  std::map<std::string, std::vector<int>> apart;
+  for (const auto& one : merging.apart) {
+    auto& its = apart[one.why];
+    its.push_back(one.component);
+    its.push_back(one.other);
+  }
+  for (auto& [why, its] : apart) {
+    std::sort(its.begin(), its.end());
+    its.erase(std::unique(its.begin(), its.end()), its.end());
+    line(repairs, monitor, static_cast<std::int64_t>(its.size()), "component", "components",
+         "that overlap stayed apart, as " + why + ": " + list_of(its));
+  }
 }
 
 }  // namespace
@@ -56,6 +97,7 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
        "left out (small pieces cut off a much larger one; their vertices follow its nearest)");
   said(repairs.specks_dropped, "speck", "specks",
        "left out (components with very little of the largest one's area; see --min-size)");
+  describe_merging(repairs, monitor);
   said(repairs.not_chosen, "smaller component", "smaller components", "left out as asked");
 }
 

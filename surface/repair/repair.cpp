@@ -20,6 +20,7 @@
 #include "surface/repair/describe_repairs.hpp"
 #include "surface/repair/join_soup.hpp"
 #include "surface/repair/lies_in_plane.hpp"
+#include "surface/repair/merge_overlapping.hpp"
 #include "surface/repair/select_components.hpp"
 #include "surface/repair/weld.hpp"
 #include "surface/repair/wrap.hpp"
@@ -335,8 +336,13 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                                                 : clean_or_rebuilt(soup, options, monitor, threads);
   RepairedSurface& result = mended.result;
   if (!mended.has_one_component) {
-    leave_out_components(
-        result, {options.least_area, mended.was_cut ? options.least_crumb : 0, options.components});
+    const double least_crumb = mended.was_cut ? options.least_crumb : 0;
+    leave_out_components(result, {options.least_area, least_crumb,
+                                  options.merge_overlapping ? 0 : options.components});
+    if (options.merge_overlapping) {
+      merge_overlapping(result, monitor);
+      leave_out_components(result, {0, 0, options.components});
+    }
   }
   describe_repairs(result.repairs, monitor);
   if (mended.was_cut) monitor.report("repair", 1);

@@ -153,14 +153,14 @@ void leave_out_components(RepairedSurface& result, const SelectionRules& rules) 
   const Topology counted = topology(result.surface);
   const auto fates = choose_components(result.surface, counted, rules);
   const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
-  result.repairs.copies_dropped = count(Fate::copy);
-  result.repairs.crumbs_dropped = count(Fate::crumb);
+  result.repairs.copies_dropped += count(Fate::copy);
+  result.repairs.crumbs_dropped += count(Fate::crumb);
   result.repairs.specks_dropped += count(Fate::speck);
-  result.repairs.not_chosen = count(Fate::not_chosen);
+  result.repairs.not_chosen += count(Fate::not_chosen);
   if (count(Fate::kept) == counted.components()) return;
   const Positions positions = result.surface.positions;
   auto number = keep_components(result.surface, counted, fates);
-  if (result.repairs.crumbs_dropped > 0) {
+  if (count(Fate::crumb) > 0) {
     const SurfaceTree tree(result.surface);
     for (Eigen::Index v = 0; v < positions.rows(); ++v) {
       if (fates[idx(counted.component_of_vertex[v])] != Fate::crumb) continue;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <curveskel/advanced/measures.hpp>
@@ -68,6 +69,50 @@ TEST(Crowd, HasFewNodesForEachOfItsSmallParts) {
   };
   EXPECT_GT(nodes_each(1), 20);
   EXPECT_LE(nodes_each(216), 5);
+}
+
+/// The nodes of each part, by the map of its vertices.
+std::vector<int> nodes_of(const std::vector<shapes::AssortedPart>& parts,
+                          const CurveSkeleton& skeleton) {
+  std::vector<int> counts;
+  Eigen::Index vertex = 0;
+  for (const shapes::AssortedPart& part : parts) {
+    const Eigen::Index vertices = part.shape.surface.positions.rows();
+    const auto its = skeleton.node_of_vertex.segment(vertex, vertices);
+    const int first = its.minCoeff();
+    const int last = its.maxCoeff();
+    counts.push_back(last - first + 1);
+    vertex += vertices;
+  }
+  return counts;
+}
+
+/// Straight parts need no more than 5. A ribbon is a chain of flat cells, and thin enough that its
+/// curve may have to bend with each: it has fewer than two nodes a cell.
+int most_nodes(const shapes::AssortedPart& part) {
+  constexpr int straight = 5;
+  constexpr int cells_of_ribbon = 24;
+  return part.kind == shapes::PartKind::ribbon ? 2 * cells_of_ribbon : straight;
+}
+
+/// Boxes, balls, rods, sheets and ribbons, thin and thick: none longer than 4 % of the whole.
+TEST(Crowd, OfAssortedPartsHasFewNodesForEach) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const auto parts = shapes::assorted_parts(391, seed);
+    std::vector<Shape> shapes_of_all;
+    for (const auto& part : parts) shapes_of_all.push_back(part.shape);
+    const Extraction found = extract(shapes::together("assorted", shapes_of_all).surface);
+    EXPECT_TRUE(found.certificate.topology_correct());
+    EXPECT_TRUE(found.certificate.inside_enough);
+    ASSERT_EQ(found.components.size(), parts.size());
+    const std::vector<int> nodes = nodes_of(parts, found.skeleton);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      EXPECT_GE(nodes[i], 1);
+      EXPECT_LE(nodes[i], most_nodes(parts[i]))
+          << "kind " << int(parts[i].kind) << ", size " << parts[i].size << ", thickness "
+          << parts[i].thickness;
+    }
+  }
 }
 
 TEST(Crowd, IsTheSameForAnyNumberOfThreads) {

@@ -1,0 +1,168 @@
+#include "surface/mesh/overlaps.hpp"
+
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/tree.hpp>
+
+namespace curveskel {
+namespace {
+
+using MeetingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Box = Eigen::AlignedBox3d;
+using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
+
+/// The components by their vertices and faces, in the order of the surface.
+struct Members {
+  std::vector<Box> boxes;
+  std::vector<std::int32_t> a_vertex;  ///< one of each
+  std::vector<std::vector<std::int32_t>> faces;
+};
+
+Members members_of(const Surface& surface, const Topology& counted) {
+  const std::size_t components = counted.genus.size();
+  Members members{std::vector<Box>(components), std::vector<std::int32_t>(components, -1),
+                  std::vector<std::vector<std::int32_t>>(components)};
+  for (Eigen::Index v = surface.positions.rows(); v-- > 0;) {
+    const std::size_t own = idx(counted.component_of_vertex[v]);
+    members.boxes[own].extend(Eigen::Vector3d(surface.positions.row(v)));
+    members.a_vertex[own] = static_cast<std::int32_t>(v);
+  }
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.rows()); ++f) {
+    members.faces[idx(counted.component_of_vertex[surface.triangles(f, 0)])].push_back(f);
+  }
+  return members;
+}
+
+/// Per component the others whose boxes have a point in common with its own, ascending.
+std::vector<std::vector<int>> near_boxes(const std::vector<Box>& boxes) {
+  std::vector<int> by_start(boxes.size());
+  std::iota(by_start.begin(), by_start.end(), 0);
+  std::stable_sort(by_start.begin(), by_start.end(),
+                   [&](int a, int b) { return boxes[idx(a)].min().x() < boxes[idx(b)].min().x(); });
+  std::vector<std::vector<int>> near(boxes.size());
+  for (std::size_t i = 0; i < by_start.size(); ++i) {
+    const Box& one = boxes[idx(by_start[i])];
+    for (std::size_t j = i + 1; j < by_start.size(); ++j) {
+      const Box& other = boxes[idx(by_start[j])];
+      if (other.min().x() > one.max().x()) break;
+      if (!one.intersects(other)) continue;
+      near[idx(by_start[i])].push_back(by_start[j]);
+      near[idx(by_start[j])].push_back(by_start[i]);
+    }
+  }
+  for (auto& its : near) std::sort(its.begin(), its.end());
+  return near;
+}
+
+/// The boxes of the triangles that come into the box of a component other than their own.
+std::vector<FaceBox> faces_within_reach(const Surface& surface, const Members& members,
+                                        const std::vector<std::vector<int>>& near) {
+  std::vector<FaceBox> reached;
+  for (std::size_t c = 0; c < near.size(); ++c) {
+    if (near[c].empty()) continue;
+    for (const std::int32_t f : members.faces[c]) {
+      Box box;
+      for (const std::int32_t v : surface.triangles.row(f)) {
+        box.extend(Eigen::Vector3d(surface.positions.row(v)));
+      }
+      const bool within = std::any_of(near[c].begin(), near[c].end(), [&](int other) {
+        return members.boxes[idx(other)].intersects(box);
+      });
+      if (!within) continue;
+      reached.emplace_back(CGAL::Bbox_3(box.min().x(), box.min().y(), box.min().z(), box.max().x(),
+                                        box.max().y(), box.max().z()),
+                           f);
+    }
+  }
+  return reached;
+}
+
+MeetingKernel::Triangle_3 triangle_of(const Surface& surface, std::int32_t face) {
+  const auto corner = [&](int k) {
+    const auto p = surface.positions.row(surface.triangles(face, k));
+    return MeetingKernel::Point_3(p.x(), p.y(), p.z());
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+/// Triangles without area meet nothing: CGAL needs a plane, and their neighbours stand for them.
+std::set<std::pair<int, int>> meeting_pairs(const Surface& surface, const Topology& counted,
+                                            std::vector<FaceBox>& reached,
+                                            const std::stop_token& stop) {
+  std::set<std::pair<int, int>> meeting;
+  const auto own = [&](const FaceBox& box) {
+    return counted.component_of_vertex[surface.triangles(box.info(), 0)];
+  };
+  const auto compare = [&](const FaceBox& a, const FaceBox& b) {
+    if (own(a) == own(b)) return;
+    const std::pair<int, int> both = std::minmax(own(a), own(b));
+    if (meeting.contains(both)) return;
+    if (stop.stop_requested()) throw Cancelled();
+    const auto one = triangle_of(surface, a.info());
+    const auto other = triangle_of(surface, b.info());
+    if (one.is_degenerate() || other.is_degenerate()) return;
+    if (CGAL::do_intersect(one, other)) meeting.insert(both);
+  };
+  CGAL::box_self_intersection_d(reached.begin(), reached.end(), compare);
+  return meeting;
+}
+
+/// The surface of one component alone; all positions stay.
+SurfaceTree tree_of(const Surface& surface, const std::vector<std::int32_t>& faces) {
+  return SurfaceTree({surface.positions, surface.triangles(faces, Eigen::all)});
+}
+
+/// A component that meets no other lies inside it with all its vertices or with none.
+std::vector<int> components_around(const Surface& surface, const Members& members,
+                                   const std::vector<std::vector<int>>& near,
+                                   const std::set<std::pair<int, int>>& meeting) {
+  std::vector<int> around(near.size(), -1);
+  for (std::size_t c = 0; c < near.size(); ++c) {
+    std::optional<SurfaceTree> tree;
+    for (const int inner : near[c]) {
+      const Box& box = members.boxes[c];
+      int& so_far = around[idx(inner)];
+      if (!box.contains(members.boxes[idx(inner)])) continue;
+      if (meeting.contains(std::minmax(static_cast<int>(c), inner))) continue;
+      if (so_far >= 0 && members.boxes[idx(so_far)].volume() <= box.volume()) continue;
+      if (!tree) tree.emplace(tree_of(surface, members.faces[c]));
+      const Eigen::Vector3d vertex = surface.positions.row(members.a_vertex[idx(inner)]);
+      if (tree->inside(vertex)) so_far = static_cast<int>(c);
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+Overlaps overlaps_of(const Surface& surface, const Topology& counted, const Monitor& monitor) {
+  Overlaps result{std::vector<std::vector<int>>(counted.genus.size()),
+                  std::vector<int>(counted.genus.size(), -1)};
+  if (counted.components() < 2) return result;
+  const Members members = members_of(surface, counted);
+  const auto near = near_boxes(members.boxes);
+  auto reached = faces_within_reach(surface, members, near);
+  const auto meeting = meeting_pairs(surface, counted, reached, monitor.stop);
+  for (const auto& [a, b] : meeting) {
+    result.met[idx(a)].push_back(b);
+    result.met[idx(b)].push_back(a);
+  }
+  for (auto& others : result.met) std::sort(others.begin(), others.end());
+  result.around = components_around(surface, members, near, meeting);
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,357 @@
+#include "surface/repair/unite.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/union_find.hpp>
+
+namespace curveskel {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using UnitingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using BodyMesh = CGAL::Surface_mesh<UnitingKernel::Point_3>;
+
+BodyMesh body_mesh(const Surface& surface) {
+  BodyMesh mesh;
+  using Vertex = BodyMesh::Vertex_index;
+  for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
+  const auto vertex = [](std::int32_t v) { return Vertex(static_cast<std::uint32_t>(v)); };
+  for (const auto& t : surface.triangles.rowwise()) {
+    mesh.add_face(vertex(t(0)), vertex(t(1)), vertex(t(2)));
+  }
+  return mesh;
+}
+
+Surface surface_of(const BodyMesh& mesh) {
+  Surface surface;
+  surface.positions.resize(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
+  surface.triangles.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
+  std::vector<std::int32_t> number(mesh.num_vertices(), -1);
+  std::int32_t vertices = 0;
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    surface.positions.row(vertices) << p.x(), p.y(), p.z();
+    number[v] = vertices++;
+  }
+  Eigen::Index faces = 0;
+  for (const auto f : mesh.faces()) {
+    int k = 0;
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
+      surface.triangles(faces, k++) = number[v];
+    }
+    ++faces;
+  }
+  return surface;
+}
+
+/// A body while others are added to it.
+struct Growing {
+  BodyMesh mesh;
+  double volume = 0;
+  int cavities = 0;  ///< filled so far
+  bool is_united = false;
+};
+
+/// The volume of a union is the greater one's at least and the sum at most.
+bool has_volume_of_union(double found, double one, double other) {
+  constexpr double rounding = 1e-9;
+  const double sum = one + other;
+  return found >= std::max(one, other) - rounding * sum && found <= sum * (1 + rounding);
+}
+
+/// Without faces that have no area. Returns why it cannot be united with anything, else nothing:
+/// CGAL's unions need surfaces that cross themselves nowhere.
+std::string begin(Growing& body, const Surface& surface) {
+  body.mesh = body_mesh(surface);
+  body.volume = volume(surface);
+  const bool taken_out = pmp::remove_degenerate_faces(body.mesh);
+  body.mesh.collect_garbage();
+  if (!taken_out || !CGAL::is_closed(body.mesh) || !CGAL::is_valid_polygon_mesh(body.mesh)) {
+    return "one has faces without area that cannot be taken out";
+  }
+  return pmp::does_self_intersect(body.mesh) ? "one crosses itself" : "";
+}
+
+/// Either the union or the reason why there is none.
+struct UnionOrReason {
+  std::optional<Growing> body;
+  std::string why;
+};
+
+double volume_within(const BodyMesh& mesh, const std::vector<BodyMesh::Face_index>& faces) {
+  using Eigen::Vector3d;
+  const auto place = [&](BodyMesh::Vertex_index v) -> Vector3d {
+    const auto& p = mesh.point(v);
+    return {p.x(), p.y(), p.z()};
+  };
+  const Vector3d origin = place(mesh.target(mesh.halfedge(faces.front())));
+  double sum = 0;
+  for (const auto f : faces) {
+    const auto h = mesh.halfedge(f);
+    const Vector3d a = place(mesh.source(h)) - origin;
+    const Vector3d b = place(mesh.target(h)) - origin;
+    const Vector3d c = place(mesh.target(mesh.next(h))) - origin;
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
+/// Of the boundary of a body all but the outer component; false if there are several of these.
+bool fill_cavities(Growing& body) {
+  BodyMesh& mesh = body.mesh;
+  auto number = mesh.add_property_map<BodyMesh::Face_index, std::size_t>("f:part", 0).first;
+  const std::size_t parts = pmp::connected_components(mesh, number);
+  std::vector<std::vector<BodyMesh::Face_index>> faces(parts);
+  for (const auto f : mesh.faces()) faces[number[f]].push_back(f);
+  std::vector<std::size_t> outer;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const double its = volume_within(mesh, faces[part]);
+    if (its <= 0) continue;
+    outer.push_back(part);
+    body.volume = its;
+  }
+  if (outer.size() != 1) return false;
+  body.cavities += static_cast<int>(parts) - 1;
+  if (parts > 1) {
+    pmp::keep_connected_components(mesh, outer, number);
+    mesh.collect_garbage();
+  }
+  mesh.remove_property_map(number);
+  return true;
+}
+
+constexpr const char* crossing = "their union would cross itself";
+constexpr const char* touching = "they touch in an edge or a vertex only, where no body can be one";
+
+/// As both are.
+UnionOrReason union_as_given(const Growing& one, const Growing& other) {
+  BodyMesh a = one.mesh;
+  BodyMesh b = other.mesh;
+  Growing found;
+  found.is_united = true;
+  found.cavities = one.cavities + other.cavities;
+  try {
+    const auto strictly = CGAL::parameters::throw_on_self_intersection(true);
+    if (!pmp::corefine_and_compute_union(a, b, found.mesh, strictly)) {
+      return {std::nullopt, touching};
+    }
+  } catch (const pmp::Corefinement::Self_intersection_exception&) {
+    return {std::nullopt, crossing};
+  } catch (const CGAL::Failure_exception&) {
+    return {std::nullopt, "one has no clear inside where they meet"};
+  }
+  found.mesh.collect_garbage();
+  const double its_volume = CGAL::to_double(pmp::volume(found.mesh));
+  if (!has_volume_of_union(its_volume, one.volume, other.volume)) {
+    return {std::nullopt, "what came of them has not the volume of a union"};
+  }
+  if (!fill_cavities(found)) return {std::nullopt, touching};
+  if (pmp::does_self_intersect(found.mesh)) return {std::nullopt, crossing};
+  return {std::move(found), {}};
+}
+
+/// A little larger in all directions: faces that lay in those of another lie in them no more.
+Growing grown(const Growing& body, double by) {
+  Growing result = body;
+  const auto box = pmp::bbox(body.mesh);
+  const double middle[] = {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
+                           (box.zmin() + box.zmax()) / 2};
+  const double factor[] = {1 + by / (box.xmax() - box.xmin()), 1 + by / (box.ymax() - box.ymin()),
+                           1 + by / (box.zmax() - box.zmin())};
+  for (const auto v : result.mesh.vertices()) {
+    auto& p = result.mesh.point(v);
+    p = UnitingKernel::Point_3(middle[0] + factor[0] * (p.x() - middle[0]),
+                               middle[1] + factor[1] * (p.y() - middle[1]),
+                               middle[2] + factor[2] * (p.z() - middle[2]));
+  }
+  result.volume *= factor[0] * factor[1] * factor[2];
+  return result;
+}
+
+/// Where coordinates as doubles make slivers cross one another, once more with the second a
+/// millionth of the extent larger.
+UnionOrReason union_of(const Growing& one, const Growing& other, double extent) {
+  UnionOrReason found = union_as_given(one, other);
+  if (found.body || found.why != crossing) return found;
+  return union_as_given(one, grown(other, 1e-6 * extent));
+}
+
+std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& joined) {
+  std::vector<UnitedBody> result;
+  std::vector<int> place(bodies.size(), -1);
+  for (int c = 0; c < static_cast<int>(bodies.size()); ++c) {
+    const int root = joined.root(c);
+    if (!bodies[idx(root)].is_united) continue;
+    if (place[idx(root)] < 0) {
+      place[idx(root)] = static_cast<int>(result.size());
+      result.push_back({{}, surface_of(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
+    }
+    result[idx(place[idx(root)])].parts.push_back(c);
+  }
+  return result;
+}
+
+/// Bodies that grow from the parts, and the pairs that are still to be united.
+class Uniting {
+ public:
+  Uniting(const std::vector<Component>& parts, const std::vector<std::pair<int, int>>& meeting)
+      : meeting_(meeting),
+        is_open_(meeting.size(), 1),
+        joined_(static_cast<std::int64_t>(parts.size())),
+        bodies_(parts.size()) {
+    std::vector<std::string> unfit(parts.size());
+    Eigen::AlignedBox3d box;
+    for (const auto& [a, b] : meeting) {
+      for (const int c : {a, b}) {
+        if (bodies_[idx(c)].mesh.number_of_faces() > 0) continue;
+        unfit[idx(c)] = begin(bodies_[idx(c)], parts[idx(c)].surface);
+        const Positions& positions = parts[idx(c)].surface.positions;
+        box.extend(Eigen::Vector3d(positions.colwise().minCoeff()));
+        box.extend(Eigen::Vector3d(positions.colwise().maxCoeff()));
+      }
+    }
+    if (!meeting.empty()) extent_ = box.diagonal().norm();
+    for (std::size_t pair = 0; pair < meeting.size(); ++pair) {
+      const auto& [a, b] = meeting[pair];
+      const std::string& why = unfit[idx(a)].empty() ? unfit[idx(b)] : unfit[idx(a)];
+      if (why.empty()) continue;
+      is_open_[pair] = 0;
+      refused_.push_back({a, b, why});
+    }
+  }
+
+  void run(const Monitor& monitor) {
+    while (const auto next = smallest_pair()) {
+      monitor.report("merge", double(std::count(is_open_.begin(), is_open_.end(), char{0})) /
+                                  double(meeting_.size()));
+      const auto& [a, b] = meeting_[*next];
+      const int hub = triangles(joined_.root(a)) < triangles(joined_.root(b)) ? b : a;
+      unite_with(hub, pairs_at(hub, *next), monitor);
+    }
+  }
+
+  [[nodiscard]] Unions result() {
+    std::erase_if(refused_, [&](const RefusedUnion& one) {
+      return joined_.root(one.one) == joined_.root(one.other);
+    });
+    return {united_bodies(bodies_, joined_), std::move(refused_)};
+  }
+
+ private:
+  using Pairs = std::vector<std::size_t>;
+
+  [[nodiscard]] std::size_t triangles(int root) const {
+    return bodies_[idx(root)].mesh.number_of_faces();
+  }
+
+  /// Of the open pairs; closes those that came to belong to one body.
+  std::optional<std::size_t> smallest_pair() {
+    std::optional<std::size_t> smallest;
+    std::size_t fewest = 0;
+    for (std::size_t pair = 0; pair < meeting_.size(); ++pair) {
+      if (!is_open_[pair]) continue;
+      const int a = joined_.root(meeting_[pair].first);
+      const int b = joined_.root(meeting_[pair].second);
+      if (a == b) is_open_[pair] = 0;
+      const std::size_t both = triangles(a) + triangles(b);
+      if (a == b || (smallest && both >= fewest)) continue;
+      smallest = pair;
+      fewest = both;
+    }
+    return smallest;
+  }
+
+  /// An open pair for each of several bodies that meet the hub, but not one another; `first` is one
+  /// of the pairs.
+  Pairs pairs_at(int hub, std::size_t first) {
+    const int root = joined_.root(hub);
+    std::map<int, std::set<int>> met;
+    Pairs at_hub{first};
+    for (std::size_t pair = 0; pair < meeting_.size(); ++pair) {
+      const int a = joined_.root(meeting_[pair].first);
+      const int b = joined_.root(meeting_[pair].second);
+      met[a].insert(b);
+      met[b].insert(a);
+      if (is_open_[pair] && (a == root) != (b == root) && pair != first) at_hub.push_back(pair);
+    }
+    Pairs chosen;
+    std::set<int> barred{root};
+    for (const std::size_t pair : at_hub) {
+      const int other = other_than(root, pair);
+      if (!barred.insert(other).second) continue;
+      barred.insert(met[other].begin(), met[other].end());
+      chosen.push_back(pair);
+    }
+    return chosen;
+  }
+
+  int other_than(int root, std::size_t pair) {
+    const int a = joined_.root(meeting_[pair].first);
+    return a == root ? joined_.root(meeting_[pair].second) : a;
+  }
+
+  /// All at once; where that fails in halves, so that one that cannot be united bars no other.
+  void unite_with(int hub, const Pairs& pairs, const Monitor& monitor) {
+    if (monitor.stop.stop_requested()) throw Cancelled();
+    const int root = joined_.root(hub);
+    Growing others;
+    for (const std::size_t pair : pairs) {
+      const Growing& one = bodies_[idx(other_than(root, pair))];
+      CGAL::copy_face_graph(one.mesh, others.mesh);
+      others.volume += one.volume;
+      others.cavities += one.cavities;
+    }
+    UnionOrReason outcome = union_of(bodies_[idx(root)], others, extent_);
+    if (!outcome.body && pairs.size() > 1) {
+      const auto half = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
+      unite_with(hub, {pairs.begin(), half}, monitor);
+      unite_with(hub, {half, pairs.end()}, monitor);
+      return;
+    }
+    for (const std::size_t pair : pairs) {
+      is_open_[pair] = 0;
+      const auto& [a, b] = meeting_[pair];
+      if (!outcome.body) {
+        refused_.push_back({a, b, outcome.why});
+        continue;
+      }
+      bodies_[idx(joined_.root(a))].mesh.clear();
+      bodies_[idx(joined_.root(b))].mesh.clear();
+      joined_.unite(a, b);
+    }
+    if (outcome.body) bodies_[idx(joined_.root(hub))] = std::move(*outcome.body);
+  }
+
+  const std::vector<std::pair<int, int>>& meeting_;
+  std::vector<char> is_open_;
+  UnionFind joined_;
+  std::vector<Growing> bodies_;
+  std::vector<RefusedUnion> refused_;
+  double extent_ = 0;  ///< of all parts together
+};
+
+}  // namespace
+
+Unions unite(const std::vector<Component>& parts, const std::vector<std::pair<int, int>>& meeting,
+             const Monitor& monitor) {
+  Uniting uniting(parts, meeting);
+  uniting.run(monitor);
+  return uniting.result();
+}
+
+}  // namespace curveskel
