@@ -68,11 +68,9 @@ Json to_json(const Merging& m) {
   for (const auto& one : m.apart) {
     apart.push_back({{"component", one.component}, {"other", one.other}, {"why", one.why}});
   }
-  return {{"components", m.components},
-          {"bodies", m.bodies},
-          {"covered", std::move(covered)},
-          {"apart", std::move(apart)},
-          {"cavities_filled", m.cavities_filled}};
+  return {{"components", m.components},           {"bodies", m.bodies},
+          {"covered", std::move(covered)},        {"apart", std::move(apart)},
+          {"cavities_filled", m.cavities_filled}, {"handles_made", m.handles_made}};
 }
 
 Json to_json(const Repairs& r) {

@@ -70,6 +70,7 @@ struct Merging {
   std::vector<Covered> covered;          ///< left out; their vertices follow the body's nearest
   std::vector<Apart> apart;
   int cavities_filled = 0;  ///< that the components of a body close in between them
+  int handles_made = 0;     ///< round openings that the components of a body leave between them
 };
 
 /// The repairs beyond those that `Changes` counts. `lines` says the same in words.

@@ -16,14 +16,30 @@ std::vector<int> child_counts(const Rig& rig) {
   return counts;
 }
 
+/// Of each joint: it has the greatest weight of some vertex.
+std::vector<bool> leading_joints(const Rig& rig) {
+  std::vector<bool> leads(idx(rig.parents.size()), false);
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    Eigen::Index most = -1;
+    float weight = 0;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (it.value() <= weight) continue;
+      most = it.col();
+      weight = it.value();
+    }
+    if (most >= 0) leads[idx(most)] = true;
+  }
+  return leads;
+}
+
 /// Parents come before their children.
 std::vector<bool> handles_of(const Rig& rig) {
   const std::vector<int> children = child_counts(rig);
-  const std::vector<bool> moves = moving_joints(rig);
+  const std::vector<bool> leads = leading_joints(rig);
   std::vector<bool> handles(children.size(), false);
   for (std::size_t joint = 0; joint < children.size(); ++joint) {
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
-    handles[joint] = (parent < 0 || handles[idx(parent)]) && !moves[joint] && children[joint] == 1;
+    handles[joint] = (parent < 0 || handles[idx(parent)]) && !leads[joint] && children[joint] == 1;
   }
   return handles;
 }

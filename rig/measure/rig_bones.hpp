@@ -16,8 +16,8 @@ struct RigBones {
   std::vector<std::pair<int, int>> ends;  ///< of each bone, parent and child
 };
 
-/// Left out are topmost joints that move nothing and have one child (a handle on the ground); those
-/// in one place, to `tolerance`, are one.
+/// Left out are topmost joints that have no vertex' greatest weight and one child (a handle on the
+/// ground); those in one place, to `tolerance`, are one.
 [[nodiscard]] RigBones rig_bones(const Rig& rig, double tolerance);
 
 /// The joint from which all hang, handles left out; of several the one with most joints below.

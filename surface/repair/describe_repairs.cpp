@@ -55,6 +55,8 @@ void describe_merging(Repairs& repairs, const Monitor& monitor) {
        "left out, inside another: " + list_of(covered));
   line(repairs, monitor, merging.cavities_filled, "cavity", "cavities",
        "filled between components that became one body");
+  line(repairs, monitor, merging.handles_made, "handle", "handles",
+       "made by openings between components that became one body; the curve goes round each");
   std::map<std::string, std::vector<int>> apart;
   for (const auto& one : merging.apart) {
     auto& its = apart[one.why];

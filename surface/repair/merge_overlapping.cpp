@@ -35,12 +35,15 @@ int outermost(const Overlaps& overlaps, int component) {
   return component;
 }
 
-Merging record_of(const Overlaps& overlaps, const Unions& unions) {
+Merging record_of(const Topology& counted, const Overlaps& overlaps, const Unions& unions) {
   Merging merging;
   merging.components = static_cast<int>(overlaps.around.size());
   for (const UnitedBody& body : unions.bodies) {
     merging.bodies.push_back(body.parts);
     merging.cavities_filled += body.cavities;
+    int handles = topology(body.surface).total_genus();
+    for (const int part : body.parts) handles -= counted.genus[idx(part)];
+    merging.handles_made += std::max(handles, 0);
   }
   for (int c = 0; c < merging.components; ++c) {
     if (overlaps.around[idx(c)] >= 0) merging.covered.push_back({c, overlaps.around[idx(c)]});
@@ -117,7 +120,7 @@ void merge_overlapping(RepairedSurface& result, const Monitor& monitor) {
   const Overlaps overlaps = overlaps_of(result.surface, counted, monitor);
   const auto parts = split_components(result.surface, counted);
   const Unions unions = unite(parts, pairs_to_unite(overlaps), monitor);
-  result.repairs.merging = record_of(overlaps, unions);
+  result.repairs.merging = record_of(counted, overlaps, unions);
   if (unions.bodies.empty() && result.repairs.merging.covered.empty()) return;
   const MergedSurface merged(parts, overlaps, unions, result.surface.positions.rows());
   result.surface = merged.whole();

@@ -189,6 +189,10 @@ TEST(CompareRigs, HandlesAndJointsInOnePlaceDoNotCount) {
   expect_same(compare_rigs(truth, rig), same, 1e-12);
   ASSERT_TRUE(compare_rigs(rig, truth).weights.has_value());
   EXPECT_EQ(compare_rigs(rig, truth).weights->l1, 0);
+  rig.rig.weights.coeffRef(0, 0) = 0.2F;  // a stray weight makes no joint of a handle
+  const RigComparison stray = compare_rigs(truth, rig);
+  EXPECT_EQ(stray.truth_joints, same.truth_joints);
+  EXPECT_EQ(stray.root_distance, same.root_distance);
 }
 
 /// Turned by 45 degrees about another place along the bone, what moves ends up a chord away; what

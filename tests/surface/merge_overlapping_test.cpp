@@ -256,6 +256,20 @@ TEST(Merging, FillsTheHollowsBetweenParts) {
   EXPECT_EQ(result.repairs.merging.cavities_filled, 1);
 }
 
+/// Four bars of a frame.
+TEST(Merging, CountsTheHandlesThatPartsMakeTogether) {
+  std::vector<Shape> bars;
+  for (const double side : {-2.0, 2.0}) {
+    bars.push_back(at(shapes::box({1, 5, 1}, 5), side, 0, 0));
+    bars.push_back(at(shapes::box({5, 1, 0.9}, 5), 0, side, 0));
+  }
+  const RepairedSurface frame = merged(turned(bars, 3));
+  EXPECT_EQ(topology(frame.surface).total_genus(), 1);
+  EXPECT_EQ(frame.repairs.merging.handles_made, 1);
+  bars.pop_back();
+  EXPECT_EQ(merged(turned(bars, 3)).repairs.merging.handles_made, 0);
+}
+
 TEST(Merging, OfManyPartsLosesNone) {
   std::vector<Shape> chain;
   for (int i = 0; i < 30; ++i) chain.push_back(at(ball(), 1.3 * i, 0.1 * (i % 3), 0));
