@@ -38,6 +38,7 @@
 #include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig.hpp>
+#include <curveskel/rig_character.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/role_names.hpp>

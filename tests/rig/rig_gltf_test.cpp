@@ -1,6 +1,8 @@
 // Laws of what is inside written rigs: lengths, matrices, bounds, normals, as glTF 2.0 wants them.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <cstring>
 #include <map>

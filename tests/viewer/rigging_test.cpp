@@ -169,12 +169,12 @@ TEST_F(Rigging, ANewSkeletonHasNoRootAndSaysSo) {
 
 TEST_F(Rigging, FollowsItsParametersEvenWhileItIsMade) {
   open_y();
-  bench.pipeline.rig.joints.bone_length = 100;
+  bench.pipeline.character.rig.joints.bone_length = 100;
   make_rig();
   const auto few = bench.scene->rig()->joints.rows();
-  bench.pipeline.rig.joints.bone_length = 50;
+  bench.pipeline.character.rig.joints.bone_length = 50;
   bench.rig();
-  bench.pipeline.rig.joints.bone_length = 1;
+  bench.pipeline.character.rig.joints.bone_length = 1;
   bench.rig();
   ASSERT_TRUE(wait([&] { return !bench.busy(); }));
   EXPECT_GT(bench.scene->rig()->joints.rows(), 2 * few);

@@ -29,7 +29,7 @@ constexpr int largest_side = 16384;
 void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
              const ViewOptions& options, const Monitor& monitor) {
   scene.recording.add(
-      moment_of(rig_of(scene.document, repaired, skeleton, options.pipeline.rig, monitor)));
+      moment_of(rig_of(scene.document, repaired, skeleton, options.pipeline.character, monitor)));
 }
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.

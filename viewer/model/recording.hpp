@@ -9,6 +9,7 @@
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/rig.hpp>
+#include <curveskel/rig_character.hpp>
 #include <curveskel/tries.hpp>
 #include "viewer/render/shapes_shown.hpp"
 
@@ -29,6 +30,7 @@ struct Moment {
   std::shared_ptr<const ShownSurface> surface;  ///< the component then; null where all is as given
   std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
   std::shared_ptr<const Rig> rig;                 ///< by the file's vertices; null but for "rig"
+  std::shared_ptr<const CharacterRig> character;  ///< the same with its plan and parts
 };
 
 /// "contraction 3 (faired)", "input": what a person calls it.

@@ -1,26 +1,44 @@
 #include "viewer/model/rigging.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace curveskel::viewer {
 
-std::shared_ptr<const Rig> rig_of(const Document& document, const RepairedSurface& repaired,
-                                  const CurveSkeleton& skeleton, const RigOptions& options,
-                                  const Monitor& monitor) {
+std::shared_ptr<const CharacterRig> rig_of(const Document& document,
+                                           const RepairedSurface& repaired,
+                                           const CurveSkeleton& skeleton,
+                                           const CharacterOptions& options,
+                                           const Monitor& monitor) {
   const CurveSkeleton mapped =
       skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
-  RigOptions facing = options;
-  facing.faces_minus_z = document.faces_minus_z;
-  return std::make_shared<const Rig>(
-      rig_of_given(make_rig(repaired.surface, mapped, facing, monitor), repaired.surface, mapped,
-                   repaired.vertex_of_input, document.surface));
+  CharacterOptions facing = options;
+  facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
+  return std::make_shared<const CharacterRig>(
+      rig_character(document.surface, repaired, mapped, facing, monitor));
 }
 
-Moment moment_of(std::shared_ptr<const Rig> rig) {
+Moment moment_of(std::shared_ptr<const CharacterRig> character) {
   Moment moment;
   moment.stage = "rig";
-  moment.rig = std::move(rig);
+  moment.rig = std::shared_ptr<const Rig>(character, &character->rig);
+  moment.character = std::move(character);
   return moment;
+}
+
+std::string words_of(const CharacterRig& character) {
+  std::string words = fmt::format("{} joints", character.rig.joints.rows());
+  if (character.plan.plan != BodyKind::none) {
+    words +=
+        fmt::format(", {} ({})", name_of(body_kinds, character.plan.plan), character.plan.reason);
+  }
+  const auto& parts = character.parts.parts;
+  const auto followers =
+      std::count_if(parts.begin(), parts.end(), [](const RigPart& part) { return part.follows; });
+  if (followers > 0) words += fmt::format("; {} of {} parts follow", followers, parts.size());
+  return words;
 }
 
 }  // namespace curveskel::viewer

@@ -14,9 +14,9 @@
 #include <curveskel/advanced/extraction_cache.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract.hpp>
-#include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
+#include <curveskel/rig_character.hpp>
 #include "viewer/model/recording.hpp"
 
 namespace curveskel::viewer {
@@ -24,7 +24,7 @@ namespace curveskel::viewer {
 struct RunOptions {
   RepairOptions repair;
   ExtractOptions extract;
-  RigOptions rig;
+  CharacterOptions character;
   bool gives_way = false;  ///< to the threads that draw
 };
 

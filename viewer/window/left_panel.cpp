@@ -108,12 +108,23 @@ void parameters(Workbench& bench) {
 }
 
 void rig(Workbench& bench) {
-  const RigOptions usual;
-  RigOptions& options = bench.pipeline.rig;
+  const CharacterOptions usual;
+  CharacterOptions& options = bench.pipeline.character;
+  const PlanOptions plan = options.plan;
+  const NameStyle names = options.names;
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
-  bool changed = slide("bone length", options.joints.bone_length, usual.joints.bone_length, 1, 30,
-                       "Of straight limbs, in their radius. Small = many joints.");
-  changed |= slide("softness", options.skin.softness, usual.skin.softness, 0.2, 5,
+  choose("plan", options.plan.plan, body_kinds);
+  choose("names", options.names, name_styles);
+  choose("up", options.plan.up, directions);
+  choose("front", options.plan.front, directions);
+  bool changed = plan.plan != options.plan.plan || plan.up != options.plan.up ||
+                 plan.front != options.plan.front || names != options.names;
+  changed |= slide("followers", options.parts.follow, usual.parts.follow, 0, 5,
+                   "Parts that reach out of the body no farther than this, in its thickness, have "
+                   "no joints. 0 = all have.");
+  changed |= slide("bone length", options.rig.joints.bone_length, usual.rig.joints.bone_length, 1,
+                   30, "Of straight limbs, in their radius. Small = many joints.");
+  changed |= slide("softness", options.rig.skin.softness, usual.rig.skin.softness, 0.2, 5,
                    "How gently the skin goes over from one joint to the next.");
   ImGui::PopItemWidth();
   ImGui::BeginDisabled(bench.running() || bench.history().empty());

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/model/rigging.hpp"
 #include "viewer/window/panel_parts.hpp"
 
 namespace curveskel::viewer {
@@ -253,6 +254,8 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   const auto rig = bench.scene->rig();
   panels.outline.show(rig);
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
+    const auto& character = bench.scene->recording.moments()[bench.scene->moment].character;
+    if (character) ImGui::TextWrapped("%s", words_of(*character).c_str());
     hierarchy(bench, panels.outline, *rig);
   }
   const bool defective = bench.defects() != nullptr && !bench.defects()->none();

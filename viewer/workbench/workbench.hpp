@@ -150,7 +150,7 @@ class Workbench {
   };
   struct Rigged {
     Edited of;
-    std::shared_ptr<const Rig> rig;  // null where it was stopped
+    std::shared_ptr<const CharacterRig> rig;  // null where it was stopped
     std::string error;
   };
   bool take_opened();

@@ -1,8 +1,11 @@
 // The workbench's rig: made of the skeleton as it is, on another thread.
 #include <exception>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
 #include "app/report.hpp"
 #include "viewer/model/rigging.hpp"
@@ -26,8 +29,8 @@ void Workbench::rig() {
     return;
   }
   rigging_stop_ = {};
-  RigOptions options = pipeline.rig;
-  options.joints.root = history_.now().root;
+  CharacterOptions options = pipeline.character;
+  options.rig.joints.root = history_.now().root;
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
   rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
@@ -75,7 +78,7 @@ bool Workbench::take_rig() {
   drop_rig();
   scene->recording.add(moment_of(made.rig));
   go_to(scene->recording.moments().size() - 1);
-  say(std::to_string(made.rig->joints.rows()) + " joints");
+  say(words_of(*made.rig));
   if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}));
   return true;
 }
@@ -93,10 +96,22 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
     if (!rigging_.valid()) rig();
     return;
   }
+  const Document& document = scene->document;
+  const Rig& rig = *scene->recording.moments().back().rig;
   const std::string name = files_.empty() ? "surface" : files_.front().stem().string();
-  write_file(file, format_rig(scene->document.surface, *scene->recording.moments().back().rig,
-                              format, name, program_and_version()));
-  say("saved " + file.string());
+  std::optional<EditedFile> edited;
+  std::string without;  // why the file's own content is not in what is saved
+  try {
+    // The file's numbers are those of the bind pose, the rig's those of the pose that is shown.
+    if (document.posed) without = "the file rests in another pose than its joints were bound in";
+    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version()};
+    if (without.empty()) edited = format_rig_into(document.mesh_file, rig, options);
+  } catch (const Error& error) {
+    without = error.what();
+  }
+  write_file(file, edited ? edited->bytes
+                          : format_rig(document.surface, rig, format, name, program_and_version()));
+  say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
 }
 
 }  // namespace curveskel::viewer

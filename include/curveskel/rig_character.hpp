@@ -1,0 +1,50 @@
+// From a file's surface and its curve skeleton to the rig of all that is in the file: parts, the
+// plan of the body, joints, weights, names.
+#pragma once
+
+#include <curveskel/body_plan.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/rig_parts.hpp>
+#include <curveskel/role_names.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+/// With a root that somebody has chosen (`rig.joints.root`) there is no plan, and no part follows.
+struct CharacterOptions {
+  RigOptions rig;
+  PartOptions parts;
+  PlanOptions plan;
+  NameStyle names = NameStyle::automatic;
+};
+
+struct CharacterRig {
+  Rig rig;  ///< by the file's vertices
+  RigParts parts;
+  BodyPlan plan;
+};
+
+/// The curve of the body alone: what only followers collapsed to is left out, and node_of_vertex is
+/// by the vertices of `body_of`. Precondition: the skeleton has a node_of_vertex, by the vertices
+/// of which `parts` are. O(#V + #N).
+[[nodiscard]] CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts);
+
+/// `find_plan`, `make_planned_rig`, `rig_of_given`, `name_roles`. `body` is what `body_of` leaves
+/// of a repaired surface, the skeleton the body's, `given` the file's surface in triangles. The
+/// result's `parts` are empty.
+[[nodiscard]] CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
+                                    const CurveSkeleton& skeleton,
+                                    const CharacterOptions& options = {},
+                                    const Monitor& monitor = {});
+
+/// The same from the skeleton of the whole repaired surface, after `find_parts`. A skeleton without
+/// node_of_vertex does not say what its curves are of: then no part follows.
+[[nodiscard]] CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
+                                         const CurveSkeleton& skeleton,
+                                         const CharacterOptions& options = {},
+                                         const Monitor& monitor = {});
+
+}  // namespace curveskel

@@ -1,0 +1,92 @@
+#include <curveskel/rig_character.hpp>
+
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/union_find.hpp>
+
+namespace curveskel {
+namespace {
+
+/// Of each node: some vertex of the body collapsed to its component, or nothing at all did.
+std::vector<char> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
+  const Eigen::Index count = skeleton.nodes.rows();
+  UnionFind joined(count);
+  for (const auto& edge : skeleton.edges.rowwise()) joined.unite(edge[0], edge[1]);
+  std::vector<char> is_body(idx(count), 0);
+  std::vector<char> follows(idx(count), 0);
+  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const int node = skeleton.node_of_vertex[v];
+    if (node < 0) continue;
+    const bool is_follower = parts.parts[idx(parts.part_of_vertex[v])].follows;
+    (is_follower ? follows : is_body)[idx(joined.root(node))] = 1;
+  }
+  std::vector<char> kept(idx(count), 0);
+  for (int node = 0; node < static_cast<int>(count); ++node) {
+    const std::size_t root = idx(joined.root(node));
+    kept[idx(node)] = is_body[root] != 0 || follows[root] == 0 ? 1 : 0;
+  }
+  return kept;
+}
+
+}  // namespace
+
+CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
+  const std::vector<char> kept = nodes_of_body(skeleton, parts);
+  std::vector<int> number(kept.size(), -1);
+  std::vector<int> nodes;
+  for (std::size_t node = 0; node < kept.size(); ++node) {
+    if (kept[node] == 0) continue;
+    number[node] = static_cast<int>(nodes.size());
+    nodes.push_back(static_cast<int>(node));
+  }
+  CurveSkeleton body;
+  body.nodes = skeleton.nodes(nodes, Eigen::all);
+  if (skeleton.radii.size() > 0) body.radii = skeleton.radii(nodes);
+  std::vector<Eigen::Index> edges;
+  for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+    if (kept[idx(skeleton.edges(e, 0))] != 0) edges.push_back(e);
+  }
+  body.edges = skeleton.edges(edges, Eigen::all);
+  for (int& node : body.edges.reshaped()) node = number[idx(node)];
+  std::vector<int> node_of_vertex;
+  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    if (parts.parts[idx(parts.part_of_vertex[v])].follows) continue;
+    const int node = skeleton.node_of_vertex[v];
+    node_of_vertex.push_back(node < 0 ? -1 : number[idx(node)]);
+  }
+  body.node_of_vertex = Eigen::Map<const Eigen::VectorXi>(
+      node_of_vertex.data(), static_cast<Eigen::Index>(node_of_vertex.size()));
+  return body;
+}
+
+CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
+                      const CurveSkeleton& skeleton, const CharacterOptions& options,
+                      const Monitor& monitor) {
+  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  PlanOptions wanted = options.plan;
+  if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
+  CharacterRig result;
+  result.plan = find_plan(body.surface, dense, wanted);
+  const Rig made = make_planned_rig(body.surface, dense, result.plan, options.rig, monitor);
+  result.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+  name_roles(result.rig, result.plan, options.names);
+  return result;
+}
+
+CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
+                           const CurveSkeleton& skeleton, const CharacterOptions& options,
+                           const Monitor& monitor) {
+  PartOptions wanted = options.parts;
+  if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0) wanted.follow = 0;
+  RigParts parts = find_parts(repaired.surface, wanted, monitor);
+  CharacterRig result = parts.all_body()
+                            ? rig_body(given, repaired, skeleton, options, monitor)
+                            : rig_body(given, body_of(repaired, parts),
+                                       skeleton_of_body(skeleton, parts), options, monitor);
+  result.parts = std::move(parts);
+  return result;
+}
+
+}  // namespace curveskel
