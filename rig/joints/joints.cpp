@@ -234,9 +234,20 @@ class JointPlacer {
     return places;
   }
 
+  /// The end of the last planned bone of its limb, which shows how long the bone is.
+  [[nodiscard]] bool ends_planned(const Limb& limb) const {
+    const auto joint = idx(joints_.joint_of_node[limb.nodes.front()]);
+    return joint < planned_.size() && planned_[joint].node == limb.nodes.front() &&
+           tree_.children[idx(limb.nodes.front())].size() == 1 &&
+           tree_.children[idx(limb.nodes.back())].empty() &&
+           std::none_of(planned_.begin(), planned_.end(), [&](const PlannedJoint& other) {
+             return other.parent == static_cast<int>(joint);
+           });
+  }
+
   /// Returns the limb's lower end.
   int place_limb(const Limb& limb) {
-    if (limb.length < least_length_) {
+    if (limb.length < least_length_ && !ends_planned(limb)) {
       const int joint = joints_.joint_of_node[limb.nodes.front()];
       for (const int node : limb.nodes) joints_.joint_of_node[node] = joint;
       return limb.nodes.back();

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 // Shares of the body's height or size; means over artists' rigs lie well within.
 bool is_leg(const CurveTree& tree, const LimbPair& pair) {
   const Vector3d& root = tree.nodes[idx(pair.root)];
-  const Vector3d& tip = tree.nodes[idx(pair.path.back())];
+  const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   const bool reaches_ground = pair.lowest < tree.ground + 0.06 * tree.height;
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
   const bool mostly_down = std::abs(tip.x() - root.x()) < 0.45 * pair.length;
@@ -31,7 +31,7 @@ int find_arms(const CurveTree& tree, const Limbs& limbs, int leg) {
     const LimbPair& pair = limbs.pairs[idx(k)];
     if (is_leg(tree, pair) || pair.length <= 0.12 * tree.size) continue;
     if (tree.nodes[idx(pair.root)].y() <= hips - 0.02 * tree.height) continue;
-    const double aside = std::abs(tree.aside(pair.path.back()));
+    const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
     if (aside <= farthest) continue;
     farthest = aside;
     arms = k;

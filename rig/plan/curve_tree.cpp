@@ -101,12 +101,12 @@ Sampled ways_along(const CurveTree& tree, const std::vector<int>& path) {
 
 }  // namespace
 
-Course mean_course(const CurveTree& tree, const LimbPair& pair) {
+Course mean_course(const CurveTree& tree, const LimbWay& limb) {
   constexpr std::size_t samples = 400;
   Course course{std::vector<Vector3d>(samples, Vector3d::Zero()),
                 std::vector<double>(samples, 0.0)};
   for (const bool is_left : {true, false}) {
-    const std::vector<int>& path = is_left ? pair.path : pair.mirror;
+    const std::vector<int>& path = is_left ? limb.path : limb.mirror;
     const Sampled along = ways_along(tree, path);
     std::size_t k = 0;
     for (std::size_t i = 0; i < samples; ++i) {
@@ -123,6 +123,16 @@ Course mean_course(const CurveTree& tree, const LimbPair& pair) {
     }
   }
   return course;
+}
+
+std::size_t last_shared(const Course& course, const Course& other) {
+  constexpr double near = 0.1;  // radii
+  for (std::size_t k = course.points.size(); k-- > 1;) {
+    for (const Vector3d& point : other.points) {
+      if ((point - course.points[k]).norm() < near * course.radii[k]) return k;
+    }
+  }
+  return 0;
 }
 
 }  // namespace curveskel

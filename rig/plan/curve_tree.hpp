@@ -39,12 +39,18 @@ struct Ways {
 };
 [[nodiscard]] Ways ways_from(const CurveTree& tree, int node);
 
+/// From the root of a limb to one of its tips, of the left one and of its mirror image.
+struct LimbWay {
+  std::vector<int> path;
+  std::vector<int> mirror;
+  double length = 0;
+};
+
 /// A pair of limbs, by its left one.
 struct LimbPair {
-  int root = -1;            ///< node of the trunk
-  std::vector<int> path;    ///< from the root to its farthest tip
-  std::vector<int> mirror;  ///< the same of the right one
-  double length = 0;
+  int root = -1;              ///< node of the trunk
+  std::vector<LimbWay> ways;  ///< one for each tip that has an image, the longest first
+  double length = 0;          ///< of the longest
   double lowest = 0;          ///< y of its surface
   std::vector<int> vertices;  ///< of the left one
 };
@@ -57,11 +63,14 @@ struct Limbs {
 
 [[nodiscard]] Limbs find_limbs(const CurveTree& tree);
 
-/// A pair's course as the mean of both sides, on the left, in equal shares of its length.
+/// A way's course as the mean of both sides, on the left, in equal shares of its length.
 struct Course {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
 };
-[[nodiscard]] Course mean_course(const CurveTree& tree, const LimbPair& pair);
+[[nodiscard]] Course mean_course(const CurveTree& tree, const LimbWay& way);
+
+/// The last point of `course` that is one of the other's, too; 0 where none is.
+[[nodiscard]] std::size_t last_shared(const Course& course, const Course& other);
 
 }  // namespace curveskel

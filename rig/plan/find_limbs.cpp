@@ -134,18 +134,17 @@ class LimbFinder {
         if (pair.root < 0 && limbs_.is_trunk[idx(next)] != 0) pair.root = next;
       }
     }
-    int farthest = -1;
-    for (const int node : part) {
-      if (pair.root < 0 || mate_.count(node) == 0) continue;
-      const double length = ways_.at(node).distance[idx(pair.root)];
-      if (farthest >= 0 && length <= pair.length) continue;
-      farthest = node;
-      pair.length = length;
-    }
-    if (farthest < 0) return;
+    if (pair.root < 0) return;
     const Ways from_root = ways_from(tree_, pair.root);
-    pair.path = from_root.path(farthest);
-    pair.mirror = from_root.path(mate_.at(farthest));
+    for (const int node : part) {
+      if (mate_.count(node) == 0) continue;
+      pair.ways.push_back(
+          {from_root.path(node), from_root.path(mate_.at(node)), from_root.distance[idx(node)]});
+    }
+    if (pair.ways.empty()) return;
+    std::stable_sort(pair.ways.begin(), pair.ways.end(),
+                     [](const LimbWay& a, const LimbWay& b) { return a.length > b.length; });
+    pair.length = pair.ways.front().length;
     std::vector<char> is_own(tree_.nodes.size(), 0);
     for (const int node : part) is_own[idx(node)] = 1;
     pair.lowest = std::numeric_limits<double>::infinity();

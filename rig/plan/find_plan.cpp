@@ -99,16 +99,19 @@ class Planner {
     Vector3d at = place.at;
     if (is_right) at.x() = 2 * tree_.middle - at.x();
     joint.position = (axes.transpose() * at).transpose();
-    if (place.on_curve) joint.node = nearest(place, is_right, at);
+    if (place.on_curve) {
+      Vector3d beside = place.beside.value_or(place.at);
+      if (is_right) beside.x() = 2 * tree_.middle - beside.x();
+      joint.node = nearest(place, is_right, beside);
+    }
     number_[role] = static_cast<int>(joints_.size());
     joints_.push_back(std::move(joint));
   }
 
   [[nodiscard]] int nearest(const Place& place, bool is_right, const Vector3d& at) const {
-    const std::vector<int>& nodes = place.pair < 0
-                                        ? limbs_.trunk
-                                        : (is_right ? limbs_.pairs[idx(place.pair)].mirror
-                                                    : limbs_.pairs[idx(place.pair)].path);
+    const LimbWay* way = place.pair < 0 ? nullptr : &limbs_.pairs[idx(place.pair)].ways[place.way];
+    const std::vector<int>& nodes =
+        way == nullptr ? limbs_.trunk : (is_right ? way->mirror : way->path);
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const int node : nodes) {

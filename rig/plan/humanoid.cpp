@@ -40,7 +40,7 @@ class Humanoid {
   }
 
   void place_leg() {
-    const Course course = mean_course(tree_, leg_);
+    const Course course = mean_course(tree_, leg_.ways.front());
     const std::size_t count = course.points.size();
     // Where legs part: the curve's ball is clear of the mirror plane.
     std::size_t parts = 0;
@@ -80,7 +80,7 @@ class Humanoid {
   }
 
   void place_arm() {
-    const Course course = mean_course(tree_, arm_);
+    const Course course = mean_course(tree_, arm_.ways.front());
     const std::size_t count = course.points.size();
     const Vector3d& root = tree_.nodes[idx(arm_.root)];
     const double trunk_radius = tree_.radii[idx(arm_.root)];
@@ -110,19 +110,37 @@ class Humanoid {
         "half of the way from the shoulder to the wrist");
     add("leftHand", "leftLowerArm", course.points[wrist], arm_pair_,
         "the narrowest place about .68 of the way to the fingertips");
+    for (Place& place : finger_places(tree_, arm_, arm_pair_, course.points[wrist])) {
+      places_.push_back(std::move(place));
+    }
+  }
+
+  /// The first sample beyond which long fingers have left the arm's course; its end without any.
+  [[nodiscard]] std::size_t hand_of(const Course& course, std::size_t begins, double reach) const {
+    std::size_t hand = course.points.size();
+    for (std::size_t way = 1; way < arm_.ways.size(); ++way) {
+      const Course other = mean_course(tree_, arm_.ways[way]);
+      const double own = (other.points.back() - shoulder_).norm();
+      std::size_t k = last_shared(course, other);
+      const bool is_finger =
+          k > begins && own > 0.6 * reach && (course.points[k] - shoulder_).norm() > 0.35 * reach;
+      if (is_finger) hand = std::min(hand, k);
+    }
+    return hand;
   }
 
   /// Narrow, and not far from where wrists are.
   [[nodiscard]] std::size_t wrist_of(const Course& course, std::size_t begins, double reach) const {
     std::vector<std::size_t> candidates;
     std::vector<double> radii;
-    for (std::size_t k = begins; k < course.points.size(); ++k) {
+    const std::size_t hand = hand_of(course, begins, reach);
+    for (std::size_t k = begins; k < hand; ++k) {
       const double share = (course.points[k] - shoulder_).norm() / reach;
       if (share <= 0.55 || share >= 0.8) continue;
       candidates.push_back(k);
       radii.push_back(course.radii[k]);
     }
-    if (candidates.empty()) return begins + (course.points.size() - begins) * 68 / 100;
+    if (candidates.empty()) return begins + (hand - begins) * 68 / 100;
     const auto median = radii.begin() + std::ptrdiff_t(radii.size() / 2);
     std::nth_element(radii.begin(), median, radii.end());
     const double usual = std::max(*median, 1e-9 * tree_.size);

@@ -26,7 +26,7 @@ constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "f
 /// plane as the second.
 void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const LegRule& rule,
                const std::string& parent, std::vector<Place>& places) {
-  const Course course = mean_course(tree, pair);
+  const Course course = mean_course(tree, pair.ways.front());
   const double top = course.points.front().y();
   const std::size_t first = places.size();
   std::string above = parent;

@@ -41,6 +41,22 @@ constexpr std::array<HumanWords, 14> human_words{{
     {"leftToes", "toes.L", "mixamorig:LeftToeBase", "ball_l", "LeftToes", "toe.L"},
 }};
 
+/// Of fingers; each joint has the word's number, counted from 1.
+struct FingerWords {
+  std::string_view role;  ///< after the side, before the joint
+  std::string_view mixamo;
+  std::string_view unreal;
+  std::string_view rigify;
+};
+
+constexpr std::array<FingerWords, 5> finger_words{{
+    {"Thumb", "Thumb", "thumb", "thumb"},
+    {"Index", "Index", "index", "f_index"},
+    {"Middle", "Middle", "middle", "f_middle"},
+    {"Ring", "Ring", "ring", "f_ring"},
+    {"Little", "Pinky", "pinky", "f_pinky"},
+}};
+
 struct BeastWords {
   std::string_view role;
   std::string_view readable;
@@ -83,6 +99,36 @@ std::string_view word(const HumanWords& words, NameStyle style) {
   }
 }
 
+/// Of a left finger's joint, or nothing.
+std::string finger_name(std::string_view left, NameStyle style) {
+  constexpr std::array<std::string_view, 5> joints{"Metacarpal", "Proximal", "Intermediate",
+                                                   "Distal", ""};
+  left.remove_prefix(std::min<std::size_t>(4, left.size()));
+  for (const FingerWords& words : finger_words) {
+    if (!left.starts_with(words.role)) continue;
+    const auto at = std::find(joints.begin(), joints.end(), left.substr(words.role.size()));
+    const auto joint = at - joints.begin();
+    const std::string number =
+        std::to_string(words.role == "Thumb" ? std::min<std::ptrdiff_t>(joint + 1, 3) : joint);
+    const auto with = [&](std::string_view before, std::string_view word, std::string_view after) {
+      return std::string(before).append(word).append(after);
+    };
+    switch (style) {
+      case NameStyle::mixamo:
+        return with("mixamorig:LeftHand", words.mixamo, number);
+      case NameStyle::unreal:
+        return with(words.unreal, "_0" + number, "_l");
+      case NameStyle::unity:
+        return with("Left", left, "");
+      case NameStyle::rigify:
+        return with(words.rigify, ".0" + number, ".L");
+      default:
+        return with(words.rigify == "thumb" ? "" : "finger_", words.unreal, "_" + number + ".L");
+    }
+  }
+  return "";
+}
+
 std::string human_name(const std::string& role, NameStyle style) {
   if (style == NameStyle::vrm) return role;
   const bool is_right = role.starts_with("right");
@@ -92,7 +138,9 @@ std::string human_name(const std::string& role, NameStyle style) {
     const std::string name(word(words, style));
     return is_right ? right_of(name) : name;
   }
-  return role;
+  const std::string finger = finger_name(left, style);
+  if (finger.empty()) return role;
+  return is_right ? right_of(finger) : finger;
 }
 
 std::string beast_name(const std::string& role, NameStyle style) {

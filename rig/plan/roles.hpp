@@ -1,6 +1,7 @@
 // The places of joints, by the plan of the body. All in the frame of the curve's tree.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,14 @@ struct Place {
   bool on_curve = true;  ///< else no node is its own
   int pair = -1;         ///< on whose curve; -1 = the trunk
   std::string reason;
+  std::size_t way = 0;                                   ///< of the pair
+  std::optional<Eigen::Vector3d> beside = std::nullopt;  ///< where its node is, if not at `at`
 };
+
+/// Of the left hand, in VRM's words: a thumb and up to four more, where the curve has two or more
+/// tips beyond the wrist. `pair` is the number of the arms.
+[[nodiscard]] std::vector<Place> finger_places(const CurveTree& tree, const LimbPair& arm, int pair,
+                                               const Eigen::Vector3d& wrist);
 
 [[nodiscard]] std::vector<Place> humanoid_places(const CurveTree& tree, const Limbs& limbs,
                                                  const PlanFound& found);
