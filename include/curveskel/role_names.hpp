@@ -23,8 +23,9 @@ inline constexpr NameTable<NameStyle, 7> name_styles{{
 /// True if the style has words for the plan; else `name_roles` takes the readable ones.
 [[nodiscard]] bool has_words(NameStyle style, BodyKind kind);
 
-/// Names the joints of the plan, which are the rig's first ones; the others keep their names, but
-/// in the neutral style. No two joints are called the same.
+/// Names the joints of the plan, which are the rig's first ones, and the others by the joint of the
+/// plan that they hang from (tail_1, ear_end.L, toe2_1.R); without a plan joints keep their names,
+/// but in the neutral style. No two joints are called the same.
 void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style);
 
 }  // namespace curveskel

@@ -80,80 +80,14 @@ class Humanoid {
   }
 
   void place_arm() {
-    const Course course = mean_course(tree_, arm_.ways.front());
-    const std::size_t count = course.points.size();
-    const Vector3d& root = tree_.nodes[idx(arm_.root)];
-    const double trunk_radius = tree_.radii[idx(arm_.root)];
-    std::vector<double> middle_radii(course.radii.begin() + std::ptrdiff_t(0.35 * double(count)),
-                                     course.radii.begin() + std::ptrdiff_t(0.6 * double(count)));
-    const auto median = middle_radii.begin() + std::ptrdiff_t(middle_radii.size() / 2);
-    std::nth_element(middle_radii.begin(), median, middle_radii.end());
-    std::size_t leaves = 0;
-    while (leaves + 1 < count && (course.points[leaves] - root).norm() <= trunk_radius) ++leaves;
-    if (leaves + 1 == count) leaves = 0;
-    std::size_t begins = leaves;
-    while (begins + 1 < count && (course.points[begins] - course.points[leaves]).norm() < *median) {
-      ++begins;
-    }
-    shoulder_ = course.points[begins];
-    double reach = (course.points.back() - shoulder_).norm();
-    for (const int v : arm_.vertices) {
-      reach = std::max(reach, (tree_.vertices[idx(v)] - shoulder_).norm());
-    }
-    const std::size_t wrist = wrist_of(course, begins, reach);
-    const double half = 0.5 * (course.points[wrist] - shoulder_).norm();
-    std::size_t elbow = begins;
-    while (elbow < wrist && (course.points[elbow] - shoulder_).norm() < half) ++elbow;
-    add("leftUpperArm", "leftShoulder", shoulder_, arm_pair_,
-        "an arm's radius beyond the place where the curve leaves the trunk");
-    add("leftLowerArm", "leftUpperArm", course.points[elbow], arm_pair_,
-        "half of the way from the shoulder to the wrist");
-    add("leftHand", "leftLowerArm", course.points[wrist], arm_pair_,
-        "the narrowest place about .68 of the way to the fingertips");
-    for (Place& place : finger_places(tree_, arm_, arm_pair_, course.points[wrist])) {
+    const ArmJoints arm = arm_joints(tree_, arm_);
+    shoulder_ = arm.shoulder;
+    add("leftUpperArm", "leftShoulder", arm.shoulder, arm_pair_, shoulder_reason);
+    add("leftLowerArm", "leftUpperArm", arm.elbow, arm_pair_, elbow_reason);
+    add("leftHand", "leftLowerArm", arm.wrist, arm_pair_, wrist_reason);
+    for (Place& place : finger_places(tree_, arm_, arm_pair_, arm.wrist)) {
       places_.push_back(std::move(place));
     }
-  }
-
-  /// The first sample beyond which long fingers have left the arm's course; its end without any.
-  [[nodiscard]] std::size_t hand_of(const Course& course, std::size_t begins, double reach) const {
-    std::size_t hand = course.points.size();
-    for (std::size_t way = 1; way < arm_.ways.size(); ++way) {
-      const Course other = mean_course(tree_, arm_.ways[way]);
-      const double own = (other.points.back() - shoulder_).norm();
-      std::size_t k = last_shared(course, other);
-      const bool is_finger =
-          k > begins && own > 0.6 * reach && (course.points[k] - shoulder_).norm() > 0.35 * reach;
-      if (is_finger) hand = std::min(hand, k);
-    }
-    return hand;
-  }
-
-  /// Narrow, and not far from where wrists are.
-  [[nodiscard]] std::size_t wrist_of(const Course& course, std::size_t begins, double reach) const {
-    std::vector<std::size_t> candidates;
-    std::vector<double> radii;
-    const std::size_t hand = hand_of(course, begins, reach);
-    for (std::size_t k = begins; k < hand; ++k) {
-      const double share = (course.points[k] - shoulder_).norm() / reach;
-      if (share <= 0.55 || share >= 0.8) continue;
-      candidates.push_back(k);
-      radii.push_back(course.radii[k]);
-    }
-    if (candidates.empty()) return begins + (hand - begins) * 68 / 100;
-    const auto median = radii.begin() + std::ptrdiff_t(radii.size() / 2);
-    std::nth_element(radii.begin(), median, radii.end());
-    const double usual = std::max(*median, 1e-9 * tree_.size);
-    std::size_t best = candidates.front();
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t k : candidates) {
-      const double share = (course.points[k] - shoulder_).norm() / reach;
-      const double cost = course.radii[k] / usual + 1.25 * std::abs(share - 0.68);
-      if (cost >= least) continue;
-      least = cost;
-      best = k;
-    }
-    return best;
   }
 
   /// z of the trunk's curve at a height.

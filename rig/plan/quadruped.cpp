@@ -107,6 +107,34 @@ int nose_of(const CurveTree& tree, int front, const Ways& ways) {
   return nose;
 }
 
+/// The farthest node behind the hips near the mirror plane, or the hips.
+int tail_of(const CurveTree& tree, int hips, const Ways& ways) {
+  int tail = hips;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    const bool is_behind = tree.nodes[idx(node)].z() < tree.nodes[idx(hips)].z() &&
+                           std::abs(tree.aside(node)) < 0.03 * tree.size;
+    if (is_behind && ways.distance[idx(node)] > ways.distance[idx(tail)]) tail = node;
+  }
+  return tail;
+}
+
+/// Four bones of one length, after a gap: means over artists' rigs.
+void place_tail(const CurveTree& tree, int hips, std::vector<Place>& places) {
+  constexpr double gap = 0.12;
+  const Ways ways = ways_from(tree, hips);
+  const int end = tail_of(tree, hips, ways);
+  const Along tail = along(tree, ways.path(end));
+  if (tail.whole() < std::max(0.08 * tree.size, 1.5 * tree.radii[idx(hips)])) return;
+  std::string above = "spine";
+  for (int k = 0; k < 4; ++k) {
+    const std::string role = k == 0 ? "tail" : "tail.00" + std::to_string(k);
+    const double share = gap + (1 - gap) * k / 4;
+    places.push_back({role, above, tail.at(share * tail.whole()), true, -1,
+                      "at its share of the way from the root to the tail's tip"});
+    above = role;
+  }
+}
+
 /// From the hips to the front legs, and on to the head.
 void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>& places) {
   const std::string share = "at its share of the way along the trunk";
@@ -123,6 +151,18 @@ void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>&
   places.push_back({"head", "neck", neck.at(0.6 * neck.whole()), true, -1, share});
 }
 
+/// Where arms leave the trunk, but no nearer to the hips than .4 of the way to the nose: wings
+/// leave it all along.
+int chest_of(const CurveTree& tree, int hips, const LimbPair* arms) {
+  const Ways ways = ways_from(tree, hips);
+  const std::vector<int> path = ways.path(nose_of(tree, hips, ways));
+  const double least = 0.4 * ways.distance[idx(path.back())];
+  if (arms != nullptr && ways.distance[idx(arms->root)] > least) return arms->root;
+  std::size_t k = 0;
+  while (k + 1 < path.size() && ways.distance[idx(path[k])] < least) ++k;
+  return path[k];
+}
+
 }  // namespace
 
 std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
@@ -131,14 +171,27 @@ std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
   const LimbPair& front = limbs.pairs[idx(found.legs[1])];
   std::vector<Place> places;
   place_hind_leg(tree, limbs, hind, found.legs[0], places);
-  place_trunk(tree, hips_of(tree, limbs, hind, places[2].at.z()), front.root, places);
+  const int hips = hips_of(tree, limbs, hind, places[2].at.z());
+  place_trunk(tree, hips, front.root, places);
+  place_tail(tree, hips, places);
   place_leg(tree, front, found.legs[1], front_leg, "chest", places);
   return places;
 }
 
 std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const LimbPair& legs = limbs.pairs[idx(found.legs[0])];
   std::vector<Place> places;
-  place_hind_leg(tree, limbs, limbs.pairs[idx(found.legs[0])], found.legs[0], places);
+  place_hind_leg(tree, limbs, legs, found.legs[0], places);
+  const int hips = hips_of(tree, limbs, legs, places[2].at.z());
+  place_tail(tree, hips, places);
+  const LimbPair* arms = found.arms < 0 ? nullptr : &limbs.pairs[idx(found.arms)];
+  place_trunk(tree, hips, chest_of(tree, hips, arms), places);
+  if (arms == nullptr) return places;
+  const ArmJoints arm = arm_joints(tree, *arms);
+  places.push_back({"upper_arm.L", "chest", arm.shoulder, true, found.arms, shoulder_reason});
+  if (found.plan == BodyKind::bird) return places;  // a wing bends where its curve does
+  places.push_back({"forearm.L", "upper_arm.L", arm.elbow, true, found.arms, elbow_reason});
+  places.push_back({"hand.L", "forearm.L", arm.wrist, true, found.arms, wrist_reason});
   return places;
 }
 

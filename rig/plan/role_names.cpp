@@ -7,6 +7,9 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "rig/plan/limb_names.hpp"
 
 namespace curveskel {
 namespace {
@@ -172,11 +175,18 @@ void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
     return;
   }
   const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
+  const auto name_of_role = [&](const PlannedJoint& joint, NameStyle in) {
+    return plan.plan == BodyKind::humanoid ? human_name(joint.role, in)
+                                           : beast_name(joint.role, in);
+  };
+  std::vector<std::string> readable;
+  for (const PlannedJoint& joint : plan.joints) {
+    readable.push_back(name_of_role(joint, NameStyle::automatic));
+  }
+  name_limbs(rig, plan, readable);
   std::set<std::string> taken;
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
-    const std::string& role = plan.joints[k].role;
-    rig.names[k] =
-        plan.plan == BodyKind::humanoid ? human_name(role, words) : beast_name(role, words);
+    rig.names[k] = name_of_role(plan.joints[k], words);
     taken.insert(rig.names[k]);
   }
   for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {

@@ -31,6 +31,19 @@ struct Place {
   std::optional<Eigen::Vector3d> beside = std::nullopt;  ///< where its node is, if not at `at`
 };
 
+/// Of the left one.
+struct ArmJoints {
+  Eigen::Vector3d shoulder;
+  Eigen::Vector3d elbow;
+  Eigen::Vector3d wrist;
+};
+inline constexpr const char* shoulder_reason =
+    "an arm's radius beyond the place where the curve leaves the trunk";
+inline constexpr const char* elbow_reason = "half of the way from the shoulder to the wrist";
+inline constexpr const char* wrist_reason =
+    "the narrowest place about .68 of the way to the fingertips, before the fingers part";
+[[nodiscard]] ArmJoints arm_joints(const CurveTree& tree, const LimbPair& arm);
+
 /// Of the left hand, in VRM's words: a thumb and up to four more, where the curve has two or more
 /// tips beyond the wrist. `pair` is the number of the arms.
 [[nodiscard]] std::vector<Place> finger_places(const CurveTree& tree, const LimbPair& arm, int pair,

@@ -45,7 +45,7 @@ struct Figure {
   }
 };
 
-RigSubject subject_of(const std::string& name, const Figure& figure) {
+RigSubject subject_of(const std::string& name, const Figure& figure, double resolution = 2.5) {
   CurveSkeleton graph;
   const auto count = static_cast<Eigen::Index>(figure.places.size());
   graph.nodes.resize(count, 3);
@@ -58,7 +58,7 @@ RigSubject subject_of(const std::string& name, const Figure& figure) {
   for (std::size_t e = 0; e < figure.edges.size(); ++e) {
     graph.edges.row(static_cast<Eigen::Index>(e)) << figure.edges[e].first, figure.edges[e].second;
   }
-  shapes::Shape shape = shapes::tube_union(name, graph);
+  shapes::Shape shape = shapes::tube_union(name, graph, {0.25, resolution});
   graph.node_of_vertex.setConstant(shape.surface.positions.rows(), -1);
   RigSubject subject{name, std::move(shape.surface), std::move(graph)};
   subject.skeleton = dense_skeleton(subject.surface, subject.skeleton);
@@ -83,6 +83,29 @@ RigSubject human() {
   figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
   figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
   return subject_of("human", figure);
+}
+
+/// The same with a thumb and `fingers` on each hand.
+RigSubject human_with_hands(int fingers) {
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
+  figure.add({0, 18.6, 0}, 1.3, neck);
+  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  for (const double side : {1.0, -1.0}) {
+    int arm = chest;
+    for (const double x : {2.2, 5.0, 7.0}) arm = figure.add({side * x, 15, 0}, 0.5, arm);
+    const int thumb = figure.add({side * 8.2, 14.8, 1.2}, 0.22, arm);
+    figure.add({side * 8.9, 14.7, 1.8}, 0.2, thumb);
+    const int palm = figure.add({side * 8.4, 15, 0}, 0.4, arm);
+    for (int finger = 0; finger < fingers; ++finger) {
+      const double z = 0.9 - 1.8 * finger / std::max(fingers - 1, 1);
+      const int knuckle = figure.add({side * 9.0, 15, z}, 0.2, palm);
+      figure.add({side * (10.6 - 0.5 * std::abs(finger - 1)), 15, 1.1 * z}, 0.18, knuckle);
+    }
+  }
+  return subject_of("hands", figure, 1.7);  // thin fingers, so many vertices
 }
 
 /// 20 long, its head at +z or -z.
@@ -148,6 +171,64 @@ TEST(FindPlan, HumanoidsHaveTheirJoints) {
   ASSERT_FALSE(plan.joints.empty());
   EXPECT_EQ(plan.joints.front().role, "hips");
   EXPECT_EQ(plan.joints.front().parent, -1);
+}
+
+/// From the thumb, which is ahead, backwards.
+TEST(FindPlan, FingersAreInTheirOrder) {
+  const std::vector<std::string> names{"Index", "Middle", "Ring", "Little"};
+  for (const int fingers : {1, 4}) {
+    const RigSubject subject = human_with_hands(fingers);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+    for (const std::string side : {"left", "right"}) {
+      const PlannedJoint* thumb = joint_of(plan, side + "ThumbDistal");
+      const PlannedJoint* hand = joint_of(plan, side + "Hand");
+      ASSERT_NE(thumb, nullptr) << fingers;
+      double last = thumb->position.z();
+      for (int finger = 0; finger < 4; ++finger) {
+        const PlannedJoint* joint = joint_of(plan, side + names[idx(finger)] + "Distal");
+        EXPECT_EQ(joint != nullptr, finger < fingers) << side << names[idx(finger)];
+        if (joint == nullptr) continue;
+        EXPECT_LT(joint->position.z(), last) << side << names[idx(finger)];
+        last = joint->position.z();
+        const PlannedJoint& middle = plan.joints[idx(joint->parent)];
+        const PlannedJoint& first = plan.joints[idx(middle.parent)];
+        EXPECT_EQ(middle.role, side + names[idx(finger)] + "Intermediate");
+        EXPECT_EQ(first.role, side + names[idx(finger)] + "Proximal");
+        EXPECT_EQ(plan.joints[idx(first.parent)].role, hand->role);
+        const auto away = [&](const PlannedJoint& from) {
+          return (from.position - hand->position).norm();
+        };
+        EXPECT_LT(away(first), away(middle));
+        EXPECT_LT(away(middle), away(*joint));
+      }
+      EXPECT_LT(std::abs(hand->position.x()), 7.5) << "before the thumb";
+    }
+  }
+}
+
+TEST(FindPlan, ThinArmsWithoutFingersHaveNone) {
+  const RigSubject subject = human();
+  for (const PlannedJoint& joint : find_plan(subject.surface, subject.skeleton).joints) {
+    EXPECT_EQ(joint.role.find("Distal"), std::string::npos) << joint.role;
+  }
+}
+
+TEST(FindPlan, TailsHaveFourBonesOfOneLength) {
+  for (const double front : {1.0, -1.0}) {
+    const RigSubject subject = beast(front);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    std::vector<RowVector3d> places;
+    for (const char* role : {"tail", "tail.001", "tail.002", "tail.003"}) {
+      const PlannedJoint* joint = joint_of(plan, role);
+      ASSERT_NE(joint, nullptr) << role;
+      places.push_back(joint->position);
+    }
+    for (std::size_t k = 1; k < places.size(); ++k) {
+      EXPECT_LT(places[k].z() * front, places[k - 1].z() * front);
+      EXPECT_NEAR((places[k] - places[k - 1]).norm(), (places[1] - places[0]).norm(), 0.05);
+    }
+  }
 }
 
 TEST(FindPlan, BothSidesAreAlike) {
@@ -248,7 +329,7 @@ TEST(PlannedJoints, ComeFirstAndAreTheOnlyOnesOnTheirWay) {
       while (idx(above) >= plan.joints.size()) above = joints.parents[above];
       const std::string& role = plan.joints[idx(above)].role;
       EXPECT_TRUE(role == "head" || role.ends_with("Hand") || role.ends_with("Toes") ||
-                  role.ends_with("Foot"))
+                  role.ends_with("Foot") || role.ends_with("Distal"))
           << joints.names[idx(j)] << " hangs from " << role;
     }
   }
@@ -267,8 +348,26 @@ TEST(PlannedRigs, HaveWeightsForEveryVertexAndTheRolesNames) {
   }
 }
 
+TEST(RoleNames, OfFingersAreThoseOfThePrograms) {
+  const RigSubject subject = human_with_hands(4);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+  const auto has = [&](NameStyle style, const std::vector<std::string>& wanted) {
+    name_roles(rig, plan, style);
+    for (const std::string& name : wanted) {
+      EXPECT_EQ(std::count(rig.names.begin(), rig.names.end(), name), 1) << name;
+    }
+  };
+  has(NameStyle::vrm, {"leftThumbMetacarpal", "leftThumbDistal", "rightLittleIntermediate"});
+  has(NameStyle::mixamo, {"mixamorig:LeftHandThumb1", "mixamorig:RightHandPinky2"});
+  has(NameStyle::unreal, {"thumb_01_l", "thumb_03_l", "pinky_02_r"});
+  has(NameStyle::unity, {"LeftThumbMetacarpal", "RightLittleIntermediate"});
+  has(NameStyle::rigify, {"thumb.01.L", "f_pinky.02.R"});
+  has(NameStyle::automatic, {"thumb_1.L", "thumb_3.L", "finger_pinky_2.R"});
+}
+
 TEST(RoleNames, AreUniqueAndOfTheirStyle) {
-  for (const RigSubject& subject : {human(), beast(1), tree()}) {
+  for (const RigSubject& subject : {human(), human_with_hands(3), beast(1), tree()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
     for (const auto& style : name_styles) {
       Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
@@ -283,6 +382,12 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
       EXPECT_EQ(names.count("RightLowerLeg") > 0, is_human && style.value == NameStyle::unity);
       EXPECT_EQ(names.count("forearm.R") > 0, is_human && style.value == NameStyle::rigify);
       EXPECT_EQ(names.count("upper_leg.L") > 0, is_human && style.value == NameStyle::automatic);
+      // What hangs from a joint of the plan is called after it.
+      const bool says_limb = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return name.find("limb") != std::string::npos;
+      });
+      EXPECT_EQ(says_limb, plan.joints.empty() && style.value != NameStyle::neutral)
+          << subject.name << ' ' << style.name;
     }
   }
 }

@@ -1,0 +1,84 @@
+#include "rig/plan/limb_names.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+
+namespace curveskel {
+namespace {
+
+/// "part3_limb4_2.L" taken apart.
+struct LimbName {
+  std::string limb;  ///< part3_limb4
+  std::string rest;  ///< _2
+  std::string side;  ///< .L
+};
+
+bool ends_with_side(std::string_view name) { return name.ends_with(".L") || name.ends_with(".R"); }
+
+LimbName taken_apart(std::string name) {
+  LimbName parts;
+  if (ends_with_side(name)) {
+    parts.side = name.substr(name.size() - 2);
+    name.resize(name.size() - 2);
+  }
+  const std::size_t at = name.rfind('_');
+  const bool counts = at != std::string::npos && name.find("limb") < at;
+  parts.limb = name.substr(0, counts ? at : std::string::npos);
+  if (counts) parts.rest = name.substr(at);
+  return parts;
+}
+
+/// "finger_index" of "finger_index_3.L".
+std::string without_side_and_number(std::string name) {
+  if (ends_with_side(name)) name.resize(name.size() - 2);
+  std::size_t end = name.size();
+  while (end > 0 && std::isdigit(static_cast<unsigned char>(name[end - 1])) != 0) --end;
+  const bool is_number =
+      end < name.size() && end > 0 && (name[end - 1] == '_' || name[end - 1] == '.');
+  if (is_number) name.resize(end - 1);
+  return name;
+}
+
+std::string word_for(const PlannedJoint& joint, const std::string& readable, BodyKind kind,
+                     bool has_side, bool is_bump) {
+  const std::string& role = joint.role;
+  const auto is = [&](std::string_view human, std::string_view other) {
+    return role.ends_with(human) || role.starts_with(other);
+  };
+  if (joint.parent < 0 && !has_side && !is_bump) return "tail";
+  if ((role == "head" || role == "neck") && has_side) return "ear";
+  if (is("Hand", "hand.")) return "finger";
+  if (is("Toes", "toe.") || is("Foot", "foot.")) return "toe";
+  if (role.starts_with("front_toe.") || role.starts_with("front_foot.")) return "front_toe";
+  if (kind == BodyKind::bird && role.starts_with("upper_arm.")) return "wing";
+  return without_side_and_number(readable);
+}
+
+}  // namespace
+
+void name_limbs(Rig& rig, const BodyPlan& plan, const std::vector<std::string>& readable) {
+  std::map<std::string, std::map<std::string, int>> numbers;  // by word: of the limbs so far
+  const std::size_t planned = plan.joints.size();
+  for (std::size_t joint = planned; joint < rig.names.size(); ++joint) {
+    int above = rig.parents[static_cast<Eigen::Index>(joint)];
+    while (above >= static_cast<int>(planned)) above = rig.parents[above];
+    if (above < 0) continue;
+    LimbName parts = taken_apart(rig.names[joint]);
+    const bool is_last = (rig.parents.array() == static_cast<int>(joint)).count() == 0;
+    if (parts.rest.empty() && is_last) parts.rest = "_end";  // of a component with one joint
+    const std::string word =
+        word_for(plan.joints[idx(above)], readable[idx(above)], plan.plan, !parts.side.empty(),
+                 above == rig.parents[static_cast<Eigen::Index>(joint)] && is_last);
+    auto& known = numbers[word];
+    const int number = known.emplace(parts.limb, static_cast<int>(known.size()) + 1).first->second;
+    rig.names[joint] = word + (number > 1 ? std::to_string(number) : "") + parts.rest + parts.side;
+  }
+}
+
+}  // namespace curveskel
