@@ -42,6 +42,8 @@ struct RigArguments {
   bool quiet = false;
   bool bare = false;
   bool keep_rig = false;
+  std::string joints;  ///< empty = made
+  VrmMeta vrm;
   double time_limit_seconds = 0;
   int fair_iterations = 0;
   int threads = 0;
@@ -126,6 +128,39 @@ Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
                                 "leave out --keep-rig to have joints made");
 }
 
+/// Of an artist's rig some joints may lie outside: a root on the ground, handles.
+Rig joints_for(const fs::path& file, const PolygonSoup& soup, const Monitor& monitor) {
+  Rig rig = read_joints(file, monitor);
+  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
+  for (const auto& joint : rig.joints.rowwise()) {
+    if ((joint.array() >= low.array()).all() && (joint.array() <= high.array()).all()) return rig;
+  }
+  throw Error(Fault::input,
+              fmt::format("{}: none of {} joints lies within the box of the surface; needed are "
+                          "joints in its coordinates (glTF has y up, Blender z: export both the "
+                          "same way)",
+                          file.string(), rig.joints.rows()));
+}
+
+/// VRM's figures look along z, their arms held out.
+void warn_of_posture(const BodyPlan& plan, Session& session) {
+  if (plan.plan != BodyKind::humanoid) return;
+  const auto place = [&](const char* role) -> Eigen::RowVector3d {
+    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                    [&](const PlannedJoint& joint) { return joint.role == role; });
+    return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
+  };
+  const Eigen::RowVector3d arm = place("leftHand") - place("leftUpperArm");
+  constexpr double held_out = 0.94;  // cos of 20 degrees
+  if (plan.axes(2, 2) < 1) {
+    session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
+  } else if (arm.x() < held_out * arm.norm()) {
+    session.terminal.warn(
+        "VRM's figures rest with their arms held out level, this one does not: pose it first");
+  }
+}
+
 OldRig old_rig_in(const RigArguments& arguments) {
   return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
 }
@@ -155,15 +190,16 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
     std::optional<EditedFile> edited;
     if (!arguments.bare) {
-      edited = format_rig_into(
-          arguments.mesh, rig,
-          {formats[i], old_rig_in(arguments), name.string() + " rig", program_and_version()},
-          monitor);
+      edited = format_rig_into(arguments.mesh, rig,
+                               {formats[i], old_rig_in(arguments), name.string() + " rig",
+                                program_and_version(), arguments.vrm},
+                               monitor);
     }
     if (!edited) {
       const Surface given{soup.positions, triangulate(soup)};
-      edited =
-          EditedFile{format_rig(given, rig, formats[i], name.string(), program_and_version()), {}};
+      edited = EditedFile{
+          format_rig(given, rig, formats[i], name.string(), program_and_version(), arguments.vrm),
+          {}};
     }
     for (const std::string& note : edited->notes) {
       if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
@@ -190,6 +226,9 @@ int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   std::vector<RigFormat> formats;
   for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
+  if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
+    require_whole(arguments.vrm);
+  }
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
@@ -202,6 +241,7 @@ int run_rig(RigArguments arguments, Session& session) {
   arguments.rig.faces_minus_z = soup.faces_minus_z;
   std::optional<Rig> old_rig;
   if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
+  if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, monitor);
   RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
   arguments.parts.threads = arguments.threads;
   // Joints, or a curve, that somebody has drawn may be for any part.
@@ -220,6 +260,9 @@ int run_rig(RigArguments arguments, Session& session) {
   const Surface given{soup.positions, triangulate(soup)};
   Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
   if (!old_rig) name_joints(rig, plan, arguments.names, session);
+  if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
+    warn_of_posture(plan, session);
+  }
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, rig, formats, session, old_rig_in_words);
@@ -249,7 +292,8 @@ int run_rig(RigArguments arguments, Session& session) {
 Verb add_rig(CLI::App& program) {
   const auto arguments = std::make_shared<RigArguments>();
   CLI::App* parser = program.add_subcommand(
-      "rig", "Give a surface joints and skin weights, as glTF that Blender opens");
+      "rig",
+      "Give a surface joints and skin weights, as glTF that Blender opens, or for another program");
   parser
       ->add_option("MESH", arguments->mesh,
                    "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
@@ -271,8 +315,24 @@ Verb add_rig(CLI::App& program) {
   parser->add_flag("--bare", arguments->bare,
                    "write the surface alone, without materials and all else that the file has, "
                    "instead of the file itself with the rig in it");
-  parser->add_flag("--keep-rig", arguments->keep_rig,
-                   "make no joints, but weights for those that the glTF file has");
+  CLI::Option* keep =
+      parser->add_flag("--keep-rig", arguments->keep_rig,
+                       "make no joints, but weights for those that the glTF file has");
+  parser
+      ->add_option(
+          "--joints", arguments->joints,
+          "make no joints, but weights for these: glTF with a skin, .json of this program, "
+          "RigNet's .txt; in the surface's coordinates")
+      ->type_name("FILE")
+      ->excludes(keep);
+  parser->add_option("--vrm-name", arguments->vrm.name, "of the figure, for .vrm")
+      ->type_name("TEXT");
+  parser->add_option("--vrm-author", arguments->vrm.author, "of the figure, for .vrm")
+      ->type_name("TEXT");
+  parser
+      ->add_option("--vrm-licence", arguments->vrm.licence_url,
+                   "address of its licence, for .vrm, as https://vrm.dev/licenses/1.0/")
+      ->type_name("URL");
   parser
       ->add_option("--report", arguments->report,
                    "plan, roles, parts, joints and checks of the weights, as JSON")

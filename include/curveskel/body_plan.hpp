@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -61,6 +62,12 @@ struct PlannedJoint {
   Eigen::RowVector3d position;
   std::string reason;  ///< why it lies there
 };
+
+/// The joints that VRM requires of a human.
+inline constexpr std::array required_human_roles{
+    "hips",         "spine",         "head",          "leftUpperArm",  "leftLowerArm",
+    "leftHand",     "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",
+    "leftLowerLeg", "leftFoot",      "rightUpperLeg", "rightLowerLeg", "rightFoot"};
 
 struct BodyPlan {
   BodyKind plan = BodyKind::none;

@@ -1,4 +1,4 @@
-// Rigs in: glTF 2.0, text or binary.
+// Rigs in: glTF 2.0, text or binary; joints alone from other formats, too.
 #pragma once
 
 #include <filesystem>
@@ -16,5 +16,11 @@ namespace curveskel {
 /// matrices or weights are wrong. Linear in the file.
 [[nodiscard]] std::optional<Rig> read_rig(const std::filesystem::path& path,
                                           const Monitor& monitor);
+
+/// The joints alone (weights has no rows) of a glTF file with a skin, of the JSON that
+/// `format_rig` writes, or of RigNet's text; parents before their children, whatever the order in
+/// the file. Throws Error(Fault::input) where there are no joints, where parents lead to no root, or
+/// where a name or number is wrong. Linear in the file.
+[[nodiscard]] Rig read_joints(const std::filesystem::path& path, const Monitor& monitor);
 
 }  // namespace curveskel

@@ -19,6 +19,9 @@ struct Rig {
   Eigen::VectorXi parents;         ///< j, each before its children; -1 = a root
   std::vector<std::string> names;  ///< j; may be empty strings
   SkinWeights weights;             ///< n x j
+  /// j, what each is in a body, in the words of PlannedJoint::role; "" = nothing that is known.
+  /// Empty where nothing was looked for.
+  std::vector<std::string> roles = {};
 };
 
 }  // namespace curveskel

@@ -1,4 +1,4 @@
-// Rig files, out: glTF 2.0.
+// Rig files, out: glTF 2.0 and formats of other programs.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +14,48 @@
 
 namespace curveskel {
 
-enum class RigFormat { glb, gltf };
+enum class RigFormat { glb, gltf, vrm, usda, bvh, json, npz, txt };
 
-inline constexpr NameTable<RigFormat, 2> rig_formats{{
+inline constexpr NameTable<RigFormat, 8> rig_formats{{
     {RigFormat::glb, "glb", "glTF 2.0, one binary file"},
     {RigFormat::gltf, "gltf", "glTF 2.0, text with its numbers inside"},
+    {RigFormat::vrm, "vrm", "VRM 1.0, of humanoids: glb that says which joint is which"},
+    {RigFormat::usda, "usda", "UsdSkel, text: the surface, joints, weights"},
+    {RigFormat::bvh, "bvh", "joints alone, at rest, for programs of motion capture"},
+    {RigFormat::json, "json", "joints, roles and weights by vertex, for programs"},
+    {RigFormat::npz, "npz", "the same for NumPy"},
+    {RigFormat::txt, "txt", "RigNet's: joints, hierarchy, weights"},
 }};
 
+/// VRM wants all three.
+struct VrmMeta {
+  std::string name;
+  std::string author;
+  std::string licence_url;
+};
+
+/// Throws Error(Fault::usage) that says what is missing.
+void require_whole(const VrmMeta& meta);
+
+/// True for those that `format_rig_into` writes: glb, gltf and vrm.
+[[nodiscard]] constexpr bool is_gltf(RigFormat format) {
+  return format == RigFormat::glb || format == RigFormat::gltf || format == RigFormat::vrm;
+}
+
 /// The surface with its joints and weights, for Blender and whatever else reads glTF; give the
-/// bytes to `write_file`. Vertices and triangles keep their order, positions and weights are in
-/// single precision (as glTF has them), normals are those of `vertex_normals`, the same for
-/// all vertices in one place. Joints are turned as `bone_axes` says (rig/bone_axes.hpp). All hang
-/// from one node named `name`. `provenance` goes to the file's generator.
-/// Precondition: weights have a row for each vertex, of sum 1 and at most four joints.
+/// bytes to `write_file`. docs/formats.md has what the other formats hold: bvh, json, npz and txt
+/// have joints and weights without the surface. In glTF, vertices and triangles keep their order,
+/// positions and weights are in single precision (as glTF has them), normals are those of
+/// `vertex_normals`, the same for all vertices in one place. Joints are turned as `bone_axes` says
+/// (rig/bone_axes.hpp). All hang from one node named `name`. `provenance` goes to the file's
+/// generator. Precondition: weights have a row for each vertex, of sum 1 and at most four joints.
 /// Throws Error(Fault::output) where there are more than 65,536 joints or where single
-/// precision does not suffice for the coordinates. O(#V + #F + joints).
+/// precision does not suffice for the coordinates; of vrm, Error(Fault::usage) where `vrm` is not
+/// whole and Error(Fault::input) where the roles that VRM requires are not there. O(#V + #F +
+/// joints).
 [[nodiscard]] std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
-                                     const std::string& name, const std::string& provenance);
+                                     const std::string& name, const std::string& provenance,
+                                     const VrmMeta& vrm = {});
 
 enum class OldRig { replaced, kept };
 
@@ -39,6 +64,7 @@ struct EditOptions {
   OldRig old_rig = OldRig::replaced;
   std::string name;        ///< of the node that holds all joints
   std::string provenance;  ///< `asset.extras.rigged_by`; the generator of what was no glTF
+  VrmMeta vrm = {};
 };
 
 struct EditedFile {

@@ -23,6 +23,7 @@
 #include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/remove_gltf_rig.hpp"
 #include "rig/gltf/skin_numbers.hpp"
+#include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
@@ -143,6 +144,12 @@ void sign(GltfDocument& document, const std::string& provenance) {
   }
 }
 
+void finish(EditedFile& edited, GltfDocument document, const Rig& rig,
+            const EditOptions& options) {
+  if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
+  edited.bytes = format_gltf(std::move(document), options.format);
+}
+
 EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,
                      const Monitor& monitor) {
   const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
@@ -167,7 +174,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   } catch (const std::exception&) {
     refuse_broken(file, std::current_exception());
   }
-  edited.bytes = format_gltf(std::move(document), options.format);
+  finish(edited, std::move(document), rig, options);
   return edited;
 }
 
@@ -184,7 +191,7 @@ std::optional<EditedFile> dress_obj(const FileBytes& file, const Rig& rig,
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
   add_gltf_rig(made.document, made.parts, rig, options.name);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
-  edited.bytes = format_gltf(std::move(made.document), options.format);
+  finish(edited, std::move(made.document), rig, options);
   return edited;
 }
 
@@ -210,6 +217,8 @@ void require_editable(const std::filesystem::path& input, OldRig old_rig, const 
 
 std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
                                           const EditOptions& options, const Monitor& monitor) {
+  if (!is_gltf(options.format)) return std::nullopt;
+  if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);
   if (format == SurfaceFormat::glb || format == SurfaceFormat::gltf) {

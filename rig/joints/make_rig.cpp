@@ -79,7 +79,10 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   rig.names = std::move(joints.names);
   const bool front_is_back = plan.joints.empty() ? options.faces_minus_z : plan.axes(0, 0) < 0;
   name_sides(rig, front_is_back);
-  for (std::size_t k = 0; k < plan.joints.size(); ++k) rig.names[k] = plan.joints[k].role;
+  rig.roles.resize(rig.names.size());
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    rig.names[k] = rig.roles[k] = plan.joints[k].role;
+  }
   return rig;
 }
 
@@ -95,7 +98,7 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
                                   " parents, needed one parent for each of at least one joint");
   }
   monitor.report("joints", 0);
-  Rig rig{given.joints, given.parents, given.names, {}};
+  Rig rig{given.joints, given.parents, given.names, {}, given.roles};
   rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
                              joints_of_nodes(skeleton, given),
                              static_cast<int>(given.joints.rows()), options, monitor);

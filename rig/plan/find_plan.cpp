@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <utility>
@@ -129,11 +128,6 @@ class Planner {
   std::vector<PlannedJoint> joints_;
 };
 
-constexpr std::array humanoid_needs{
-    "hips",         "spine",         "head",          "leftUpperArm",  "leftLowerArm",
-    "leftHand",     "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",
-    "leftLowerLeg", "leftFoot",      "rightUpperLeg", "rightLowerLeg", "rightFoot"};
-
 std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   switch (found.plan) {
     case BodyKind::humanoid:
@@ -176,7 +170,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   result.reason = found.reason;
   result.joints = Planner(tree, limbs).joints(places, result.axes);
   if (result.plan == BodyKind::humanoid) {
-    for (const char* role : humanoid_needs) {
+    for (const char* role : required_human_roles) {
       if (std::none_of(result.joints.begin(), result.joints.end(),
                        [&](const PlannedJoint& joint) { return joint.role == role; })) {
         result.missing.emplace_back(role);

@@ -192,7 +192,7 @@ void Workbench::save(const fs::path& file) {
     return;
   }
   try {
-    if (rig_format) {
+    if (!format) {
       save_rig(file, *rig_format);
       return;
     }

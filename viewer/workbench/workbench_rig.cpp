@@ -104,7 +104,7 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   try {
     // The file's numbers are those of the bind pose, the rig's those of the pose that is shown.
     if (document.posed) without = "the file rests in another pose than its joints were bound in";
-    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version()};
+    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(), {}};
     if (without.empty()) edited = format_rig_into(document.mesh_file, rig, options);
   } catch (const Error& error) {
     without = error.what();

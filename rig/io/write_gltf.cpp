@@ -18,6 +18,7 @@
 #include <curveskel/rig_files.hpp>
 #include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/skin_numbers.hpp"
+#include "rig/io/rig_writers.hpp"
 #include "rig/joints/bone_axes.hpp"
 #include "surface/mesh/single_precision.hpp"
 
@@ -177,8 +178,8 @@ void add_skin(GltfWriter& writer, const Rig& rig, const std::vector<Eigen::Quate
 
 }  // namespace
 
-std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
-                       const std::string& name, const std::string& provenance) {
+std::string format_gltf_rig(const Surface& surface, const Rig& rig, RigFormat format,
+                            const std::string& name, const std::string& provenance) {
   require_gltf_joints(rig);
   require_single_precision(surface.positions, "glTF");
   GltfWriter writer;

@@ -1,0 +1,24 @@
+// VRM 1.0: a binary glTF file that says which joint is which bone of a human.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+#include <curveskel/rig.hpp>
+#include <curveskel/rig_files.hpp>
+
+namespace curveskel {
+
+/// Throws Error(Fault::usage) where name, author or licence are missing, Error(Fault::input) where
+/// the rig has not the fifteen bones that VRM requires.
+void require_vrm(const Rig& rig, const VrmMeta& meta);
+
+/// Adds the extension VRMC_vrm to a glTF's JSON whose last skin has the rig's joints, in their
+/// order.
+void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const VrmMeta& meta);
+
+/// The same in a binary file.
+[[nodiscard]] std::string with_vrm(const std::string& glb, const Rig& rig, const VrmMeta& meta);
+
+}  // namespace curveskel

@@ -1,0 +1,32 @@
+#include <string>
+
+#include <curveskel/rig_files.hpp>
+#include "rig/gltf/vrm.hpp"
+#include "rig/io/rig_writers.hpp"
+
+namespace curveskel {
+
+std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
+                       const std::string& name, const std::string& provenance, const VrmMeta& vrm) {
+  switch (format) {
+    case RigFormat::vrm:
+      require_vrm(rig, vrm);
+      return with_vrm(format_gltf_rig(surface, rig, RigFormat::glb, name, provenance), rig, vrm);
+    case RigFormat::json:
+      return format_json_rig(rig, provenance);
+    case RigFormat::npz:
+      return format_npz_rig(rig);
+    case RigFormat::txt:
+      return format_rignet_rig(rig);
+    case RigFormat::bvh:
+      return format_bvh_rig(rig);
+    case RigFormat::usda:
+      return format_usda_rig(surface, rig, name, provenance);
+    case RigFormat::glb:
+    case RigFormat::gltf:
+      break;
+  }
+  return format_gltf_rig(surface, rig, format, name, provenance);
+}
+
+}  // namespace curveskel

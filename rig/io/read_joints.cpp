@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read_rig.hpp>
+#include "rig/io/rig_formats.hpp"
+#include "surface/read/file_bytes.hpp"
+
+namespace curveskel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* joints_remedy =
+    "give a glTF file with a skin, the .json or .txt that `curveskel rig` writes, or RigNet's .txt";
+
+struct GivenJoint {
+  std::string name;
+  int parent = -1;
+  Eigen::RowVector3d position = Eigen::RowVector3d::Zero();
+  std::string role;
+};
+
+/// Parents before children; of several that may come next the first given.
+std::vector<int> parents_first(const std::vector<GivenJoint>& joints, const FileBytes& file) {
+  std::vector<int> order;
+  std::vector<char> done(joints.size(), 0);
+  std::vector<std::vector<int>> children(joints.size());
+  std::vector<int> open;
+  for (std::size_t k = joints.size(); k-- > 0;) {
+    const int parent = joints[k].parent;
+    if (parent < 0) {
+      open.push_back(static_cast<int>(k));
+    } else {
+      children[idx(parent)].push_back(static_cast<int>(k));
+    }
+  }
+  while (!open.empty()) {
+    const int joint = open.back();
+    open.pop_back();
+    order.push_back(joint);
+    done[idx(joint)] = 1;
+    open.insert(open.end(), children[idx(joint)].begin(), children[idx(joint)].end());
+  }
+  if (order.size() == joints.size()) return order;
+  const auto lost = std::find(done.begin(), done.end(), 0) - done.begin();
+  file.fail("joint " + in_quotes(joints[idx(lost)].name) + ", which hangs from itself",
+            "parents that lead to a root", "mend its parent");
+}
+
+Rig rig_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
+  if (joints.empty()) file.fail("no joint", "one at least", joints_remedy);
+  const std::vector<int> order = parents_first(joints, file);
+  std::vector<int> number(joints.size(), -1);
+  Rig rig;
+  rig.joints.resize(static_cast<Eigen::Index>(order.size()), 3);
+  rig.parents.resize(rig.joints.rows());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const GivenJoint& joint = joints[idx(order[k])];
+    number[idx(order[k])] = static_cast<int>(k);
+    if (!joint.position.allFinite()) {
+      file.fail("a position of joint " + in_quotes(joint.name) + " that is no number",
+                "three finite numbers", "mend it");
+    }
+    const auto row = static_cast<Eigen::Index>(k);
+    rig.joints.row(row) = joint.position;
+    rig.parents[row] = joint.parent < 0 ? -1 : number[idx(joint.parent)];
+    rig.names.push_back(joint.name);
+    rig.roles.push_back(joint.role);
+  }
+  return rig;
+}
+
+/// Every glTF file has the member.
+bool says_gltf(const std::string& content) {
+  const Json json = Json::parse(content, nullptr, false);
+  return json.is_object() && json.contains("asset");
+}
+
+Rig joints_of_json(const FileBytes& file) {
+  std::vector<GivenJoint> joints;
+  try {
+    const Json json = Json::parse(file.content);
+    for (const Json& entry : json.at("joints")) {
+      GivenJoint joint;
+      joint.name = entry.at("name").get<std::string>();
+      joint.parent = entry.at("parent").is_null() ? -1 : entry.at("parent").get<int>();
+      for (int axis = 0; axis < 3; ++axis) {
+        joint.position[axis] = entry.at("position").at(idx(axis)).get<double>();
+      }
+      joint.role = entry.value("role", "");
+      joints.push_back(std::move(joint));
+    }
+  } catch (const Json::exception& error) {
+    file.fail(std::string("JSON that has no such joints: ") + error.what(),
+              "{\"joints\": [{\"name\": ..., \"parent\": number or -1, \"position\": [x, y, z]}]}",
+              joints_remedy);
+  }
+  for (const GivenJoint& joint : joints) {
+    if (joint.parent < static_cast<int>(joints.size()) && joint.parent >= -1) continue;
+    file.fail("joint " + in_quotes(joint.name) + " with parent " + std::to_string(joint.parent),
+              "the number of one of the " + std::to_string(joints.size()) +
+                  " joints, counted from 0, or -1",
+              "mend it");
+  }
+  return rig_of(joints, file);
+}
+
+/// RigNet's: joints NAME X Y Z; root NAME; skin ...; hier PARENT CHILD.
+Rig joints_of_text(const FileBytes& file) {
+  std::vector<GivenJoint> joints;
+  std::map<std::string, int> number;
+  std::vector<std::pair<std::string, std::string>> links;
+  std::istringstream lines(file.content);
+  int at = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++at;
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "joints") {
+      GivenJoint joint;
+      words >> joint.name >> joint.position[0] >> joint.position[1] >> joint.position[2];
+      if (!words) {
+        file.fail("line " + std::to_string(at) + " " + in_quotes(line), "joints NAME X Y Z",
+                  "mend the line");
+      }
+      if (!number.emplace(joint.name, static_cast<int>(joints.size())).second) {
+        file.fail("two joints " + in_quotes(joint.name), "a name of its own for each",
+                  "call one of them otherwise");
+      }
+      joints.push_back(std::move(joint));
+    } else if (word == "hier") {
+      auto& [parent, child] = links.emplace_back();
+      words >> parent >> child;
+    }
+  }
+  for (const auto& [parent, child] : links) {
+    for (const std::string& name : {parent, child}) {
+      if (number.count(name) == 0) {
+        file.fail("a link with " + in_quotes(name), "joints of the file", "add the joint");
+      }
+    }
+    joints[idx(number.at(child))].parent = number.at(parent);
+  }
+  return rig_of(joints, file);
+}
+
+}  // namespace
+
+Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
+  const FileBytes file = read_file(path, monitor);
+  const std::size_t first = file.content.find_first_not_of(" \t\r\n");
+  const bool is_text = first != std::string::npos && file.content[first] == '{';
+  if (is_text && !says_gltf(file.content)) return joints_of_json(file);
+  if (!is_text && !file.content.starts_with("glTF")) return joints_of_text(file);
+  std::optional<Rig> rig = read_gltf_rig(file, monitor);
+  if (!rig) file.fail("no skin", "joints", joints_remedy);
+  rig->weights = SkinWeights(0, rig->joints.rows());
+  return std::move(*rig);
+}
+
+}  // namespace curveskel

@@ -1,0 +1,43 @@
+// One writer for each format of rigs, behind `format_rig`.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <curveskel/rig.hpp>
+#include <curveskel/rig_files.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+/// `format` is glb or gltf.
+[[nodiscard]] std::string format_gltf_rig(const Surface& surface, const Rig& rig, RigFormat format,
+                                          const std::string& name, const std::string& provenance);
+[[nodiscard]] std::string format_json_rig(const Rig& rig, const std::string& provenance);
+[[nodiscard]] std::string format_npz_rig(const Rig& rig);
+[[nodiscard]] std::string format_rignet_rig(const Rig& rig);
+[[nodiscard]] std::string format_bvh_rig(const Rig& rig);
+[[nodiscard]] std::string format_usda_rig(const Surface& surface, const Rig& rig,
+                                          const std::string& name, const std::string& provenance);
+
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string number_text(double value);
+[[nodiscard]] std::string number_text(float value);
+
+enum class NameRule {
+  word,       ///< without blanks, for formats that part words by these
+  identifier  ///< letters, digits and _ alone, no digit first
+};
+/// Each joint's name by the rule; empty ones become joint_1 and so on, of several alike the later
+/// ones get a number.
+[[nodiscard]] std::vector<std::string> names_by(const Rig& rig, NameRule rule);
+
+/// The four largest weights of a vertex, which sum to 1; joint 0 has all of a vertex without any.
+struct FourWeights {
+  std::array<int, 4> joints{};
+  std::array<float, 4> weights{};
+};
+[[nodiscard]] FourWeights four_weights(const SkinWeights& weights, Eigen::Index vertex);
+
+}  // namespace curveskel
