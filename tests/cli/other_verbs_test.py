@@ -4,6 +4,7 @@ import json
 import os
 import struct
 import unittest
+import zipfile
 
 from program import LINKED_RINGS, TORUS, Y, CommandLineTest, run
 
@@ -318,6 +319,56 @@ class Rig(CommandLineTest):
         self.refused(2, "rig", Y, says=["--output"], cwd=self.folder)
         self.refused(2, "rig", Y, "-o", "y.glb", "--softness", "0", says=["--softness"],
                      cwd=self.folder)
+
+    def test_all_formats_at_once_have_the_same_joints(self):
+        names = ["y.json", "y.txt", "y.bvh", "y.usda", "y.npz", "y.glb"]
+        self.run_ok("rig", Y, *(word for name in names for word in ("-o", name)), cwd=self.folder)
+        joints = [joint["name"] for joint
+                  in json.loads((self.folder / "y.json").read_text())["joints"]]
+        moving = [name for name in joints if "_end" not in name]
+        for name, marks in (("y.txt", "joints {} "), ("y.bvh", " {}\n"), ("y.usda", "{}\"")):
+            text = (self.folder / name).read_text()
+            for joint in moving:
+                written = joint.replace(".", "_") if name.endswith(".usda") else joint
+                self.assertTrue(marks.format(written) in text, f"{written} in {name}")
+        with zipfile.ZipFile(self.folder / "y.npz") as archive:
+            self.assertIsNone(archive.testzip())
+            self.assertIn("weights.npy", archive.namelist())
+        found = self.glb((self.folder / "y.glb").read_bytes())
+        self.assertEqual(sorted(node["name"] for node in found["nodes"][2:]), sorted(joints))
+
+    def test_somebodys_joints_get_weights(self):
+        self.run_ok("rig", Y, "-o", "own.json", "-o", "own.txt", "-o", "own.glb", cwd=self.folder)
+        own = json.loads((self.folder / "own.json").read_text())
+        for name in ("own.json", "own.txt", "own.glb"):
+            self.run_ok("rig", Y, "--joints", name, "-o", "given.json", cwd=self.folder)
+            given = json.loads((self.folder / "given.json").read_text())
+            self.assertEqual(given["vertices"], own["vertices"])
+            for joint, same in zip(sorted(given["joints"], key=lambda joint: joint["name"]),
+                                   sorted(own["joints"], key=lambda joint: joint["name"])):
+                self.assertEqual(joint["name"], same["name"])
+                for found, wanted in zip(joint["position"], same["position"]):
+                    self.assertAlmostEqual(found, wanted, places=5)
+            for weights in given["weights"]["values"]:
+                self.assertAlmostEqual(sum(weights), 1, places=5)
+
+    def test_joints_that_are_not_of_the_surface_are_refused(self):
+        far = {"joints": [{"name": "far", "parent": -1, "position": [1000, 0, 0]}]}
+        (self.folder / "far.json").write_text(json.dumps(far))
+        self.refused(3, "rig", Y, "--joints", "far.json", "-o", "x.glb", cwd=self.folder,
+                     says=["far.json", "none of 1 joints", "coordinates"])
+        self.refused(3, "rig", Y, "--joints", Y, "-o", "x.glb", cwd=self.folder,
+                     says=[Y.name, "no joint"])
+        self.refused(2, "rig", Y, "--joints", "far.json", "--keep-rig", "-o", "x.glb",
+                     cwd=self.folder, says=["--joints", "--keep-rig"])
+
+    def test_a_vrm_is_of_a_human_that_somebody_has_made(self):
+        self.refused(2, "rig", Y, "-o", "y.vrm", cwd=self.folder,
+                     says=["--vrm-name", "--vrm-author", "--vrm-licence"])
+        self.refused(3, "rig", Y, "-o", "y.vrm", "--vrm-name", "Y", "--vrm-author", "a person",
+                     "--vrm-licence", "https://vrm.dev/licenses/1.0/", cwd=self.folder,
+                     says=["hips", "--plan", ".glb"])
+        self.assertFalse((self.folder / "y.vrm").exists())
 
     def test_what_is_no_surface_is_refused(self):
         self.refused(3, "rig", "nowhere.off", "-o", "x.glb", says=["nowhere.off"],
