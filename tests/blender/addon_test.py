@@ -1,0 +1,272 @@
+"""The add-on in Blender without a window: what it makes of the user's own objects. Skipped where
+there is no Blender (Debian package blender)."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
+PROGRAM = pathlib.Path(os.environ["CURVESKEL_PROGRAM"])
+ZIP = pathlib.Path(os.environ["CURVESKEL_ADDON"])  # as the build makes it
+
+BEGIN = """
+import pathlib, sys, tempfile
+import bpy
+from mathutils import Matrix, Vector
+folder = pathlib.Path(sys.argv[-2])
+source = pathlib.Path(sys.argv[-1])
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.preferences.addon_install(filepath=str(folder / "curveskel.zip"))
+bpy.ops.preferences.addon_enable(module="curveskel")
+
+def mesh_object(name, places, faces):
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(places, [], faces)
+    thing = bpy.data.objects.new(name, data)
+    bpy.context.collection.objects.link(thing)
+    return thing
+
+def off(file):
+    lines = file.read_text().split("\\n")
+    vertices, faces = map(int, lines[1].split()[:2])
+    return ([tuple(map(float, line.split())) for line in lines[2:2 + vertices]],
+            [tuple(map(int, line.split()[1:4]))
+             for line in lines[2 + vertices:2 + vertices + faces]])
+
+def select(*things):
+    bpy.ops.object.select_all(action="DESELECT")
+    for thing in things:
+        thing.select_set(True)
+    bpy.context.view_layer.objects.active = things[0]
+
+def y_shape():
+    thing = mesh_object("y", *off(source / "meshes" / "y.off"))
+    thing.data.materials.append(bpy.data.materials.new("skin"))
+    thing.data.uv_layers.new(name="map")
+    thing.shape_key_add(name="Basis")
+    key = thing.shape_key_add(name="wide")
+    for point in key.data:
+        point.co.x *= 1.5
+    thing.location = (0, 0, 3)
+    thing.rotation_euler = (0.3, 0, 1)
+    bpy.context.view_layer.update()
+    return thing
+
+def armature():
+    return next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
+
+def check_weights(thing, bones):
+    names = {group.index: group.name for group in thing.vertex_groups}
+    for vertex in thing.data.vertices:
+        row = [group for group in vertex.groups if names[group.group] in bones]
+        assert abs(sum(group.weight for group in row) - 1) < 1e-4, (thing.name, vertex.index)
+
+def world_places(thing):
+    bpy.context.view_layer.update()
+    shown = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return [shown.matrix_world @ vertex.co for vertex in shown.data.vertices]
+
+def leftovers():
+    return [file for file in pathlib.Path(tempfile.gettempdir()).glob("curveskel-*")]
+"""
+
+RIG = """
+body = y_shape()
+places = world_places(body)
+button = mesh_object("button", *off(folder / "button.off"))
+button.location = body.matrix_world @ Vector(min(body.data.vertices, key=lambda v: v.co.x).co)
+button.modifiers.new("smooth", "SUBSURF")
+button.vertex_groups.new(name="mine").add([0], 0.25, "REPLACE")
+select(body, button)
+assert bpy.ops.curveskel.rig() == {"FINISHED"}
+made = armature()
+bones = {bone.name for bone in made.data.bones}
+assert len(bones) >= 4, bones
+assert not any("_end" in name for name in bones), bones
+assert len([bone for bone in made.data.bones if bone.parent is None]) == 1
+for thing in (body, button):
+    check_weights(thing, bones)
+    assert thing.parent == made
+    assert [m.type for m in thing.modifiers][0] == "ARMATURE", list(thing.modifiers)
+assert button.vertex_groups["mine"].weight(0) == 0.25
+assert [key.name for key in body.data.shape_keys.key_blocks] == ["Basis", "wide"]
+assert body.data.materials[0].name == "skin" and body.data.uv_layers[0].name == "map"
+assert [m.type for m in button.modifiers] == ["ARMATURE", "SUBSURF"]
+moved = world_places(body)
+assert max((a - b).length for a, b in zip(places, moved)) < 1e-4, "rests where it was"
+# A limb that is turned takes its part along, and leaves the others.
+tip = max((bone for bone in made.pose.bones if bone.parent), key=lambda bone: bone.bone.length)
+tip.matrix_basis = Matrix.Rotation(0.8, 4, "X")
+turned = world_places(body)
+ways = sorted((a - b).length for a, b in zip(places, turned))
+assert ways[-1] > 0.3 and ways[len(ways) // 3] < 1e-3, ways[::200]
+assert not leftovers()
+# Again: groups are made anew, not doubled.
+tip.matrix_basis = Matrix.Identity(4)
+body.parent = None
+count = len(body.vertex_groups)
+assert bpy.ops.curveskel.rig() == {"FINISHED"}
+assert len(body.vertex_groups) == count
+"""
+
+WEIGHTS = """
+body = y_shape()
+select(body)
+assert bpy.ops.curveskel.rig() == {"FINISHED"}
+made = armature()
+select(made)
+bpy.ops.object.mode_set(mode="EDIT")
+made.data.edit_bones.new("handle").tail = (0, 0, 40)
+bpy.ops.object.mode_set(mode="OBJECT")
+made.data.bones["handle"].use_deform = False
+before = [(bone.name, tuple(bone.head_local), tuple(bone.tail_local)) for bone in made.data.bones]
+bones = {bone.name for bone in made.data.bones if bone.use_deform}
+body.vertex_groups.clear()
+select(body, made)
+assert bpy.ops.curveskel.weights() == {"FINISHED"}
+assert [(bone.name, tuple(bone.head_local), tuple(bone.tail_local))
+        for bone in made.data.bones] == before
+assert {group.name for group in body.vertex_groups} == bones
+check_weights(body, bones)
+for thing in list(bpy.data.objects):
+    if thing.type == "ARMATURE":
+        bpy.data.objects.remove(thing)
+select(body)
+assert not bpy.ops.curveskel.weights.poll(), "no armature is selected"
+"""
+
+MIRROR = """
+half = mesh_object("half", *off(folder / "half.off"))
+mirror = half.modifiers.new("mirror", "MIRROR")
+mirror.use_clip = True
+select(half)
+assert bpy.ops.curveskel.rig() == {"FINISHED"}
+made = armature()
+heads = [bone.head_local.x for bone in made.data.bones] + [bone.tail_local.x
+                                                           for bone in made.data.bones]
+assert min(heads) < -1 and max(heads) > 1, "bones on both sides"
+assert [m.type for m in half.modifiers] == ["MIRROR", "ARMATURE"]
+check_weights(half, {bone.name for bone in made.data.bones})
+assert mirror.show_viewport
+"""
+
+SKELETON = """
+body = y_shape()
+select(body)
+assert bpy.ops.curveskel.skeleton() == {"FINISHED"}
+curve = next(thing for thing in bpy.data.objects if thing.type == "CURVE")
+assert len(curve.data.splines) == 3, len(curve.data.splines)
+places = world_places(body)
+for spline in curve.data.splines:
+    for point in spline.points:
+        assert point.radius > 0
+        nearest = min((place - point.co.to_3d()).length for place in places)
+        assert 0.5 * point.radius < nearest < 3 * point.radius + 0.2, (nearest, point.radius)
+"""
+
+FAILURES = """
+from curveskel import program
+select(mesh_object("flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+try:
+    bpy.ops.curveskel.rig()
+except RuntimeError as error:
+    assert "in.obj" in str(error) or "flat" in str(error), error
+else:
+    assert False, "a triangle has no rig"
+assert not [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+preferences = bpy.context.preferences.addons["curveskel"].preferences
+for path, words in (("/nowhere/curveskel", "not found"), ("/bin/true", "no curveskel")):
+    preferences.program = path
+    try:
+        bpy.ops.curveskel.test_program()
+    except RuntimeError as error:
+        assert words in str(error), error
+    else:
+        assert False, path
+preferences.program = ""
+assert bpy.ops.curveskel.test_program() == {"FINISHED"}
+# A run that is cancelled ends at once, and leaves nothing.
+slow = folder / "slow"
+slow.write_text("#!/bin/sh\\necho 'contract ...' >&2\\nexec sleep 60\\n")
+slow.chmod(0o755)
+job = program.Job(str(slow))
+job.start("rig")
+while job.stage() == "starting":
+    pass
+assert job.stage() == "contract ..." and not job.is_done()
+job.close()
+assert not leftovers()
+"""
+
+
+def capped_bar():
+    """Half of a bar along x, from 0 to 4, open at 0: rings of eight and a cap."""
+    import math
+    rings = [(0.4 * k, 0.5) for k in range(10)] + [(3.8, 0.35)]
+    lines, faces = [], []
+    for x, radius in rings:
+        lines += [f"{x} {radius * math.cos(k * math.pi / 4)} {radius * math.sin(k * math.pi / 4)}"
+                  for k in range(8)]
+    for ring in range(len(rings) - 1):
+        for k in range(8):
+            a, b = 8 * ring + k, 8 * ring + (k + 1) % 8
+            faces += [(a, b, b + 8), (a, b + 8, a + 8)]
+    last = 8 * (len(rings) - 1)
+    lines.append("4 0 0")
+    faces += [(last + k, last + (k + 1) % 8, len(lines) - 1) for k in range(8)]
+    return off_text(lines, faces)
+
+
+def off_text(lines, faces):
+    return "\n".join(["OFF", f"{len(lines)} {len(faces)} 0", *lines,
+                      *(f"3 {a} {b} {c}" for a, b, c in faces)]) + "\n"
+
+
+OCTAHEDRON = off_text(
+    ["0.1 0 0", "-0.1 0 0", "0 0.1 0", "0 -0.1 0", "0 0 0.1", "0 0 -0.1"],
+    [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)])
+
+
+@unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
+class AddOn(unittest.TestCase):
+    def run_in_blender(self, script):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            shutil.copy(ZIP, folder / "curveskel.zip")
+            (folder / "half.off").write_text(capped_bar())
+            (folder / "button.off").write_text(OCTAHEDRON)
+            (folder / "script.py").write_text(BEGIN + script)
+            (folder / "tmp").mkdir()
+            (folder / "scripts").mkdir()
+            # Blender takes the first python3 in the path for its own.
+            environment = {**os.environ, "TMPDIR": str(folder / "tmp"),
+                           "BLENDER_USER_SCRIPTS": str(folder / "scripts"),
+                           "BLENDER_USER_CONFIG": str(folder / "config"),
+                           "PATH": f"{PROGRAM.parent}:/usr/local/bin:/usr/bin:/bin"}
+            done = subprocess.run(
+                [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
+                 folder / "script.py", "--", folder, SOURCE], capture_output=True, text=True,
+                stdin=subprocess.DEVNULL, env=environment, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+
+    def test_rigs_the_users_own_objects(self):
+        self.run_in_blender(RIG)
+
+    def test_weights_leave_the_bones_alone(self):
+        self.run_in_blender(WEIGHTS)
+
+    def test_half_a_body_with_a_mirror_is_whole(self):
+        self.run_in_blender(MIRROR)
+
+    def test_skeleton_comes_as_curves_with_radii(self):
+        self.run_in_blender(SKELETON)
+
+    def test_failures_are_said_and_leave_nothing(self):
+        self.run_in_blender(FAILURES)
+
+
+if __name__ == "__main__":
+    unittest.main()
