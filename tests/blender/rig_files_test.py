@@ -1,0 +1,160 @@
+"""What Blender makes of a rig in the user's own glTF file: all is there, rests where it was, and
+moves as our own skinning says. Characters are those of the collection, named by
+CURVESKEL_COLLECTION, and of meshes/free. Skipped where there is no Blender (Debian package
+blender)."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
+PROGRAM = os.environ["CURVESKEL_PROGRAM"]
+
+# Debian's importer of glTF asks numpy for names that its numpy has no more.
+LOOK = """
+import json, pathlib, random, sys
+import bpy, numpy
+from mathutils import Euler, Matrix
+numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
+
+def load(file):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=str(file))
+    for thing in bpy.data.objects:
+        thing.animation_data_clear()
+        for key in thing.data.shape_keys.key_blocks if (
+                thing.type == "MESH" and thing.data.shape_keys) else []:
+            key.value = 0
+    for thing in bpy.data.objects:
+        if thing.type == "ARMATURE":
+            for bone in thing.pose.bones:
+                bone.matrix_basis = Matrix.Identity(4)
+
+def meshes():
+    return sorted((thing for thing in bpy.data.objects
+                   if thing.type == "MESH" and thing.users_scene
+                   and "Icosphere" not in thing.name), key=lambda thing: thing.name)
+
+def places(thing):
+    shown = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    found = numpy.empty(3 * len(mesh.vertices), dtype=numpy.float32)
+    mesh.vertices.foreach_get("co", found)
+    shown.to_mesh_clear()
+    frame = numpy.array(shown.matrix_world, dtype=float)
+    return found.reshape(-1, 3) @ frame[:3, :3].T + frame[:3, 3]
+
+def looks():
+    found = []
+    for thing in meshes():
+        keys = thing.data.shape_keys
+        found.append({
+            "vertices": len(thing.data.vertices), "faces": len(thing.data.polygons),
+            "materials": [slot.material.name if slot.material else None
+                          for slot in thing.material_slots],
+            "maps": [layer.name for layer in thing.data.uv_layers],
+            "colours": len(thing.data.color_attributes),
+            "keys": [block.name for block in keys.key_blocks] if keys else []})
+    return sorted(found, key=str)
+
+def bounds(positions):
+    joined = numpy.concatenate(positions)
+    return joined.min(axis=0), joined.max(axis=0)
+
+def skinned(thing, armature):
+    # Sum of weight * pose * inverse rest, of what the armature is given.
+    pose = {bone.name: numpy.array(armature.matrix_world @ bone.matrix @
+                                   bone.bone.matrix_local.inverted() @
+                                   armature.matrix_world.inverted())
+            for bone in armature.pose.bones}
+    names = {group.index: group.name for group in thing.vertex_groups}
+    frame = numpy.array(thing.matrix_world, dtype=float)
+    found = []
+    for vertex in thing.data.vertices:
+        place = frame @ numpy.array([*vertex.co, 1.0])
+        row = [(names[group.group], group.weight) for group in vertex.groups
+               if group.weight > 0 and names[group.group] in pose]
+        found.append(sum(weight * (pose[name] @ place) for name, weight in row)[:3]
+                     / sum(weight for _, weight in row))
+    return numpy.array(found)
+
+folder = pathlib.Path(sys.argv[-1])
+result = {}
+for number in range(len(list(folder.glob("*.before.*")))):
+    before, = folder.glob(f"{number}.before.*")
+    load(before)
+    kept = looks()
+    for thing in bpy.data.objects:  # a new rig rests as the old one was bound
+        if thing.type == "ARMATURE":
+            thing.data.pose_position = "REST"
+    bpy.context.view_layer.update()
+    low, high = bounds([places(thing) for thing in meshes()])
+    load(folder / f"{number}.after.glb")
+    size = numpy.linalg.norm(high - low)
+    new_low, new_high = bounds([places(thing) for thing in meshes()])
+    armatures = [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+    random.seed(1)
+    for bone in armatures[0].pose.bones:
+        bone.rotation_mode = "XYZ"
+        bone.rotation_euler = [random.uniform(-0.4, 0.4) for _ in range(3)]
+    bpy.context.view_layer.update()
+    off, moved = 0, 0
+    for thing in meshes():
+        posed = places(thing)
+        off = max(off, numpy.abs(posed - skinned(thing, armatures[0])).max() / size)
+        frame = numpy.array(thing.matrix_world, dtype=float)
+        still = numpy.array([frame[:3, :3] @ vertex.co + frame[:3, 3]
+                             for vertex in thing.data.vertices])
+        moved = max(moved, numpy.abs(posed - still).max() / size)
+    result[before.name] = {
+        "same looks": looks() == kept, "looks": kept, "armatures": len(armatures),
+        "rest": max(numpy.abs(new_low - low).max(), numpy.abs(new_high - high).max()) / size,
+        "poses": off, "moved": moved}
+(folder / "result.json").write_text(json.dumps(result))
+"""
+
+
+def rigged_files():
+    files = sorted((SOURCE / "meshes" / "free" / "rigs").glob("*.glb"))
+    if os.environ.get("CURVESKEL_COLLECTION"):
+        folder = pathlib.Path(os.environ["CURVESKEL_COLLECTION"]) / "characters"
+        files += sorted(folder.glob("*.glb"))
+    return files
+
+
+@unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
+class RigFiles(unittest.TestCase):
+    def test_all_is_there_rests_where_it_was_and_moves_as_we_say(self):
+        files = rigged_files()
+        self.assertTrue(files)
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            for number, file in enumerate(files):
+                shutil.copy(file, folder / f"{number}.before{file.suffix}")
+                subprocess.run([PROGRAM, "rig", file, "-o", folder / f"{number}.after.glb", "-q"],
+                               check=True, stderr=subprocess.DEVNULL)
+            (folder / "script.py").write_text(LOOK)
+            environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
+            done = subprocess.run(
+                [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
+                 folder / "script.py", "--", folder], capture_output=True, text=True,
+                stdin=subprocess.DEVNULL, env=environment, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+            found = json.loads((folder / "result.json").read_text())
+        for number, file in enumerate(files):
+            with self.subTest(file.name):
+                result = found[f"{number}.before{file.suffix}"]
+                self.assertTrue(result["same looks"], result["looks"])
+                self.assertEqual(result["armatures"], 1)
+                self.assertLess(result["rest"], 1e-4)
+                self.assertLess(result["poses"], 1e-4)
+                self.assertGreater(result["moved"], 0.02)
+                print(f"{file.name}: rest {result['rest']:.1e} D, poses {result['poses']:.1e} D")
+
+
+if __name__ == "__main__":
+    unittest.main()
