@@ -18,7 +18,6 @@ PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 LOOK = """
 import json, pathlib, random, sys
 import bpy, numpy
-from mathutils import Euler, Matrix
 numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
 
 def load(file):
@@ -29,10 +28,7 @@ def load(file):
         for key in thing.data.shape_keys.key_blocks if (
                 thing.type == "MESH" and thing.data.shape_keys) else []:
             key.value = 0
-    for thing in bpy.data.objects:
-        if thing.type == "ARMATURE":
-            for bone in thing.pose.bones:
-                bone.matrix_basis = Matrix.Identity(4)
+    bpy.context.view_layer.update()
 
 def meshes():
     return sorted((thing for thing in bpy.data.objects
@@ -88,6 +84,7 @@ for number in range(len(list(folder.glob("*.before.*")))):
     before, = folder.glob(f"{number}.before.*")
     load(before)
     kept = looks()
+    shown = bounds([places(thing) for thing in meshes()])
     for thing in bpy.data.objects:  # a new rig rests as the old one was bound
         if thing.type == "ARMATURE":
             thing.data.pose_position = "REST"
@@ -96,7 +93,12 @@ for number in range(len(list(folder.glob("*.before.*")))):
     load(folder / f"{number}.after.glb")
     size = numpy.linalg.norm(high - low)
     new_low, new_high = bounds([places(thing) for thing in meshes()])
+    if numpy.abs(numpy.array(shown) - [low, high]).max() > 1e-4 * size:
+        # It was posed: where in the scene it was bound no one knows, but for its extent.
+        new_low, new_high, low, high = 0, new_high - new_low, 0, high - low
     armatures = [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+    basis = max(numpy.abs(numpy.array(bone.matrix_basis) - numpy.eye(4)).max()
+                for bone in armatures[0].pose.bones)
     random.seed(1)
     for bone in armatures[0].pose.bones:
         bone.rotation_mode = "XYZ"
@@ -113,7 +115,7 @@ for number in range(len(list(folder.glob("*.before.*")))):
     result[before.name] = {
         "same looks": looks() == kept, "looks": kept, "armatures": len(armatures),
         "rest": max(numpy.abs(new_low - low).max(), numpy.abs(new_high - high).max()) / size,
-        "poses": off, "moved": moved}
+        "poses": off, "moved": moved, "basis": basis}
 (folder / "result.json").write_text(json.dumps(result))
 """
 
@@ -151,6 +153,7 @@ class RigFiles(unittest.TestCase):
                 self.assertTrue(result["same looks"], result["looks"])
                 self.assertEqual(result["armatures"], 1)
                 self.assertLess(result["rest"], 1e-4)
+                self.assertLess(result["basis"], 1e-4, "its pose at first is no rest")
                 self.assertLess(result["poses"], 1e-4)
                 self.assertGreater(result["moved"], 0.02)
                 print(f"{file.name}: rest {result['rest']:.1e} D, poses {result['poses']:.1e} D")
