@@ -17,10 +17,34 @@ using Eigen::Vector3d;
 struct LegRule {
   std::array<const char*, 4> roles;
   std::array<double, 4> shares;
+  bool has_hock;  ///< the third joint is where the leg reaches farthest back, if it clearly does
+  double ahead;   ///< of the first joint from the curve, of that height
 };
-constexpr LegRule hind_leg{{"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}};
+constexpr LegRule hind_leg{
+    {"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}, true, 0};
 constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "front_toe.L"},
-                            {0.14, 0.53, 0.87, 0.96}};
+                            {0.14, 0.53, 0.87, 0.96},
+                            false,
+                            0.1};
+
+/// The sample between two that lies farthest behind the line from one to the other; `otherwise`
+/// where none is clearly behind it.
+std::size_t rearmost(const Course& course, std::size_t from, std::size_t to, double clearly,
+                     std::size_t otherwise) {
+  const Vector3d& upper = course.points[from];
+  const Vector3d& lower = course.points[to];
+  std::size_t best = otherwise;
+  double most = clearly;
+  for (std::size_t k = from + 1; k < to; ++k) {
+    const double height = upper.y() - lower.y();
+    const double share = height > 0 ? (upper.y() - course.points[k].y()) / height : 0;
+    const double behind = upper.z() + share * (lower.z() - upper.z()) - course.points[k].z();
+    if (behind <= most) continue;
+    most = behind;
+    best = k;
+  }
+  return best;
+}
 
 /// Below the first joint a leg hangs beside the body: the first one lies as far from the mirror
 /// plane as the second.
@@ -30,16 +54,26 @@ void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const Le
   const double top = course.points.front().y();
   const std::size_t first = places.size();
   std::string above = parent;
+  std::array<std::size_t, 4> samples{};
   std::size_t k = 0;
-  for (std::size_t joint = 0; joint < rule.roles.size(); ++joint) {
+  for (std::size_t joint = 0; joint < samples.size(); ++joint) {
     const double y = top - rule.shares[joint] * (top - tree.ground);
     while (k + 1 < course.points.size() && course.points[k].y() > y) ++k;
-    places.push_back({rule.roles[joint], above, course.points[k], true, number,
-                      "at its share of the height of the trunk above the ground"});
+    samples[joint] = k;
+  }
+  if (rule.has_hock) {
+    samples[2] = rearmost(course, samples[1], samples[3], 0.01 * tree.size, samples[2]);
+  }
+  for (std::size_t joint = 0; joint < samples.size(); ++joint) {
+    const bool is_hock = rule.has_hock && joint == 2;
+    places.push_back({rule.roles[joint], above, course.points[samples[joint]], true, number,
+                      is_hock ? "where the leg reaches farthest back"
+                              : "at its share of the height of the trunk above the ground"});
     above = rule.roles[joint];
   }
   Vector3d& thigh = places[first].at;
   thigh.x() = std::max(thigh.x(), places[first + 1].at.x());
+  thigh.z() += rule.ahead * (top - tree.ground);
 }
 
 /// The thighs of hind legs, which the curve leaves for the belly too early, lie half-way between
