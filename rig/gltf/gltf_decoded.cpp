@@ -99,8 +99,9 @@ void decode_primitive(GltfDocument& document, const tinygltf::Model& model, Orde
   }
   const bool had_indices = primitive.contains("indices");
   if (decoded.indices < 0 || (had_indices && primitive["indices"] == decoded.indices)) return;
-  const OrderedJson like = had_indices ? document.json["accessors"].at(primitive["indices"])
-                                       : OrderedJson{{"type", "SCALAR"}};
+  const OrderedJson like =
+      had_indices ? document.json["accessors"].at(primitive["indices"].get<std::size_t>())
+                  : OrderedJson{{"type", "SCALAR"}};
   primitive["indices"] = add_plain(document, model, decoded.indices, like, "indices");
   primitive["mode"] = TINYGLTF_MODE_TRIANGLES;
 }
