@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include <curveskel/check_weights.hpp>
 #include "app/report.hpp"
 
 namespace curveskel {
@@ -47,24 +48,29 @@ Json joints_of(const Rig& rig) {
   return list;
 }
 
-/// Joints that move no vertex, vertices without a joint, and how many joints vertices have.
-Json checks_of(const Rig& rig) {
-  std::vector<Eigen::Index> vertices_with(5, 0);
-  std::vector<char> moves(static_cast<std::size_t>(rig.joints.rows()), 0);
-  for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
-    std::size_t joints = 0;
-    for (SkinWeights::InnerIterator it(rig.weights, v); it; ++it) {
-      if (it.value() <= 0) continue;
-      ++joints;
-      moves[static_cast<std::size_t>(it.col())] = 1;
-    }
-    ++vertices_with[std::min(joints, vertices_with.size() - 1)];
+Json checks_of(const RigRecord& record) {
+  const WeightChecks checks = check_weights(record.given, record.rig);
+  const auto name_of_joint = [&](int joint) {
+    return record.rig.names[static_cast<std::size_t>(joint)];
+  };
+  Json idle = Json::array();
+  for (const int joint : checks.idle) idle.push_back(name_of_joint(joint));
+  Json islands = Json::array();
+  for (const auto& island : checks.islands) {
+    islands.push_back({{"joint", name_of_joint(island.joint)}, {"vertices", island.vertices}});
   }
-  return {{"vertices", rig.weights.rows()},
-          {"vertices_without_joint", vertices_with[0]},
-          {"vertices_with_1_2_3_4_joints",
-           {vertices_with[1], vertices_with[2], vertices_with[3], vertices_with[4]}},
-          {"joints_that_move_nothing", std::count(moves.begin(), moves.end(), 0)}};
+  Json poses = Json::array();
+  for (const auto& pose : checks.poses) {
+    poses.push_back(
+        {{"joint", name_of_joint(pose.joint)}, {"stretch", pose.stretch}, {"volume", pose.volume}});
+  }
+  return {{"vertices", checks.vertices},
+          {"vertices_without_joint", checks.unweighted},
+          {"vertices_with_1_2_3_4_joints", checks.with_influences},
+          {"joints_that_move_nothing", std::move(idle)},
+          {"islands", std::move(islands)},
+          {"bleeding_vertices", checks.bleeding},
+          {"poses", std::move(poses)}};
 }
 
 }  // namespace
@@ -82,7 +88,7 @@ std::string rig_report_json(const RigRecord& record) {
                      {"missing_roles", plan.missing},
                      {"parts", parts_of(record.parts)},
                      {"joints", joints_of(record.rig)},
-                     {"checks", checks_of(record.rig)},
+                     {"checks", checks_of(record)},
                      {"seconds", record.seconds}};
   return json.dump(2) + "\n";
 }

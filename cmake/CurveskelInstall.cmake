@@ -51,6 +51,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/advanced/joints.hpp
   include/curveskel/advanced/skin_weights.hpp
   include/curveskel/body_plan.hpp
+  include/curveskel/check_weights.hpp
   include/curveskel/compare_rigs.hpp
   include/curveskel/make_rig.hpp
   include/curveskel/read_rig.hpp

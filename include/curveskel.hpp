@@ -20,6 +20,7 @@
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/certificate.hpp>
+#include <curveskel/check_weights.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/compare_rigs.hpp>
 #include <curveskel/contract.hpp>
