@@ -55,6 +55,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/compare_rigs.hpp
   include/curveskel/make_rig.hpp
   include/curveskel/read_rig.hpp
+  include/curveskel/rest_pose.hpp
   include/curveskel/rig.hpp
   include/curveskel/rig_character.hpp
   include/curveskel/rig_files.hpp

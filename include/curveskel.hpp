@@ -38,6 +38,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_files.hpp>

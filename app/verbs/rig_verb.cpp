@@ -17,6 +17,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/role_names.hpp>
@@ -44,6 +45,9 @@ struct RigArguments {
   bool keep_rig = false;
   std::string joints;  ///< empty = made
   VrmMeta vrm;
+  RestPose pose = RestPose::input;
+  bool ground_root = false;
+  bool no_ends = false;
   double time_limit_seconds = 0;
   int fair_iterations = 0;
   int threads = 0;
@@ -157,7 +161,7 @@ void warn_of_posture(const BodyPlan& plan, Session& session) {
     session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
   } else if (arm.x() < held_out * arm.norm()) {
     session.terminal.warn(
-        "VRM's figures rest with their arms held out level, this one does not: pose it first");
+        "VRM's figures rest with their arms held out level, this one does not: give --pose t");
   }
 }
 
@@ -213,6 +217,16 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
+/// Joints and pose as the program that the file is for wants them.
+Rig as_wanted(Rig rig, const RigArguments& arguments, const BodyPlan& plan, const Surface& given) {
+  if (arguments.pose == RestPose::t) rest_in_t_pose(rig, plan);
+  if (arguments.no_ends) rig = without_ends(rig);
+  const Eigen::RowVector3d up =
+      plan.plan == BodyKind::none ? Eigen::RowVector3d(0, 1, 0) : plan.axes.row(1);
+  if (arguments.ground_root) rig = with_ground_root(rig, given, up);
+  return rig;
+}
+
 void name_joints(Rig& rig, const BodyPlan& plan, NameStyle style, Session& session) {
   if (!has_words(style, plan.plan)) {
     session.terminal.warn(
@@ -228,6 +242,12 @@ int run_rig(RigArguments arguments, Session& session) {
   for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
     require_whole(arguments.vrm);
+  }
+  for (std::size_t k = 0; k < formats.size() && arguments.pose == RestPose::t; ++k) {
+    if (is_gltf(formats[k]) || formats[k] == RigFormat::usda) continue;
+    throw UsageError(arguments.outputs[k] +
+                     ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, "
+                     "vrm and usda");
   }
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);
@@ -261,11 +281,12 @@ int run_rig(RigArguments arguments, Session& session) {
   Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
   if (!old_rig) name_joints(rig, plan, arguments.names, session);
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
-    warn_of_posture(plan, session);
+    if (arguments.pose == RestPose::input) warn_of_posture(plan, session);
   }
+  const Rig written = as_wanted(rig, arguments, plan, given);
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
-      rig_files(arguments, soup, rig, formats, session, old_rig_in_words);
+      rig_files(arguments, soup, written, formats, session, old_rig_in_words);
   if (!arguments.report.empty()) {
     const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
     files.push_back(
@@ -277,8 +298,8 @@ int run_rig(RigArguments arguments, Session& session) {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   std::string text =
       fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
-                  arguments.mesh.filename().string(), soup.positions.rows(), rig.joints.rows(),
-                  count_tips(rig));
+                  arguments.mesh.filename().string(), soup.positions.rows(), written.joints.rows(),
+                  count_tips(written));
   text += parts_in_words(parts);
   text += plan_in_words(plan);
   text += old_rig_in_words;
@@ -342,6 +363,17 @@ Verb add_rig(CLI::App& program) {
   add_choice(*parser, "--front", arguments->plan.front, directions,
              "where the body looks; auto = of quadrupeds where their heads are, else z");
   add_choice(*parser, "--names", arguments->names, name_styles, "what joints are called");
+  add_choice(*parser, "--pose", arguments->pose, rest_poses,
+             "in which the rig rests; vertices stay as they are")
+      ->excludes(keep);
+  parser
+      ->add_flag("--ground-root", arguments->ground_root,
+                 "one more joint, on the ground, that all hangs from")
+      ->excludes(keep);
+  parser
+      ->add_flag("--no-ends", arguments->no_ends,
+                 "leave out the joints at tips, which move nothing")
+      ->excludes(keep);
   JointOptions& joints = arguments->rig.joints;
   add_number(*parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
              "node of the skeleton, counted from 0 as in its JSON file, that all hangs from, "
@@ -368,7 +400,7 @@ Verb add_rig(CLI::App& program) {
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Formats", rig_formats) + meanings("Plans", body_kinds) +
-                 meanings("Names", name_styles));
+                 meanings("Names", name_styles) + meanings("Poses", rest_poses));
   return {parser, [arguments](Session& session) { return run_rig(*arguments, session); }};
 }
 

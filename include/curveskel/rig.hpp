@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <string>
 #include <vector>
@@ -15,13 +16,16 @@ using SkinWeights = Eigen::SparseMatrix<float, Eigen::RowMajor>;
 
 /// A hierarchy of joints with skin weights (linear blend skinning).
 struct Rig {
-  Positions joints;                ///< j x 3, at rest, in the surface's coordinates
+  Positions joints;                ///< j x 3, in the surface and its coordinates
   Eigen::VectorXi parents;         ///< j, each before its children; -1 = a root
   std::vector<std::string> names;  ///< j; may be empty strings
   SkinWeights weights;             ///< n x j
   /// j, what each is in a body, in the words of PlannedJoint::role; "" = nothing that is known.
   /// Empty where nothing was looked for.
   std::vector<std::string> roles = {};
+  /// j, in the surface's coordinates, about each joint: from the surface as it is to where it
+  /// rests. Empty = it rests as it is.
+  std::vector<Eigen::Quaterniond> turns = {};
 };
 
 }  // namespace curveskel

@@ -38,11 +38,13 @@ Eigen::Affine3d place_of_joints(const std::vector<GltfPart>& parts) {
 
 /// The rig and its axes in the frame of `place`.
 Rig rig_within(const Rig& rig, const Eigen::Affine3d& place) {
-  Rig inside{rig.joints, rig.parents, rig.names, {}, {}};
+  Rig inside{rig.joints, rig.parents, rig.names, {}, {}, rig.turns};
   const Eigen::Affine3d back = place.inverse();
   for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
     inside.joints.row(joint) = (back * rig.joints.row(joint).transpose()).transpose();
   }
+  const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale_of(place)));
+  for (Eigen::Quaterniond& rests : inside.turns) rests = turn.conjugate() * rests * turn;
   return inside;
 }
 

@@ -144,8 +144,7 @@ void sign(GltfDocument& document, const std::string& provenance) {
   }
 }
 
-void finish(EditedFile& edited, GltfDocument document, const Rig& rig,
-            const EditOptions& options) {
+void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const EditOptions& options) {
   if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
   edited.bytes = format_gltf(std::move(document), options.format);
 }

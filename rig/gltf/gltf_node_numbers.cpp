@@ -64,17 +64,17 @@ int renumber_animations(OrderedJson& file, const std::vector<int>& new_node) {
   if (!file.contains("animations")) return 0;
   int gone = 0;
   OrderedJson animations = OrderedJson::array();
-  for (OrderedJson& animation : file["animations"]) {
+  for (OrderedJson& moving : file["animations"]) {
     OrderedJson channels = OrderedJson::array();
-    for (OrderedJson& channel : animation.at("channels")) {
+    for (OrderedJson& channel : moving.at("channels")) {
       if (renumber_channel(channel, new_node)) {
         channels.push_back(std::move(channel));
       } else {
         ++gone;
       }
     }
-    animation["channels"] = std::move(channels);
-    if (!animation["channels"].empty()) animations.push_back(std::move(animation));
+    moving["channels"] = std::move(channels);
+    if (!moving["channels"].empty()) animations.push_back(std::move(moving));
   }
   if (animations.empty()) {
     file.erase("animations");

@@ -114,7 +114,8 @@ std::size_t add_normals(GltfDocument& document, const ObjFile& obj, const SplitO
     const std::int32_t given = split.vertices[v].normal;
     if (given >= 0) {
       const auto& said = obj.normals[idx(given)];
-      const Eigen::RowVector3d direction(said[0], said[1], said[2]);
+      const Eigen::RowVector3d direction =
+          Eigen::RowVector3f(said[0], said[1], said[2]).cast<double>();
       if (direction.allFinite() && direction.norm() > 0) normal = direction.normalized();
     }
     for (const double number : normal) put_number(rows, static_cast<float>(number));

@@ -74,14 +74,19 @@ SkinWeights chosen_rows(const SkinWeights& weights, const std::vector<int>& rows
 }
 
 std::vector<LocalFrame> local_frames(const Rig& rig, const std::vector<Eigen::Quaterniond>& axes) {
+  const auto turned = [&](int joint) {
+    const Eigen::Quaterniond& bound = axes[idx(joint)];
+    return rig.turns.empty() ? bound : (rig.turns[idx(joint)] * bound).normalized();
+  };
   std::vector<LocalFrame> frames;
   for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
     const int parent = rig.parents[joint];
-    LocalFrame frame{rig.joints.row(joint).transpose(), axes[idx(joint)]};
+    LocalFrame frame{rig.joints.row(joint).transpose(), turned(joint)};
     if (parent >= 0) {
-      const Eigen::Quaterniond back = axes[idx(parent)].conjugate();
-      frame.offset = back * (frame.offset - rig.joints.row(parent).transpose());
-      frame.turn = (back * frame.turn).normalized();
+      // The place in the parent's frame is the same in any pose.
+      frame.offset =
+          axes[idx(parent)].conjugate() * (frame.offset - rig.joints.row(parent).transpose());
+      frame.turn = (turned(parent).conjugate() * frame.turn).normalized();
     }
     frames.push_back(frame);
   }

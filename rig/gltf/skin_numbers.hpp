@@ -31,7 +31,7 @@ struct LocalFrame {
   Eigen::Quaterniond turn;
 };
 
-/// `axes` are those of `bone_axes`.
+/// At rest, turned by the rig's `turns`. `axes` are those of `bone_axes`.
 [[nodiscard]] std::vector<LocalFrame> local_frames(const Rig& rig,
                                                    const std::vector<Eigen::Quaterniond>& axes);
 

@@ -98,7 +98,7 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
                                   " parents, needed one parent for each of at least one joint");
   }
   monitor.report("joints", 0);
-  Rig rig{given.joints, given.parents, given.names, {}, given.roles};
+  Rig rig{given.joints, given.parents, given.names, {}, given.roles, {}};
   rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
                              joints_of_nodes(skeleton, given),
                              static_cast<int>(given.joints.rows()), options, monitor);

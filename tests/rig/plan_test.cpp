@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/joints.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/make_rig.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/role_names.hpp>
 #include "tests/rig/rig_subjects.hpp"
 
@@ -345,6 +348,104 @@ TEST(PlannedRigs, HaveWeightsForEveryVertexAndTheRolesNames) {
     for (std::size_t k = 0; k < plan.joints.size(); ++k) {
       EXPECT_EQ(rig.names[k], plan.joints[k].role);
     }
+  }
+}
+
+/// Where the joints are at rest.
+Positions at_rest(const Rig& rig) {
+  Positions places = rig.joints;
+  for (int joint = 0; joint < static_cast<int>(rig.parents.size()); ++joint) {
+    const int parent = rig.parents[joint];
+    if (parent < 0) continue;
+    const RowVector3d bone = rig.joints.row(joint) - rig.joints.row(parent);
+    places.row(joint) =
+        places.row(parent) + (rig.turns[idx(parent)] * bone.transpose()).transpose();
+  }
+  return places;
+}
+
+TEST(RestPose, OfAHumanHasLevelArmsAndStraightLegs) {
+  for (const bool has_fingers : {true, false}) {
+    RigSubject subject = has_fingers ? human_with_hands(4) : human();
+    // Arms hang by 40 degrees, the figure looks along x.
+    const Eigen::Matrix3d about =
+        Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitY()).matrix();
+    const auto lowered = [&](Positions& points) {
+      for (Eigen::Index row = 0; row < points.rows(); ++row) {
+        Eigen::Vector3d p = points.row(row).transpose();
+        const double out = std::abs(p.x()) - 2;
+        if (p.y() > 12 && out > 0) p.y() -= 0.8 * out;
+        points.row(row) = (about * p).transpose();
+      }
+    };
+    lowered(subject.surface.positions);
+    lowered(subject.skeleton.nodes);
+    PlanOptions options;
+    options.front = Direction::x;
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton, options);
+    ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    const Positions before = rig.joints;
+    rest_in_t_pose(rig, plan);
+    EXPECT_EQ(rig.joints, before) << "vertices and joints stay";
+    const Positions rest = at_rest(rig);
+    const auto place = [&](const std::string& role) -> RowVector3d {
+      return rest.row(std::find(rig.roles.begin(), rig.roles.end(), role) - rig.roles.begin());
+    };
+    for (const std::string side : {"left", "right"}) {
+      const double out = side == "left" ? -1 : 1;  // along z, as x is the front
+      for (const auto& [from, to] :
+           {std::pair{"UpperArm", "LowerArm"}, std::pair{"LowerArm", "Hand"}}) {
+        const RowVector3d bone = place(side + to) - place(side + from);
+        EXPECT_NEAR(bone.z() * out, bone.norm(), 1e-9) << side << from;
+        EXPECT_GT(bone.norm(), 1);
+      }
+      const RowVector3d shin = place(side + "Foot") - place(side + "LowerLeg");
+      EXPECT_NEAR(-shin.y(), shin.norm(), 1e-9);
+    }
+  }
+  const RigSubject animal = beast(1);
+  const BodyPlan plan = find_plan(animal.surface, animal.skeleton);
+  Rig rig = make_planned_rig(animal.surface, animal.skeleton, plan);
+  EXPECT_THROW(rest_in_t_pose(rig, plan), Error);
+}
+
+TEST(GroundRoot, IsBelowAndMovesNothing) {
+  const RigSubject subject = human();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  const Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+  const Rig more = with_ground_root(rig, subject.surface, {0, 1, 0});
+  ASSERT_EQ(more.joints.rows(), rig.joints.rows() + 1);
+  EXPECT_EQ(more.names[0], "root");
+  EXPECT_EQ(more.parents[0], -1);
+  EXPECT_EQ((more.parents.array() < 0).count(), 1);
+  EXPECT_NEAR(more.joints(0, 1), subject.surface.positions.col(1).minCoeff(), 1e-12);
+  EXPECT_EQ(more.joints(0, 0), rig.joints(0, 0));
+  EXPECT_EQ(more.joints.bottomRows(rig.joints.rows()), rig.joints);
+  EXPECT_EQ(more.weights.col(0).sum(), 0);
+  EXPECT_EQ(more.roles[1], "hips");
+  EXPECT_EQ(Eigen::MatrixXf(more.weights).rightCols(rig.joints.rows()),
+            Eigen::MatrixXf(rig.weights));
+}
+
+TEST(WithoutEnds, OnlyTipsThatMoveNothingAreGone) {
+  const RigSubject subject = human_with_hands(1);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+  name_roles(rig, plan, NameStyle::automatic);
+  const Rig fewer = without_ends(rig);
+  ASSERT_LT(fewer.joints.rows(), rig.joints.rows());
+  for (const std::string& name : fewer.names) {
+    EXPECT_EQ(name.find("_end"), std::string::npos) << name;
+  }
+  for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
+    EXPECT_NEAR(fewer.weights.row(v).sum(), 1, 1e-5);
+  }
+  for (std::size_t joint = 0; joint < fewer.names.size(); ++joint) {
+    const auto same = std::find(rig.names.begin(), rig.names.end(), fewer.names[joint]);
+    ASSERT_NE(same, rig.names.end());
+    EXPECT_EQ(fewer.joints.row(static_cast<Eigen::Index>(joint)),
+              rig.joints.row(same - rig.names.begin()));
   }
 }
 

@@ -100,6 +100,7 @@ TEST(Crowd, OfAssortedPartsHasFewNodesForEach) {
   for (const std::uint64_t seed : {1U, 2U}) {
     const auto parts = shapes::assorted_parts(391, seed);
     std::vector<Shape> shapes_of_all;
+    shapes_of_all.reserve(parts.size());
     for (const auto& part : parts) shapes_of_all.push_back(part.shape);
     const Extraction found = extract(shapes::together("assorted", shapes_of_all).surface);
     EXPECT_TRUE(found.certificate.topology_correct());

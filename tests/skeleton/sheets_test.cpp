@@ -97,11 +97,11 @@ Surface triangles(double thickness) {
   const auto point = [&](double size) -> Eigen::Vector3d {
     return size * Eigen::Vector3d(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
   };
-  constexpr int count = 60;
+  constexpr Eigen::Index count = 60;
   Surface surface;
   surface.positions.resize(6 * count, 3);
   surface.triangles.resize(8 * count, 3);
-  for (int i = 0; i < count; ++i) {
+  for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Vector3d a = point(0.5);
     const Eigen::Vector3d b = a + point(0.3);
     const Eigen::Vector3d c = a + point(0.3);
@@ -110,7 +110,7 @@ Surface triangles(double thickness) {
         (a + up).transpose(), (b + up).transpose(), (c + up).transpose();
     Eigen::Matrix<int, 8, 3> faces;
     faces << 0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5;
-    surface.triangles.middleRows(8 * i, 8) = faces.array() + 6 * i;
+    surface.triangles.middleRows(8 * i, 8) = faces.array() + static_cast<int>(6 * i);
   }
   return surface;
 }
@@ -119,8 +119,10 @@ Surface triangles(double thickness) {
 Surface balls(double diameter) {
   shapes::Random random(12);
   const double half = diameter / 2;
+  constexpr int count = 60;
   std::vector<shapes::Shape> parts;
-  for (int i = 0; i < 60; ++i) {
+  parts.reserve(count);
+  for (int i = 0; i < count; ++i) {
     parts.push_back(shapes::translated(
         shapes::ellipsoid({half, half, half}, i % 3),
         {random.uniform(0, 0.6), random.uniform(0, 0.6), random.uniform(0, 0.6)}));

@@ -271,9 +271,11 @@ TEST(Merging, CountsTheHandlesThatPartsMakeTogether) {
 }
 
 TEST(Merging, OfManyPartsLosesNone) {
+  constexpr int count = 30;
   std::vector<Shape> chain;
-  for (int i = 0; i < 30; ++i) chain.push_back(at(ball(), 1.3 * i, 0.1 * (i % 3), 0));
-  expect_one_body(merged(chain), 30);
+  chain.reserve(count);
+  for (int i = 0; i < count; ++i) chain.push_back(at(ball(), 1.3 * i, 0.1 * (i % 3), 0));
+  expect_one_body(merged(chain), count);
   std::vector<Shape> star{shapes::ellipsoid({3, 3, 3}, 4)};
   for (std::uint64_t i = 0; i < 30; ++i) {
     Shape ray = at(shapes::tube("ray", shapes::straight(3), shapes::constant(0.1), 8), 4, 0, 0);

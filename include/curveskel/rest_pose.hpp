@@ -1,0 +1,34 @@
+// The pose in which a rig rests, and joints that some programs want or do not want.
+#pragma once
+
+#include <cstdint>
+
+#include <curveskel/advanced/names.hpp>
+#include <curveskel/body_plan.hpp>
+#include <curveskel/rig.hpp>
+#include <curveskel/surface.hpp>
+
+namespace curveskel {
+
+enum class RestPose : std::uint8_t { input, t };
+inline constexpr NameTable<RestPose, 2> rest_poses{{
+    {RestPose::input, "input", "as the file is"},
+    {RestPose::t, "t", "VRM's T pose, of humanoids: arms level and held out, legs straight down"},
+}};
+
+/// Sets `turns` so that a human rests in VRM's T pose: arms along x, level, hands in line with
+/// them, legs down, feet as they were. Joints and weights stay as they are, and with them the
+/// vertices of the file: what is at rest is where `turns` take them. Throws Error(Fault::input)
+/// where the plan is not a humanoid's. O(joints).
+void rest_in_t_pose(Rig& rig, const BodyPlan& plan);
+
+/// The rig below one more joint, which moves nothing: on the ground below its first root, named
+/// "root". Precondition: `up` of length 1. O(#V + joints).
+[[nodiscard]] Rig with_ground_root(const Rig& rig, const Surface& surface,
+                                   const Eigen::RowVector3d& up);
+
+/// Without the joints that move nothing, have none below them and are called .._end. O(#V +
+/// joints).
+[[nodiscard]] Rig without_ends(const Rig& rig);
+
+}  // namespace curveskel

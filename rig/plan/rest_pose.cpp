@@ -1,0 +1,156 @@
+#include <curveskel/rest_pose.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+
+namespace curveskel {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+int joint_of(const Rig& rig, const std::string& role) {
+  const auto found = std::find(rig.roles.begin(), rig.roles.end(), role);
+  return found == rig.roles.end() ? -1 : static_cast<int>(found - rig.roles.begin());
+}
+
+/// Its first one, or -1.
+int child_of(const Rig& rig, int joint) {
+  const auto found = std::find(rig.parents.begin(), rig.parents.end(), joint);
+  return joint < 0 || found == rig.parents.end() ? -1
+                                                 : static_cast<int>(found - rig.parents.begin());
+}
+
+/// A bone that the pose points somewhere, by the joints at its ends.
+struct PosedBone {
+  std::string_view from;
+  std::string_view to;
+  bool is_arm;  ///< sideways; else down
+};
+
+/// Each after the one above it. A hand points to the root of a finger, or to what there is.
+constexpr std::array posed_bones{
+    PosedBone{"UpperArm", "LowerArm", true}, PosedBone{"LowerArm", "Hand", true},
+    PosedBone{"Hand", "MiddleProximal", true}, PosedBone{"UpperLeg", "LowerLeg", false},
+    PosedBone{"LowerLeg", "Foot", false}};
+
+}  // namespace
+
+void rest_in_t_pose(Rig& rig, const BodyPlan& plan) {
+  if (plan.plan != BodyKind::humanoid) {
+    throw Error(Fault::input, "the T pose is a human's, found the plan " +
+                                  std::string(name_of(body_kinds, plan.plan)) +
+                                  "; say --plan humanoid, or leave the pose as it is");
+  }
+  const auto count = static_cast<std::size_t>(rig.parents.size());
+  std::vector<Quaterniond> more(count, Quaterniond::Identity());  // beyond what is above
+  std::vector<char> stays(count, 0);                              // as in the file
+  for (const std::string side : {"left", "right"}) {
+    const Vector3d out = (side == "left" ? 1 : -1) * plan.axes.row(0).transpose();
+    const Vector3d down = -plan.axes.row(1).transpose();
+    Quaterniond arm = Quaterniond::Identity();
+    Quaterniond leg = Quaterniond::Identity();
+    for (const PosedBone& bone : posed_bones) {
+      const int from = joint_of(rig, side + std::string(bone.from));
+      const int named = joint_of(rig, side + std::string(bone.to));
+      const int to = named < 0 && bone.from == "Hand" ? child_of(rig, from) : named;
+      if (from < 0 || to < 0) continue;
+      Quaterniond& above = bone.is_arm ? arm : leg;
+      const Vector3d way = (rig.joints.row(to) - rig.joints.row(from)).transpose();
+      more[idx(from)] = Quaterniond::FromTwoVectors(above * way, bone.is_arm ? out : down);
+      above = more[idx(from)] * above;
+    }
+    const int foot = joint_of(rig, side + "Foot");
+    if (foot >= 0) stays[idx(foot)] = 1;
+  }
+  rig.turns.assign(count, Quaterniond::Identity());
+  for (std::size_t joint = 0; joint < count; ++joint) {
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    if (stays[joint] != 0) continue;
+    rig.turns[joint] =
+        (more[joint] * (parent < 0 ? Quaterniond::Identity() : rig.turns[idx(parent)]))
+            .normalized();
+  }
+}
+
+Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVector3d& up) {
+  Rig result;
+  const Eigen::Index count = rig.joints.rows();
+  const double ground = (surface.positions * up.transpose()).minCoeff();
+  const auto roots = std::find(rig.parents.begin(), rig.parents.end(), -1);
+  const Eigen::RowVector3d first = rig.joints.row(roots - rig.parents.begin());
+  result.joints.resize(count + 1, 3);
+  result.joints << first + (ground - first.dot(up)) * up, rig.joints;
+  result.parents.resize(count + 1);
+  result.parents << -1, rig.parents.array() + 1;
+  const auto before = [](const auto& list, const auto& item) {
+    auto longer = list;
+    if (!list.empty()) longer.insert(longer.begin(), item);
+    return longer;
+  };
+  const bool taken = std::find(rig.names.begin(), rig.names.end(), "root") != rig.names.end();
+  result.names = before(rig.names, std::string(taken ? "ground_root" : "root"));
+  result.roles = before(rig.roles, std::string());
+  result.turns = before(rig.turns, Quaterniond::Identity());
+  std::vector<Eigen::Triplet<float>> entries;
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      entries.emplace_back(static_cast<int>(vertex), static_cast<int>(it.col()) + 1, it.value());
+    }
+  }
+  result.weights.resize(rig.weights.rows(), count + 1);
+  result.weights.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+Rig without_ends(const Rig& rig) {
+  const Eigen::Index count = rig.joints.rows();
+  std::vector<char> stays(idx(count), 0);
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (it.value() > 0) stays[idx(it.col())] = 1;
+    }
+  }
+  for (Eigen::Index joint = count; joint-- > 0;) {
+    const bool is_end = rig.names[idx(joint)].find("_end") != std::string::npos;
+    if (!is_end || rig.parents[joint] < 0) stays[idx(joint)] = 1;
+    if (stays[idx(joint)] != 0 && rig.parents[joint] >= 0) stays[idx(rig.parents[joint])] = 1;
+  }
+  std::vector<int> number(idx(count), -1);
+  std::vector<int> kept;
+  for (int joint = 0; joint < static_cast<int>(count); ++joint) {
+    if (stays[idx(joint)] == 0) continue;
+    number[idx(joint)] = static_cast<int>(kept.size());
+    kept.push_back(joint);
+  }
+  Rig result;
+  result.joints = rig.joints(kept, Eigen::all);
+  result.parents.resize(static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const int parent = rig.parents[kept[k]];
+    result.parents[static_cast<Eigen::Index>(k)] = parent < 0 ? -1 : number[idx(parent)];
+    result.names.push_back(rig.names[idx(kept[k])]);
+    if (!rig.roles.empty()) result.roles.push_back(rig.roles[idx(kept[k])]);
+    if (!rig.turns.empty()) result.turns.push_back(rig.turns[idx(kept[k])]);
+  }
+  std::vector<Eigen::Triplet<float>> entries;
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (number[idx(it.col())] < 0) continue;
+      entries.emplace_back(static_cast<int>(vertex), number[idx(it.col())], it.value());
+    }
+  }
+  result.weights.resize(rig.weights.rows(), result.joints.rows());
+  result.weights.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace curveskel
