@@ -55,7 +55,9 @@ std::vector<AssortedPart> assorted_parts(int count, std::uint64_t seed) {
     const Eigen::RowVector3d low = one.shape.surface.positions.colwise().minCoeff();
     const Eigen::RowVector3d high = one.shape.surface.positions.colwise().maxCoeff();
     const Eigen::RowVector3d room = (cell - (high - low).array()).cwiseMax(0);
-    Eigen::RowVector3d corner(i % side, i / side % side, i / (side * side));
+    const int row = i / side;
+    const int layer = row / side;
+    Eigen::RowVector3d corner(i % side, row % side, layer);
     corner *= cell;
     for (int k = 0; k < 3; ++k) corner[k] += random.uniform(0, 0.9) * room[k];
     one.shape = translated(std::move(one.shape), (corner - low).transpose());

@@ -63,12 +63,12 @@ struct Limbs {
 
 [[nodiscard]] Limbs find_limbs(const CurveTree& tree);
 
-/// A way's course as the mean of both sides, on the left, in equal shares of its length.
+/// A limb's course as the mean of both sides, on the left, in equal shares of its length.
 struct Course {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
 };
-[[nodiscard]] Course mean_course(const CurveTree& tree, const LimbWay& way);
+[[nodiscard]] Course mean_course(const CurveTree& tree, const LimbWay& limb);
 
 /// The last point of `course` that is one of the other's, too; 0 where none is.
 [[nodiscard]] std::size_t last_shared(const Course& course, const Course& other);

@@ -258,7 +258,7 @@ TEST_F(DressObj, PolygonsKeepTheirTextureCoordinates) {
   for (std::size_t c = 0; c < 6; ++c) {
     ASSERT_LT(corners[c], 4U);
     for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_EQ(textures[2 * corners[c] + k], expected.at(corners[c]).at(k));
+      EXPECT_EQ(textures[2 * std::size_t{corners[c]} + k], expected.at(corners[c]).at(k));
     }
   }
   for (const float number : glb.values<float>(primitive["attributes"]["POSITION"])) {

@@ -92,7 +92,7 @@ class EditGltf : public testing::Test {
       return "";
     };
     const auto rows = read_polygons(file, {}, {true}).positions.rows();
-    const std::string late =
+    std::string late =
         message_of([&] { (void)format_rig_into(file, random_rig(rows, 3, "bone ")); });
     EXPECT_EQ(message_of([&] { require_editable(file, OldRig::replaced); }), late);
     return late;

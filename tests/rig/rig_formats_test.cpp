@@ -273,8 +273,8 @@ TEST_F(RigFormats, NumpysArchiveHasTheNumbersAndNoTime) {
   EXPECT_EQ(numbers("parents.npy", "<i4").size(), 4 * idx(rig.joints.rows()));
   EXPECT_EQ(numbers("weights.npy", "<f4").size(), 16 * idx(rig.weights.rows()));
   EXPECT_EQ(numbers("weight_joints.npy", "<i4").size(), 16 * idx(rig.weights.rows()));
-  // "Höhle "骨" 🦴 0" has 13 code points.
-  EXPECT_EQ(numbers("names.npy", "<U13").size(), 4 * 13 * idx(rig.joints.rows()));
+  // "Höhle "骨" 🦴 0" has 13 code points of four bytes.
+  EXPECT_EQ(numbers("names.npy", "<U13").size(), 52 * idx(rig.joints.rows()));
 }
 
 Rig human_rig() {
