@@ -60,7 +60,8 @@ struct PlannedJoint {
   int parent = -1;   ///< among the planned joints, before it; -1 = the root, which is the first
   int node = -1;     ///< of the skeleton, that it is nearest to; -1: between its neighbours'
   Eigen::RowVector3d position;
-  std::string reason;  ///< why it lies there
+  std::string reason;    ///< why it lies there
+  bool is_last = false;  ///< the limb beyond is one bone, as of a fingertip
 };
 
 /// The joints that VRM requires of a human.

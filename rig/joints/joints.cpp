@@ -234,11 +234,27 @@ class JointPlacer {
     return places;
   }
 
+  /// Samples where joints are, below the upper one.
+  [[nodiscard]] std::vector<std::size_t> places_on(const Limb& limb) const {
+    const std::size_t first = beginning(limb);
+    const std::size_t last = ending(limb, first);
+    std::vector<std::size_t> places = best_joints(limb, first, last);
+    if (last + 1 < limb.samples.size()) places.push_back(limb.samples.size() - 1);
+    if (first == 0) places.erase(places.begin());  // the upper joint is there
+    return places;
+  }
+
+  /// The planned joint from whose node the limb begins, or null.
+  [[nodiscard]] const PlannedJoint* planned_above(const Limb& limb) const {
+    const auto joint = idx(joints_.joint_of_node[limb.nodes.front()]);
+    const bool is_its = joint < planned_.size() && planned_[joint].node == limb.nodes.front();
+    return is_its ? &planned_[joint] : nullptr;
+  }
+
   /// The end of the last planned bone of its limb, which shows how long the bone is.
   [[nodiscard]] bool ends_planned(const Limb& limb) const {
     const auto joint = idx(joints_.joint_of_node[limb.nodes.front()]);
-    return joint < planned_.size() && planned_[joint].node == limb.nodes.front() &&
-           tree_.children[idx(limb.nodes.front())].size() == 1 &&
+    return planned_above(limb) != nullptr && tree_.children[idx(limb.nodes.front())].size() == 1 &&
            tree_.children[idx(limb.nodes.back())].empty() &&
            std::none_of(planned_.begin(), planned_.end(), [&](const PlannedJoint& other) {
              return other.parent == static_cast<int>(joint);
@@ -255,11 +271,11 @@ class JointPlacer {
     const std::string name = part_ + "limb" + std::to_string(++limbs_);
     const int upper = joints_.joint_of_node[limb.nodes.front()];
     const int lower = limb.nodes.back();
-    const std::size_t first = beginning(limb);
-    const std::size_t last = ending(limb, first);
-    std::vector<std::size_t> places = best_joints(limb, first, last);
-    if (last + 1 < limb.samples.size()) places.push_back(limb.samples.size() - 1);
-    if (first == 0) places.erase(places.begin());  // the upper joint is there
+    const PlannedJoint* const above = planned_above(limb);
+    const bool is_one_bone =
+        above != nullptr && above->is_last && tree_.children[idx(lower)].empty();
+    const std::vector<std::size_t> places =
+        is_one_bone ? std::vector{limb.samples.size() - 1} : places_on(limb);
     int joint = upper;
     std::size_t node = 1;
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -90,6 +90,7 @@ class Planner {
     PlannedJoint joint;
     joint.role = role;
     joint.reason = place.reason;
+    joint.is_last = place.is_last;
     if (!place.parent.empty()) {
       joint.parent =
           number_.at(is_right && number_.count(mirrored(place.parent)) > 0 ? mirrored(place.parent)

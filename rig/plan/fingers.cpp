@@ -165,6 +165,7 @@ class Hand {
         place.beside = place.at;
         place.at = wrist_ + share / free_share * (place.at - wrist_);
       }
+      place.is_last = joint == 2;
       parent = place.role;
       places_.push_back(std::move(place));
     }

@@ -165,6 +165,7 @@ void place_tail(const CurveTree& tree, int hips, std::vector<Place>& places) {
     const double share = gap + (1 - gap) * k / 4;
     places.push_back({role, above, tail.at(share * tail.whole()), true, -1,
                       "at its share of the way from the root to the tail's tip"});
+    places.back().is_last = k == 3;
     above = role;
   }
 }

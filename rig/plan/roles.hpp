@@ -28,6 +28,7 @@ struct Place {
   int pair = -1;         ///< on whose curve; -1 = the trunk
   std::string reason;
   std::size_t way = 0;                                   ///< of the pair
+  bool is_last = false;                                  ///< the limb beyond is one bone
   std::optional<Eigen::Vector3d> beside = std::nullopt;  ///< where its node is, if not at `at`
 };
 

@@ -324,6 +324,10 @@ TEST(PlannedJoints, ComeFirstAndAreTheOnlyOnesOnTheirWay) {
     }
     EXPECT_EQ((joints.parents.array() < 0).count(), 1);
     EXPECT_GE(joints.joint_of_node.minCoeff(), 0);
+    for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+      if (!plan.joints[k].is_last) continue;
+      EXPECT_EQ((joints.parents.array() == static_cast<int>(k)).count(), 1) << joints.names[k];
+    }
     // A human's only others are beyond the head, the hands and the toes.
     if (plan.plan != BodyKind::humanoid) continue;
     for (Eigen::Index j = static_cast<Eigen::Index>(plan.joints.size()); j < joints.parents.size();
