@@ -65,15 +65,15 @@ int renumber_animations(OrderedJson& file, const std::vector<int>& new_node) {
   int gone = 0;
   OrderedJson animations = OrderedJson::array();
   for (OrderedJson& moving : file["animations"]) {
-    OrderedJson channels = OrderedJson::array();
+    OrderedJson kept = OrderedJson::array();
     for (OrderedJson& channel : moving.at("channels")) {
       if (renumber_channel(channel, new_node)) {
-        channels.push_back(std::move(channel));
+        kept.push_back(std::move(channel));
       } else {
         ++gone;
       }
     }
-    moving["channels"] = std::move(channels);
+    moving["channels"] = std::move(kept);
     if (!moving["channels"].empty()) animations.push_back(std::move(moving));
   }
   if (animations.empty()) {

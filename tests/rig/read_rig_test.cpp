@@ -130,7 +130,9 @@ TEST_F(ReadRig, PosedJointsAreWhereTheSceneHasThem) {
       const Eigen::Vector4d bound(joint, 0, 0, 1);
       const Eigen::Vector4d posed = moves.at("joint " + std::to_string(joint)) * bound;
       EXPECT_LT((rig->joints.row(joint).transpose() - posed.head<3>()).norm(), 1e-5) << joint;
-      if (joint > 1) EXPECT_GT((posed - bound).norm(), 0.05);  // the bar is bent
+      if (joint > 1) {
+        EXPECT_GT((posed - bound).norm(), 0.05);  // the bar is bent
+      }
     }
   }
 }
