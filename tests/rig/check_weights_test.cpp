@@ -93,9 +93,10 @@ TEST(CheckWeights, FindIslandsButNotWholeComponents) {
   EXPECT_EQ(found.islands[0].joint, 0);
   EXPECT_EQ(found.islands[0].vertices, 1);
   // A ball that moves with joint 0 wherever it is.
+  const shapes::Shape bar_shape = shapes::tube("", shapes::straight(10), shapes::constant(0.5), 16);
+  const shapes::Shape ball = shapes::translated(shapes::ellipsoid({0.2, 0.2, 0.2}, 1), {0, 3, 0});
   const Bar clean = rigid_bar();
-  const Surface ball = shapes::translated(shapes::ellipsoid({0.2, 0.2, 0.2}, 1), {0, 3, 0}).surface;
-  Bar both{shapes::together("", {{"", clean.surface, {}}, {"", ball, {}}}).surface, clean.rig};
+  Bar both{shapes::together("", {bar_shape, ball}).surface, clean.rig};
   both.rig.weights.conservativeResize(both.surface.positions.rows(), joints);
   for (Eigen::Index v = clean.surface.positions.rows(); v < both.surface.positions.rows(); ++v) {
     both.rig.weights.coeffRef(v, 0) = 1;
