@@ -159,5 +159,50 @@ class RigFiles(unittest.TestCase):
                 print(f"{file.name}: rest {result['rest']:.1e} D, poses {result['poses']:.1e} D")
 
 
+FBX = """
+import json, sys
+import bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.fbx(filepath=sys.argv[-2])
+armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
+found = {"bones": {bone.name: bone.parent.name if bone.parent else None
+                   for bone in armature.data.bones},
+         "vertices": 0, "unweighted": 0}
+for thing in bpy.data.objects:
+    if thing.type == "MESH":
+        found["vertices"] += len(thing.data.vertices)
+        found["unweighted"] += sum(
+            abs(sum(group.weight for group in vertex.groups) - 1) > 1e-3
+            for vertex in thing.data.vertices)
+json.dump(found, open(sys.argv[-1], "w"))
+"""
+
+
+@unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
+class Fbx(unittest.TestCase):
+    def test_has_the_joints_and_weights(self):
+        source = rigged_files()[0]
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            subprocess.run([PROGRAM, "rig", source, "-o", folder / "rig.glb", "-o",
+                            folder / "rig.json", "-q"], check=True, stderr=subprocess.DEVNULL)
+            (folder / "look.py").write_text(FBX)
+            environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
+            for script, *arguments in (
+                    (SOURCE / "blender" / "to_fbx.py", folder / "rig.glb", folder / "rig.fbx"),
+                    (folder / "look.py", folder / "rig.fbx", folder / "found.json")):
+                subprocess.run([shutil.which("blender"), "--background", "--python-exit-code", "1",
+                                "--python", script, "--", *arguments], check=True,
+                               capture_output=True, stdin=subprocess.DEVNULL, env=environment)
+            found = json.loads((folder / "found.json").read_text())
+            rig = json.loads((folder / "rig.json").read_text())
+        names = [joint["name"] for joint in rig["joints"]]
+        parents = {joint["name"]: names[joint["parent"]] if joint["parent"] >= 0 else None
+                   for joint in rig["joints"]}
+        self.assertEqual(found["bones"], parents)
+        self.assertGreater(found["vertices"], 0)
+        self.assertEqual(found["unweighted"], 0)
+
+
 if __name__ == "__main__":
     unittest.main()
