@@ -59,12 +59,13 @@ function(curveskel_units target)
     endif()
   endforeach()
   # GCC believes that CGAL's new cells may be null.
+  set_source_files_properties(${PROJECT_BINARY_DIR}/units/CGAL.cpp PROPERTIES
+    COMPILE_OPTIONS -Wno-null-dereference)
+  # With sanitizers GCC believes that OpenMesh copies properties that were never set, and CGAL's
+  # exact kernel triangles.
   set_source_files_properties(
-    ${PROJECT_BINARY_DIR}/units/CGAL.cpp ${PROJECT_BINARY_DIR}/units/corefinement.cpp
-    PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
-  # With sanitizers GCC believes that OpenMesh copies properties that were never set.
-  set_source_files_properties(${PROJECT_BINARY_DIR}/units/OpenMesh.cpp PROPERTIES
-    COMPILE_OPTIONS "-Wno-null-dereference;-Wno-maybe-uninitialized")
+    ${PROJECT_BINARY_DIR}/units/OpenMesh.cpp ${PROJECT_BINARY_DIR}/units/corefinement.cpp
+    PROPERTIES COMPILE_OPTIONS "-Wno-null-dereference;-Wno-maybe-uninitialized")
   list(LENGTH sources count)
   math(EXPR units_of_the_rest "(${count} - 1) / ${CMAKE_UNITY_BUILD_BATCH_SIZE} + 1")
   math(EXPR batch "(${count} - 1) / ${units_of_the_rest} + 1")
