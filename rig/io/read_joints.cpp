@@ -80,15 +80,15 @@ Rig rig_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
 
 /// Every glTF file has the member.
 bool says_gltf(const std::string& content) {
-  const Json json = Json::parse(content, nullptr, false);
-  return json.is_object() && json.contains("asset");
+  const Json parsed = Json::parse(content, nullptr, false);
+  return parsed.is_object() && parsed.contains("asset");
 }
 
 Rig joints_of_json(const FileBytes& file) {
   std::vector<GivenJoint> joints;
   try {
-    const Json json = Json::parse(file.content);
-    for (const Json& entry : json.at("joints")) {
+    const Json parsed = Json::parse(file.content);
+    for (const Json& entry : parsed.at("joints")) {
       GivenJoint joint;
       joint.name = entry.at("name").get<std::string>();
       joint.parent = entry.at("parent").is_null() ? -1 : entry.at("parent").get<int>();
