@@ -42,6 +42,19 @@ if [ -e "$rig" ]; then
   convert "$work"/{all,one}.png +append docs/pictures/viewer-rig.png
 fi
 
+# A character as its file has it and by role, at rest and turned by hand.
+character=../shared/meshes/real/quaternius-Adventurer.glb
+if [ -e "$character" ]; then
+  turned=(--turn upper_arm.L:0,0,-60 --turn lower_arm.L:0,-70,0 --turn upper_leg.R:-60,0,0
+    --turn lower_leg.R:60,0,0 --turn head:0,30,0)
+  common=(--stage rig --surface opaque --size 440x520)
+  "$program" view "$character" "${common[@]}" --screenshot "$work/a.png" 2>/dev/null
+  "$program" view "$character" "${common[@]}" --colour role --screenshot "$work/b.png" 2>/dev/null
+  "$program" view "$character" "${common[@]}" --no-bones "${turned[@]}" \
+    --screenshot "$work/c.png" 2>/dev/null
+  convert "$work"/{a,b,c}.png +append docs/pictures/viewer-pose.png
+fi
+
 # The window itself needs a display; a virtual one will do.
 Xvfb :98 -screen 0 1280x800x24 &
 display=$!

@@ -1,6 +1,7 @@
 // Options of the viewer's command line.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ struct StageWish {
   int iteration = -1;              ///< -1 = the last one
 };
 
+/// Degrees about x, then y, then z, at a joint.
+struct JointTurn {
+  std::string joint;
+  std::array<double, 3> degrees{};
+};
+
 struct ViewOptions {
   std::vector<std::filesystem::path> files;
   std::string screenshot;           ///< PNG to write instead of a window; empty = none
@@ -33,7 +40,8 @@ struct ViewOptions {
   bool may_be_coarse = true;  ///< the window's picture, while things move
   bool run = true;            ///< a surface without a skeleton is worked on at once
   double time_limit_seconds = 0;
-  std::string joint;        ///< of a rig: its name; empty = none
+  std::vector<JointTurn> turns;  ///< of a rig, in pictures
+  std::string joint;             ///< of a rig: its name; empty = none
   std::string frame_times;  ///< CSV of the window's frame times, written at the end; empty = none
   Look look;
   Preset preset = Preset::standard;

@@ -68,6 +68,22 @@ std::string set_stage(ViewOptions& options, const std::string& text) {
   return {};
 }
 
+std::string add_turn(ViewOptions& options, const std::string& text) {
+  const auto colon = text.rfind(':');
+  JointTurn turn;
+  turn.joint = text.substr(0, colon);
+  std::vector<double> degrees;
+  const bool read = colon != std::string::npos &&
+                    CLI::detail::lexical_conversion<std::vector<double>, std::vector<double>>(
+                        CLI::detail::split(text.substr(colon + 1), ','), degrees);
+  if (!read || degrees.size() != turn.degrees.size()) {
+    return "needs JOINT:X,Y,Z in degrees, not " + text;
+  }
+  std::copy(degrees.begin(), degrees.end(), turn.degrees.begin());
+  options.turns.push_back(turn);
+  return {};
+}
+
 /// An option whose text `set` understands; its answer names the fault.
 template <typename Set>
 CLI::Option* add_text(CLI::App& parser, ViewOptions& options, const std::string& flag,
@@ -107,6 +123,7 @@ int run_view(ViewOptions options, Session& session) {
     throw UsageError("--two-sides is for --screenshot");
   }
   if (!options.screenshot.empty()) (void)format_of(options.screenshot, picture_formats);
+  if (!pictures && !options.turns.empty()) throw UsageError("--turn is for pictures");
   if (!pictures) return run_window(options, session);
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
   write_pictures(options, session);
@@ -150,6 +167,18 @@ Verb add_view(CLI::App& program) {
   add_look(*parser, options->look);
   parser->add_option("--joint", options->joint, "of a rig: the one whose weights are shown")
       ->type_name("NAME");
+  parser
+      ->add_option_function<std::vector<std::string>>(
+          "--turn",
+          [options](const std::vector<std::string>& all) {
+            for (const std::string& text : all) {
+              const std::string wrong = add_turn(*options, text);
+              if (!wrong.empty()) throw CLI::ValidationError("--turn", wrong);
+            }
+          },
+          "of a rig, in pictures: turn a joint about x, y and z by so many degrees; may be "
+          "repeated")
+      ->type_name("JOINT:X,Y,Z");
   parser
       ->add_option("--frame-times", options->frame_times,
                    "milliseconds of each picture in the window, written when it is closed")

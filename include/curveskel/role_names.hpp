@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/body_plan.hpp>
@@ -27,5 +29,13 @@ inline constexpr NameTable<NameStyle, 7> name_styles{{
 /// plan that they hang from (tail_1, ear_end.L, toe2_1.R); without a plan joints keep their names,
 /// but in the neutral style. No two joints are called the same.
 void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style);
+
+/// The roles that a joint of such a body may have; none where there is no plan.
+[[nodiscard]] std::vector<std::string> roles_of(BodyKind kind);
+
+/// Corrects what a joint is. The joint that had the role takes this one's role and name, so that no
+/// two have the same; `role` "" = nothing that is known. `plan.missing` follows. Precondition: the
+/// joint is one of the rig's. O(joints).
+void assign_role(Rig& rig, BodyPlan& plan, int joint, const std::string& role, NameStyle style);
 
 }  // namespace curveskel

@@ -7,8 +7,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include "rig/plan/limb_names.hpp"
 
 namespace curveskel {
@@ -24,7 +26,7 @@ struct HumanWords {
   std::string_view rigify;
 };
 
-constexpr std::array<HumanWords, 14> human_words{{
+constexpr std::array<HumanWords, 16> human_words{{
     {"hips", "hips", "mixamorig:Hips", "pelvis", "Hips", "spine"},
     {"spine", "spine", "mixamorig:Spine", "spine_01", "Spine", "spine.001"},
     {"chest", "chest", "mixamorig:Spine1", "spine_02", "Chest", "spine.002"},
@@ -42,6 +44,8 @@ constexpr std::array<HumanWords, 14> human_words{{
     {"leftLowerLeg", "lower_leg.L", "mixamorig:LeftLeg", "calf_l", "LeftLowerLeg", "shin.L"},
     {"leftFoot", "foot.L", "mixamorig:LeftFoot", "foot_l", "LeftFoot", "foot.L"},
     {"leftToes", "toes.L", "mixamorig:LeftToeBase", "ball_l", "LeftToes", "toe.L"},
+    {"jaw", "jaw", "mixamorig:Jaw", "jaw", "Jaw", "jaw"},
+    {"leftEye", "eye.L", "mixamorig:LeftEye", "eye_l", "LeftEye", "eye.L"},
 }};
 
 /// Of fingers; each joint has the word's number, counted from 1.
@@ -74,6 +78,12 @@ constexpr std::array<BeastWords, 6> beast_words{{
     {"neck", "neck", "spine.009"},
     {"head", "head", "spine.011"},
 }};
+
+/// Rigify's words for the limbs of animals; of pairs the left one.
+constexpr std::array beast_limbs{
+    "jaw",         "tail",       "tail.001",    "tail.002",      "tail.003",     "thigh.L",
+    "shin.L",      "foot.L",     "toe.L",       "front_thigh.L", "front_shin.L", "front_foot.L",
+    "front_toe.L", "shoulder.L", "upper_arm.L", "forearm.L",     "hand.L"};
 
 std::string right_of(std::string name) {
   const auto swap_end = [&](std::string_view left, std::string_view right) {
@@ -155,6 +165,10 @@ std::string beast_name(const std::string& role, NameStyle style) {
   return role;
 }
 
+std::string name_of_role(const std::string& role, BodyKind kind, NameStyle style) {
+  return kind == BodyKind::humanoid ? human_name(role, style) : beast_name(role, style);
+}
+
 std::string numbered(std::size_t number) {
   std::array<char, 24> text{};
   const int length = std::snprintf(text.data(), text.size(), "joint_%03zu", number);
@@ -175,22 +189,80 @@ void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
     return;
   }
   const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
-  const auto name_of_role = [&](const PlannedJoint& joint, NameStyle in) {
-    return plan.plan == BodyKind::humanoid ? human_name(joint.role, in)
-                                           : beast_name(joint.role, in);
-  };
   std::vector<std::string> readable;
   for (const PlannedJoint& joint : plan.joints) {
-    readable.push_back(name_of_role(joint, NameStyle::automatic));
+    readable.push_back(name_of_role(joint.role, plan.plan, NameStyle::automatic));
   }
   name_limbs(rig, plan, readable);
   std::set<std::string> taken;
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
-    rig.names[k] = name_of_role(plan.joints[k], words);
+    rig.names[k] = name_of_role(plan.joints[k].role, plan.plan, words);
     taken.insert(rig.names[k]);
   }
   for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {
     while (!taken.insert(rig.names[k]).second) rig.names[k].insert(0, "extra_");
+  }
+}
+
+std::vector<std::string> roles_of(BodyKind kind) {
+  std::vector<std::string> roles;
+  const auto add = [&](const std::string& role, const std::string& other_side) {
+    roles.push_back(role);
+    if (other_side != role) roles.push_back(other_side);
+  };
+  if (kind == BodyKind::none || kind == BodyKind::automatic) return roles;
+  if (kind != BodyKind::humanoid) {
+    for (const BeastWords& words : beast_words) roles.emplace_back(words.role);
+    for (const std::string role : beast_limbs) add(role, right_of(role));
+    return roles;
+  }
+  const auto other_side = [](const std::string& role) {
+    return role.starts_with("left") ? "right" + role.substr(4) : role;
+  };
+  for (const HumanWords& words : human_words) {
+    add(std::string(words.role), other_side(std::string(words.role)));
+  }
+  for (const FingerWords& words : finger_words) {
+    const bool thumb = words.role == "Thumb";
+    for (const char* joint :
+         {thumb ? "Metacarpal" : "Proximal", thumb ? "Proximal" : "Intermediate", "Distal"}) {
+      const std::string role = "left" + std::string(words.role) + joint;
+      add(role, other_side(role));
+    }
+  }
+  return roles;
+}
+
+void assign_role(Rig& rig, BodyPlan& plan, int joint, const std::string& role, NameStyle style) {
+  rig.roles.resize(rig.names.size());
+  const std::size_t at = idx(joint);
+  const auto with = [](const std::vector<std::string>& texts, const std::string& text) {
+    return static_cast<std::size_t>(std::find(texts.begin(), texts.end(), text) - texts.begin());
+  };
+  if (rig.roles[at] == role) return;
+  const std::size_t holder = role.empty() ? rig.roles.size() : with(rig.roles, role);
+  if (holder < rig.roles.size()) {
+    std::swap(rig.roles[at], rig.roles[holder]);
+    if (style != NameStyle::neutral) std::swap(rig.names[at], rig.names[holder]);
+  } else {
+    rig.roles[at] = role;
+    const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
+    if (style != NameStyle::neutral) {
+      const std::string name =
+          role.empty() ? numbered(at + 1) : name_of_role(role, plan.plan, words);
+      const std::size_t namesake = with(rig.names, name);
+      if (namesake < rig.names.size()) rig.names[namesake] = rig.names[at];
+      rig.names[at] = name;
+    }
+  }
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    if (plan.joints[k].role != rig.roles[k]) plan.joints[k].reason = "chosen by hand";
+    plan.joints[k].role = rig.roles[k];
+  }
+  plan.missing.clear();
+  if (plan.plan != BodyKind::humanoid) return;
+  for (const char* required : required_human_roles) {
+    if (with(rig.roles, required) == rig.roles.size()) plan.missing.emplace_back(required);
   }
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 int type_of_rows(int components) {
   switch (components) {
+    case 2:
+      return TINYGLTF_TYPE_VEC2;
     case 3:
       return TINYGLTF_TYPE_VEC3;
     case 4:

@@ -83,7 +83,7 @@ class GltfNumbers {
   Block substitutes_;
 };
 
-/// `components` numbers per row: 1, 3, 4 or 16 (a matrix by columns); `meaning` is for messages.
+/// `components` numbers per row: 1 to 4 or 16 (a matrix by columns); `meaning` is for messages.
 /// Throws Error(Fault::input).
 [[nodiscard]] GltfNumbers gltf_numbers(const FileBytes& file, const tinygltf::Model& model,
                                        int accessor, int components, const std::string& meaning);

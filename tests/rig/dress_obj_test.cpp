@@ -18,6 +18,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/read_materials.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include "tests/own_folder.hpp"
@@ -270,6 +271,39 @@ TEST_F(DressObj, NothingWhereThereIsNothingToKeep) {
   const std::string plain = ObjSubject{.seams = 0, .materials = 0}.text();
   EXPECT_FALSE(format_rig_into(folder_.write("plain.obj", plain), rig_));
   EXPECT_FALSE(format_rig_into(folder_.write("plain.off", encodings::off("OFF")), rig_));
+}
+
+TEST_F(DressObj, MaterialsAreReadAsTheyAreSeen) {
+  write_materials();
+  for (const ObjSubject& subject : subjects()) {
+    const fs::path file = folder_.write("a thing.obj", subject.text());
+    const auto found = read_materials(file);
+    ASSERT_EQ(found.has_value(), subject.materials > 0);
+    if (!found) continue;
+    const Surface torus = torus_surface();
+    ASSERT_EQ(found->triangles.rows(), torus.triangles.rows());
+    std::set<std::array<int, 3>> faces;
+    for (const auto& triangle : torus.triangles.rowwise()) {
+      faces.insert({triangle[0], triangle[1], triangle[2]});
+    }
+    const auto runs = static_cast<Eigen::Index>(subject.materials);
+    for (Eigen::Index f = 0; f < found->triangles.rows(); ++f) {
+      std::array<int, 3> corners{};
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const int drawn = found->triangles(f, k);
+        corners[idx(k)] = found->vertices[idx(drawn)];
+        const float across = found->places_in_picture(drawn, 0);
+        const int kind = std::max(subject.seams, 1);  // of texture coordinates
+        if (subject.seams > 0) {
+          EXPECT_NEAR(std::fmod(across * 10 + 0.5F, static_cast<float>(kind)),
+                      static_cast<float>(f % kind) + 0.5F, 1e-3F);
+        }
+      }
+      EXPECT_EQ(faces.erase(corners), 1U);
+      EXPECT_EQ(found->material[idx(f)], f * runs / found->triangles.rows());
+    }
+    EXPECT_FLOAT_EQ(found->materials[0].colour[1], 0.5F);
+  }
 }
 
 }  // namespace

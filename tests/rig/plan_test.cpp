@@ -497,5 +497,52 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
   }
 }
 
+TEST(AssignedRoles, AreHeldByOneJointEach) {
+  const RigSubject subject = human();
+  BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+  name_roles(rig, plan, NameStyle::mixamo);
+  const auto joint_of = [&](const std::string& role) {
+    const auto found = std::find(rig.roles.begin(), rig.roles.end(), role);
+    return static_cast<int>(found - rig.roles.begin());
+  };
+  const int neck = joint_of("neck");
+  const int head = joint_of("head");
+  const std::string name_of_neck = rig.names[idx(neck)];
+  assign_role(rig, plan, neck, "head", NameStyle::mixamo);
+  EXPECT_EQ(joint_of("head"), neck);
+  EXPECT_EQ(joint_of("neck"), head) << "they have changed places";
+  EXPECT_EQ(rig.names[idx(neck)], "mixamorig:Head");
+  EXPECT_EQ(rig.names[idx(head)], name_of_neck);
+  EXPECT_TRUE(plan.missing.empty());
+  assign_role(rig, plan, neck, "", NameStyle::mixamo);
+  EXPECT_EQ(plan.missing, std::vector<std::string>{"head"});
+  assign_role(rig, plan, head, "head", NameStyle::mixamo);
+  EXPECT_TRUE(plan.missing.empty());
+  EXPECT_EQ(rig.names[idx(head)], "mixamorig:Head");
+  const std::set<std::string> names(rig.names.begin(), rig.names.end());
+  EXPECT_EQ(names.size(), rig.names.size());
+}
+
+TEST(AssignedRoles, AreWordsThatNamesAreKnownFor) {
+  for (const auto& entry : body_kinds) {
+    const std::vector<std::string> roles = roles_of(entry.value);
+    const std::set<std::string> known(roles.begin(), roles.end());
+    EXPECT_EQ(known.size(), roles.size());
+    const bool has_plan = entry.value != BodyKind::none && entry.value != BodyKind::automatic;
+    EXPECT_EQ(roles.empty(), !has_plan);
+  }
+  const auto human_roles = roles_of(BodyKind::humanoid);
+  for (const char* required : required_human_roles) {
+    EXPECT_NE(std::find(human_roles.begin(), human_roles.end(), required), human_roles.end());
+  }
+  const RigSubject subject = beast(1);
+  const std::vector<std::string> roles = roles_of(BodyKind::quadruped);
+  for (const PlannedJoint& joint : find_plan(subject.surface, subject.skeleton).joints) {
+    EXPECT_NE(std::find(roles.begin(), roles.end(), joint.role), roles.end()) << joint.role;
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::plan_laws

@@ -49,7 +49,7 @@ void open_all(Workbench& bench) {
 TEST_F(RigView, BonesGoFromJointToJoint) {
   const Document opened = document();
   ASSERT_TRUE(opened.rig);
-  const ShownSkeleton shown = shown_rig(*opened.rig, opened.origin, 5, {}, {});
+  const ShownSkeleton shown = shown_rig(*opened.rig, opened.rig->joints, opened.origin, 5, {}, {});
   ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(joints));
   ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(2 * (joints - 1)));
   for (int bone = 0; bone + 1 < joints; ++bone) {
@@ -123,7 +123,7 @@ TEST_F(RigView, JointThatThereIsNotIsNamed) {
   scene.look = {};
   EXPECT_THROW(look_at_rig(scene, "elbow"), Error);
   EXPECT_EQ(scene.highlights.joint, -1);
-  EXPECT_EQ(scene.look.surface_colour, ColourBy::weight) << "all of them are shown";
+  EXPECT_EQ(scene.look_now().surface_colour, ColourBy::weight) << "all of them are shown";
   ViewOptions options;
   options.files = {file()};
   options.joint = "elbow";
@@ -144,7 +144,7 @@ TEST_F(RigView, IsOpenedToBeLookedAt) {
   open_all(bench);
   ASSERT_TRUE(bench.scene->document.rig);
   EXPECT_EQ(bench.scene->recording.moments().size(), 1U) << "no run";
-  EXPECT_EQ(bench.scene->look.surface_colour, ColourBy::weight);
+  EXPECT_EQ(bench.scene->look_now().surface_colour, ColourBy::weight);
   EXPECT_EQ(bench.selected_joint(), 2);
   EXPECT_EQ(bench.scene->highlights.joint, 2);
   Pick other;

@@ -12,6 +12,7 @@
 
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
+#include <curveskel/rig_files.hpp>
 #include "tests/own_folder.hpp"
 #include "viewer/workbench/workbench.hpp"
 
@@ -70,7 +71,7 @@ TEST_F(Rigging, IsOneMomentMoreAfterTheSkeleton) {
   bench.go_to(moments - 1);
   EXPECT_EQ(bench.scene->rig(), nullptr);
   EXPECT_TRUE(bench.scene->shows_curve());
-  EXPECT_EQ(bench.scene->look_now().surface_colour, ColourBy::plain);
+  EXPECT_EQ(bench.scene->look_now().surface_colour, ColourBy::file);
   bench.step();
   EXPECT_EQ(stage(), "rig") << "it is there already";
   EXPECT_FALSE(bench.busy());
@@ -265,6 +266,60 @@ TEST_F(Rigging, ChosenJointIsOfTheRigThatIsShown) {
   EXPECT_EQ(bench.scene->highlights.joint, 2);
   bench.go_to(0);
   EXPECT_EQ(bench.selected_joint(), -1);
+}
+
+TEST_F(Rigging, APulledJointPointsAtThePointer) {
+  open_y();
+  make_rig();
+  const Rig& rig = *bench.scene->rig();
+  const Eigen::RowVector3d origin = bench.scene->document.origin;
+  for (int round = 0; round < 2; ++round) {  // the second time with those above already turned
+    for (int joint = 1; joint < rig.joints.rows(); ++joint) {
+      const Positions before = bench.scene->joints_now();
+      const int parent = rig.parents[joint];
+      const Eigen::RowVector3d wanted = before.row(joint) + Eigen::RowVector3d(0.3, -0.2, 0.4);
+      bench.pull_joint(joint, shown_point(wanted, origin));
+      const Positions now = bench.scene->joints_now();
+      const Eigen::RowVector3d bone = now.row(joint) - now.row(parent);
+      EXPECT_LT((now.row(parent) - before.row(parent)).norm(), 1e-9);
+      EXPECT_NEAR(bone.norm(), (before.row(joint) - before.row(parent)).norm(), 1e-9);
+      EXPECT_GT(bone.normalized().dot((wanted - now.row(parent)).normalized()), 1 - 1e-6);
+    }
+  }
+  bench.turn_back();
+  EXPECT_EQ(bench.scene->joints_now(), rig.joints);
+}
+
+TEST_F(Rigging, TurnsGoWithTheRig) {
+  open_y();
+  make_rig();
+  bench.turn_joint(0, Eigen::Quaterniond(0, 1, 0, 0));
+  EXPECT_NE(bench.scene->turns, nullptr);
+  bench.rig();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_EQ(bench.scene->turns, nullptr);
+}
+
+TEST_F(Rigging, ARoleIsSavedAsItWasCorrected) {
+  bench.pipeline.character.plan.plan = BodyKind::humanoid;
+  open_y();
+  make_rig();
+  bench.select_joint(0);
+  bench.set_role("jaw");
+  EXPECT_EQ(bench.selected_joint(), 0);
+  bench.turn_joint(0, Eigen::Quaterniond(0, 1, 0, 0));
+  bench.set_role("head");
+  EXPECT_NE(bench.scene->turns, nullptr) << "the pose stays";
+  const std::filesystem::path file = folder.path() / "roles.glb";
+  bench.save(file);
+  const auto character = bench.scene->character();
+  ASSERT_NE(character, nullptr);
+  EXPECT_EQ(character->rig.roles[0], "head");
+  EXPECT_EQ(character->rig.names[0], "head");
+  const auto read = read_rig(file, {});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->names[0], "head");
+  EXPECT_TRUE(read->joints.isApprox(character->rig.joints, 1e-6)) << "at rest";
 }
 
 }  // namespace

@@ -215,6 +215,17 @@ std::string screenshot_of_two_sides(Scene& scene, Renderer& renderer, int width,
   return png_of(both);
 }
 
+void turn_joints(Scene& scene, const std::vector<JointTurn>& wished) {
+  if (wished.empty()) return;
+  JointTurns turns;
+  for (const JointTurn& wish : wished) {
+    const auto joint = static_cast<std::size_t>(joint_called(scene, wish.joint));
+    turns.resize(scene.rig()->names.size(), Eigen::Quaterniond::Identity());
+    turns[joint] = turn_by(wish.degrees) * turns[joint];
+  }
+  scene.turns = std::make_shared<const JointTurns>(std::move(turns));
+}
+
 void place_camera(Scene& scene, const ViewOptions& options) {
   scene.camera.orthographic = !options.perspective;
   look_from(scene.camera, options.camera.side, scene.best_axes());
@@ -229,6 +240,11 @@ void write_pictures(const ViewOptions& options, Session& session) {
   const Monitor monitor = session.monitor();
   Scene scene(open_document(options.files, monitor));
   scene.look = options.look;
+  if (scene.look.surface_colour == ColourBy::file) {
+    scene.materials =
+        materials_of(scene.document.mesh_file,
+                     static_cast<std::size_t>(scene.document.surface.positions.rows()), monitor);
+  }
   if (options.stage.stage != "rig") look_at_rig(scene, options.joint);
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
@@ -248,6 +264,7 @@ void write_pictures(const ViewOptions& options, Session& session) {
   } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {
     go_to(scene, options.stage);  // says that it never came
   }
+  turn_joints(scene, options.turns);
   monitor.report("draw", 0);
   const HeadlessContext context;
   Renderer renderer;

@@ -16,8 +16,15 @@ std::shared_ptr<const CharacterRig> rig_of(const Document& document,
       skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
   CharacterOptions facing = options;
   facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
-  return std::make_shared<const CharacterRig>(
-      rig_character(document.surface, repaired, mapped, facing, monitor));
+  CharacterRig made = rig_character(document.surface, repaired, mapped, facing, monitor);
+  const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
+  made.parts.part_of_vertex.setConstant(repaired.vertex_of_input.size(), -1);
+  for (Eigen::Index v = 0; v < repaired.vertex_of_input.size(); ++v) {
+    const int vertex = repaired.vertex_of_input[v];
+    if (vertex >= 0 && vertex < of_repaired.size())
+      made.parts.part_of_vertex[v] = of_repaired[vertex];
+  }
+  return std::make_shared<const CharacterRig>(std::move(made));
 }
 
 Moment moment_of(std::shared_ptr<const CharacterRig> character) {

@@ -11,8 +11,9 @@
 
 namespace curveskel::viewer {
 
-/// The rig by the vertices of the document's file; node_of_vertex of the skeleton (if it has one)
-/// is by these, too. Precondition: the document has a surface, `repaired` was made of it.
+/// The rig and its parts by the vertices of the document's file; node_of_vertex of the skeleton (if
+/// it has one) is by these, too. Precondition: the document has a surface, `repaired` was made of
+/// it.
 [[nodiscard]] std::shared_ptr<const CharacterRig> rig_of(const Document& document,
                                                          const RepairedSurface& repaired,
                                                          const CurveSkeleton& skeleton,

@@ -14,8 +14,28 @@ enum Attribute : GLuint {
   from_colour,
   to_colour,
   from_mitre,
-  to_mitre
+  to_mitre,
+  place_in_picture
 };
+
+constexpr int picture_unit = 2;  // the others are the glass's
+
+GlTexture texture_of(const Picture& picture, const std::array<bool, 2>& repeats) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  GlTexture texture(name);
+  bind_texture(picture_unit, name);
+  const auto wrap = [&](std::size_t way) { return repeats[way] ? GL_REPEAT : GL_CLAMP_TO_EDGE; };
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap(0));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap(1));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.width, picture.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, picture.bytes.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  return texture;
+}
 
 /// Things without colours of their own have the attribute's constant value.
 void bind_attribute(GLuint attribute, const GlBuffer& buffer, GLint parts, GLenum type,
@@ -65,13 +85,48 @@ void GlMesh::set_colours(const std::vector<Rgba>& colours) {
   glBindVertexArray(0);
 }
 
-void GlMesh::draw(const glm::vec3& plain, bool few) const {
+void GlMesh::set_pictures(const DrawnMaterials* materials) {
+  if (materials == nullptr && runs_.empty()) return;
+  ++version_;
+  runs_.clear();
+  glBindVertexArray(array_.get());
+  if (materials == nullptr) {
+    glDisableVertexAttribArray(place_in_picture);
+  } else {
+    fill(places_in_picture_, GL_ARRAY_BUFFER, std::span(materials->places));
+    bind_attribute(place_in_picture, places_in_picture_, 2, GL_FLOAT, false, 0, 0);
+    for (const DrawnMaterials::Run& run : materials->runs) {
+      runs_.push_back({run, {}});
+      if (run.picture < 0) continue;
+      runs_.back().picture =
+          texture_of(materials->pictures[static_cast<std::size_t>(run.picture)], run.repeats);
+    }
+  }
+  glBindVertexArray(0);
+}
+
+void GlMesh::draw(const GlProgram& program, const glm::vec3& plain, bool few) const {
   if (empty()) return;
   glBindVertexArray(array_.get());
   if (!coloured_) glVertexAttrib4f(colour, plain.r, plain.g, plain.b, 1);
   const bool fewer = few && fewer_corners_ > 0;
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, fewer ? fewer_.get() : triangles_.get());
-  glDrawElements(GL_TRIANGLES, fewer ? fewer_corners_ : corners_, GL_UNSIGNED_INT, nullptr);
+  program.set("picture", picture_unit);
+  program.set("has_picture", 0);
+  program.set("cut_out", 0);
+  if (runs_.empty() || fewer) {
+    glDrawElements(GL_TRIANGLES, fewer ? fewer_corners_ : corners_, GL_UNSIGNED_INT, nullptr);
+    return;
+  }
+  for (const Run& run : runs_) {
+    program.set("has_picture", run.picture ? 1 : 0);
+    program.set("cut_out", run.drawn.is_cut_out ? 1 : 0);
+    if (run.picture) bind_texture(picture_unit, run.picture.get());
+    const std::size_t offset = 3 * sizeof(std::uint32_t) * run.drawn.first;
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.drawn.count), GL_UNSIGNED_INT,
+                   // OpenGL's way to say an offset.
+                   reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
+  }
 }
 
 GlInstances::GlInstances(const UnitShape& shape)

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "viewer/model/drawn_materials.hpp"
 #include "viewer/render/colours.hpp"
 #include "viewer/render/gl_objects.hpp"
 #include "viewer/render/shapes_shown.hpp"
@@ -24,20 +25,29 @@ class GlMesh {
   void set_places(const ShownSurface& surface);
   /// None: the plain colour.
   void set_colours(const std::vector<Rgba>& colours);
+  /// Pictures on the triangles, which are run by run; none: without pictures.
+  void set_pictures(const DrawnMaterials* materials);
 
   [[nodiscard]] bool empty() const { return corners_ == 0; }
   /// Counts changes.
   [[nodiscard]] unsigned version() const { return version_; }
   /// With the program in use; `few` triangles where there is a simpler form.
-  void draw(const glm::vec3& plain, bool few) const;
+  void draw(const GlProgram& program, const glm::vec3& plain, bool few) const;
 
  private:
+  struct Run {
+    DrawnMaterials::Run drawn;
+    GlTexture picture;
+  };
+
   GlArray array_;
   GlBuffer positions_;
   GlBuffer normals_;
   GlBuffer colours_;
+  GlBuffer places_in_picture_;
   GlBuffer triangles_;
   GlBuffer fewer_;
+  std::vector<Run> runs_;
   GLsizei corners_ = 0;
   GLsizei fewer_corners_ = 0;
   bool coloured_ = false;

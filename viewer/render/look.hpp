@@ -26,15 +26,18 @@ inline constexpr NameTable<SkeletonStyle, 4> skeleton_styles{{
     {SkeletonStyle::hidden, "hidden", "the surface alone"},
 }};
 
-enum class ColourBy { plain, component, node, branch, radius, weight };
+enum class ColourBy { file, plain, component, node, branch, radius, weight, role, part };
 
-inline constexpr NameTable<ColourBy, 6> colourings{{
+inline constexpr NameTable<ColourBy, 9> colourings{{
+    {ColourBy::file, "file", "the materials and pictures of the file; without any, one colour"},
     {ColourBy::plain, "plain", "one colour"},
     {ColourBy::component, "component", "connected parts"},
     {ColourBy::node, "node", "which part of the surface collapsed to which node"},
     {ColourBy::branch, "branch", "chains between junctions and tips"},
     {ColourBy::radius, "radius", "inscribed radius at the node, in model units"},
     {ColourBy::weight, "weight", "of a rig: what the chosen joint moves, or all of them mixed"},
+    {ColourBy::role, "role", "of a rig: what its joints are, left ones lighter"},
+    {ColourBy::part, "part", "of a rig: the body, and the parts that follow it"},
 }};
 
 enum class Theme { light, dark };
@@ -47,7 +50,7 @@ inline constexpr NameTable<Theme, 2> themes{{
 struct Look {
   SurfaceStyle surface = SurfaceStyle::transparent;
   SkeletonStyle skeleton = SkeletonStyle::tubes;
-  ColourBy surface_colour = ColourBy::plain;
+  ColourBy surface_colour = ColourBy::file;
   ColourBy skeleton_colour = ColourBy::plain;
   ColourMap map = ColourMap::viridis;
   Theme theme = Theme::light;

@@ -73,6 +73,10 @@ void Renderer::set_colours(Layer layer, const std::vector<Rgba>& colours) {
   mesh(layer).set_colours(colours);
 }
 
+void Renderer::set_pictures(const DrawnMaterials* materials) {
+  mesh(Layer::given).set_pictures(materials);
+}
+
 void Renderer::set_skeleton(const ShownSkeleton& skeleton) {
   edges_.set(skeleton.edges);
   nodes_.set(skeleton.nodes);
@@ -85,7 +89,7 @@ void Renderer::draw_mesh(const GlProgram& program, const GlMesh& shown, const gl
   const ColourBy by = seen.look.surface_colour;
   program.set("categories", static_cast<int>(by == ColourBy::component || by == ColourBy::node ||
                                              by == ColourBy::branch));
-  shown.draw(plain, seen.frame.fineness.lit_at_vertices());
+  shown.draw(program, plain, seen.frame.fineness.lit_at_vertices());
 }
 
 const GlProgram& Renderer::program_for(const Seen& seen) const {

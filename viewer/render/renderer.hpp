@@ -41,6 +41,8 @@ class Renderer {
   /// The same triangles at other positions.
   void move_surface(Layer layer, const ShownSurface& surface);
   void set_colours(Layer layer, const std::vector<Rgba>& colours);
+  /// Of the given surface, whose triangles are the materials'; null for none.
+  void set_pictures(const DrawnMaterials* materials);
   void set_skeleton(const ShownSkeleton& skeleton);
 
   /// A rectangle of pixels, from the lower left corner.

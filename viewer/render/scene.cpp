@@ -1,6 +1,7 @@
 #include "viewer/render/scene.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include <curveskel/error.hpp>
 #include <curveskel/view.hpp>
@@ -105,6 +106,16 @@ std::shared_ptr<const Rig> Scene::rig() const {
   return made ? made : document.rig;
 }
 
+std::shared_ptr<const CharacterRig> Scene::character() const {
+  return recording.moments()[moment].character;
+}
+
+Positions Scene::joints_now() const {
+  const auto shown = rig();
+  const bool is_turned = turns && turns->size() == shown->names.size();
+  return is_turned ? moved_joints(*shown, joint_motions(*shown, *turns)) : shown->joints;
+}
+
 bool Scene::shows_curve() const {
   return look.skeleton != SkeletonStyle::hidden && !recording.moments()[moment].rig;
 }
@@ -112,30 +123,65 @@ bool Scene::shows_curve() const {
 Look Scene::look_now() const {
   Look now = look;
   const Moment& shown = recording.moments()[moment];
-  const bool within = shown.stage == "contract" || shown.stage == "surgery" || shown.rig;
+  const bool within = shown.stage == "contract" || shown.stage == "surgery";
   if (within && now.surface == SurfaceStyle::opaque) {
     now.surface = SurfaceStyle::transparent;
   }
-  if (shown.rig && now.surface_colour == ColourBy::plain) now.surface_colour = ColourBy::weight;
+  // The file's own look is what a rigger wants to see move, unless a joint is asked about.
+  const bool is_asked = materials == nullptr || highlights.joint >= 0;
+  if (now.surface_colour == ColourBy::file && rig() && look.bones && is_asked) {
+    now.surface_colour = ColourBy::weight;
+  }
   return now;
 }
 
 /// The surface that stands for the given one now, and its simpler forms.
 void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
+  renderer.set_pictures(now.faired ? nullptr : now.materials.get());
   if (now.faired) {
     renderer.set_surface(Layer::given, recording.faired_at(moment));
+    for (const Layer layer : simpler_layers) renderer.set_surface(layer, ShownSurface{});
+    return;
+  }
+  const ShownSurface turned = now.turns ? turned_surface(now) : ShownSurface{};
+  const ShownSurface& given = now.turns ? turned : given_;
+  if (now.materials) {
+    ShownSurface drawn = chosen_vertices(given, now.materials->vertices);
+    drawn.triangles = now.materials->triangles;
+    drawn.colours = now.materials->colours;
+    renderer.set_surface(Layer::given, drawn);
   } else {
-    renderer.set_surface(Layer::given, given_, document.surface.triangles);
+    renderer.set_surface(Layer::given, given, document.surface.triangles);
   }
   for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
-    renderer.set_surface(simpler_layers[i], now.faired ? ShownSurface{} : simpler_[i].surface);
+    const SimplerSurface& simpler = simpler_[i];
+    if (!now.turns) {
+      renderer.set_surface(simpler_layers[i], simpler.surface);
+      continue;
+    }
+    ShownSurface moved = chosen_vertices(given, simpler.vertex_of_given);
+    moved.triangles = simpler.surface.triangles;
+    renderer.set_surface(simpler_layers[i], moved);
   }
 }
 
+/// Without triangles, as `given_`.
+ShownSurface Scene::turned_surface(const Uploaded& now) const {
+  const Positions moved =
+      moved_surface(document.surface.positions, *now.rig, joint_motions(*now.rig, *now.turns));
+  ShownSurface turned;
+  move_surface(turned, moved, document.origin);
+  set_normals(turned, document.surface.triangles);
+  return turned;
+}
+
 void Scene::colour_given(Renderer& renderer, const Uploaded& now) const {
+  const auto shown = character();
+  const RigParts* parts = shown ? &shown->parts : nullptr;
   const std::vector<Rgba> colours =
-      surface_colours(document.surface, {now.skeleton.get(), now.rig.get()}, now.look, highlights);
-  renderer.set_colours(Layer::given, colours);
+      surface_colours(document.surface, {now.skeleton.get(), now.rig.get(), parts, materials.get()},
+                      now.look, highlights);
+  if (!now.materials) renderer.set_colours(Layer::given, colours);
   for (std::size_t i = 0; i < simpler_layers.size(); ++i) {
     std::vector<Rgba> fewer;
     if (!colours.empty()) {
@@ -156,9 +202,10 @@ bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
                    : shown.stage == "surgery" ? recording.newest_surface(moment)
                                               : shown.surface;
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
-  const bool anew = all || now.faired != uploaded_->faired;
+  const bool anew = all || now.faired != uploaded_->faired || now.turns != uploaded_->turns ||
+                    now.materials != uploaded_->materials;
   if (anew) upload_given(renderer, now);
-  const bool recoloured = all || !uploaded_ || now.skeleton != uploaded_->skeleton ||
+  const bool recoloured = anew || now.skeleton != uploaded_->skeleton ||
                           now.rig != uploaded_->rig || now.highlights != uploaded_->highlights ||
                           now.look.surface_colour != uploaded_->look.surface_colour ||
                           look.map != uploaded_->look.map || look.theme != uploaded_->look.theme ||
@@ -178,7 +225,9 @@ bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
       look.skeleton_colour == uploaded_->look.skeleton_colour && look.map == uploaded_->look.map &&
       look.theme == uploaded_->look.theme && look.joints == uploaded_->look.joints &&
       look.bones == uploaded_->look.bones && look.thickness == uploaded_->look.thickness;
-  if (same_look && now.skeleton == uploaded_->skeleton && now.rig == uploaded_->rig &&
+  const bool same_bones = !all && now.rig == uploaded_->rig && now.turns == uploaded_->turns &&
+                          now.look.surface_colour == uploaded_->look.surface_colour;
+  if (same_look && same_bones && now.skeleton == uploaded_->skeleton &&
       now.highlights == uploaded_->highlights) {
     return false;
   }
@@ -188,7 +237,7 @@ bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
   }
   if (now.rig && look.bones) {
     const ShownSkeleton rig =
-        shown_rig(*now.rig, document.origin, bounds_.diagonal(), look, highlights);
+        shown_rig(*now.rig, joints_now(), document.origin, bounds_.diagonal(), look, highlights);
     shown.edges.insert(shown.edges.end(), rig.edges.begin(), rig.edges.end());
     shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
   }
@@ -204,31 +253,47 @@ bool Scene::upload(Renderer& renderer) {
   now.curve = shows_curve();
   now.look = look_now();
   now.highlights = highlights;
+  const bool can_turn = now.rig && turns && turns->size() == now.rig->names.size() &&
+                        now.rig->weights.rows() == document.surface.positions.rows();
+  if (can_turn) now.turns = turns;
+  // Lit up vertices need colours of their own.
+  const bool own_look = now.look.surface_colour == ColourBy::file && highlights.nodes.empty() &&
+                        highlights.failed_faces.empty();
+  if (own_look) now.materials = materials;
   const bool surfaces = upload_surfaces(renderer, now, all);
   const bool skeletons = upload_skeleton(renderer, now, all);
   uploaded_ = std::move(now);
   return surfaces || skeletons;
 }
 
-void look_at_rig(Scene& scene, const std::string& joint) {
+int joint_called(const Scene& scene, const std::string& name) {
   const auto rig = scene.rig();
-  if (!rig || !scene.look.bones) return;
-  if (scene.look.surface_colour == ColourBy::plain) scene.look.surface_colour = ColourBy::weight;
-  scene.highlights.joint = -1;
-  if (joint.empty()) return;
+  if (!rig) throw Error(Fault::input, "no rig is shown, so no joint is called " + name);
   const std::vector<std::string>& names = rig->names;
-  const auto found = std::find(names.begin(), names.end(), joint);
-  if (found != names.end()) {
-    scene.highlights.joint = static_cast<int>(found - names.begin());
-    return;
-  }
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
   constexpr std::size_t most = 100;
   std::string some;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
     some += (some.empty() ? "" : ", ") + names[i];
   }
   if (names.size() > most) some += " and " + std::to_string(names.size() - most) + " more";
-  throw Error(Fault::input, "no joint is called " + joint + "; there are " + some);
+  throw Error(Fault::input, "no joint is called " + name + "; there are " + some);
+}
+
+Eigen::Quaterniond turn_by(const std::array<double, 3>& degrees) {
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double angle = degrees[static_cast<std::size_t>(axis)] * std::numbers::pi / 180;
+    turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)) * turn;
+  }
+  return turn;
+}
+
+void look_at_rig(Scene& scene, const std::string& joint) {
+  if (!scene.rig() || !scene.look.bones) return;
+  scene.highlights.joint = -1;
+  if (!joint.empty()) scene.highlights.joint = joint_called(scene, joint);
 }
 
 }  // namespace curveskel::viewer

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/pose.hpp>
 #include "viewer/model/document.hpp"
+#include "viewer/model/drawn_materials.hpp"
 #include "viewer/model/recording.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/face_blocks.hpp"
@@ -32,10 +34,19 @@ class Scene {
   /// Instead of the recording's skeleton: the one that was opened, or edited.
   std::shared_ptr<const CurveSkeleton> own_skeleton;
 
+  /// Of the document's file; null where it has none, or none are known yet.
+  std::shared_ptr<const DrawnMaterials> materials;
+  /// By hand, of the joints of the rig that is shown; null = none is turned.
+  std::shared_ptr<const JointTurns> turns;
+
   /// The skeleton that is shown now, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton() const;
   /// The rig that is shown now: the one of this moment, else the file's; or null.
   [[nodiscard]] std::shared_ptr<const Rig> rig() const;
+  /// Plan and parts of that rig; null where it is the file's.
+  [[nodiscard]] std::shared_ptr<const CharacterRig> character() const;
+  /// The rig's joints where they stand now. Precondition: there is a rig.
+  [[nodiscard]] Positions joints_now() const;
   /// True if the curve is seen now; bones stand for it if it was made a rig of.
   [[nodiscard]] bool shows_curve() const;
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
@@ -54,8 +65,8 @@ class Scene {
   bool upload(Renderer& renderer);
   /// Forgets all uploads: the renderer is a new one.
   void forget_uploads() { uploaded_.reset(); }
-  /// The look as it is drawn at this moment: a contracted surface shows through the given one, a
-  /// rig through the surface that it moves, which has its weights' colours if no others are chosen.
+  /// The look as it is drawn at this moment: a contracted surface shows through the given one; a
+  /// surface with a rig has its weights' colours if no others are chosen, and it has none itself.
   [[nodiscard]] Look look_now() const;
 
  private:
@@ -64,11 +75,14 @@ class Scene {
     std::shared_ptr<const ShownSurface> contracted;  // the latest of the components shown
     std::shared_ptr<const CurveSkeleton> skeleton;
     std::shared_ptr<const Rig> rig;
-    bool curve = false;  // shown
+    std::shared_ptr<const JointTurns> turns;
+    std::shared_ptr<const DrawnMaterials> materials;  // those that are seen
+    bool curve = false;                               // shown
     Look look;
     Highlights highlights;
   };
   void upload_given(Renderer& renderer, const Uploaded& now) const;
+  [[nodiscard]] ShownSurface turned_surface(const Uploaded& now) const;
   void colour_given(Renderer& renderer, const Uploaded& now) const;
   bool upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
   bool upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
@@ -82,9 +96,16 @@ class Scene {
   std::optional<Uploaded> uploaded_;
 };
 
-/// Shows what the joints of the rig move, in place of the one colour: the joint of this
-/// name, or all for "". Nothing where there is no rig, or its bones are not shown.
-/// Throws Error(Fault::input) where no joint has the name; all of them are shown then.
+/// The joint of the rig that is shown with this name. Throws Error(Fault::input) where there is
+/// none, or no rig.
+[[nodiscard]] int joint_called(const Scene& scene, const std::string& name);
+
+/// A turn by degrees about x, then y, then z.
+[[nodiscard]] Eigen::Quaterniond turn_by(const std::array<double, 3>& degrees);
+
+/// Chooses the joint of the rig that has this name; "" = none. Nothing where there is no rig, or
+/// its bones are not shown. Throws Error(Fault::input) where no joint has the name; none is chosen
+/// then.
 void look_at_rig(Scene& scene, const std::string& joint);
 
 }  // namespace curveskel::viewer

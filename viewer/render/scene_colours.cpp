@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <curveskel/advanced/graph.hpp>
 
@@ -55,9 +56,12 @@ class SkeletonColours {
   }
   [[nodiscard]] glm::vec3 node(int index) const {
     switch (look_.skeleton_colour) {
+      case ColourBy::file:
       case ColourBy::plain:
       case ColourBy::branch:
       case ColourBy::weight:
+      case ColourBy::role:
+      case ColourBy::part:
         break;
       case ColourBy::component:
         return category(static_cast<std::size_t>(component_[static_cast<std::size_t>(index)]));
@@ -161,6 +165,66 @@ std::vector<Rgba> weight_colours(const Rig& rig, int joint, const Look& look,
     }
     const glm::vec3 own = joint < 0 ? mixed : mapped(look.map, share);
     colours.push_back(rgba(sum > 0 ? own : palette.surface));
+  }
+  return colours;
+}
+
+/// "leftFoot" and "rightFoot" are "Foot", "shin.L" and "shin.R" are "shin".
+std::string without_side(const std::string& role) {
+  if (role.starts_with("left")) return role.substr(4);
+  if (role.starts_with("right")) return role.substr(5);
+  if (role.ends_with(".L") || role.ends_with(".R")) return role.substr(0, role.size() - 2);
+  return role;
+}
+
+/// Of each joint that of its role, or of the nearest joint above it that has one.
+std::vector<glm::vec3> role_colours(const Rig& rig) {
+  constexpr float lighter = 0.35F;
+  constexpr glm::vec3 unknown{0.6F};
+  std::vector<std::string> kinds;
+  std::vector<glm::vec3> colours;
+  for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+    const std::string role = joint < rig.roles.size() ? rig.roles[joint] : "";
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    if (role.empty()) {
+      colours.push_back(parent < 0 ? unknown : colours[static_cast<std::size_t>(parent)]);
+      continue;
+    }
+    const std::string kind = without_side(role);
+    const auto found = std::find(kinds.begin(), kinds.end(), kind);
+    const glm::vec3 colour = category(static_cast<std::size_t>(found - kinds.begin()));
+    if (found == kinds.end()) kinds.push_back(kind);
+    const bool is_left = role.starts_with("left") || role.ends_with(".L");
+    colours.push_back(is_left ? glm::mix(colour, glm::vec3(1), lighter) : colour);
+  }
+  return colours;
+}
+
+/// Of each vertex that of the joint with the largest share.
+std::vector<Rgba> colours_by_role(const Rig& rig, const Palette& palette) {
+  const std::vector<glm::vec3> of_joint = role_colours(rig);
+  std::vector<Rgba> colours;
+  colours.reserve(static_cast<std::size_t>(rig.weights.rows()));
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    float most = 0;
+    glm::vec3 colour = palette.surface;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (it.value() <= most) continue;
+      most = it.value();
+      colour = of_joint[static_cast<std::size_t>(it.col())];
+    }
+    colours.push_back(rgba(colour));
+  }
+  return colours;
+}
+
+/// Followers in their own colours, the body in the plain one.
+std::vector<Rgba> colours_by_part(const RigParts& parts, const Palette& palette) {
+  std::vector<Rgba> colours;
+  colours.reserve(static_cast<std::size_t>(parts.part_of_vertex.size()));
+  for (const int part : parts.part_of_vertex) {
+    const bool follows = part >= 0 && parts.parts[static_cast<std::size_t>(part)].follows;
+    colours.push_back(rgba(follows ? category(static_cast<std::size_t>(part)) : palette.surface));
   }
   return colours;
 }
@@ -277,27 +341,33 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
   return shown;
 }
 
-ShownSkeleton shown_rig(const Rig& rig, const Eigen::RowVector3d& origin, float size,
-                        const Look& look, const Highlights& highlights) {
+ShownSkeleton shown_rig(const Rig& rig, const Positions& joints, const Eigen::RowVector3d& origin,
+                        float size, const Look& look, const Highlights& highlights) {
   // The shape that Blender and others draw: widest near the joint that turns it.
   constexpr float widest_at = 0.12F;
   constexpr float width = 0.07F;
   constexpr float joint_share = 0.0055F;
   const Palette palette = palette_of(look.theme);
   const float ball = joint_share * size * look.thickness;
+  const bool by_role = look.surface_colour == ColourBy::role;
+  const std::vector<glm::vec3> of_role = by_role ? role_colours(rig) : std::vector<glm::vec3>{};
+  const auto colour_of = [&](int joint, const glm::vec3& usual) {
+    if (joint == highlights.joint) return rgba(lit_up);
+    return rgba(by_role ? of_role[static_cast<std::size_t>(joint)] : usual);
+  };
   ShownSkeleton shown;
   for (int joint = 0; joint < rig.joints.rows(); ++joint) {
     const bool lit = joint == highlights.joint;
-    const glm::vec3 at = shown_point(rig.joints.row(joint), origin);
-    const Rgba colour = rgba(lit ? lit_up : palette.bone_joint);
+    const glm::vec3 at = shown_point(joints.row(joint), origin);
+    const Rgba colour = colour_of(joint, palette.bone_joint);
     const glm::vec4 place(at, lit ? 1.4F * ball : ball);
     shown.nodes.push_back({place, place, colour, colour, {}, {}});
     const int parent = rig.parents[joint];
     if (parent < 0) continue;
-    const glm::vec3 from = shown_point(rig.joints.row(parent), origin);
+    const glm::vec3 from = shown_point(joints.row(parent), origin);
     const glm::vec4 middle(glm::mix(from, at, widest_at),
                            std::min(width * glm::length(at - from), 2 * ball));
-    const Rgba bone = rgba(parent == highlights.joint ? lit_up : palette.bone);
+    const Rgba bone = colour_of(parent, palette.bone);
     shown.edges.push_back({glm::vec4(from, 0), middle, bone, bone, {}, {}});
     shown.edges.push_back({middle, glm::vec4(at, 0), bone, bone, {}, {}});
   }
@@ -317,6 +387,14 @@ std::vector<Rgba> surface_colours(const Surface& surface, const Meaning& meaning
     colours = category_colours(components_of(surface));
   } else if (look.surface_colour == ColourBy::weight) {
     if (has_weights) colours = weight_colours(*meaning.rig, highlights.joint, look, palette);
+  } else if (look.surface_colour == ColourBy::role) {
+    if (has_weights) colours = colours_by_role(*meaning.rig, palette);
+  } else if (look.surface_colour == ColourBy::part) {
+    const bool has_parts = meaning.parts != nullptr &&
+                           meaning.parts->part_of_vertex.size() == surface.positions.rows();
+    if (has_parts) colours = colours_by_part(*meaning.parts, palette);
+  } else if (look.surface_colour == ColourBy::file) {
+    if (meaning.materials != nullptr) colours = meaning.materials->colour_of_vertex;
   } else if (look.surface_colour != ColourBy::plain && has_map) {
     colours = colours_by_map(*skeleton, look, palette);
   }

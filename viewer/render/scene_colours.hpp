@@ -8,7 +8,9 @@
 
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/rig.hpp>
+#include <curveskel/rig_parts.hpp>
 #include <curveskel/surface.hpp>
+#include "viewer/model/drawn_materials.hpp"
 #include "viewer/render/look.hpp"
 #include "viewer/render/shapes_shown.hpp"
 
@@ -44,15 +46,19 @@ struct Highlights {
                                            const Eigen::RowVector3d& origin, float size,
                                            const Look& look, const Highlights& highlights);
 
-/// Bones from each joint to those below it, and joints as balls.
-[[nodiscard]] ShownSkeleton shown_rig(const Rig& rig, const Eigen::RowVector3d& origin, float size,
+/// Bones from each joint to those below it, and joints as balls. `joints` are the rig's where they
+/// stand now.
+[[nodiscard]] ShownSkeleton shown_rig(const Rig& rig, const Positions& joints,
+                                      const Eigen::RowVector3d& origin, float size,
                                       const Look& look, const Highlights& highlights);
 
-/// Sources of a surface's colours; either may be null. Values that are not of this surface's
+/// Sources of a surface's colours; each may be null. Values that are not of this surface's
 /// vertices are passed over.
 struct Meaning {
   const CurveSkeleton* skeleton = nullptr;
   const Rig* rig = nullptr;
+  const RigParts* parts = nullptr;  ///< part_of_vertex by the surface's vertices
+  const DrawnMaterials* materials = nullptr;
 };
 /// One colour per vertex of `surface`; empty where it is plain. Vertices of the highlighted nodes
 /// are lit up.

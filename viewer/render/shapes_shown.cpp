@@ -14,11 +14,12 @@ std::uint32_t packed(const glm::vec3& normal) {
   return part(normal.x) | part(normal.y) << 10U | part(normal.z) << 20U;
 }
 
-}  // namespace
-
-void set_normals(ShownSurface& shown) {
+/// `corners(f)`: those of triangle f.
+template <typename Corners>
+void set_normals(ShownSurface& shown, std::size_t count, const Corners& corners) {
   std::vector<glm::vec3> sums(shown.positions.size(), glm::vec3(0));
-  for (const glm::uvec3& triangle : shown.triangles) {
+  for (std::size_t f = 0; f < count; ++f) {
+    const glm::uvec3 triangle = corners(f);
     const glm::vec3& a = shown.positions[triangle.x];
     const glm::vec3 normal =
         glm::cross(shown.positions[triangle.y] - a, shown.positions[triangle.z] - a);
@@ -29,6 +30,30 @@ void set_normals(ShownSurface& shown) {
     const float length = glm::length(sums[v]);
     shown.normals[v] = packed(length > 0 ? sums[v] / length : glm::vec3(0));
   }
+}
+
+}  // namespace
+
+void set_normals(ShownSurface& shown) {
+  set_normals(shown, shown.triangles.size(), [&](std::size_t f) { return shown.triangles[f]; });
+}
+
+void set_normals(ShownSurface& shown, const Triangles& triangles) {
+  set_normals(shown, static_cast<std::size_t>(triangles.rows()), [&](std::size_t f) {
+    const auto row = triangles.row(static_cast<Eigen::Index>(f));
+    return glm::uvec3(row[0], row[1], row[2]);
+  });
+}
+
+ShownSurface chosen_vertices(const ShownSurface& shown, const std::vector<std::uint32_t>& chosen) {
+  ShownSurface result;
+  result.positions.reserve(chosen.size());
+  result.normals.reserve(chosen.size());
+  for (const std::uint32_t vertex : chosen) {
+    result.positions.push_back(shown.positions[vertex]);
+    result.normals.push_back(shown.normals[vertex]);
+  }
+  return result;
 }
 
 glm::vec3 shown_point(const Eigen::RowVector3d& point, const Eigen::RowVector3d& origin) {

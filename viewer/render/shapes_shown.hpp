@@ -26,6 +26,11 @@ struct ShownSurface {
 [[nodiscard]] ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin);
 /// Area-weighted vertex normals from positions and triangles. O(#V + #F).
 void set_normals(ShownSurface& shown);
+/// The same with other triangles than its own.
+void set_normals(ShownSurface& shown, const Triangles& triangles);
+/// Vertex i is vertex chosen[i]; without triangles and colours. O(#chosen).
+[[nodiscard]] ShownSurface chosen_vertices(const ShownSurface& shown,
+                                           const std::vector<std::uint32_t>& chosen);
 /// The same where only positions have moved: triangles and colours stay.
 void move_surface(ShownSurface& shown, const Positions& positions,
                   const Eigen::RowVector3d& origin);

@@ -98,11 +98,10 @@ void Controls::begin_drag(const Workbench& bench, const Panels& panels) {
     travelled_ = 0;
     doubled_ = ImGui::IsMouseDoubleClicked(0);
     drag_ = button == 1 ? Drag::zoom : button == 2 || io.KeyShift ? Drag::pan : Drag::orbit;
-    const bool on_node = panels.hovered.kind == Pick::Kind::node;
-    if (button == 0 && io.KeyCtrl && on_node && !bench.running()) {
-      drag_ = Drag::node;
-      dragged_node_ = panels.hovered.index;
-    }
+    if (button != 0 || !io.KeyCtrl || bench.running()) continue;
+    if (panels.hovered.kind == Pick::Kind::node) drag_ = Drag::node;
+    if (panels.hovered.kind == Pick::Kind::joint) drag_ = Drag::joint;
+    dragged_ = panels.hovered.index;
   }
 }
 
@@ -117,6 +116,9 @@ void Controls::drag(Workbench& bench, const Area& picture) {
     case Drag::none:
     case Drag::node:
       break;
+    case Drag::joint:
+      pull(bench, picture);
+      break;
     case Drag::orbit:
       orbit(camera, moved.x * turn, moved.y * turn);
       break;
@@ -129,14 +131,23 @@ void Controls::drag(Workbench& bench, const Area& picture) {
   }
 }
 
+/// The joint follows the pointer, in the plane that faces the viewer.
+void Controls::pull(Workbench& bench, const Area& picture) const {
+  const auto rig = bench.scene->rig();
+  if (!rig || dragged_ < 0 || dragged_ >= rig->joints.rows()) return;
+  const glm::vec3 place =
+      shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.origin);
+  bench.pull_joint(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
+}
+
 void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& picture) {
   const Drag ended = std::exchange(drag_, Drag::none);
   const auto skeleton = bench.scene->skeleton();
   if (ended == Drag::node && travelled_ >= click_pixels && skeleton &&
-      dragged_node_ < skeleton->nodes.rows()) {
+      dragged_ < skeleton->nodes.rows()) {
     const glm::vec3 place =
-        shown_point(skeleton->nodes.row(dragged_node_), bench.scene->document.origin);
-    bench.move(dragged_node_, beside(bench.scene->camera, place, pointer_in(picture), picture));
+        shown_point(skeleton->nodes.row(dragged_), bench.scene->document.origin);
+    bench.move(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
     return;
   }
   if (travelled_ >= click_pixels || button_ != 0) return;

@@ -19,7 +19,7 @@ class Controls {
   bool wants_to_leave = false;
 
  private:
-  enum class Drag { none, orbit, pan, zoom, node };
+  enum class Drag { none, orbit, pan, zoom, node, joint };
   struct Flight {
     Camera from;
     Camera to;
@@ -34,6 +34,7 @@ class Controls {
   void mouse(Workbench& bench, Panels& panels, const Area& picture);
   void begin_drag(const Workbench& bench, const Panels& panels);
   void drag(Workbench& bench, const Area& picture);
+  void pull(Workbench& bench, const Area& picture) const;
   void end_drag(Workbench& bench, const Panels& panels, const Area& picture);
   void keys(Workbench& bench, Panels& panels, const Area& picture);
   void command_keys(Workbench& bench, Panels& panels, const Area& picture);
@@ -43,7 +44,7 @@ class Controls {
 
   Drag drag_ = Drag::none;
   int button_ = 0;
-  int dragged_node_ = -1;
+  int dragged_ = -1;     // node or joint
   float travelled_ = 0;  // pixels since the button went down
   bool doubled_ = false;
   glm::vec2 picked_at_{-1};

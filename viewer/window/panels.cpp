@@ -92,7 +92,7 @@ void help(Panels& panels) {
         {"click, Shift + click",
          "select a node, an edge, or the part of the surface of a node; "
          "two nodes: the path between"},
-        {"Ctrl + drag", "move a node"},
+        {"Ctrl + drag", "move a node; of a rig: turn the bone that ends in a joint, to look at it"},
         {"Delete, Backspace", "prune the branch, remove the node"},
         {"M  C  J  N  T", "merge, cut, join, put a node on an edge, set the root"},
         {"G", "joints and skin weights for the skeleton as it is"},

@@ -2,6 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,7 +114,9 @@ void certificate(Workbench& bench) {
 
 /// Seconds of the stages, of the embedding also of its steps.
 void times(const Workbench& bench) {
-  if (bench.result() == nullptr || !bench.result()->extraction) {
+  const RunResult* const result = bench.result();
+  const Extraction* const found = result == nullptr ? nullptr : result->extraction.get();
+  if (found == nullptr) {
     ImGui::TextDisabled("not there yet");
     return;
   }
@@ -122,7 +127,7 @@ void times(const Workbench& bench) {
         value < 1 ? fmt::format("{:.1f} ms", 1e3 * value) : fmt::format("{:.2f} s", value);
     ImGui::TextUnformatted(text.c_str());
   };
-  for (const StageTime& time : bench.result()->extraction->times) {
+  for (const StageTime& time : found->times) {
     const ImGuiTreeNodeFlags leaf = time.steps.empty() ? ImGuiTreeNodeFlags_Leaf : 0;
     const bool open = ImGui::TreeNodeEx(time.stage.c_str(), leaf);
     seconds(time.seconds);
@@ -220,6 +225,56 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
   return false;
 }
 
+/// Degrees about x, then y, then z.
+std::array<float, 3> angles_of(const Eigen::Quaterniond& turn) {
+  const Eigen::Matrix3d r = turn.toRotationMatrix();
+  const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
+  const auto degrees = [](double angle) {
+    return static_cast<float>(angle * 180 / std::numbers::pi);
+  };
+  return {degrees(std::atan2(r(2, 1), r(2, 2))), degrees(y), degrees(std::atan2(r(1, 0), r(0, 0)))};
+}
+
+void turn_controls(Workbench& bench, int joint) {
+  const auto turns = bench.scene->turns;
+  const Eigen::Quaterniond now =
+      turns ? (*turns)[static_cast<std::size_t>(joint)] : Eigen::Quaterniond::Identity();
+  std::array<float, 3> angles = angles_of(now);
+  if (ImGui::SliderFloat3("turn", angles.data(), -180, 180, "%.0f")) {
+    bench.turn_joint(joint, turn_by({angles[0], angles[1], angles[2]}) * now.conjugate());
+  }
+  tip("degrees about x, y, z; Ctrl + drag of a joint does the same by hand");
+  if (turns && ImGui::Button("Turn all back")) bench.turn_back();
+}
+
+/// The role of the chosen joint, to be corrected.
+void role_choice(Workbench& bench, const CharacterRig& character, int joint) {
+  const auto& roles = character.rig.roles;
+  const auto at = static_cast<std::size_t>(joint);
+  const std::string now = at < roles.size() ? roles[at] : "";
+  const std::vector<std::string> all = roles_of(character.plan.plan);
+  if (all.empty() || !ImGui::BeginCombo("role", now.empty() ? "none" : now.c_str())) return;
+  std::optional<std::string> chosen;
+  if (ImGui::Selectable("none", now.empty())) chosen = "";
+  for (const std::string& role : all) {
+    if (ImGui::Selectable(role.c_str(), role == now)) chosen = role;
+  }
+  ImGui::EndCombo();
+  if (chosen && *chosen != now) bench.set_role(*chosen);
+}
+
+void chosen_joint(Workbench& bench, const Rig& rig) {
+  const int joint = bench.selected_joint();
+  if (joint < 0 || joint >= rig.joints.rows()) {
+    ImGui::TextDisabled("choose a joint to turn it or to correct its role");
+    return;
+  }
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.7F);
+  if (const auto character = bench.scene->character()) role_choice(bench, *character, joint);
+  turn_controls(bench, joint);
+  ImGui::PopItemWidth();
+}
+
 /// Only the lines within the panel are laid out.
 void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
   const float step = ImGui::GetFontSize() * 0.5F;
@@ -256,6 +311,7 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
     const auto& character = bench.scene->recording.moments()[bench.scene->moment].character;
     if (character) ImGui::TextWrapped("%s", words_of(*character).c_str());
+    chosen_joint(bench, *rig);
     hierarchy(bench, panels.outline, *rig);
   }
   const bool defective = bench.defects() != nullptr && !bench.defects()->none();

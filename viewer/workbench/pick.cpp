@@ -110,7 +110,7 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
   const Projection projection(scene.camera, scene.bounds(), width, height);
   const auto rig = scene.rig();
   if (rig && scene.look.bones && !covered) {
-    const Positions& joints = rig->joints;
+    const Positions joints = scene.joints_now();
     Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint);
     if (found.kind == Pick::Kind::joint) {
       found.place = shown_point(joints.row(found.index), scene.document.origin);
@@ -135,7 +135,8 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
       return found;
     }
   }
-  if (scene.look.surface == SurfaceStyle::hidden) return {};
+  // Faces are found where the file has them.
+  if (scene.look.surface == SurfaceStyle::hidden || scene.turns) return {};
   return pick_face(scene, ray_through(scene.camera, at.x, at.y, width, height));
 }
 

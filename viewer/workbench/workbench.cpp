@@ -78,7 +78,7 @@ void Workbench::say(std::string text, bool bad) {
 
 bool Workbench::busy() const {
   return opening_.valid() || run_ != nullptr || !retired_.empty() || inspecting_.valid() ||
-         judging_.valid() || rigging_.valid();
+         judging_.valid() || rigging_.valid() || materials_.valid();
 }
 
 bool Workbench::update() {
@@ -87,6 +87,7 @@ bool Workbench::update() {
   changed = take_defects() || changed;
   changed = take_judgement() || changed;
   changed = take_rig() || changed;
+  changed = take_materials() || changed;
   std::erase_if(retired_, [](const std::unique_ptr<Run>& run) {
     return run->take().state != Run::State::running;
   });
@@ -211,11 +212,14 @@ void Workbench::save(const fs::path& file) {
 /// The defects of the surface as it was read; nobody waits for them.
 void Workbench::inspect() {
   defects_.reset();
-  if (inspecting_.valid()) {
-    // Its own end is waited for by a thread that has nothing else to do.
+  // The ends of older ones are waited for by threads that have nothing else to do.
+  const auto leave = [&](auto& future) {
+    if (!future.valid()) return;
     background_.push_back(std::async(
-        std::launch::async, [](auto old) { old.wait(); }, std::move(inspecting_)));
-  }
+        std::launch::async, [](auto old) { old.wait(); }, std::move(future)));
+  };
+  leave(inspecting_);
+  leave(materials_);
   std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
   if (scene->document.surface.triangles.rows() == 0) return;
   inspecting_ = std::async(std::launch::async, [held = scene] {
@@ -224,6 +228,20 @@ void Workbench::inspect() {
     give_back_memory();
     return found;
   });
+  materials_ = std::async(std::launch::async, [held = scene] {
+    give_way();
+    auto found =
+        materials_of(held->document.mesh_file,
+                     static_cast<std::size_t>(held->document.surface.positions.rows()), {});
+    give_back_memory();
+    return found;
+  });
+}
+
+bool Workbench::take_materials() {
+  if (!is_ready(materials_)) return false;
+  scene->materials = materials_.get();
+  return scene->materials != nullptr;
 }
 
 bool Workbench::take_defects() {

@@ -110,6 +110,17 @@ class Workbench {
   [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
   [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
+  /// Turns a joint about itself, in the surface's coordinates, on top of how it is turned; those
+  /// below it and the surface follow. For the eye: files keep the pose in which the surface is.
+  void turn_joint(int joint, const Eigen::Quaterniond& more);
+  /// So that the joint, turned about the one above it, comes as near to this place (about the
+  /// document's origin) as it can.
+  void pull_joint(int joint, const glm::vec3& place);
+  /// All joints as they are in the file.
+  void turn_back();
+  /// What the selected joint is, corrected: it is named and saved so. "" = nothing that is known.
+  void set_role(const std::string& role);
+
   // Corrections of the skeleton.
   void prune();
   void remove();
@@ -158,6 +169,7 @@ class Workbench {
   bool take_defects();
   bool take_judgement();
   bool take_rig();
+  bool take_materials();
   void drop_rig();
   void save_rig(const std::filesystem::path& file, RigFormat format);
   void take_moments(std::vector<Moment> moments);
@@ -192,6 +204,7 @@ class Workbench {
   std::shared_ptr<const Ground> ground_;
   std::optional<Judgement> judgement_;
   std::future<Judgement> judging_;
+  std::future<std::shared_ptr<const DrawnMaterials>> materials_;
   std::stop_source rigging_stop_;
   std::future<Rigged> rigging_;
   std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere

@@ -77,7 +77,10 @@ void Workbench::show_state() {
     clear_selection();
     failed_edges_.clear();
   }
-  if (rig != shown_rig_) selected_joint_ = -1;
+  if (rig != shown_rig_) {
+    selected_joint_ = -1;
+    scene->turns = nullptr;
+  }
   shown_rig_ = rig;
   set_highlights();
   judge();

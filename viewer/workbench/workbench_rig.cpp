@@ -90,6 +90,51 @@ void Workbench::drop_rig() {
   scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
 }
 
+void Workbench::turn_joint(int joint, const Eigen::Quaterniond& more) {
+  const auto rig = scene->rig();
+  if (!rig || joint < 0 || joint >= rig->joints.rows()) return;
+  JointTurns turns(rig->names.size(), Eigen::Quaterniond::Identity());
+  if (scene->turns && scene->turns->size() == turns.size()) turns = *scene->turns;
+  Eigen::Quaterniond& turn = turns[static_cast<std::size_t>(joint)];
+  turn = (more * turn).normalized();
+  scene->turns = std::make_shared<const JointTurns>(std::move(turns));
+}
+
+void Workbench::pull_joint(int joint, const glm::vec3& place) {
+  const auto rig = scene->rig();
+  if (!rig || joint < 0 || joint >= rig->joints.rows() || rig->parents[joint] < 0) return;
+  const int parent = rig->parents[joint];
+  const int above = rig->parents[parent];
+  const Positions now = scene->joints_now();
+  const Eigen::Vector3d wanted = model_vector(place) + scene->document.origin.transpose();
+  Eigen::Quaterniond way = Eigen::Quaterniond::FromTwoVectors(
+      (now.row(joint) - now.row(parent)).transpose(), wanted - now.row(parent).transpose());
+  if (scene->turns && above >= 0) {
+    const Eigen::Matrix3d turned =
+        joint_motions(*rig, *scene->turns)[static_cast<std::size_t>(above)].linear();
+    way = Eigen::Quaterniond(turned.transpose() * way * turned);
+  }
+  turn_joint(parent, way);
+}
+
+void Workbench::turn_back() { scene->turns = nullptr; }
+
+void Workbench::set_role(const std::string& role) {
+  const auto shown = scene->character();
+  if (!shown || selected_joint_ < 0) return;
+  const int joint = selected_joint_;
+  const auto changed = std::make_shared<CharacterRig>(*shown);
+  assign_role(changed->rig, changed->plan, joint, role, pipeline.character.names);
+  scene->recording.cut_from("rig");
+  scene->recording.add(moment_of(changed));
+  const auto turns = scene->turns;
+  go_to(scene->recording.moments().size() - 1);
+  scene->turns = turns;
+  select_joint(joint);
+  say(changed->rig.names[static_cast<std::size_t>(joint)] +
+      (role.empty() ? " has no role now" : " is now the " + role));
+}
+
 void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   if (!has_rig() || rigging_.valid()) {
     save_rig_to_ = file;
