@@ -67,6 +67,7 @@ class Hanging {
     }
     std::vector<Hinge> hinges;
     for (const Link& link : links_) hinges.push_back(moved_to_end(link.hinge));
+    let_go(hinges, components);
     return hinges;
   }
 
@@ -149,7 +150,7 @@ class Hanging {
     const double gap = distance - radii_[node] - radii_[above];
     return {std::max(gap, -2 * smaller) + smaller * sideways(way, distance, node, above),
             gap,
-            {node, above}};
+            {node, above, gap}};
   }
 
   /// 0 where one of the curves leads to the other, 1 where they lie side by side.
@@ -160,6 +161,44 @@ class Hanging {
       return direction.isZero() ? distance : std::abs(direction.dot(way));
     };
     return distance > 0 ? std::max(0.0, 1 - std::max(along(node), along(above)) / distance) : 0;
+  }
+
+  /// Links hold where the gap is short beside either of the bodies that they join, which grow with
+  /// each link that holds.
+  void let_go(std::vector<Hinge>& hinges, const std::vector<std::vector<int>>& components) const {
+    constexpr double far_apart = 0.25;
+    std::vector<std::size_t> part_of(idx(graph_.nodes()));
+    std::vector<Eigen::AlignedBox3d> boxes(components.size());
+    for (std::size_t part = 0; part < components.size(); ++part) {
+      for (const int node : components[part]) part_of[idx(node)] = part;
+      for (const Bunch& bunch : parts_[part]) {
+        boxes[part].extend(bunch.box.min() - Eigen::Vector3d::Constant(bunch.radius));
+        boxes[part].extend(bunch.box.max() + Eigen::Vector3d::Constant(bunch.radius));
+      }
+    }
+    UnionFind bodies(static_cast<int>(components.size()));
+    const auto box_of = [&](std::size_t part) -> Eigen::AlignedBox3d& {
+      return boxes[idx(bodies.root(static_cast<int>(part)))];
+    };
+    std::vector<char> holds(components.size(), 0);
+    for (bool grew = true; grew;) {
+      grew = false;
+      for (std::size_t part = 1; part < components.size(); ++part) {
+        if (holds[part] != 0 || hinges[part].above < 0) continue;
+        const std::size_t above = part_of[idx(hinges[part].above)];
+        Eigen::AlignedBox3d both = box_of(part);
+        const double larger = std::max(both.diagonal().norm(), box_of(above).diagonal().norm());
+        if (hinges[part].gap > far_apart * larger) continue;
+        both.extend(box_of(above));
+        bodies.unite(static_cast<int>(part), static_cast<int>(above));
+        box_of(part) = both;
+        holds[part] = 1;
+        grew = true;
+      }
+    }
+    for (std::size_t part = 0; part < components.size(); ++part) {
+      if (holds[part] == 0) hinges[part].above = -1;
+    }
   }
 
   [[nodiscard]] Hinge moved_to_end(Hinge hinge) const {

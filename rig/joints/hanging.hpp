@@ -12,6 +12,7 @@ namespace curveskel {
 struct Hinge {
   int node = -1;   ///< its own
   int above = -1;  ///< of the component that it hangs from; -1 = of none
+  double gap = 0;  ///< between the balls of the two
 };
 
 /// By component, none for the first: the least spanning tree of links, each between two balls of
@@ -20,6 +21,8 @@ struct Hinge {
 /// more sideways it leads from both curves: a finger hangs from the hand in front of which it is,
 /// not from the finger beside it. Of a link the component's own end goes on to the tip of its curve
 /// within two radii, else to the junction within one.
+/// Bodies of a scene stand apart: where the gap is more than a quarter of the longer diagonal of
+/// the two bodies, whatever hangs from them included, one hangs from none.
 /// Precondition: the components are the skeleton's, by their nodes; radii by node, > 0. Nothing
 /// hangs from any but the first 1000.
 [[nodiscard]] std::vector<Hinge> hang_components(const CurveSkeleton& skeleton,

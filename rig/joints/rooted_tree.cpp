@@ -45,6 +45,9 @@ class Rooting {
       hinges.front().node = has_wanted(components.front())
                                 ? wanted
                                 : root_of(components.front(), components.size() > 1);
+      for (std::size_t k = 1; k < components.size(); ++k) {
+        if (hinges[k].above < 0) hinges[k].node = root_of(components[k], true);
+      }
     }
     for (const std::size_t component : outwards(components, hinges)) {
       const std::vector<int>& nodes = components[component];
@@ -104,7 +107,7 @@ class Rooting {
     return only_nodes;
   }
 
-  /// Each after the one that it hangs from.
+  /// Each after the one that it hangs from, the first one first.
   [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<std::vector<int>>& components,
                                                   const std::vector<Hinge>& hinges) const {
     std::vector<std::size_t> component_of(mass_.size());
@@ -112,11 +115,12 @@ class Rooting {
       for (const int node : components[component]) component_of[idx(node)] = component;
     }
     std::vector<std::vector<std::size_t>> below(components.size());
-    for (std::size_t component = 1; component < components.size(); ++component) {
-      below[component_of[idx(hinges[component].above)]].push_back(component);
-    }
     std::vector<std::size_t> order;
-    if (!components.empty()) order.push_back(0);
+    for (std::size_t component = 0; component < components.size(); ++component) {
+      const int above = hinges[component].above;
+      if (above < 0) order.push_back(component);
+      if (above >= 0) below[component_of[idx(above)]].push_back(component);
+    }
     for (std::size_t next = 0; next < order.size(); ++next) {
       const std::vector<std::size_t>& hanging = below[order[next]];
       order.insert(order.end(), hanging.begin(), hanging.end());

@@ -13,7 +13,8 @@ struct RootedTree {
   std::vector<std::vector<int>> children;  ///< by node, ascending
   std::vector<int> roots;  ///< one for each component: that of `wanted` (else the heaviest), then
                            ///< each after the one that it hangs from
-  std::vector<int> above;  ///< by root: the node that it hangs from; -1 for the first
+  std::vector<int> above;  ///< by root: the node that it hangs from; -1 for the first, and
+                           ///< for those that stand apart
 };
 
 /// Lengths are measured in these: nodes outside have none, a bone needs some.

@@ -235,5 +235,34 @@ TEST(Hanging, PlacesJointsOfAFigureWhereItsPartsMeet) {
   }
 }
 
+/// Figures that stand apart each keep all their parts, and hang from none.
+TEST(Hanging, LetsTheBodiesOfASceneStandApart) {
+  for (const int bodies : {2, 3, 5}) {
+    std::vector<Part> parts;
+    for (int body = 0; body < bodies; ++body) {
+      for (Part part : figure(0.82, 0.0085)) {
+        part.curve.nodes.rowwise() += Point(4.0 * body, 0, 0.5 * body);
+        part.name += " of " + std::to_string(body);
+        parts.push_back(std::move(part));
+      }
+    }
+    const Assembled all = assemble(parts);
+    const std::vector<Hinge> hinges =
+        hang_components(all.skeleton, all.skeleton.radii, all.components);
+    int apart = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (hinges[k].above < 0) {
+        ++apart;
+        continue;
+      }
+      const std::string& above = parts[idx(all.component_of[idx(hinges[k].above)])].name;
+      EXPECT_EQ(above.substr(above.find(" of ")), parts[k].name.substr(parts[k].name.find(" of ")));
+    }
+    EXPECT_EQ(apart, bodies);
+    const Joints joints = place_joints(all.skeleton, {});
+    EXPECT_EQ((joints.parents.array() < 0).count(), bodies);
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::hanging_laws

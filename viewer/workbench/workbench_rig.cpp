@@ -6,6 +6,7 @@
 
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include "app/report.hpp"
 #include "viewer/model/rigging.hpp"
@@ -142,7 +143,12 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
     return;
   }
   const Document& document = scene->document;
-  const Rig& rig = *scene->recording.moments().back().rig;
+  const CharacterRig& character = *scene->recording.moments().back().character;
+  Rig rig = character.rig;
+  // Bodies that stand apart, below one root.
+  if ((rig.parents.array() < 0).count() > 1) {
+    rig = with_ground_root(rig, document.surface, character.plan.axes.row(1));
+  }
   const std::string name = files_.empty() ? "surface" : files_.front().stem().string();
   std::optional<EditedFile> edited;
   std::string without;  // why the file's own content is not in what is saved
