@@ -21,16 +21,18 @@ enum class BodyKind : std::uint8_t {
   quadruped,
   bird,
   tailed_biped,
+  fish,
   other
 };
-inline constexpr NameTable<BodyKind, 7> body_kinds{{
+inline constexpr NameTable<BodyKind, 8> body_kinds{{
     {BodyKind::automatic, "auto", "found from the curve"},
     {BodyKind::none, "none", "not looked for: joints where the curve has them, no roles"},
     {BodyKind::humanoid, "humanoid", "upright on one pair of legs, with arms"},
     {BodyKind::quadruped, "quadruped", "on two pairs of legs"},
     {BodyKind::bird, "bird", "on one pair of legs, with wings"},
     {BodyKind::tailed_biped, "biped-with-tail", "on one pair of legs, leaning ahead of a tail"},
-    {BodyKind::other, "other", "none of these: a fish, a tree, a thing"},
+    {BodyKind::fish, "fish", "a long level trunk with fins: fish, whales, dolphins"},
+    {BodyKind::other, "other", "none of these: a tree, a thing"},
 }};
 
 /// Directions of a file.
@@ -47,10 +49,11 @@ inline constexpr NameTable<Direction, 7> directions{{
 
 struct PlanOptions {
   BodyKind plan = BodyKind::automatic;
-  Direction up = Direction::automatic;     ///< automatic: y, as in glTF
-  Direction front = Direction::automatic;  ///< automatic: of quadrupeds by their heads and ears, of
-                                           ///< others z, or -z if `faces_minus_z`
-  bool faces_minus_z = false;              ///< what the file says, as VRM 0.x does
+  Direction up = Direction::automatic;  ///< automatic: y, as in glTF
+  Direction front =
+      Direction::automatic;    ///< automatic: of quadrupeds by their heads and ears, of
+                               ///< fish the thicker half, of others z, or -z if `faces_minus_z`
+  bool faces_minus_z = false;  ///< what the file says, as VRM 0.x does
 };
 
 /// A joint that a plan asks for.

@@ -89,6 +89,16 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
     if (is_leg(tree, limbs.pairs[idx(k)])) found.legs.push_back(k);
   }
   const std::size_t legs = found.legs.size();
+  const bool may_be_fish = wanted == BodyKind::automatic || wanted == BodyKind::fish;
+  if ((legs == 0 && may_be_fish && is_fish(tree, limbs)) ||
+      (wanted == BodyKind::fish && !limbs.trunk.empty())) {
+    found.plan = BodyKind::fish;
+    found.reason = wanted == BodyKind::fish ? "as asked"
+                                            : "a long level trunk with fins, none of which reaches "
+                                              "the ground";
+    found.legs.clear();
+    return found;
+  }
   if (legs == 0) {
     found.reason = "no pair of limbs reaches the ground";
     return found;

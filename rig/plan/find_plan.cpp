@@ -142,9 +142,16 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
     case BodyKind::bird:
     case BodyKind::tailed_biped:
       return biped_places(tree, limbs, found);
+    case BodyKind::fish:
+      return fish_places(tree, limbs);
     default:
       return {};
   }
+}
+
+bool is_turned(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
+  return found.plan == BodyKind::fish && swims_back(tree, limbs);
 }
 
 }  // namespace
@@ -157,8 +164,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   CurveTree tree = curve_tree(surface, skeleton, result.axes);
   Limbs limbs = find_limbs(tree);
   PlanFound found = classify(tree, limbs, options.plan);
-  const bool turns = found.plan == BodyKind::quadruped && options.front == Direction::automatic &&
-                     looks_back(tree, limbs, found);
+  const bool turns = options.front == Direction::automatic && is_turned(tree, limbs, found);
   if (turns) {
     result.axes.row(0) *= -1;
     result.axes.row(2) *= -1;

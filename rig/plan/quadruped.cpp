@@ -6,6 +6,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/roles.hpp"
+#include "rig/plan/trunk.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,13 +20,15 @@ struct LegRule {
   std::array<double, 4> shares;
   bool has_hock;  ///< the third joint is where the leg reaches farthest back, if it clearly does
   double ahead;   ///< of the first joint from the curve, of that height
+  double knee_ahead;  ///< of the second one, which bends forward
 };
 constexpr LegRule hind_leg{
-    {"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}, true, 0};
+    {"thigh.L", "shin.L", "foot.L", "toe.L"}, {0, 0.32, 0.65, 0.89}, true, 0, 0.07};
 constexpr LegRule front_leg{{"front_thigh.L", "front_shin.L", "front_foot.L", "front_toe.L"},
                             {0.14, 0.53, 0.87, 0.96},
                             false,
-                            0.1};
+                            0.1,
+                            0};
 
 /// The sample between two that lies farthest behind the line from one to the other; `otherwise`
 /// where none is clearly behind it.
@@ -74,19 +77,42 @@ void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const Le
   Vector3d& thigh = places[first].at;
   thigh.x() = std::max(thigh.x(), places[first + 1].at.x());
   thigh.z() += rule.ahead * (top - tree.ground);
+  places[first + 1].at.z() += rule.knee_ahead * (top - tree.ground);
 }
 
 /// The thighs of hind legs, which the curve leaves for the belly too early, lie half-way between
-/// the crossing and the ankles, and the root between the thighs.
+/// the crossing and the ankles, and the root a little behind the thighs.
 int hips_of(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, double ankle) {
   const double crossing = tree.nodes[idx(hind.root)].z();
-  const double wanted = 0.5 * (crossing + ankle);
+  const double height = tree.nodes[idx(hind.root)].y() - tree.ground;
+  const double wanted = 0.5 * (crossing + ankle) - 0.1 * height;
   int best = hind.root;
   for (const int node : limbs.trunk) {
     const auto off = [&](int other) { return std::abs(tree.nodes[idx(other)].z() - wanted); };
     if (off(node) < off(best)) best = node;
   }
   return best;
+}
+
+/// The upper end of a hip bone or a shoulder blade, which hangs in the flesh beside the trunk:
+/// artists' means, in the height of the limb's first joint above the ground.
+struct GirdleRule {
+  const char* role;
+  const char* parent;
+  double above;    ///< the limb's first joint
+  double ahead;    ///< of it
+  double outside;  ///< of its distance from the mirror plane
+};
+constexpr GirdleRule pelvis{"pelvis.L", "spine", 0.1, 0.34, 0.42};
+constexpr GirdleRule shoulder_blade{"shoulder.L", "chest", 0.32, -0.45, 0.56};
+
+void place_girdle(const CurveTree& tree, const GirdleRule& rule, Place& limb,
+                  std::vector<Place>& places) {
+  const double height = limb.at.y() - tree.ground;
+  const Vector3d at(tree.middle + rule.outside * (limb.at.x() - tree.middle),
+                    limb.at.y() + rule.above * height, limb.at.z() + rule.ahead * height);
+  limb.parent = rule.role;
+  places.push_back({rule.role, rule.parent, at, false, -1, "where the bone meets the trunk"});
 }
 
 /// Sets the thigh over the root.
@@ -98,58 +124,9 @@ void place_hind_leg(const CurveTree& tree, const Limbs& limbs, const LimbPair& h
   thigh.z() = 0.5 * (tree.nodes[idx(hind.root)].z() + places[first + 2].at.z());
   Vector3d root = tree.nodes[idx(hips_of(tree, limbs, hind, places[first + 2].at.z()))];
   root.x() = tree.middle;
-  places.push_back({"spine", "", root, true, -1, "on the trunk's curve between the thighs"});
-}
-
-struct Along {
-  std::vector<Vector3d> points;
-  std::vector<double> way;
-
-  [[nodiscard]] Vector3d at(double wanted) const {
-    std::size_t k = 0;
-    while (k + 2 < points.size() && way[k + 1] < wanted) ++k;
-    if (points.size() < 2) return points.front();
-    const double step = way[k + 1] - way[k];
-    const double share = step > 0 ? std::clamp((wanted - way[k]) / step, 0.0, 1.0) : 0;
-    return points[k] + share * (points[k + 1] - points[k]);
-  }
-  [[nodiscard]] double whole() const { return way.back(); }
-};
-
-Along along(const CurveTree& tree, const std::vector<int>& path) {
-  Along line;
-  for (const int node : path) {
-    line.points.push_back(tree.nodes[idx(node)]);
-    line.points.back().x() = tree.middle;
-    line.way.push_back(line.way.empty()
-                           ? 0
-                           : line.way.back() +
-                                 (line.points.back() - line.points[line.points.size() - 2]).norm());
-  }
-  return line;
-}
-
-/// The farthest node ahead of the front legs near the mirror plane: the nose.
-int nose_of(const CurveTree& tree, int front, const Ways& ways) {
-  int nose = front;
-  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-    const bool is_ahead =
-        tree.nodes[idx(node)].z() > tree.nodes[idx(front)].z() - 0.02 * tree.size &&
-        std::abs(tree.aside(node)) < 0.03 * tree.size;
-    if (is_ahead && ways.distance[idx(node)] > ways.distance[idx(nose)]) nose = node;
-  }
-  return nose;
-}
-
-/// The farthest node behind the hips near the mirror plane, or the hips.
-int tail_of(const CurveTree& tree, int hips, const Ways& ways) {
-  int tail = hips;
-  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-    const bool is_behind = tree.nodes[idx(node)].z() < tree.nodes[idx(hips)].z() &&
-                           std::abs(tree.aside(node)) < 0.03 * tree.size;
-    if (is_behind && ways.distance[idx(node)] > ways.distance[idx(tail)]) tail = node;
-  }
-  return tail;
+  place_girdle(tree, pelvis, places[first], places);
+  places.push_back(
+      {"spine", "", root, true, -1, "on the trunk's curve, a little behind the thighs"});
 }
 
 /// Four bones of one length, after a gap: means over artists' rigs.
@@ -182,8 +159,9 @@ void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>&
   const int nose = nose_of(tree, front, ways);
   if (nose == front) return;
   const Along neck = along(tree, ways.path(nose));
-  places.push_back({"neck", "chest", neck.at(0.35 * neck.whole()), true, -1, share});
-  places.push_back({"head", "neck", neck.at(0.6 * neck.whole()), true, -1, share});
+  places.push_back({"neck", "chest", neck.at(0.2 * neck.whole()), true, -1, share});
+  places.push_back({"neck.001", "neck", neck.at(0.37 * neck.whole()), true, -1, share});
+  places.push_back({"head", "neck.001", neck.at(0.6 * neck.whole()), true, -1, share});
 }
 
 /// Where arms leave the trunk, but no nearer to the hips than .4 of the way to the nose: wings
@@ -209,7 +187,9 @@ std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
   const int hips = hips_of(tree, limbs, hind, places[2].at.z());
   place_trunk(tree, hips, front.root, places);
   place_tail(tree, hips, places);
+  const std::size_t first = places.size();
   place_leg(tree, front, found.legs[1], front_leg, "chest", places);
+  place_girdle(tree, shoulder_blade, places[first], places);
   return places;
 }
 

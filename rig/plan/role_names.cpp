@@ -70,20 +70,45 @@ struct BeastWords {
   std::string_view wolf;
 };
 
-constexpr std::array<BeastWords, 6> beast_words{{
+constexpr std::array<BeastWords, 7> beast_words{{
     {"spine", "hips", "spine.004"},
     {"spine.001", "spine.001", "spine.005"},
     {"spine.002", "spine.002", "spine.006"},
     {"chest", "chest", "spine.008"},
     {"neck", "neck", "spine.009"},
+    {"neck.001", "neck.001", "spine.010"},
     {"head", "head", "spine.011"},
 }};
 
 /// Rigify's words for the limbs of animals; of pairs the left one.
-constexpr std::array beast_limbs{
-    "jaw",         "tail",       "tail.001",    "tail.002",      "tail.003",     "thigh.L",
-    "shin.L",      "foot.L",     "toe.L",       "front_thigh.L", "front_shin.L", "front_foot.L",
-    "front_toe.L", "shoulder.L", "upper_arm.L", "forearm.L",     "hand.L"};
+constexpr std::array beast_limbs{"jaw",
+                                 "tail",
+                                 "tail.001",
+                                 "tail.002",
+                                 "tail.003",
+                                 "tail.004",
+                                 "tail.005",
+                                 "tail.006",
+                                 "pectoral_fin.L",
+                                 "pectoral_fin.001.L",
+                                 "pelvic_fin.L",
+                                 "pelvic_fin.001.L",
+                                 "fluke.L",
+                                 "dorsal_fin",
+                                 "anal_fin",
+                                 "pelvis.L",
+                                 "thigh.L",
+                                 "shin.L",
+                                 "foot.L",
+                                 "toe.L",
+                                 "front_thigh.L",
+                                 "front_shin.L",
+                                 "front_foot.L",
+                                 "front_toe.L",
+                                 "shoulder.L",
+                                 "upper_arm.L",
+                                 "forearm.L",
+                                 "hand.L"};
 
 std::string right_of(std::string name) {
   const auto swap_end = [&](std::string_view left, std::string_view right) {
@@ -166,6 +191,7 @@ std::string beast_name(const std::string& role, NameStyle style) {
 }
 
 std::string name_of_role(const std::string& role, BodyKind kind, NameStyle style) {
+  if (kind == BodyKind::fish && role == "spine" && style != NameStyle::rigify) return "body";
   return kind == BodyKind::humanoid ? human_name(role, style) : beast_name(role, style);
 }
 

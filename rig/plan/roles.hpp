@@ -62,4 +62,10 @@ inline constexpr const char* wrist_reason =
 /// True if a quadruped's head is at its rear: what is called front is its back.
 [[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found);
 
+/// True if the trunk is long, thick and level, with fins beside it.
+[[nodiscard]] bool is_fish(const CurveTree& tree, const Limbs& limbs);
+/// True if the thicker half of a fish's trunk is behind.
+[[nodiscard]] bool swims_back(const CurveTree& tree, const Limbs& limbs);
+[[nodiscard]] std::vector<Place> fish_places(const CurveTree& tree, const Limbs& limbs);
+
 }  // namespace curveskel

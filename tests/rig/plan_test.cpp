@@ -138,6 +138,21 @@ RigSubject tree() {
   return subject_of("tree", figure);
 }
 
+/// 20 long, thick before the middle, with two pairs of fins and one on the back, its nose at +z or
+/// -z; clear of the ground.
+RigSubject fish(double front) {
+  Figure figure;
+  const int thick = figure.add({0, 6, 3 * front}, 2);
+  figure.add({0, 6, 8 * front}, 1, figure.add({0, 6, 6 * front}, 1.5, thick));
+  const int back = figure.add({0, 6, 0.5 * front}, 1.8, thick);
+  const int slim = figure.add({0, 6, -5 * front}, 0.9, back);
+  const int tail = figure.add({0, 6, -9 * front}, 0.5, slim);
+  figure.add_pair(tail, {{2, 6, -11 * front}}, 0.3);
+  figure.add_pair(thick, {{2.5, 5, 2 * front}, {5, 4, 0.5 * front}}, 0.35);
+  figure.add({0, 10, -2 * front}, 0.35, figure.add({0, 8.2, -0.5 * front}, 0.4, back));
+  return subject_of("fish", figure, 2);
+}
+
 RigSubject snake() {
   Figure figure;
   int before = figure.add({-10, 1, 0}, 0.8);
@@ -294,6 +309,30 @@ TEST(FindPlan, QuadrupedsLookWhereTheirHeadsAre) {
     const PlannedJoint* head = joint_of(plan, "head");
     ASSERT_NE(head, nullptr);
     EXPECT_GT(head->position.z() * front, 6);
+  }
+}
+
+TEST(FindPlan, FishHaveASpineAndFins) {
+  for (const double front : {1.0, -1.0}) {
+    const RigSubject subject = fish(front);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    ASSERT_EQ(plan.plan, BodyKind::fish) << plan.reason;
+    EXPECT_GT(front * plan.axes(2, 2), 0) << "it looks where it is thick";
+    const auto along = [&](const std::string& role) {
+      const PlannedJoint* joint = joint_of(plan, role);
+      return joint == nullptr ? 1e9 : front * joint->position.z();
+    };
+    EXPECT_GT(along("head"), along("spine"));
+    EXPECT_GT(along("spine"), along("tail"));
+    EXPECT_GT(along("tail"), along("tail.006"));
+    for (const char* side : {".L", ".R"}) {
+      for (const char* fin : {"pectoral_fin", "fluke"}) {
+        EXPECT_NE(joint_of(plan, std::string(fin) + side), nullptr) << fin << side;
+      }
+    }
+    EXPECT_NE(joint_of(plan, "dorsal_fin"), nullptr);
+    const Joints joints = place_planned_joints(subject.skeleton, plan.joints);
+    EXPECT_LE(joints.positions.rows(), 25) << "no beads";
   }
 }
 

@@ -17,7 +17,7 @@ struct JointOptions {
   double bend =
       0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; same range
   // Of the longest side of the skeleton's box; 0..1.
-  double straight_bone = 0.03;  ///< that a straight limb is cut into at least, however thin it is:
+  double straight_bone = 0.06;  ///< that a straight limb is cut into at least, however thin it is:
                                 ///< fins, plates and spikes are no chains of beads
   double least_bone = 0.02;     ///< nothing shorter becomes a bone of its own
 };

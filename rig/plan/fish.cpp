@@ -1,0 +1,219 @@
+// The places of a fish's joints, and what makes a body a fish.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+#include "rig/plan/trunk.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double near_plane = 0.03;  // of the size
+
+/// From the nose to the tail, in the mirror plane.
+struct Trunk {
+  std::vector<int> path;
+  std::vector<char> is_on;  // by node
+  Along line;
+};
+
+/// The node of the trunk with the largest ball.
+int thickest(const CurveTree& tree, const Limbs& limbs) {
+  int best = limbs.trunk.front();
+  for (const int node : limbs.trunk) {
+    if (tree.radii[idx(node)] > tree.radii[idx(best)]) best = node;
+  }
+  return best;
+}
+
+Trunk trunk_of(const CurveTree& tree, const Limbs& limbs) {
+  const int middle = thickest(tree, limbs);
+  const int nose = nose_of(tree, middle, ways_from(tree, middle));
+  const Ways ways = ways_from(tree, nose);
+  Trunk trunk;
+  trunk.path = ways.path(tail_of(tree, middle, ways));
+  trunk.is_on.assign(tree.nodes.size(), 0);
+  for (const int node : trunk.path) trunk.is_on[idx(node)] = 1;
+  trunk.line = along(tree, trunk.path);
+  return trunk;
+}
+
+/// The role of the trunk's joint next to this place.
+std::string joint_beside(const std::vector<Place>& trunk, const Vector3d& at) {
+  const auto off = [&](const Place& place) { return std::abs(place.at.z() - at.z()); };
+  return std::min_element(trunk.begin(), trunk.end(),
+                          [&](const Place& a, const Place& b) { return off(a) < off(b); })
+      ->role;
+}
+
+/// The first sample of the trunk that is no farther ahead, or the last.
+std::size_t first_behind(const Trunk& trunk, double z) {
+  std::size_t k = 0;
+  while (k + 1 < trunk.line.points.size() && trunk.line.points[k].z() > z) ++k;
+  return k;
+}
+
+/// Shares of the surface's length from the nose on: an artist's, of a shark.
+std::vector<Place> trunk_places(const CurveTree& tree, const Trunk& trunk) {
+  constexpr double root = 0.24;
+  constexpr double head = 0.19;
+  constexpr double first_bone = 0.3;
+  constexpr double last_bone = 0.92;
+  constexpr int bones = 7;
+  const std::string reason = "at its share of the length from the nose";
+  const auto [rear, front] =
+      std::minmax_element(tree.vertices.begin(), tree.vertices.end(),
+                          [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+  const auto at = [&, rear = rear->z(), front = front->z()](double share) {
+    return trunk.line.at(trunk.line.way[first_behind(trunk, front + share * (rear - front))]);
+  };
+  std::vector<Place> places;
+  places.push_back({"spine", "", at(root), true, -1, reason});
+  places.push_back({"head", "spine", at(head), true, -1, reason});
+  std::string above = "spine";
+  for (int k = 0; k < bones; ++k) {
+    const std::string role = k == 0 ? "tail" : "tail.00" + std::to_string(k);
+    const double share = first_bone + (last_bone - first_bone) * k / (bones - 1);
+    places.push_back({role, above, at(share), true, -1, reason});
+    above = role;
+  }
+  return places;
+}
+
+/// The first point of a fin that is out of the trunk.
+std::size_t base_of(const CurveTree& tree, const Course& fin, int root) {
+  const double thick = tree.radii[idx(root)];
+  std::size_t k = 0;
+  while (k + 1 < fin.points.size() && (fin.points[k] - fin.points[0]).norm() < thick) ++k;
+  return k + 2 < fin.points.size() ? k : 0;
+}
+
+/// Two bones; of flukes, at the tail's end, one.
+void place_pair(const CurveTree& tree, const LimbPair& pair, int number, const std::string& role,
+                bool is_fluke, const std::vector<Place>& trunk, std::vector<Place>& places) {
+  const Course course = mean_course(tree, pair.ways.front());
+  const std::size_t base = base_of(tree, course, pair.root);
+  const std::size_t middle = (base + course.points.size() - 1) / 2;
+  const std::string above = joint_beside(trunk, tree.nodes[idx(pair.root)]);
+  places.push_back({role + ".L", is_fluke ? trunk.back().role : above, course.points[base], true,
+                    number, "where the fin leaves the trunk"});
+  places.back().is_last = is_fluke;
+  if (is_fluke) return;
+  places.push_back({role + ".001.L", role + ".L", course.points[middle], true, number,
+                    "half-way along the fin"});
+  places.back().is_last = true;
+}
+
+void place_pairs(const CurveTree& tree, const Limbs& limbs, const Trunk& trunk,
+                 std::vector<Place>& places) {
+  const std::vector<Place> joints = places;
+  std::vector<int> order;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (limbs.pairs[idx(k)].length > 0.05 * tree.size) order.push_back(k);
+  }
+  const auto root = [&](int k) { return tree.nodes[idx(limbs.pairs[idx(k)].root)].z(); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return root(a) > root(b); });
+  const double end = trunk.line.at(0.85 * trunk.line.whole()).z();
+  int flukes = 0;
+  int fins = 0;
+  const auto numbered = [](const std::string& role, int number) {
+    return number == 0 ? role : role + "_" + std::to_string(number + 1);
+  };
+  for (const int k : order) {
+    const bool is_fluke = root(k) < end;
+    const std::string role = is_fluke    ? numbered("fluke", flukes++)
+                             : fins == 0 ? "pectoral_fin"
+                                         : numbered("pelvic_fin", fins - 1);
+    if (!is_fluke) ++fins;
+    place_pair(tree, limbs.pairs[idx(k)], k, role, is_fluke, joints, places);
+  }
+}
+
+/// Fins on the back and below the tail, and a jaw: tips in the mirror plane beside the trunk. Each
+/// is one bone.
+void place_unpaired(const CurveTree& tree, const Trunk& trunk, std::vector<Place>& places) {
+  const std::vector<Place> joints = places;
+  const Ways ways = ways_from(tree, trunk.path.front());
+  const double head = joints[1].at.z();
+  const double end = joints[8].at.z();
+  int backs = 0;
+  int bellies = 0;
+  bool has_jaw = false;
+  for (int tip = 0; tip < static_cast<int>(tree.nodes.size()); ++tip) {
+    const bool is_beside = tree.is_tip(tip) && trunk.is_on[idx(tip)] == 0 &&
+                           std::abs(tree.aside(tip)) < near_plane * tree.size;
+    if (!is_beside) continue;
+    const std::vector<int> path = ways.path(tip);
+    std::size_t first = path.size() - 1;
+    while (first > 0 && trunk.is_on[idx(path[first])] == 0) --first;
+    const int root = path[first];
+    const double length = ways.distance[idx(tip)] - ways.distance[idx(root)];
+    if (length < std::max(0.05 * tree.size, 1.2 * tree.radii[idx(root)])) continue;
+    std::size_t base = first + 1;
+    while (base + 2 < path.size() &&
+           ways.distance[idx(path[base])] - ways.distance[idx(root)] < tree.radii[idx(root)]) {
+      ++base;
+    }
+    Vector3d at = tree.nodes[idx(path[base])];
+    at.x() = tree.middle;
+    const bool is_below = tree.nodes[idx(tip)].y() < tree.nodes[idx(root)].y();
+    const auto numbered = [](const std::string& role, int number) {
+      return number == 0 ? role : role + "_" + std::to_string(number + 1);
+    };
+    std::string role;
+    std::string above = joint_beside(joints, tree.nodes[idx(root)]);
+    if (at.z() > head && is_below && !has_jaw) {
+      has_jaw = true;
+      role = "jaw";
+      above = "head";
+    } else if (at.z() < end) {
+      continue;  // a lobe of the tail's fin
+    } else {
+      role = is_below ? numbered("anal_fin", bellies++) : numbered("dorsal_fin", backs++);
+    }
+    places.push_back({role, above, at, true, -1, "where it leaves the trunk"});
+    places.back().is_last = true;
+    places.back().beside = tree.nodes[idx(path[base])];
+  }
+}
+
+}  // namespace
+
+bool is_fish(const CurveTree& tree, const Limbs& limbs) {
+  if (limbs.pairs.empty() || limbs.trunk.empty()) return false;
+  double width = 0;
+  for (const Vector3d& p : tree.vertices)
+    width = std::max(width, 2 * std::abs(p.x() - tree.middle));
+  const Trunk trunk = trunk_of(tree, limbs);
+  const Vector3d along = trunk.line.points.front() - trunk.line.points.back();
+  const double length = std::abs(along.z());
+  const double thick = tree.radii[idx(thickest(tree, limbs))];
+  return length > 0.5 * tree.size && std::abs(along.y()) < 0.5 * length &&
+         width < 0.8 * tree.size && thick > 0.04 * length;
+}
+
+bool swims_back(const CurveTree& tree, const Limbs& limbs) {
+  const Trunk trunk = trunk_of(tree, limbs);
+  double half[2] = {0, 0};  // radius times length, of the front and the rear
+  for (std::size_t k = 1; k < trunk.path.size(); ++k) {
+    const double step = trunk.line.way[k] - trunk.line.way[k - 1];
+    const bool is_rear = trunk.line.way[k] > 0.5 * trunk.line.whole();
+    half[is_rear ? 1 : 0] += step * tree.radii[idx(trunk.path[k])];
+  }
+  return half[1] > half[0];
+}
+
+std::vector<Place> fish_places(const CurveTree& tree, const Limbs& limbs) {
+  const Trunk trunk = trunk_of(tree, limbs);
+  std::vector<Place> places = trunk_places(tree, trunk);
+  place_pairs(tree, limbs, trunk, places);
+  place_unpaired(tree, trunk, places);
+  return places;
+}
+
+}  // namespace curveskel
