@@ -42,7 +42,8 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/extract.hpp
   include/curveskel/extract_repaired.hpp
   include/curveskel/findings.hpp
-  include/curveskel/pose.hpp
+  include/curveskel/levels.hpp
+  include/curveskel/lives.hpp
   include/curveskel/preset.hpp
   include/curveskel/skeleton_files.hpp
   include/curveskel/tries.hpp
@@ -55,6 +56,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/check_weights.hpp
   include/curveskel/compare_rigs.hpp
   include/curveskel/make_rig.hpp
+  include/curveskel/pose.hpp
   include/curveskel/read_materials.hpp
   include/curveskel/read_rig.hpp
   include/curveskel/rest_pose.hpp

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/levels.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/skeleton_files.hpp>
@@ -26,6 +27,7 @@ struct ExtractArguments {
   std::vector<std::string> outputs;
   std::optional<SkeletonFormat> format;
   std::string report;
+  int levels = 1;
   bool quiet = false;
   bool strict = false;
   double time_limit_seconds = 0;
@@ -105,6 +107,26 @@ std::string time_line(const std::vector<StageTime>& times, double seconds, bool 
                      static_cast<double>(peak_memory_bytes()) / 1e6);
 }
 
+/// "arm.ply" of level 2 of several: "arm.2.ply", the finest is 1.
+std::string name_of_level(const std::string& output, int level) {
+  fs::path name(output);
+  const std::string extension = name.extension().string();
+  return name.replace_extension("." + std::to_string(level) + extension).string();
+}
+
+/// All names that may be written.
+std::vector<std::string> skeleton_names(const ExtractArguments& arguments) {
+  if (arguments.levels == 1) return arguments.outputs;
+  std::vector<std::string> names;
+  for (const std::string& output : arguments.outputs) {
+    if (output == "-") throw UsageError("--levels writes a file for each level, so not to -");
+    for (int level = 1; level <= arguments.levels; ++level) {
+      names.push_back(name_of_level(output, level));
+    }
+  }
+  return names;
+}
+
 std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
                                        const std::vector<SkeletonFormat>& formats,
                                        const ExtractionRecord& record,
@@ -114,16 +136,30 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   context.provenance = program_and_version() + ", " + arguments.mesh.filename().string();
   context.report_json = result_json(record);
   std::vector<OutputFile> files;
+  std::vector<double> limits{0};
+  if (arguments.levels > 1) limits = level_limits(skeleton, arguments.levels);
   for (std::size_t i = 0; i < formats.size(); ++i) {
     session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    files.push_back({arguments.outputs[i], format_skeleton(skeleton, formats[i], context)});
+    const std::string& output = arguments.outputs[i];
+    if (arguments.levels == 1) {
+      files.push_back({output, format_skeleton(skeleton, formats[i], context)});
+      continue;
+    }
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+      files.push_back({name_of_level(output, static_cast<int>(k) + 1),
+                       format_skeleton(level_of(skeleton, limits[k]), formats[i], context)});
+    }
+  }
+  if (static_cast<int>(limits.size()) < arguments.levels) {
+    session.terminal.warn(fmt::format("the skeleton has {} levels, fewer than the {} of --levels",
+                                      limits.size(), arguments.levels));
   }
   return files;
 }
 
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
-  std::vector<std::string> names = arguments.outputs;
+  std::vector<std::string> names = skeleton_names(arguments);
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
@@ -258,7 +294,10 @@ Verb add_extract(CLI::App& program) {
   add_resolution(*parser, options);
   add_surgery(*parser, options);
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be and stay");
+             "0..1: how small a branch may be and stay; below 0.5 levels of one skeleton");
+  add_number(*parser, "--levels", arguments->levels, 1, 100,
+             "write so many levels, OUT.1.EXT the finest, as the widest gaps between the lives of "
+             "the branches have them");
   add_number(
       *parser, "--fair", options.fair.iterations, 0, 1000000,
       "iterations of fairing before the contraction, for noisy surfaces: about ten times the "

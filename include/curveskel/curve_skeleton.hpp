@@ -18,6 +18,8 @@ struct CurveSkeleton {
   Eigen::VectorXd radii;           ///< #N distances to the surface (0 for a node outside), or empty
   Eigen::VectorXi node_of_vertex;  ///< #V of the surface: the node that each vertex collapsed to
                                    ///< (-1 = the vertex is on no component), or empty
+  Eigen::VectorXd lives = {};      ///< #N: of a tip how clearly the surface has it there (see
+                                   ///< `tip_lives`), 0 = not at all, and of other nodes; or empty
 };
 
 /// A maximal chain of edges whose inner nodes have degree 2; first == last for a closed chain.

@@ -72,6 +72,10 @@ int Draft::add(const Eigen::Vector3d& point, double without_tree, const SurfaceT
   const auto node = static_cast<int>(skeleton_.nodes.rows());
   skeleton_.nodes.conservativeResize(node + 1, 3);
   if (skeleton_.radii.size() > 0) skeleton_.radii.conservativeResize(node + 1);
+  if (skeleton_.lives.size() > 0) {
+    skeleton_.lives.conservativeResize(node + 1);
+    skeleton_.lives[node] = 0;
+  }
   heir_.push_back(node);
   place(node, point, without_tree, tree);
   return node;
@@ -98,6 +102,7 @@ CurveSkeleton Draft::finish() const {
   CurveSkeleton result;
   result.nodes = skeleton_.nodes(kept, Eigen::all);
   if (skeleton_.radii.size() > 0) result.radii = skeleton_.radii(kept);
+  if (skeleton_.lives.size() > 0) result.lives = skeleton_.lives(kept);
   result.edges.resize(static_cast<Eigen::Index>(edges_.size()), 2);
   Eigen::Index row = 0;
   for (const auto& [i, j] : edges_) result.edges.row(row++) << number[idx(i)], number[idx(j)];

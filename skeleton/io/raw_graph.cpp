@@ -78,6 +78,7 @@ CurveSkeleton skeleton_from(const RawGraph& graph, Joining joining) {
     skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e].first, edges[e].second;
   }
   skeleton.node_of_vertex = graph.node_of_vertex;
+  if (graph.lives.size() == skeleton.nodes.rows()) skeleton.lives = graph.lives;
   return skeleton;
 }
 

@@ -19,6 +19,7 @@ struct RawGraph {
   std::vector<std::pair<int, int>> edges;  ///< any order, repeats and loops allowed
   std::vector<int> alone;                  ///< points that are nodes without needing an edge
   Eigen::VectorXi node_of_vertex;          ///< as in CurveSkeleton; only with Joining::nothing
+  Eigen::VectorXd lives;                   ///< the same
 
   int add(const Eigen::RowVector3d& point, double radius = unknown) {
     points.push_back(point);

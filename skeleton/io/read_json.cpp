@@ -42,6 +42,7 @@ class JsonGraph {
         root_.contains("links") && !root_.contains("edges") ? list("links") : list("edges");
     for (std::size_t e = 0; e < edges.size(); ++e) add_edge(edges[e], e);
     add_vertex_map();
+    add_lives();
     return std::move(graph_);
   }
 
@@ -85,6 +86,19 @@ class JsonGraph {
     }
     for (std::size_t n = 0; n < radii.size(); ++n) {
       graph_.radii[n] = number(radii[n], "in radius " + std::to_string(n));
+    }
+  }
+
+  void add_lives() {
+    if (!root_.contains("lives") || root_["lives"].empty()) return;
+    const json& lives = list("lives");
+    if (lives.size() != graph_.points.size()) {
+      fail(std::to_string(lives.size()) + " lives",
+           "one per node (" + std::to_string(graph_.points.size()) + ")");
+    }
+    graph_.lives.resize(static_cast<Eigen::Index>(lives.size()));
+    for (std::size_t n = 0; n < lives.size(); ++n) {
+      graph_.lives[static_cast<Eigen::Index>(n)] = number(lives[n], "in life " + std::to_string(n));
     }
   }
 

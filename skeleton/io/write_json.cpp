@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 
@@ -29,6 +30,38 @@ void append_list(std::string& text, const char* name, const Values& values) {
   text += ']';
 }
 
+/// An object for each branch on a line of its own. A life of null stays at every level.
+void append_branches(std::string& text, const CurveSkeleton& skeleton) {
+  const std::vector<Branch> all = branches(skeleton);
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
+  text += ",\n\"branches\": [";
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    text += b == 0 ? "\n{\"nodes\": [" : ",\n{\"nodes\": [";
+    append_decimals(text, all[b].nodes, ',');
+    text += ']';
+    if (has_lives(skeleton)) {
+      text += ", \"life\": ";
+      if (levels[b].life < lives_for_ever) {
+        append_decimal(text, levels[b].life);
+      } else {
+        text += "null";
+      }
+      text += ", \"parent\": ";
+      if (levels[b].parent >= 0) {
+        append_decimal(text, levels[b].parent);
+      } else {
+        text += "null";
+      }
+    }
+    if (levels[b].merge >= 0) {
+      text += ", \"merge\": ";
+      append_decimal(text, levels[b].merge);
+    }
+    text += '}';
+  }
+  text += ']';
+}
+
 /// The members of the report object, each as `, "key": value`.
 void append_report(std::string& text, const std::string& report_json) {
   if (report_json.empty()) return;
@@ -37,8 +70,9 @@ void append_report(std::string& text, const std::string& report_json) {
     throw Error(Fault::output,
                 "the report for the JSON skeleton is no JSON object, needed one; pass {...}");
   }
-  constexpr std::array<std::string_view, 8> own{"format", "version", "provenance",     "nodes",
-                                                "edges",  "radii",   "node_of_vertex", "root"};
+  constexpr std::array<std::string_view, 10> own{
+      "format", "version", "provenance",     "nodes", "edges",
+      "radii",  "lives",   "node_of_vertex", "root",  "branches"};
   for (const auto& [key, value] : report.items()) {
     if (std::find(own.begin(), own.end(), key) != own.end()) {
       throw Error(Fault::output, "the report for the JSON skeleton has a member \"" + key +
@@ -60,6 +94,8 @@ std::string json_from(const CurveSkeleton& skeleton, const SkeletonContext& cont
   append_rows(text, "nodes", skeleton.nodes);
   append_rows(text, "edges", skeleton.edges);
   append_list(text, "radii", skeleton.radii);
+  append_list(text, "lives", skeleton.lives);
+  append_branches(text, skeleton);
   append_list(text, "node_of_vertex", skeleton.node_of_vertex);
   return text + "\n}\n";
 }

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
@@ -96,7 +97,9 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   if (has_radii) text += "property double radius\n";
   text += "element edge ";
   append_decimal(text, skeleton.edges.rows());
-  text += "\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+  text += "\nproperty int vertex1\nproperty int vertex2\n";
+  if (has_lives(skeleton)) text += "property double life\n";
+  text += "end_header\n";
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     append_decimals(text, skeleton.nodes.row(node), ' ');
     if (has_radii) {
@@ -105,8 +108,13 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
     }
     text += '\n';
   }
-  for (const auto& edge : skeleton.edges.rowwise()) {
-    append_decimals(text, edge, ' ');
+  const Eigen::VectorXd lives = edge_lives(skeleton);
+  for (Eigen::Index edge = 0; edge < skeleton.edges.rows(); ++edge) {
+    append_decimals(text, skeleton.edges.row(edge), ' ');
+    if (has_lives(skeleton)) {
+      text += ' ';
+      append_decimal(text, lives[edge]);
+    }
     text += '\n';
   }
   return text;
@@ -121,7 +129,9 @@ std::string polylines_from(const CurveSkeleton& skeleton) {
 
 std::string csv_from(const CurveSkeleton& skeleton) {
   std::string text =
-      "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius\n";
+      "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius,life,"
+      "parent,merge\n";
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
   int id = 0;
   for (const Branch& branch : branches(skeleton)) {
     const int start = branch.nodes.front();
@@ -142,6 +152,13 @@ std::string csv_from(const CurveSkeleton& skeleton) {
     append_decimal(text, length);
     text += ',';
     if (skeleton.radii.size() > 0) append_decimal(text, mean_radius(skeleton, branch, length));
+    const BranchLevel& level = levels[static_cast<std::size_t>(id - 1)];
+    text += ',';
+    if (has_lives(skeleton)) append_decimal(text, level.life);
+    text += ',';
+    if (level.parent >= 0) append_decimal(text, level.parent);
+    text += ',';
+    if (level.merge >= 0) append_decimal(text, level.merge);
     text += '\n';
   }
   return text;

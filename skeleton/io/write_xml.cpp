@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 
@@ -85,6 +86,22 @@ void append_cells(pugi::xml_node piece, const char* name, const std::vector<Bran
   XmlLines::end_line(piece);
 }
 
+/// Of the points alone and then of the branches.
+void append_levels(pugi::xml_node piece, const CurveSkeleton& skeleton, std::size_t points) {
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
+  pugi::xml_node data = XmlLines::open(piece, "CellData");
+  const auto append = [&](const char* name, double of_points, const auto& value) {
+    append_array(data, "Float64", name, 1, points + levels.size(),
+                 [&](std::string& text, std::size_t cell) {
+                   append_decimal(text, cell < points ? of_points : value(levels[cell - points]));
+                 });
+  };
+  append("life", lives_for_ever, [](const BranchLevel& level) { return level.life; });
+  append("parent", -1, [](const BranchLevel& level) { return double(level.parent); });
+  append("merge", -1, [](const BranchLevel& level) { return level.merge; });
+  XmlLines::end_line(piece);
+}
+
 void append_data(pugi::xml_node element, const char* key, double value) {
   std::string text;
   append_decimal(text, value);
@@ -122,6 +139,7 @@ std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
     });
     XmlLines::end_line(piece);
   }
+  if (has_lives(skeleton)) append_levels(piece, skeleton, points.size());
   append_array(XmlLines::open(piece, "Points"), "Float64", "points", 3, nodes,
                [&](std::string& text, std::size_t node) {
                  append_decimals(text, skeleton.nodes.row(static_cast<Eigen::Index>(node)), ' ');
@@ -143,10 +161,11 @@ std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& c
   file.append_attribute("xsi:schemaLocation") =
       "http://graphml.graphdrawing.org/xmlns "
       "http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd";
-  for (const std::string name : {"x", "y", "z", "radius", "length"}) {
+  for (const std::string name : {"x", "y", "z", "radius", "length", "life"}) {
+    if (name == "life" && !has_lives(skeleton)) continue;
     pugi::xml_node key = file.append_child("key");
-    key.append_attribute("id") = name.substr(0, 1).c_str();
-    key.append_attribute("for") = name == "length" ? "edge" : "node";
+    key.append_attribute("id") = (name == "life" ? name : name.substr(0, 1)).c_str();
+    key.append_attribute("for") = name.front() == 'l' ? "edge" : "node";
     key.append_attribute("attr.name") = name.c_str();
     key.append_attribute("attr.type") = "double";
     XmlLines::end_line(file);
@@ -164,11 +183,14 @@ std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& c
     if (skeleton.radii.size() > 0) append_data(element, "r", skeleton.radii(node));
     XmlLines::end_line(graph);
   }
-  for (const auto& edge : skeleton.edges.rowwise()) {
+  const Eigen::VectorXd lives = edge_lives(skeleton);
+  for (Eigen::Index row = 0; row < skeleton.edges.rows(); ++row) {
+    const auto edge = skeleton.edges.row(row);
     pugi::xml_node element = graph.append_child("edge");
     element.append_attribute("source") = id_of(edge(0)).c_str();
     element.append_attribute("target") = id_of(edge(1)).c_str();
     append_data(element, "l", (skeleton.nodes.row(edge(0)) - skeleton.nodes.row(edge(1))).norm());
+    if (has_lives(skeleton)) append_data(element, "life", lives[row]);
     XmlLines::end_line(graph);
   }
   XmlLines::end_line(file);

@@ -1,10 +1,12 @@
 #include "skeleton/pipeline/component.hpp"
 
+#include <algorithm>
 #include <future>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include <curveskel/levels.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
 #include "surface/resample/coarsen_whole.hpp"
@@ -78,13 +80,31 @@ class Pipeline {
           [](const Made&) { return std::nullopt; }, monitor_, log));
     }
     const Shared<WorkingBalls> balls = balls_in(*source, working);
+    // Beside the contraction, which leaves a core idle.
+    auto lives = in_background(options_.threads, [working, stop = monitor_.stop] {
+      return lives_of(working->surface, stop);
+    });
     const Cut cut = best_of(carry_out(
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
         [](const Cut&) { return std::nullopt; }, monitor_, log));
-    return embedded(*cut.surface, *balls, *cut.balls, cut.graph, *cut.vertex_of_canonical);
+    const bool is_working = cut.surface.get() == &working->surface;
+    return embedded(*cut.surface, *balls, *cut.balls, cut.graph, *cut.vertex_of_canonical,
+                    is_working ? std::move(lives) : std::future<std::vector<TipLife>>());
   }
 
  private:
+  /// By fewer samples where there are few vertices.
+  static std::vector<TipLife> lives_of(const Surface& surface, const std::stop_token& stop) {
+    constexpr int vertices_per_sample = 64;
+    LifeOptions lives;
+    lives.samples = std::clamp(static_cast<int>(surface.positions.rows()) / vertices_per_sample, 8,
+                               lives.samples);
+    lives.threads = 1;
+    Monitor silent;
+    silent.stop = stop;
+    return tip_lives(surface, lives, silent);
+  }
+
   /// A surface that is cut, and where.
   struct Cut {
     Shared<PartitionGraph> graph;
@@ -237,14 +257,21 @@ class Pipeline {
 
   Shared<CurveSkeleton> embedded(const Surface& surface, const WorkingBalls& trees,
                                  const InscribedBalls& balls, const Shared<PartitionGraph>& graph,
-                                 const Eigen::VectorXi& vertex_of_canonical) {
+                                 const Eigen::VectorXi& vertex_of_canonical,
+                                 std::future<std::vector<TipLife>> lives) {
     return stage_("embed", kept_.skeleton, {graph, options_.embed, extent_}, [&](StepClock& steps) {
       EmbedTuning tuning;
+      EmbedOptions embedding = options_.embed;  // what is coarser is a level of it
+      embedding.detail = std::max(embedding.detail, EmbedOptions().detail);
       tuning.spacing = tuning.spacing.of_part(extent_);
       // Most of the embedding's rays go against the working surface, which fits the cache.
       CurveSkeleton skeleton = embed_tuned(
           surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
-          options_.embed, tuning, options_.threads, steps, monitor_);
+          embedding, tuning, options_.threads, steps, monitor_);
+      steps("lives", [&] {
+        set_lives(skeleton, lives.valid() ? lives.get() : lives_of(surface, monitor_.stop));
+        skeleton = level_of(skeleton, least_life(options_.embed.detail));
+      });
       return on_model(std::move(skeleton), vertex_of_canonical);
     });
   }

@@ -65,12 +65,14 @@ CurveSkeleton joined(const std::vector<Shared<CurveSkeleton>>& skeletons,
   whole.nodes.resize(nodes, 3);
   whole.radii.resize(nodes);
   whole.edges.resize(edges, 2);
+  whole.lives.setZero(nodes);
   whole.node_of_vertex.setConstant(vertices, -1);
   nodes = edges = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const CurveSkeleton& part = *skeletons[c];
     whole.nodes.middleRows(nodes, part.nodes.rows()) = part.nodes;
     whole.radii.segment(nodes, part.radii.size()) = part.radii;
+    whole.lives.segment(nodes, part.lives.size()) = part.lives;
     whole.edges.middleRows(edges, part.edges.rows()) = part.edges.array() + static_cast<int>(nodes);
     for (std::size_t v = 0; v < parts[c].vertex_in_whole.size(); ++v) {
       whole.node_of_vertex[parts[c].vertex_in_whole[v]] =

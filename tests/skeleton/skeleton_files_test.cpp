@@ -1,5 +1,6 @@
 // Laws of the skeleton files: what is written is read back to the last bit, and what is wrong is
 // said. tests/readers has the same with other people's readers.
+#include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
 
 #include <gtest/gtest.h>
@@ -233,8 +234,10 @@ TEST(SkeletonCsv, HasOneRowPerBranchAndTheWholeLength) {
     double length = 0;
     for (; std::getline(text, line); ++rows) {
       ASSERT_EQ(std::count(line.begin(), line.end(), ','), columns);
-      std::size_t before_last = line.rfind(',', line.rfind(',') - 1);
-      length += std::stod(line.substr(before_last + 1));
+      std::istringstream fields(line);
+      std::string field;
+      for (int column = 0; column <= 10; ++column) std::getline(fields, field, ',');
+      length += std::stod(field);
     }
     double expected = 0;
     for (const auto& e : skeleton.edges.rowwise()) {
@@ -242,6 +245,35 @@ TEST(SkeletonCsv, HasOneRowPerBranchAndTheWholeLength) {
     }
     EXPECT_EQ(rows, branches(skeleton).size()) << name;
     EXPECT_NEAR(length, expected, 1e-12 * expected) << name;
+  }
+}
+
+TEST(SkeletonLives, AreInFilesAsTheyAreInTheSkeleton) {
+  for (const auto& [name, sample] : skeleton_samples()) {
+    if (sample.nodes.rows() == 0) continue;
+    SCOPED_TRACE(name);
+    CurveSkeleton skeleton = sample;
+    skeleton.lives = Eigen::VectorXd::LinSpaced(skeleton.nodes.rows(), 0.25, 7);
+    const std::string json = format_skeleton(skeleton, SkeletonFormat::json, {});
+    const CurveSkeleton read = read_text("lives.json", json);
+    EXPECT_EQ(read.lives, skeleton.lives);
+    const auto parsed = nlohmann::json::parse(json);
+    const auto levels = branch_levels(skeleton);
+    ASSERT_EQ(parsed["branches"].size(), levels.size());
+    for (std::size_t b = 0; b < levels.size(); ++b) {
+      const bool for_ever = levels[b].life >= lives_for_ever;
+      EXPECT_EQ(parsed["branches"][b]["life"].is_null(), for_ever);
+      if (!for_ever) {
+        EXPECT_EQ(parsed["branches"][b]["life"], levels[b].life);
+      }
+    }
+    // Other readers pass over what they do not know.
+    for (const char* file : {"lives.ply", "lives.vtp", "lives.graphml"}) {
+      const auto format = choice_of(skeleton_formats, std::string(file).substr(6));
+      ASSERT_TRUE(format);
+      EXPECT_EQ(read_text(file, format_skeleton(skeleton, *format, {})).edges, skeleton.edges)
+          << file;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // Run, parameters, corrections.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 
 #include "viewer/window/panel_parts.hpp"
@@ -74,9 +75,14 @@ void parameters(Workbench& bench) {
             "How many vertices the surface is coarsened to before it is contracted. More = "
             "finer and slower.",
             ImGuiSliderFlags_Logarithmic);
-  changed |= slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
-                   "How small a branch may be and stay: 0 = only the main limbs, 1 = every bump "
-                   "that makes one.");
+  const double detail = options.embed.detail;
+  const bool finished = slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
+                              "How small a branch may be and stay: 0 = only the main limbs, 1 = "
+                              "every bump that makes one. Below the default branches are hidden "
+                              "and shown at once.");
+  if (options.embed.detail != detail) bench.show_level();
+  const double wanted = std::max(options.embed.detail, standard.embed.detail);
+  changed |= finished && wanted != bench.detail_made();
   if (ImGui::TreeNode("More")) {
     ContractionOptions& flow = options.contraction;
     const ContractionOptions& usual = standard.contraction;

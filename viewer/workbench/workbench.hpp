@@ -81,6 +81,10 @@ class Workbench {
   void step();    ///< one moment on: of the run, or of the recording
   void cancel();
   void rewind();
+  /// Hides and shows branches of the skeleton that was made, by the detail wanted.
+  void show_level();
+  /// The detail of the last run, of which coarser levels are parts.
+  [[nodiscard]] double detail_made() const { return detail_made_; }
   [[nodiscard]] Run::State run_state() const { return news_.state; }
   [[nodiscard]] bool running() const { return run_ != nullptr; }
   [[nodiscard]] const Run::News& news() const { return news_; }
@@ -176,6 +180,7 @@ class Workbench {
   void take_result(RunResult result);
   void inspect();
   void retire_run();
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> at_level(const CurveSkeleton& whole) const;
   void begin_history(std::shared_ptr<const CurveSkeleton> skeleton);
   void edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
             const std::string& what);
@@ -193,6 +198,7 @@ class Workbench {
   std::optional<bool> wants_start_;            // paused or not, once those are gone
   std::shared_ptr<RunMemory> run_memory_;
   Run::News news_;
+  double detail_made_ = EmbedOptions().detail;
   bool first_moment_ = true;
   bool follow_ = true;
   bool rig_again_ = false;  // once the one that is made has stopped

@@ -3,6 +3,7 @@
 #include <thread>
 #include <utility>
 
+#include <curveskel/levels.hpp>
 #include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer {
@@ -29,6 +30,9 @@ void Workbench::start(bool paused) {
   RunOptions options = pipeline;
   options.gives_way = true;
   options.extract.fairing = options.extract.fair.iterations > 0;
+  // What is coarser is a level of what is made.
+  options.extract.embed.detail = std::max(options.extract.embed.detail, EmbedOptions().detail);
+  detail_made_ = options.extract.embed.detail;
   // One core stays for the picture; the result is the same.
   if (options.extract.threads == 0) {
     options.extract.threads =
@@ -115,6 +119,24 @@ void Workbench::take_moments(std::vector<Moment> moments) {
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
 }
 
+std::shared_ptr<const CurveSkeleton> Workbench::at_level(const CurveSkeleton& whole) const {
+  return std::make_shared<const CurveSkeleton>(
+      level_of(whole, least_life(pipeline.extract.embed.detail)));
+}
+
+void Workbench::show_level() {
+  if (run_) return;  // it will be shown at its end
+  if (history_.changed()) {
+    say("a level is of the skeleton as it was made: take the corrections back (Ctrl-Z) first",
+        true);
+    return;
+  }
+  const CurveSkeleton* const whole =
+      result_ ? result_->skeleton.get()
+              : (scene->document.skeleton ? &*scene->document.skeleton : nullptr);
+  if (whole != nullptr) begin_history(at_level(*whole));
+}
+
 void Workbench::take_result(RunResult result) {
   say("extracted in " + duration_text(result.seconds));
   for (const std::string& line : result.repaired->repairs.lines) say("repaired: " + line);
@@ -123,7 +145,7 @@ void Workbench::take_result(RunResult result) {
   scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
   const bool had_root = root() >= 0;
-  begin_history(result.skeleton);
+  begin_history(at_level(*result.skeleton));
   if (had_root) say("the root was a node of the skeleton before; set it again (T)");
   result_ = std::move(result);
 }

@@ -1,0 +1,325 @@
+#include <curveskel/levels.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
+
+namespace curveskel {
+namespace {
+
+/// Depth-first trees, with what Tarjan (1974) needs to find bridges. Cycles live for ever.
+class LifeTree {
+ public:
+  explicit LifeTree(const CurveSkeleton& skeleton)
+      : skeleton_(skeleton),
+        around_(idx(skeleton.nodes.rows())),
+        parent_(around_.size(), -1),
+        edge_above_(around_.size(), -1),
+        lowest_(around_.size(), 0),
+        own_(around_.size(), 0),
+        below_(around_.size(), 0),
+        above_(around_.size(), 0) {
+    for (int e = 0; e < skeleton.edges.rows(); ++e) {
+      around_[idx(skeleton.edges(e, 0))].push_back({skeleton.edges(e, 1), e});
+      around_[idx(skeleton.edges(e, 1))].push_back({skeleton.edges(e, 0), e});
+    }
+    walk();
+    find_cycles();
+    if (has_lives(skeleton)) {
+      for (std::size_t node = 0; node < own_.size(); ++node) {
+        if (around_[node].size() == 1) {
+          own_[node] = std::max(own_[node], skeleton.lives[static_cast<Eigen::Index>(node)]);
+        }
+      }
+    }
+    sum_up();
+  }
+
+  Eigen::VectorXd edge_lives() {
+    Eigen::VectorXd lives = Eigen::VectorXd::Constant(skeleton_.edges.rows(), lives_for_ever);
+    for (const int node : order_) {
+      if (parent_[idx(node)] < 0 || on_cycle_[idx(node)] != 0) continue;
+      lives[edge_above_[idx(node)]] = std::min(below_[idx(node)], above_[idx(node)]);
+    }
+    keep_eldest(lives);
+    return lives;
+  }
+
+ private:
+  struct Step {
+    int node;
+    int edge;
+  };
+
+  void walk() {
+    std::vector<int> depth(around_.size(), -1);
+    std::vector<std::size_t> next(around_.size(), 0);
+    for (int root = 0; root < static_cast<int>(around_.size()); ++root) {
+      if (depth[idx(root)] >= 0) continue;
+      roots_.push_back(root);
+      depth[idx(root)] = 0;
+      std::vector<int> way{root};
+      order_.push_back(root);
+      while (!way.empty()) {
+        const int node = way.back();
+        if (next[idx(node)] == around_[idx(node)].size()) {
+          way.pop_back();
+          continue;
+        }
+        const Step step = around_[idx(node)][next[idx(node)]++];
+        if (depth[idx(step.node)] >= 0) continue;
+        depth[idx(step.node)] = depth[idx(node)] + 1;
+        parent_[idx(step.node)] = node;
+        edge_above_[idx(step.node)] = step.edge;
+        way.push_back(step.node);
+        order_.push_back(step.node);
+      }
+    }
+    depth_ = std::move(depth);
+  }
+
+  /// A node is on a cycle with its parent if something below reaches above both.
+  void find_cycles() {
+    on_cycle_.assign(around_.size(), 0);
+    for (auto it = order_.rbegin(); it != order_.rend(); ++it) {
+      const int node = *it;
+      int lowest = depth_[idx(node)];
+      for (const Step& step : around_[idx(node)]) {
+        if (step.edge == edge_above_[idx(node)]) continue;
+        const bool is_child = edge_above_[idx(step.node)] == step.edge;
+        lowest = std::min(lowest, is_child ? lowest_[idx(step.node)] : depth_[idx(step.node)]);
+      }
+      lowest_[idx(node)] = lowest;
+      if (parent_[idx(node)] < 0 || lowest >= depth_[idx(node)]) continue;
+      on_cycle_[idx(node)] = 1;
+      own_[idx(node)] = own_[idx(parent_[idx(node)])] = lives_for_ever;
+    }
+  }
+
+  /// The clearest tip below each node, itself included, and beyond the edge above it.
+  void sum_up() {
+    for (auto it = order_.rbegin(); it != order_.rend(); ++it) {
+      below_[idx(*it)] = std::max(below_[idx(*it)], own_[idx(*it)]);
+      const int parent = parent_[idx(*it)];
+      if (parent >= 0) below_[idx(parent)] = std::max(below_[idx(parent)], below_[idx(*it)]);
+    }
+    for (const int node : order_) {
+      const int eldest = eldest_child(node, -1);
+      const int second = eldest_child(node, eldest);
+      for (const Step& step : around_[idx(node)]) {
+        if (edge_above_[idx(step.node)] != step.edge) continue;
+        const int rival = step.node == eldest ? second : eldest;
+        double beyond = std::max(own_[idx(node)], above_[idx(node)]);
+        if (rival >= 0) beyond = std::max(beyond, below_[idx(rival)]);
+        above_[idx(step.node)] = beyond;
+      }
+    }
+  }
+
+  [[nodiscard]] int eldest_child(int node, int but) const {
+    int eldest = -1;
+    for (const Step& step : around_[idx(node)]) {
+      if (edge_above_[idx(step.node)] != step.edge || step.node == but) continue;
+      if (eldest < 0 || below_[idx(step.node)] > below_[idx(eldest)]) eldest = step.node;
+    }
+    return eldest;
+  }
+
+  /// Of a component without cycles the way between its two eldest tips.
+  void keep_eldest(Eigen::VectorXd& lives) const {
+    for (const int root : roots_) {
+      if (below_[idx(root)] >= lives_for_ever || around_[idx(root)].empty()) continue;
+      const int eldest = eldest_from(root);
+      const int second = eldest_from(eldest);
+      for (int node = second; node != eldest;) {
+        const auto& steps = around_[idx(node)];
+        const auto nearer = std::find_if(steps.begin(), steps.end(), [&](const Step& step) {
+          return way_[idx(step.node)] == way_[idx(node)] - 1;
+        });
+        lives[nearer->edge] = lives_for_ever;
+        node = nearer->node;
+      }
+    }
+  }
+
+  /// The tip with the largest life in the component but `from`, the farthest of equals by number
+  /// of edges; leaves those numbers in `way_`.
+  [[nodiscard]] int eldest_from(int from) const {
+    way_.assign(around_.size(), -1);
+    std::vector<int> reached{from};
+    way_[idx(from)] = 0;
+    int best = -1;
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const int node = reached[k];
+      const auto rank = [&](int other) { return std::pair(own_[idx(other)], way_[idx(other)]); };
+      const bool is_tip = around_[idx(node)].size() == 1 && node != from;
+      if (is_tip && (best < 0 || rank(node) > rank(best))) best = node;
+      for (const Step& step : around_[idx(node)]) {
+        if (way_[idx(step.node)] >= 0) continue;
+        way_[idx(step.node)] = way_[idx(node)] + 1;
+        reached.push_back(step.node);
+      }
+    }
+    return best;
+  }
+
+  const CurveSkeleton& skeleton_;
+  std::vector<std::vector<Step>> around_;
+  std::vector<int> roots_;
+  std::vector<int> order_;  // parents before children
+  std::vector<int> parent_;
+  std::vector<int> edge_above_;
+  std::vector<int> depth_;
+  std::vector<int> lowest_;     // depth that is reached from below a node
+  std::vector<char> on_cycle_;  // with its parent
+  std::vector<double> own_;
+  std::vector<double> below_;
+  std::vector<double> above_;
+  mutable std::vector<int> way_;
+};
+
+}  // namespace
+
+bool has_lives(const CurveSkeleton& skeleton) {
+  return skeleton.lives.size() == skeleton.nodes.rows() && skeleton.nodes.rows() > 0;
+}
+
+void set_lives(CurveSkeleton& skeleton, const std::vector<TipLife>& lives) {
+  skeleton.lives.setZero(skeleton.nodes.rows());
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
+  std::vector<int> tip_of(idx(skeleton.nodes.rows()), -1);  // by node, of the leaf it lies on
+  for (const Branch& branch : branches(skeleton)) {
+    const int first = branch.nodes.front();
+    const int last = branch.nodes.back();
+    const bool first_is_tip = degree[idx(first)] == 1;
+    const bool last_is_tip = degree[idx(last)] == 1;
+    if (!first_is_tip && !last_is_tip) continue;
+    const std::size_t count = branch.nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const int node = branch.nodes[k];
+      if (degree[idx(node)] > 2) continue;
+      const bool nearer_to_first = first_is_tip && (!last_is_tip || 2 * k < count);
+      tip_of[idx(node)] = nearer_to_first ? first : last;
+    }
+  }
+  for (const TipLife& life : lives) {
+    const int node = skeleton.node_of_vertex[life.vertex];
+    const int tip = node < 0 ? -1 : tip_of[idx(node)];
+    if (tip >= 0) skeleton.lives[tip] = std::max(skeleton.lives[tip], life.life);
+  }
+}
+
+Eigen::VectorXd edge_lives(const CurveSkeleton& skeleton) {
+  return LifeTree(skeleton).edge_lives();
+}
+
+std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton) {
+  const std::vector<Branch> all = branches(skeleton);
+  const Eigen::VectorXd lives = edge_lives(skeleton);
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
+  std::vector<BranchLevel> levels(all.size());
+  std::vector<std::vector<int>> at(degree.size());  // the branches that end in a node
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const std::vector<int>& nodes = all[b].nodes;
+    levels[b].life = lives[edge_between(skeleton, nodes[0], nodes[1])];
+    const int first = nodes.front();
+    const int last = nodes.back();
+    at[idx(first)].push_back(static_cast<int>(b));
+    if (last != first) at[idx(last)].push_back(static_cast<int>(b));
+    const bool has_radii = skeleton.radii.size() > 0;
+    if (!has_radii || degree[idx(first)] < 3 || degree[idx(last)] < 3 || first == last) continue;
+    const double radii = skeleton.radii[first] + skeleton.radii[last];
+    const double apart = (skeleton.nodes.row(first) - skeleton.nodes.row(last)).norm();
+    levels[b].merge = radii > 0 ? apart / radii : lives_for_ever;
+  }
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (levels[b].life >= lives_for_ever) continue;
+    for (const int end : {all[b].nodes.front(), all[b].nodes.back()}) {
+      for (const int other : at[idx(end)]) {
+        const auto life = [&](int branch) { return levels[idx(branch)].life; };
+        if (other == static_cast<int>(b) || life(other) < levels[b].life) continue;
+        if (levels[b].parent < 0 || life(other) > life(levels[b].parent)) levels[b].parent = other;
+      }
+    }
+  }
+  return levels;
+}
+
+CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
+  if (!has_lives(skeleton)) return skeleton;
+  const Eigen::VectorXd lives = edge_lives(skeleton);
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
+  std::vector<int> number(degree.size(), -1);  // in the level
+  std::vector<char> stays(degree.size(), 0);
+  for (std::size_t node = 0; node < degree.size(); ++node) stays[node] = degree[node] == 0 ? 1 : 0;
+  std::vector<int> kept_edges;
+  std::vector<int> gone_edges;
+  for (int e = 0; e < skeleton.edges.rows(); ++e) {
+    (lives[e] >= least_life ? kept_edges : gone_edges).push_back(e);
+    if (lives[e] < least_life) continue;
+    stays[idx(skeleton.edges(e, 0))] = stays[idx(skeleton.edges(e, 1))] = 1;
+  }
+  std::vector<int> kept_nodes;
+  for (int node = 0; node < static_cast<int>(stays.size()); ++node) {
+    if (stays[idx(node)] == 0) continue;
+    number[idx(node)] = static_cast<int>(kept_nodes.size());
+    kept_nodes.push_back(node);
+  }
+  // What goes hangs in trees from what stays.
+  for (std::size_t left = gone_edges.size() + 1; left > gone_edges.size();) {
+    left = gone_edges.size();
+    std::erase_if(gone_edges, [&](int e) {
+      int& a = number[idx(skeleton.edges(e, 0))];
+      int& b = number[idx(skeleton.edges(e, 1))];
+      if ((a < 0) == (b < 0)) return a >= 0;
+      a = b = std::max(a, b);
+      return true;
+    });
+  }
+  CurveSkeleton level;
+  level.nodes = skeleton.nodes(kept_nodes, Eigen::all);
+  level.lives = skeleton.lives(kept_nodes);
+  if (skeleton.radii.size() > 0) level.radii = skeleton.radii(kept_nodes);
+  level.edges = skeleton.edges(kept_edges, Eigen::all);
+  for (std::int32_t& node : level.edges.reshaped()) node = number[idx(node)];
+  level.node_of_vertex = skeleton.node_of_vertex;
+  for (int& node : level.node_of_vertex) {
+    if (node >= 0) node = number[idx(node)];
+  }
+  return level;
+}
+
+double least_life(double detail) {
+  constexpr double usual = 0.5;
+  constexpr double least = 0.3;
+  constexpr double most = 4;
+  if (detail >= usual) return 0;
+  return least * std::pow(most / least, (usual - detail) / usual);
+}
+
+std::vector<double> level_limits(const CurveSkeleton& skeleton, int most) {
+  std::vector<double> lives;
+  for (const BranchLevel& level : branch_levels(skeleton)) {
+    if (level.life > 0 && level.life < lives_for_ever) lives.push_back(level.life);
+  }
+  std::sort(lives.begin(), lives.end());
+  std::vector<std::pair<double, double>> gaps;  // minus the ratio, the limit
+  for (std::size_t k = 1; k < lives.size(); ++k) {
+    if (lives[k] > lives[k - 1]) {
+      gaps.emplace_back(-lives[k] / lives[k - 1], std::sqrt(lives[k] * lives[k - 1]));
+    }
+  }
+  std::sort(gaps.begin(), gaps.end());
+  std::vector<double> limits{0};
+  for (std::size_t k = 0; k < gaps.size() && static_cast<int>(limits.size()) < most; ++k) {
+    limits.push_back(gaps[k].second);
+  }
+  std::sort(limits.begin(), limits.end());
+  return limits;
+}
+
+}  // namespace curveskel
