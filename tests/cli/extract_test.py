@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, default_signals, run, start, write_torus
+from program import LINKED_RINGS, MESHES, TORUS, Y, CommandLineTest, Result, default_signals, run, start, write_torus
 from program import PROGRAM
 
 FORMATS = ["obj", "ply", "cgal", "swc", "vtp", "csv", "graphml", "json", "svg", "png"]
@@ -44,6 +44,40 @@ class Outputs(CommandLineTest):
         old.write_text("old")
         self.run_ok("extract", Y, "-o", old)
         self.assertNotIn("old", old.read_text())
+
+
+class Levels(CommandLineTest):
+    SPOT = MESHES / "free" / "spot-3k.obj"
+
+    def branches(self, name):
+        skeleton = json.loads((self.folder / name).read_text())
+        edges = {tuple(sorted(tuple(skeleton["nodes"][end]) for end in edge))
+                 for edge in skeleton["edges"]}
+        return skeleton["branches"], edges
+
+    def test_are_written_each_in_a_file_of_its_own(self):
+        self.run_ok("extract", self.SPOT, "-o", "cow.json", "--levels", "3", cwd=self.folder)
+        self.assertEqual(self.files(), ["cow.1.json", "cow.2.json", "cow.3.json"])
+        _, finer = self.branches("cow.1.json")
+        for level in ("cow.2.json", "cow.3.json"):
+            _, coarser = self.branches(level)
+            self.assertLess(coarser, finer)
+            finer = coarser
+
+    def test_less_detail_is_a_part_of_more(self):
+        finer = None
+        for detail in ("0.5", "0.3", "0.1", "0"):
+            self.run_ok("extract", self.SPOT, "-o", "cow.json", "--detail", detail, cwd=self.folder)
+            branches, edges = self.branches("cow.json")
+            if finer is not None:
+                self.assertLessEqual(edges, finer)
+            finer = edges
+            for branch in branches:
+                self.assertEqual(branch["life"] is None, branch["parent"] is None)
+
+    def test_need_files(self):
+        self.refused(2, "extract", Y, "-o", "-", "--format", "obj", "--levels", "2",
+                     says=["--levels"])
 
 
 class VertexMap(CommandLineTest):

@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include <curveskel/levels.hpp>
 #include "viewer/headless/headless.hpp"
 #include "viewer/render/renderer.hpp"
 
@@ -94,6 +95,31 @@ TEST(Workbench, HundredDocumentsTakeNoMoreMemoryThanTwenty) {
   RecordProperty("early", std::to_string(early));
   RecordProperty("late", std::to_string(late));
   EXPECT_LT(late - early, most_megabytes) << early << " MB, then " << late << " MB";
+}
+
+TEST(Workbench, LevelsAreShownAtOnceUnlessCorrectionsWouldBeLost) {
+  Workbench bench{ViewOptions{}};
+  bench.open({mesh("y.off")});
+  ASSERT_TRUE(wait(bench, [&] { return bench.result() != nullptr && !bench.busy(); }));
+  const CurveSkeleton whole = *bench.scene->skeleton();
+  ASSERT_TRUE(has_lives(whole));
+  for (const double detail : {0.0, 0.25, 0.5}) {
+    bench.pipeline.extract.embed.detail = detail;
+    bench.show_level();
+    EXPECT_FALSE(bench.running());
+    EXPECT_EQ(bench.scene->skeleton()->edges, level_of(whole, least_life(detail)).edges);
+  }
+  EXPECT_EQ(bench.scene->skeleton()->edges, whole.edges);
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  bench.select(edge, false);
+  bench.split();
+  const auto corrected = bench.scene->skeleton();
+  bench.pipeline.extract.embed.detail = 0;
+  bench.show_level();
+  EXPECT_EQ(bench.scene->skeleton(), corrected);
+  EXPECT_TRUE(bench.messages().back().bad);
 }
 
 }  // namespace
