@@ -249,9 +249,9 @@ std::vector<std::string> roles_of(BodyKind kind) {
     add(std::string(words.role), other_side(std::string(words.role)));
   }
   for (const FingerWords& words : finger_words) {
-    const bool thumb = words.role == "Thumb";
+    const bool is_thumb = words.role == "Thumb";
     for (const char* joint :
-         {thumb ? "Metacarpal" : "Proximal", thumb ? "Proximal" : "Intermediate", "Distal"}) {
+         {is_thumb ? "Metacarpal" : "Proximal", is_thumb ? "Proximal" : "Intermediate", "Distal"}) {
       const std::string role = "left" + std::string(words.role) + joint;
       add(role, other_side(role));
     }

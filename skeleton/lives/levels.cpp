@@ -85,8 +85,8 @@ class LifeTree {
   /// A node is on a cycle with its parent if something below reaches above both.
   void find_cycles() {
     on_cycle_.assign(around_.size(), 0);
-    for (auto it = order_.rbegin(); it != order_.rend(); ++it) {
-      const int node = *it;
+    for (std::size_t k = order_.size(); k-- > 0;) {
+      const int node = order_[k];
       int lowest = depth_[idx(node)];
       for (const Step& step : around_[idx(node)]) {
         if (step.edge == edge_above_[idx(node)]) continue;
@@ -102,10 +102,11 @@ class LifeTree {
 
   /// The clearest tip below each node, itself included, and beyond the edge above it.
   void sum_up() {
-    for (auto it = order_.rbegin(); it != order_.rend(); ++it) {
-      below_[idx(*it)] = std::max(below_[idx(*it)], own_[idx(*it)]);
-      const int parent = parent_[idx(*it)];
-      if (parent >= 0) below_[idx(parent)] = std::max(below_[idx(parent)], below_[idx(*it)]);
+    for (std::size_t k = order_.size(); k-- > 0;) {
+      const int node = order_[k];
+      below_[idx(node)] = std::max(below_[idx(node)], own_[idx(node)]);
+      const int parent = parent_[idx(node)];
+      if (parent >= 0) below_[idx(parent)] = std::max(below_[idx(parent)], below_[idx(node)]);
     }
     for (const int node : order_) {
       const int eldest = eldest_child(node, -1);

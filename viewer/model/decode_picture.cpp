@@ -38,11 +38,11 @@ Picture halved(const Picture& picture) {
 Picture decoded(const EncodedPicture& encoded) {
   Picture picture;
   if (encoded.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return {};
-  int channels = 0;
+  int channels_of_file = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> rows(
       stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(encoded.bytes.data()),
                             static_cast<int>(encoded.bytes.size()), &picture.width, &picture.height,
-                            &channels, 4),
+                            &channels_of_file, 4),
       &stbi_image_free);
   if (!rows) return {};
   const auto size =

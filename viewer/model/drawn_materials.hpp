@@ -23,7 +23,7 @@ struct Picture {
 };
 
 /// PNG, JPEG and what else stb_image knows; halved until no side is longer than 2,048 pixels.
-[[nodiscard]] Picture decoded(const EncodedPicture& picture);
+[[nodiscard]] Picture decoded(const EncodedPicture& encoded);
 
 struct DrawnMaterials {
   /// Triangles that share a material, one after the other.

@@ -241,7 +241,9 @@ void turn_controls(Workbench& bench, int joint) {
       turns ? (*turns)[static_cast<std::size_t>(joint)] : Eigen::Quaterniond::Identity();
   std::array<float, 3> angles = angles_of(now);
   if (ImGui::SliderFloat3("turn", angles.data(), -180, 180, "%.0f")) {
-    bench.turn_joint(joint, turn_by({angles[0], angles[1], angles[2]}) * now.conjugate());
+    std::array<double, 3> degrees{};
+    std::copy(angles.begin(), angles.end(), degrees.begin());
+    bench.turn_joint(joint, turn_by(degrees) * now.conjugate());
   }
   tip("degrees about x, y, z; Ctrl + drag of a joint does the same by hand");
   if (turns && ImGui::Button("Turn all back")) bench.turn_back();

@@ -43,7 +43,7 @@ CurveSkeleton graph_by_lot(unsigned seed) {
   for (int node = 0; node < nodes; ++node) {
     if (degree[idx(node)] == 1 && below(5) > 0) skeleton.lives[node] = 0.1 * (1 + below(60));
   }
-  skeleton.node_of_vertex.resize(3 * nodes);
+  skeleton.node_of_vertex.resize(Eigen::Index{3} * nodes);
   for (int& node : skeleton.node_of_vertex) node = below(nodes + 1) - 1;
   return skeleton;
 }
