@@ -223,10 +223,9 @@ Rig as_wanted(Rig rig, const RigArguments& arguments, const BodyPlan& plan, cons
   if (arguments.no_ends) rig = without_ends(rig);
   const Eigen::RowVector3d up =
       plan.plan == BodyKind::none ? Eigen::RowVector3d(0, 1, 0) : plan.axes.row(1);
-  const bool has_own_joints = !arguments.keep_rig && arguments.joints.empty();
-  const bool is_apart = has_own_joints && (rig.parents.array() < 0).count() > 1;
-  if (arguments.ground_root || is_apart) rig = with_ground_root(rig, given, up);
-  return rig;
+  if (arguments.ground_root) return with_ground_root(rig, given, up);
+  const bool is_somebodys = arguments.keep_rig || !arguments.joints.empty();
+  return is_somebodys ? rig : with_one_root(rig, given, up);
 }
 
 void name_joints(Rig& rig, const BodyPlan& plan, NameStyle style, Session& session) {

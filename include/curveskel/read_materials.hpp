@@ -18,7 +18,7 @@ struct EncodedPicture {
   std::string bytes;
 };
 
-/// What a triangle reflects of white light.
+/// The share of white light that a triangle reflects.
 struct SurfaceMaterial {
   std::array<float, 4> colour{1, 1, 1, 1};  ///< linear RGBA, a factor on the picture's
   int picture = -1;                         ///< -1 = none

@@ -27,6 +27,10 @@ void rest_in_t_pose(Rig& rig, const BodyPlan& plan);
 [[nodiscard]] Rig with_ground_root(const Rig& rig, const Surface& surface,
                                    const Eigen::RowVector3d& up);
 
+/// The same where there are several roots, of bodies that stand apart; else the rig as it is.
+[[nodiscard]] Rig with_one_root(const Rig& rig, const Surface& surface,
+                                const Eigen::RowVector3d& up);
+
 /// Without the joints that move nothing, have none below them and are called .._end. O(#V +
 /// joints).
 [[nodiscard]] Rig without_ends(const Rig& rig);

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* transform_extension = "KHR_texture_transform";
 
-/// Where a picture lies on a material.
+/// The place of a picture on a material.
 struct TextureUse {
   int coordinates = 0;  // set of texture coordinates
   Eigen::Affine2f place = Eigen::Affine2f::Identity();

@@ -89,13 +89,12 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
     if (is_leg(tree, limbs.pairs[idx(k)])) found.legs.push_back(k);
   }
   const std::size_t legs = found.legs.size();
-  const bool may_be_fish = wanted == BodyKind::automatic || wanted == BodyKind::fish;
-  if ((legs == 0 && may_be_fish && is_fish(tree, limbs)) ||
-      (wanted == BodyKind::fish && !limbs.trunk.empty())) {
+  const bool is_asked_for = wanted == BodyKind::fish && !limbs.trunk.empty();
+  const bool looks_like_it = wanted == BodyKind::automatic && legs == 0 && is_fish(tree, limbs);
+  if (is_asked_for || looks_like_it) {
     found.plan = BodyKind::fish;
-    found.reason = wanted == BodyKind::fish ? "as asked"
-                                            : "a long level trunk with fins, none of which reaches "
-                                              "the ground";
+    found.reason = is_asked_for ? "as asked"
+                                : "a long level trunk with fins, none of which reaches the ground";
     found.legs.clear();
     return found;
   }

@@ -43,6 +43,11 @@ Trunk trunk_of(const CurveTree& tree, const Limbs& limbs) {
   return trunk;
 }
 
+/// "dorsal_fin", "dorsal_fin_2", ...
+std::string numbered(const std::string& role, int number) {
+  return number == 0 ? role : role + "_" + std::to_string(number + 1);
+}
+
 /// The role of the trunk's joint next to this place.
 std::string joint_beside(const std::vector<Place>& trunk, const Vector3d& at) {
   const auto off = [&](const Place& place) { return std::abs(place.at.z() - at.z()); };
@@ -110,8 +115,7 @@ void place_pair(const CurveTree& tree, const LimbPair& pair, int number, const s
 }
 
 void place_pairs(const CurveTree& tree, const Limbs& limbs, const Trunk& trunk,
-                 std::vector<Place>& places) {
-  const std::vector<Place> joints = places;
+                 const std::vector<Place>& joints, std::vector<Place>& places) {
   std::vector<int> order;
   for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
     if (limbs.pairs[idx(k)].length > 0.05 * tree.size) order.push_back(k);
@@ -121,9 +125,6 @@ void place_pairs(const CurveTree& tree, const Limbs& limbs, const Trunk& trunk,
   const double end = trunk.line.at(0.85 * trunk.line.whole()).z();
   int flukes = 0;
   int fins = 0;
-  const auto numbered = [](const std::string& role, int number) {
-    return number == 0 ? role : role + "_" + std::to_string(number + 1);
-  };
   for (const int k : order) {
     const bool is_fluke = root(k) < end;
     const std::string role = is_fluke    ? numbered("fluke", flukes++)
@@ -135,12 +136,10 @@ void place_pairs(const CurveTree& tree, const Limbs& limbs, const Trunk& trunk,
 }
 
 /// Fins on the back and below the tail, and a jaw: tips in the mirror plane beside the trunk. Each
-/// is one bone.
-void place_unpaired(const CurveTree& tree, const Trunk& trunk, std::vector<Place>& places) {
-  const std::vector<Place> joints = places;
+/// is one bone. `joints` are the trunk's.
+void place_unpaired(const CurveTree& tree, const Trunk& trunk, const std::vector<Place>& joints,
+                    std::vector<Place>& places) {
   const Ways ways = ways_from(tree, trunk.path.front());
-  const double head = joints[1].at.z();
-  const double end = joints[8].at.z();
   int backs = 0;
   int bellies = 0;
   bool has_jaw = false;
@@ -162,16 +161,12 @@ void place_unpaired(const CurveTree& tree, const Trunk& trunk, std::vector<Place
     Vector3d at = tree.nodes[idx(path[base])];
     at.x() = tree.middle;
     const bool is_below = tree.nodes[idx(tip)].y() < tree.nodes[idx(root)].y();
-    const auto numbered = [](const std::string& role, int number) {
-      return number == 0 ? role : role + "_" + std::to_string(number + 1);
-    };
     std::string role;
-    std::string above = joint_beside(joints, tree.nodes[idx(root)]);
-    if (at.z() > head && is_below && !has_jaw) {
+    const std::string above = joint_beside(joints, at);
+    if (above == "head" && is_below && !has_jaw) {
       has_jaw = true;
       role = "jaw";
-      above = "head";
-    } else if (at.z() < end) {
+    } else if (above == joints.back().role) {
       continue;  // a lobe of the tail's fin
     } else {
       role = is_below ? numbered("anal_fin", bellies++) : numbered("dorsal_fin", backs++);
@@ -210,9 +205,10 @@ bool swims_back(const CurveTree& tree, const Limbs& limbs) {
 
 std::vector<Place> fish_places(const CurveTree& tree, const Limbs& limbs) {
   const Trunk trunk = trunk_of(tree, limbs);
-  std::vector<Place> places = trunk_places(tree, trunk);
-  place_pairs(tree, limbs, trunk, places);
-  place_unpaired(tree, trunk, places);
+  const std::vector<Place> joints = trunk_places(tree, trunk);
+  std::vector<Place> places = joints;
+  place_pairs(tree, limbs, trunk, joints, places);
+  place_unpaired(tree, trunk, joints, places);
   return places;
 }
 

@@ -111,6 +111,11 @@ Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVec
   return result;
 }
 
+Rig with_one_root(const Rig& rig, const Surface& surface, const Eigen::RowVector3d& up) {
+  const bool has_several = (rig.parents.array() < 0).count() > 1;
+  return has_several ? with_ground_root(rig, surface, up) : rig;
+}
+
 Rig without_ends(const Rig& rig) {
   const Eigen::Index count = rig.joints.rows();
   std::vector<char> stays(idx(count), 0);

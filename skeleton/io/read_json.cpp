@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/json_depth.hpp"
 #include "skeleton/io/raw_graph.hpp"
@@ -77,29 +79,31 @@ class JsonGraph {
     }
   }
 
-  void add_radii() {
-    if (!root_.contains("radii") || root_["radii"].empty()) return;
-    const json& radii = list("radii");
-    if (radii.size() != graph_.points.size()) {
-      fail(std::to_string(radii.size()) + " radii",
+  /// One number per node, or none where the file has none.
+  std::vector<double> of_nodes(const char* name, const std::string& one) const {
+    std::vector<double> numbers;
+    if (!root_.contains(name) || root_[name].empty()) return numbers;
+    const json& values = list(name);
+    if (values.size() != graph_.points.size()) {
+      fail(std::to_string(values.size()) + " " + name,
            "one per node (" + std::to_string(graph_.points.size()) + ")");
     }
-    for (std::size_t n = 0; n < radii.size(); ++n) {
-      graph_.radii[n] = number(radii[n], "in radius " + std::to_string(n));
+    numbers.reserve(values.size());
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      numbers.push_back(number(values[n], "in " + one + " " + std::to_string(n)));
     }
+    return numbers;
+  }
+
+  void add_radii() {
+    std::vector<double> radii = of_nodes("radii", "radius");
+    if (!radii.empty()) graph_.radii = std::move(radii);
   }
 
   void add_lives() {
-    if (!root_.contains("lives") || root_["lives"].empty()) return;
-    const json& lives = list("lives");
-    if (lives.size() != graph_.points.size()) {
-      fail(std::to_string(lives.size()) + " lives",
-           "one per node (" + std::to_string(graph_.points.size()) + ")");
-    }
-    graph_.lives.resize(static_cast<Eigen::Index>(lives.size()));
-    for (std::size_t n = 0; n < lives.size(); ++n) {
-      graph_.lives[static_cast<Eigen::Index>(n)] = number(lives[n], "in life " + std::to_string(n));
-    }
+    const std::vector<double> lives = of_nodes("lives", "life");
+    graph_.lives =
+        Eigen::Map<const Eigen::VectorXd>(lives.data(), static_cast<Eigen::Index>(lives.size()));
   }
 
   int node(const json& value, const std::string& where) const {

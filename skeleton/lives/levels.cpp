@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
@@ -16,24 +15,19 @@ class LifeTree {
  public:
   explicit LifeTree(const CurveSkeleton& skeleton)
       : skeleton_(skeleton),
-        around_(idx(skeleton.nodes.rows())),
-        parent_(around_.size(), -1),
-        edge_above_(around_.size(), -1),
-        lowest_(around_.size(), 0),
-        own_(around_.size(), 0),
-        below_(around_.size(), 0),
-        above_(around_.size(), 0) {
-    for (int e = 0; e < skeleton.edges.rows(); ++e) {
-      around_[idx(skeleton.edges(e, 0))].push_back({skeleton.edges(e, 1), e});
-      around_[idx(skeleton.edges(e, 1))].push_back({skeleton.edges(e, 0), e});
-    }
+        graph_(graph_of(skeleton.nodes.rows(), skeleton.edges)),
+        parent_(idx(graph_.nodes()), -1),
+        edge_above_(parent_.size(), -1),
+        lowest_(parent_.size(), 0),
+        own_(parent_.size(), 0),
+        below_(parent_.size(), 0),
+        above_(parent_.size(), 0) {
     walk();
     find_cycles();
     if (has_lives(skeleton)) {
-      for (std::size_t node = 0; node < own_.size(); ++node) {
-        if (around_[node].size() == 1) {
-          own_[node] = std::max(own_[node], skeleton.lives[static_cast<Eigen::Index>(node)]);
-        }
+      for (int node = 0; node < graph_.nodes(); ++node) {
+        if (graph_.degree(node) != 1) continue;
+        own_[idx(node)] = std::max(own_[idx(node)], skeleton.lives[node]);
       }
     }
     sum_up();
@@ -50,53 +44,51 @@ class LifeTree {
   }
 
  private:
-  struct Step {
-    int node;
-    int edge;
-  };
-
+  /// Depth first, as bridges are found by it.
   void walk() {
-    std::vector<int> depth(around_.size(), -1);
-    std::vector<std::size_t> next(around_.size(), 0);
-    for (int root = 0; root < static_cast<int>(around_.size()); ++root) {
-      if (depth[idx(root)] >= 0) continue;
+    depth_.assign(parent_.size(), -1);
+    std::vector<int> next(graph_.first.begin(), graph_.first.end() - 1);
+    for (int root = 0; root < graph_.nodes(); ++root) {
+      if (depth_[idx(root)] >= 0) continue;
       roots_.push_back(root);
-      depth[idx(root)] = 0;
+      depth_[idx(root)] = 0;
       std::vector<int> way{root};
       order_.push_back(root);
       while (!way.empty()) {
         const int node = way.back();
-        if (next[idx(node)] == around_[idx(node)].size()) {
+        if (next[idx(node)] == graph_.first[idx(node) + 1]) {
           way.pop_back();
           continue;
         }
-        const Step step = around_[idx(node)][next[idx(node)]++];
-        if (depth[idx(step.node)] >= 0) continue;
-        depth[idx(step.node)] = depth[idx(node)] + 1;
-        parent_[idx(step.node)] = node;
-        edge_above_[idx(step.node)] = step.edge;
-        way.push_back(step.node);
-        order_.push_back(step.node);
+        const std::size_t step = idx(next[idx(node)]++);
+        const int other = graph_.neighbour[step];
+        if (depth_[idx(other)] >= 0) continue;
+        depth_[idx(other)] = depth_[idx(node)] + 1;
+        parent_[idx(other)] = node;
+        edge_above_[idx(other)] = graph_.edge[step];
+        way.push_back(other);
+        order_.push_back(other);
       }
     }
-    depth_ = std::move(depth);
   }
+
+  [[nodiscard]] bool is_child(int node, int of) const { return parent_[idx(node)] == of; }
 
   /// A node is on a cycle with its parent if something below reaches above both.
   void find_cycles() {
-    on_cycle_.assign(around_.size(), 0);
+    on_cycle_.assign(parent_.size(), 0);
     for (std::size_t k = order_.size(); k-- > 0;) {
       const int node = order_[k];
+      const int parent = parent_[idx(node)];
       int lowest = depth_[idx(node)];
-      for (const Step& step : around_[idx(node)]) {
-        if (step.edge == edge_above_[idx(node)]) continue;
-        const bool is_child = edge_above_[idx(step.node)] == step.edge;
-        lowest = std::min(lowest, is_child ? lowest_[idx(step.node)] : depth_[idx(step.node)]);
+      for (const int other : graph_.neighbours(node)) {
+        if (other == parent) continue;
+        lowest = std::min(lowest, is_child(other, node) ? lowest_[idx(other)] : depth_[idx(other)]);
       }
       lowest_[idx(node)] = lowest;
-      if (parent_[idx(node)] < 0 || lowest >= depth_[idx(node)]) continue;
+      if (parent < 0 || lowest >= depth_[idx(node)]) continue;
       on_cycle_[idx(node)] = 1;
-      own_[idx(node)] = own_[idx(parent_[idx(node)])] = lives_for_ever;
+      own_[idx(node)] = own_[idx(parent)] = lives_for_ever;
     }
   }
 
@@ -111,65 +103,63 @@ class LifeTree {
     for (const int node : order_) {
       const int eldest = eldest_child(node, -1);
       const int second = eldest_child(node, eldest);
-      for (const Step& step : around_[idx(node)]) {
-        if (edge_above_[idx(step.node)] != step.edge) continue;
-        const int rival = step.node == eldest ? second : eldest;
+      for (const int child : graph_.neighbours(node)) {
+        if (!is_child(child, node)) continue;
+        const int rival = child == eldest ? second : eldest;
         double beyond = std::max(own_[idx(node)], above_[idx(node)]);
         if (rival >= 0) beyond = std::max(beyond, below_[idx(rival)]);
-        above_[idx(step.node)] = beyond;
+        above_[idx(child)] = beyond;
       }
     }
   }
 
   [[nodiscard]] int eldest_child(int node, int but) const {
     int eldest = -1;
-    for (const Step& step : around_[idx(node)]) {
-      if (edge_above_[idx(step.node)] != step.edge || step.node == but) continue;
-      if (eldest < 0 || below_[idx(step.node)] > below_[idx(eldest)]) eldest = step.node;
+    for (const int child : graph_.neighbours(node)) {
+      if (!is_child(child, node) || child == but) continue;
+      if (eldest < 0 || below_[idx(child)] > below_[idx(eldest)]) eldest = child;
     }
     return eldest;
   }
 
   /// Of a component without cycles the way between its two eldest tips.
-  void keep_eldest(Eigen::VectorXd& lives) const {
+  void keep_eldest(Eigen::VectorXd& lives) {
+    from_.assign(parent_.size(), -1);
+    way_.assign(parent_.size(), -1);
     for (const int root : roots_) {
-      if (below_[idx(root)] >= lives_for_ever || around_[idx(root)].empty()) continue;
+      if (below_[idx(root)] >= lives_for_ever || graph_.degree(root) == 0) continue;
       const int eldest = eldest_from(root);
-      const int second = eldest_from(eldest);
-      for (int node = second; node != eldest;) {
-        const auto& steps = around_[idx(node)];
-        const auto nearer = std::find_if(steps.begin(), steps.end(), [&](const Step& step) {
-          return way_[idx(step.node)] == way_[idx(node)] - 1;
-        });
-        lives[nearer->edge] = lives_for_ever;
-        node = nearer->node;
+      for (int node = eldest_from(eldest); node != eldest; node = from_[idx(node)]) {
+        const int before = from_[idx(node)];
+        lives[edge_above_[idx(is_child(node, before) ? node : before)]] = lives_for_ever;
       }
     }
   }
 
-  /// The tip with the largest life in the component but `from`, the farthest of equals by number
-  /// of edges; leaves those numbers in `way_`.
-  [[nodiscard]] int eldest_from(int from) const {
-    way_.assign(around_.size(), -1);
-    std::vector<int> reached{from};
-    way_[idx(from)] = 0;
+  /// The tip with the largest life in the tree but `start`, the farthest of equals by number of
+  /// edges; `from_` leads back.
+  [[nodiscard]] int eldest_from(int start) {
+    std::vector<int> reached{start};
+    from_[idx(start)] = -1;
+    way_[idx(start)] = 0;
     int best = -1;
+    const auto rank = [&](int node) { return std::pair(own_[idx(node)], way_[idx(node)]); };
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const int node = reached[k];
-      const auto rank = [&](int other) { return std::pair(own_[idx(other)], way_[idx(other)]); };
-      const bool is_tip = around_[idx(node)].size() == 1 && node != from;
+      const bool is_tip = graph_.degree(node) == 1 && node != start;
       if (is_tip && (best < 0 || rank(node) > rank(best))) best = node;
-      for (const Step& step : around_[idx(node)]) {
-        if (way_[idx(step.node)] >= 0) continue;
-        way_[idx(step.node)] = way_[idx(node)] + 1;
-        reached.push_back(step.node);
+      for (const int other : graph_.neighbours(node)) {
+        if (other == from_[idx(node)]) continue;
+        from_[idx(other)] = node;
+        way_[idx(other)] = way_[idx(node)] + 1;
+        reached.push_back(other);
       }
     }
     return best;
   }
 
   const CurveSkeleton& skeleton_;
-  std::vector<std::vector<Step>> around_;
+  const Graph graph_;
   std::vector<int> roots_;
   std::vector<int> order_;  // parents before children
   std::vector<int> parent_;
@@ -180,7 +170,8 @@ class LifeTree {
   std::vector<double> own_;
   std::vector<double> below_;
   std::vector<double> above_;
-  mutable std::vector<int> way_;
+  std::vector<int> from_;  // of the last `eldest_from`: the node before
+  std::vector<int> way_;   // edges from its start
 };
 
 }  // namespace
@@ -258,10 +249,9 @@ CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
   std::vector<char> stays(degree.size(), 0);
   for (std::size_t node = 0; node < degree.size(); ++node) stays[node] = degree[node] == 0 ? 1 : 0;
   std::vector<int> kept_edges;
-  std::vector<int> gone_edges;
   for (int e = 0; e < skeleton.edges.rows(); ++e) {
-    (lives[e] >= least_life ? kept_edges : gone_edges).push_back(e);
     if (lives[e] < least_life) continue;
+    kept_edges.push_back(e);
     stays[idx(skeleton.edges(e, 0))] = stays[idx(skeleton.edges(e, 1))] = 1;
   }
   std::vector<int> kept_nodes;
@@ -270,16 +260,15 @@ CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
     number[idx(node)] = static_cast<int>(kept_nodes.size());
     kept_nodes.push_back(node);
   }
-  // What goes hangs in trees from what stays.
-  for (std::size_t left = gone_edges.size() + 1; left > gone_edges.size();) {
-    left = gone_edges.size();
-    std::erase_if(gone_edges, [&](int e) {
-      int& a = number[idx(skeleton.edges(e, 0))];
-      int& b = number[idx(skeleton.edges(e, 1))];
-      if ((a < 0) == (b < 0)) return a >= 0;
-      a = b = std::max(a, b);
-      return true;
-    });
+  // The rest hangs in trees from it.
+  const Graph graph = graph_of(skeleton.nodes.rows(), skeleton.edges);
+  std::vector<int> reached = kept_nodes;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    for (const int other : graph.neighbours(reached[k])) {
+      if (number[idx(other)] >= 0) continue;
+      number[idx(other)] = number[idx(reached[k])];
+      reached.push_back(other);
+    }
   }
   CurveSkeleton level;
   level.nodes = skeleton.nodes(kept_nodes, Eigen::all);

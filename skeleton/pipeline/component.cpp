@@ -261,7 +261,7 @@ class Pipeline {
                                  std::future<std::vector<TipLife>> lives) {
     return stage_("embed", kept_.skeleton, {graph, options_.embed, extent_}, [&](StepClock& steps) {
       EmbedTuning tuning;
-      EmbedOptions embedding = options_.embed;  // what is coarser is a level of it
+      EmbedOptions embedding = options_.embed;  // coarser ones are levels of it
       embedding.detail = std::max(embedding.detail, EmbedOptions().detail);
       tuning.spacing = tuning.spacing.of_part(extent_);
       // Most of the embedding's rays go against the working surface, which fits the cache.

@@ -18,12 +18,9 @@ std::shared_ptr<const CharacterRig> rig_of(const Document& document,
   facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
   CharacterRig made = rig_character(document.surface, repaired, mapped, facing, monitor);
   const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
-  made.parts.part_of_vertex.setConstant(repaired.vertex_of_input.size(), -1);
-  for (Eigen::Index v = 0; v < repaired.vertex_of_input.size(); ++v) {
-    const int vertex = repaired.vertex_of_input[v];
-    if (vertex >= 0 && vertex < of_repaired.size())
-      made.parts.part_of_vertex[v] = of_repaired[vertex];
-  }
+  made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
+    return vertex >= 0 && vertex < of_repaired.size() ? of_repaired[vertex] : -1;
+  });
   return std::make_shared<const CharacterRig>(std::move(made));
 }
 

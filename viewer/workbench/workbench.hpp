@@ -122,7 +122,7 @@ class Workbench {
   void pull_joint(int joint, const glm::vec3& place);
   /// All joints as they are in the file.
   void turn_back();
-  /// What the selected joint is, corrected: it is named and saved so. "" = nothing that is known.
+  /// Corrects the role of the selected joint, which is named and saved so. "" = none.
   void set_role(const std::string& role);
 
   // Corrections of the skeleton.

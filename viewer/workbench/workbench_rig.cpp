@@ -144,11 +144,7 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   }
   const Document& document = scene->document;
   const CharacterRig& character = *scene->recording.moments().back().character;
-  Rig rig = character.rig;
-  // Bodies that stand apart, below one root.
-  if ((rig.parents.array() < 0).count() > 1) {
-    rig = with_ground_root(rig, document.surface, character.plan.axes.row(1));
-  }
+  const Rig rig = with_one_root(character.rig, document.surface, character.plan.axes.row(1));
   const std::string name = files_.empty() ? "surface" : files_.front().stem().string();
   std::optional<EditedFile> edited;
   std::string without;  // why the file's own content is not in what is saved

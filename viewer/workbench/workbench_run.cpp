@@ -30,7 +30,7 @@ void Workbench::start(bool paused) {
   RunOptions options = pipeline;
   options.gives_way = true;
   options.extract.fairing = options.extract.fair.iterations > 0;
-  // What is coarser is a level of what is made.
+  // Coarser levels are parts of the one that is made.
   options.extract.embed.detail = std::max(options.extract.embed.detail, EmbedOptions().detail);
   detail_made_ = options.extract.embed.detail;
   // One core stays for the picture; the result is the same.

@@ -121,11 +121,9 @@ TEST(Levels, HaveTheTipsOfTheirLife) {
       }
       const std::vector<int> part = component_of_node(level);
       std::map<int, int> younger;  // by component: tips that are younger than the limit
-      std::map<int, int> all;
       const std::vector<int> degree = degrees(level.nodes.rows(), level.edges);
       for (int node = 0; node < level.nodes.rows(); ++node) {
         if (degree[idx(node)] != 1) continue;
-        ++all[part[idx(node)]];
         if (level.lives[node] < limit) ++younger[part[idx(node)]];
       }
       for (const auto& [component, count] : younger) EXPECT_LE(count, 2);
