@@ -166,7 +166,7 @@ void place_unpaired(const CurveTree& tree, const Trunk& trunk, const std::vector
     if (above == "head" && is_below && !has_jaw) {
       has_jaw = true;
       role = "jaw";
-    } else if (above == joints.back().role) {
+    } else if (joint_beside(joints, tree.nodes[idx(tip)]) == joints.back().role) {
       continue;  // a lobe of the tail's fin
     } else {
       role = is_below ? numbered("anal_fin", bellies++) : numbered("dorsal_fin", backs++);
