@@ -35,6 +35,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/advanced/step_clock.hpp
   include/curveskel/advanced/surface_partition.hpp
   include/curveskel/advanced/surgery.hpp
+  include/curveskel/branch_measures.hpp
   include/curveskel/certificate.hpp
   include/curveskel/curve_skeleton.hpp
   include/curveskel/edit.hpp

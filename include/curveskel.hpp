@@ -19,6 +19,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/body_plan.hpp>
+#include <curveskel/branch_measures.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/check_weights.hpp>
 #include <curveskel/clean.hpp>

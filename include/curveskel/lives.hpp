@@ -21,15 +21,16 @@ void require_valid(const LifeOptions& options);
 
 /// A part of the surface that sticks out.
 struct TipLife {
-  int vertex = -1;        ///< of the surface: the tip
-  double life = 0;        ///< see `tip_lives`
-  double birth = 0;       ///< the function there, in D
-  double death = 0;       ///< at the saddle, in D; of the eldest the function's least value
-  int parent = -1;        ///< number of the tip into whose part it merges there; -1 = the eldest
-  int saddle = -1;        ///< vertex
-  Eigen::Vector3d rim;    ///< centre of the level curve at which the life is attained
-  double rim_radius = 0;  ///< its mean distance from there
-  double area = 0;        ///< of the part above that curve, of the surface's
+  int vertex = -1;   ///< of the surface: the tip
+  double life = 0;   ///< see `tip_lives`
+  double birth = 0;  ///< the function there, in D
+  double death = 0;  ///< at the saddle, in D; of the eldest the function's least value
+  int parent = -1;   ///< number of the tip into whose part it merges there; -1 = the eldest
+  int saddle = -1;   ///< vertex
+  Eigen::Vector3d rim =
+      Eigen::Vector3d::Zero();  ///< centre of the level curve at which the life is attained
+  double rim_radius = 0;        ///< its mean distance from there
+  double area = 0;              ///< of the part above that curve, of the surface's
 };
 
 /// The maxima of the mean geodesic distance f to the surface's points, by descending life. Sweeping

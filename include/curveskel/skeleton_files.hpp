@@ -17,7 +17,7 @@ inline constexpr NameTable<SkeletonFormat, 10> skeleton_formats{{
     {SkeletonFormat::cgal, "cgal", "CGAL polylines, one branch a line"},
     {SkeletonFormat::swc, "swc", "SWC neuron tree; loops are cut, the cuts are comments"},
     {SkeletonFormat::vtp, "vtp", "VTK XML PolyData, radius as point data"},
-    {SkeletonFormat::csv, "csv", "table of branches: id, ends, length, mean radius"},
+    {SkeletonFormat::csv, "csv", "table of branches: ends, kind, length, tortuosity, radii, life"},
     {SkeletonFormat::graphml, "graphml", "GraphML: x, y, z, radius per node, length per edge"},
     {SkeletonFormat::json, "json", "nodes, edges, radii, vertex map, parameters, certificate"},
     {SkeletonFormat::svg, "svg", "picture: the skeleton inside its surface"},

@@ -1,6 +1,7 @@
 // The choice of the format, and the formats that are little more than a list of points and lines.
 #include <cstdint>
 
+#include <curveskel/branch_measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
@@ -29,18 +30,12 @@ void append_points(std::string& text, const CurveSkeleton& skeleton, const Branc
   text += '\n';
 }
 
-/// Mean along the branch of the radius interpolated between the nodes.
-double mean_radius(const CurveSkeleton& skeleton, const Branch& branch, double length) {
-  double sum = 0;
-  for (std::size_t k = 1; k < branch.nodes.size(); ++k) {
-    const int a = branch.nodes[k - 1];
-    const int b = branch.nodes[k];
-    const double weight = length > 0
-                              ? (skeleton.nodes.row(b) - skeleton.nodes.row(a)).norm() / length
-                              : 1 / static_cast<double>(branch.nodes.size() - 1);
-    sum += weight * (skeleton.radii(a) + skeleton.radii(b)) / 2;
-  }
-  return sum;
+/// A comma and the number, or nothing where there is none.
+template <typename Number>
+void append_field(std::string& text, Number number, bool is_there = true) {
+  text += ',';
+  if constexpr (std::is_floating_point_v<Number>) is_there = is_there && !std::isnan(number);
+  if (is_there) append_decimal(text, number);
 }
 
 }  // namespace
@@ -130,35 +125,34 @@ std::string polylines_from(const CurveSkeleton& skeleton) {
 std::string csv_from(const CurveSkeleton& skeleton) {
   std::string text =
       "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius,life,"
-      "parent,merge\n";
+      "parent,merge,kind,chord,tortuosity,radius_min,radius_max\n";
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
-  int id = 0;
+  const std::vector<BranchMeasures> measures = branch_measures(skeleton);
+  std::size_t id = 0;
   for (const Branch& branch : branches(skeleton)) {
+    const BranchLevel& level = levels[id];
+    const BranchMeasures& numbers = measures[id];
     const int start = branch.nodes.front();
     const int end = branch.nodes.back();
-    const double length = branch_length(skeleton, branch);
     append_decimal(text, id++);
-    text += ',';
-    append_decimal(text, start);
-    text += ',';
-    append_decimal(text, end);
+    append_field(text, start);
+    append_field(text, end);
     text += ',';
     append_decimals(text, skeleton.nodes.row(start), ',');
     text += ',';
     append_decimals(text, skeleton.nodes.row(end), ',');
+    append_field(text, branch.nodes.size());
+    append_field(text, numbers.length);
+    append_field(text, numbers.mean_radius);
+    append_field(text, level.life, has_lives(skeleton));
+    append_field(text, level.parent, level.parent >= 0);
+    append_field(text, level.merge, level.merge >= 0);
     text += ',';
-    append_decimal(text, branch.nodes.size());
-    text += ',';
-    append_decimal(text, length);
-    text += ',';
-    if (skeleton.radii.size() > 0) append_decimal(text, mean_radius(skeleton, branch, length));
-    const BranchLevel& level = levels[static_cast<std::size_t>(id - 1)];
-    text += ',';
-    if (has_lives(skeleton)) append_decimal(text, level.life);
-    text += ',';
-    if (level.parent >= 0) append_decimal(text, level.parent);
-    text += ',';
-    if (level.merge >= 0) append_decimal(text, level.merge);
+    text += name_of(branch_kinds, numbers.kind);
+    append_field(text, numbers.chord);
+    append_field(text, numbers.tortuosity);
+    append_field(text, numbers.least_radius);
+    append_field(text, numbers.largest_radius);
     text += '\n';
   }
   return text;

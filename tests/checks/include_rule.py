@@ -1,4 +1,4 @@
-"""The layers: base <- surface <- kernels, contraction <- skeleton <- rig <- app <- viewer.
+"""The layers: base <- surface <- kernels, contraction <- skeleton <- rig <- app <- viewer, python.
 
 usage: include_rule.py SOURCE_DIR LAYER=HEADER...
 
@@ -20,6 +20,7 @@ BELOW = {
     "rig": {"base", "surface", "kernels", "contraction", "skeleton"},
     "app": {"base", "surface", "kernels", "contraction", "skeleton", "rig"},
     "viewer": {"base", "surface", "kernels", "contraction", "skeleton", "rig", "app"},
+    "python": {"base", "surface", "kernels", "contraction", "skeleton", "rig", "app"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 # Neither a folder nor a suffix: the C++ standard library.
@@ -64,10 +65,10 @@ def beyond_public(source, layer_of_public):
 
 def beyond_library(source):
     """The programs live on the public headers, as every user of the library does."""
-    for layer in ("app", "viewer"):
+    for layer in ("app", "viewer", "python"):
         for path in files_of(source, layer):
             for number, private, name in includes(path):
-                if private and not name.startswith(("app/", "viewer/")):
+                if private and not name.startswith(("app/", "viewer/", "python/")):
                     yield f"{path}:{number}: must use public headers only, not {name}"
 
 

@@ -1,0 +1,231 @@
+"""Skeletons as arrays and tables."""
+
+import os
+import pathlib
+import warnings
+
+import numpy
+
+from . import _core
+from .errors import CertificateWarning, SolverError, UsageError
+
+
+class Skeleton:
+    """A curve skeleton: a graph of nodes with radii. Its arrays are views, and read-only.
+
+    `extract` and `read` make it. That of a file has no surface and no certificate: `mesh`,
+    `certificate` and `ok` are None.
+    """
+
+    def __init__(self, graph, extraction=None):
+        self._graph = graph
+        self._extraction = extraction
+
+    @property
+    def vertices(self):
+        """(n, 3) float64: places of the nodes, in the units of the surface."""
+        return self._graph.nodes
+
+    @property
+    def edges(self):
+        """(m, 2) int32: nodes of each edge, the lower one first; loops are kept."""
+        return self._graph.edges
+
+    @property
+    def radii(self):
+        """(n,) float64: distance of each node to the surface, 0 of a node outside; or (0,)."""
+        return self._graph.radii
+
+    @property
+    def lives(self):
+        """(n,) float64: of a tip how clearly the surface has it, without unit; or (0,)."""
+        return self._graph.lives
+
+    @property
+    def mesh_map(self):
+        """(v,) int32: the node that each vertex given belongs to; -1 for those left out."""
+        return self._graph.node_of_vertex
+
+    @property
+    def skel_map(self):
+        """A list of n int64 arrays: the vertices given that belong to each node, ascending."""
+        order = numpy.argsort(self.mesh_map, kind="stable")
+        bounds = numpy.searchsorted(self.mesh_map[order], numpy.arange(len(self.vertices) + 1))
+        return [order[begin:end] for begin, end in zip(bounds[:-1], bounds[1:])]
+
+    @property
+    def mesh(self):
+        """Vertices (v, 3) and faces (f, 3) of the surface after repair; None of a file."""
+        if self._extraction is None:
+            return None
+        return self._extraction.positions, self._extraction.triangles
+
+    @property
+    def certificate(self):
+        """A dict of the numbers that docs/method.md defines; None of a file."""
+        return None if self._extraction is None else self._extraction.certificate
+
+    @property
+    def ok(self):
+        """True if the certificate holds: topology, inside, a shape made of tubes."""
+        return None if self._extraction is None else self._extraction.holds
+
+    @property
+    def shortcomings(self):
+        """All that keeps the certificate from holding, in one line; empty if it holds."""
+        return "" if self._extraction is None else self._extraction.shortcomings
+
+    @property
+    def changes(self):
+        """What repair has changed, a line each."""
+        return [] if self._extraction is None else self._extraction.changes
+
+    @property
+    def branch_nodes(self):
+        """A list of int arrays: the nodes of each branch, ends included, as `branches` has them."""
+        return [numpy.array(nodes, dtype=numpy.int32) for nodes in self._graph.branches()]
+
+    @property
+    def branches(self):
+        """DataFrame, one row a branch, the columns of `curveskel extract -o OUT.csv`.
+
+        docs/numbers.md defines each. Lengths and radii are in the units of the surface.
+        """
+        import pandas
+
+        table = pandas.DataFrame(self._graph.branch_table())
+        return table.astype({"parent": "Int64"}).rename_axis("branch")
+
+    def to_networkx(self):
+        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` of edges."""
+        import networkx
+
+        graph = networkx.Graph()
+        for node, place in enumerate(self.vertices.tolist()):
+            graph.add_node(node, pos=tuple(place))
+        for name, values in (("radius", self.radii), ("life", self.lives)):
+            if len(values):
+                networkx.set_node_attributes(graph, dict(enumerate(values.tolist())), name)
+        ends = self.vertices[self.edges]
+        lengths = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        for (a, b), length in zip(self.edges.tolist(), lengths.tolist()):
+            graph.add_edge(a, b, length=length)
+        return graph
+
+    def to_trimesh(self):
+        """trimesh.path.Path3D, one polyline a branch."""
+        from trimesh.path import Path3D
+        from trimesh.path.entities import Line
+
+        return Path3D(entities=[Line(nodes) for nodes in self.branch_nodes],
+                      vertices=numpy.array(self.vertices), process=False)
+
+    def to_swc(self, path):
+        """Writes an SWC file; loops are cut, and the cuts are comments in it."""
+        self._save(pathlib.Path(path), "swc")
+
+    def save(self, path):
+        """Writes a file in the format of its extension, any of the program's.
+
+        Of a skeleton that was extracted from a file, the bytes are those that the program writes.
+        """
+        self._save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."))
+
+    def _save(self, path, format):
+        if self._extraction is not None:
+            self._extraction.save(path, format)
+        else:
+            _core.save_skeleton(self._graph, path, format)
+
+    def __repr__(self):
+        counts = (f"{len(self.vertices)} nodes, {len(self.edges)} edges, "
+                  f"{len(self.branch_nodes)} branches")
+        if self._extraction is None:
+            return f"<curveskel.Skeleton: {counts}>"
+        return f"<curveskel.Skeleton: {counts}; {self.shortcomings or 'certificate holds'}>"
+
+    def _repr_html_(self):
+        """The skeleton inside its surface, as SVG, and what `repr` says."""
+        import html
+
+        words = f"<p>{html.escape(repr(self)[1:-1])}</p>"
+        if self._extraction is None:
+            return words
+        picture = self._extraction.picture()
+        return f"<div style='max-width:480px'>{picture[picture.index('<svg'):]}{words}</div>"
+
+
+def _progress(wanted):
+    """A callback, and a function that ends it."""
+    if wanted is None or callable(wanted):
+        return wanted, lambda: None
+    if wanted is False:
+        return None, lambda: None
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None, lambda: None
+    bar = tqdm(total=1.0, bar_format="{desc}: {percentage:3.0f}% {bar} {elapsed}")
+
+    def show(stage, fraction):
+        bar.set_description_str(stage)
+        bar.n = fraction
+        bar.refresh()
+
+    return show, bar.close
+
+
+def _soup(mesh, progress):
+    if isinstance(mesh, (str, os.PathLike)):
+        return _core.read_surface(os.fspath(mesh), progress)
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        mesh = (mesh.vertices, mesh.faces)
+    try:
+        vertices, faces = mesh
+        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
+        faces = numpy.asarray(faces)
+    except (TypeError, ValueError) as error:
+        raise UsageError("mesh: needs a path, a pair (vertices, faces), or an object with "
+                         f"vertices and faces, not {type(mesh).__name__}") from error
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise UsageError(f"vertices: needs shape (n, 3), not {vertices.shape}")
+    if not numpy.issubdtype(faces.dtype, numpy.integer):
+        raise UsageError(f"faces: needs integers, not {faces.dtype}")
+    return _core.soup_of_arrays(vertices, numpy.ascontiguousarray(faces, dtype=numpy.int64))
+
+
+def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **options):
+    """The curve skeleton of a surface, as `curveskel extract` makes it.
+
+    mesh: a path to a surface file; a pair of arrays, vertices (n, 3) and faces (m, 3), or (m, k)
+        for polygons; or an object with `vertices` and `faces`, as trimesh's.
+    detail: 0 to 1, how small a branch may be and stay.
+    threads: at most; 0 = one per core. The result does not depend on it.
+    progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
+    strict: a certificate that does not hold is a SolverError, not a CertificateWarning.
+    options: the program's, with _ for -: components, fair, flow, merge_overlapping, min_size,
+        preset, resolution (a number or "full"), solver, wrap, wrap_gap.
+
+    Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
+    meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.
+    """
+    callback, close = _progress(progress)
+    try:
+        extraction = _core.extract(_soup(mesh, callback),
+                                   dict(options, detail=detail, threads=threads), callback)
+    finally:
+        close()
+    if not extraction.holds:
+        message = "the certificate failed: " + extraction.shortcomings
+        if strict:
+            raise SolverError(message)
+        warnings.warn(message, CertificateWarning, stacklevel=2)
+    return Skeleton(extraction.skeleton, extraction)
+
+
+def read(path):
+    """The Skeleton in a file: OBJ, PLY, CGAL polylines, SWC, VTP, GraphML or JSON.
+
+    Raises InputError.
+    """
+    return Skeleton(_core.read_skeleton(os.fspath(path)))

@@ -1,0 +1,360 @@
+// The extension module curveskel._core: values and functions without convenience, which the
+// package's Python code adds.
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <curveskel/advanced/write_file.hpp>
+#include <curveskel/branch_measures.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/levels.hpp>
+#include <curveskel/skeleton_files.hpp>
+#include "app/kernel_cache.hpp"
+#include "app/report.hpp"
+#include "python/background_work.hpp"
+#include "python/extraction.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace py = pybind11;
+
+/// The names of the classes in curveskel.errors, each with the program's exit status.
+const char* class_of(Fault fault) {
+  switch (fault) {
+    case Fault::usage:
+      return "UsageError";
+    case Fault::input:
+      return "InputError";
+    case Fault::device:
+      return "DeviceError";
+    case Fault::solver:
+      return "SolverError";
+    case Fault::output:
+      return "OutputError";
+  }
+  return "Error";
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    const py::object type = py::module_::import("curveskel.errors").attr(class_of(error.fault()));
+    PyErr_SetString(type.ptr(), error.what());
+  }
+}
+
+PolygonSoup soup_of_arrays(const Positions& positions, const py::array_t<std::int64_t>& faces) {
+  if (faces.ndim() != 2 || faces.shape(1) < 3) {
+    throw Error(Fault::usage,
+                "faces: needs an array of shape (n, 3), or (n, k) for polygons of k "
+                "corners");
+  }
+  if (!positions.allFinite()) {
+    throw Error(Fault::input, "vertices: some coordinates are NaN or infinite; drop their faces");
+  }
+  PolygonSoup soup;
+  soup.positions = positions;
+  const auto corners = faces.unchecked<2>();
+  for (py::ssize_t f = 0; f < corners.shape(0); ++f) {
+    for (py::ssize_t k = 0; k < corners.shape(1); ++k) {
+      const std::int64_t vertex = corners(f, k);
+      if (vertex < 0 || vertex >= positions.rows()) {
+        throw Error(Fault::input, "face " + std::to_string(f) + ": found vertex " +
+                                      std::to_string(vertex) + ", needed 0 to " +
+                                      std::to_string(positions.rows() - 1));
+      }
+      soup.corners.push_back(static_cast<std::int32_t>(vertex));
+    }
+  }
+  for (py::ssize_t f = 0; f <= corners.shape(0); ++f) {
+    soup.offsets.push_back(static_cast<std::int64_t>(f * corners.shape(1)));
+  }
+  return soup;
+}
+
+PolygonSoup read_file(const std::filesystem::path& path, const py::object& progress) {
+  PolygonSoup soup;
+  run_beside_interpreter(progress,
+                         [&](const Monitor& monitor) { soup = read_polygons(path, monitor); });
+  return soup;
+}
+
+CurveSkeleton read_skeleton_file(const std::filesystem::path& path) {
+  const py::gil_scoped_release others_may_run;
+  return read_skeleton(path);
+}
+
+template <typename Choice, std::size_t Count>
+void choose(Choice& value, const char* option, const std::string& name,
+            const NameTable<Choice, Count>& table) {
+  const auto found = choice_of(table, name);
+  if (!found) {
+    throw Error(Fault::usage,
+                std::string(option) + ": " + name + " is none of: " + names_in(table));
+  }
+  value = *found;
+}
+
+/// One option of the program, by its name with _ for -.
+void set_option(ExtractSettings& settings, const std::string& name, const py::handle& value) {
+  ExtractOptions& extract = settings.extract;
+  RepairOptions& as_repaired = settings.repair;
+  if (name == "detail") {
+    extract.embed.detail = value.cast<double>();
+  } else if (name == "threads") {
+    extract.threads = value.cast<int>();
+  } else if (name == "resolution") {
+    extract.resolution = py::isinstance<py::str>(value) && value.cast<std::string>() == "full"
+                             ? 0
+                             : value.cast<int>();
+  } else if (name == "fair") {
+    extract.fair.iterations = value.cast<int>();
+  } else if (name == "flow") {
+    choose(extract.contraction.flow, "flow", value.cast<std::string>(), flows);
+  } else if (name == "solver") {
+    choose(extract.contraction.solver, "solver", value.cast<std::string>(), solvers);
+  } else if (name == "components") {
+    as_repaired.components = value.cast<int>();
+  } else if (name == "min_size") {
+    as_repaired.least_area = value.cast<double>();
+  } else if (name == "wrap") {
+    choose(as_repaired.wrap, "wrap", value.cast<std::string>(), wrappings);
+  } else if (name == "wrap_gap") {
+    as_repaired.wrap_gap = value.cast<double>();
+  } else if (name == "merge_overlapping") {
+    as_repaired.merge_overlapping = value.cast<bool>();
+  } else {
+    throw Error(Fault::usage, name +
+                                  " is none of the options: components, detail, fair, flow, "
+                                  "merge_overlapping, min_size, preset, resolution, solver, "
+                                  "threads, wrap, wrap_gap");
+  }
+}
+
+ExtractSettings settings_of(const py::dict& options) {
+  ExtractSettings settings;
+  settings.extract.fair.iterations = 0;
+  if (options.contains("preset")) {
+    choose(settings.preset, "preset", options["preset"].cast<std::string>(), presets);
+    use_preset(settings.preset, settings.repair, settings.extract);
+  }
+  settings.extract.contraction.program_cache = kernel_cache();
+  settings.extract.fair.program_cache = kernel_cache();
+  for (const auto& [key, value] : options) {
+    const auto name = key.cast<std::string>();
+    if (name == "preset") continue;
+    try {
+      set_option(settings, name, value);
+    } catch (const py::cast_error&) {
+      throw Error(Fault::usage, name + ": a value of another type is needed than " +
+                                    py::repr(value).cast<std::string>());
+    }
+  }
+  settings.extract.fairing = settings.extract.fair.iterations > 0;
+  require_valid(settings.extract);
+  require_valid(settings.repair);
+  return settings;
+}
+
+PythonExtraction extract_in_background(PolygonSoup soup, const py::dict& options,
+                                       const py::object& progress) {
+  const ExtractSettings settings = settings_of(options);
+  PythonExtraction result;
+  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+    result = extract_soup(std::move(soup), settings, monitor);
+  });
+  return result;
+}
+
+SkeletonFormat format_named(const std::string& name, const std::filesystem::path& output) {
+  const auto format = choice_of(skeleton_formats, name);
+  if (format) return *format;
+  throw Error(Fault::usage,
+              output.string() + ": the extension is none of: " + names_in(skeleton_formats));
+}
+
+void save_extraction(const PythonExtraction& extraction, const std::filesystem::path& output,
+                     const std::string& format) {
+  const py::gil_scoped_release others_may_run;
+  write_file(output, format_extraction(extraction, format_named(format, output)));
+}
+
+void save_skeleton(const CurveSkeleton& skeleton, const std::filesystem::path& output,
+                   const std::string& format) {
+  const py::gil_scoped_release others_may_run;
+  SkeletonContext context;
+  context.provenance = program_and_version();
+  write_file(output, format_skeleton(skeleton, format_named(format, output), context));
+}
+
+std::string picture(const PythonExtraction& extraction) {
+  const py::gil_scoped_release others_may_run;
+  return format_extraction(extraction, SkeletonFormat::svg);
+}
+
+py::dict dictionary_of(const Certificate& certificate) {
+  py::dict values;
+  values["components"] = certificate.components;
+  values["components_of_surface"] = certificate.components_of_surface;
+  values["cycle_rank"] = certificate.cycle_rank;
+  values["genus"] = certificate.genus;
+  values["homology_rank"] = certificate.homology_rank;
+  values["topology_correct"] = certificate.topology_correct();
+  values["inside_fraction"] = certificate.inside_fraction;
+  values["inside_enough"] = certificate.inside_enough;
+  values["deepest_exit"] = certificate.deepest_exit;
+  values["centredness_median"] = certificate.centredness_median;
+  values["centredness_p90"] = certificate.centredness_p90;
+  values["coverage"] = certificate.coverage;
+  values["tube_share"] = certificate.tube_share;
+  values["curve_like"] = certificate.curve_like;
+  values["reach"] = certificate.reach;
+  values["length"] = certificate.length;
+  values["tips"] = certificate.tips;
+  values["junctions"] = certificate.junctions;
+  values["spurs"] = certificate.spurs;
+  values["total_curvature"] = certificate.total_curvature;
+  values["wrap_followed"] = certificate.wrap_followed;
+  values["wrap_follows"] = certificate.wrap_follows();
+  values["holds"] = certificate.holds();
+  return values;
+}
+
+std::vector<std::vector<int>> nodes_of_branches(const CurveSkeleton& skeleton) {
+  std::vector<std::vector<int>> nodes;
+  for (Branch& branch : branches(skeleton)) nodes.push_back(std::move(branch.nodes));
+  return nodes;
+}
+
+/// A column of the table of branches.
+template <typename Get>
+py::list column(std::size_t rows, const Get& get) {
+  py::list values;
+  for (std::size_t row = 0; row < rows; ++row) values.append(get(row));
+  return values;
+}
+
+/// The columns of the CSV file but the first, which is the row's number; none is NaN or None.
+py::dict branch_table(const CurveSkeleton& skeleton) {
+  const std::vector<Branch> all = branches(skeleton);
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
+  const std::vector<BranchMeasures> measures = branch_measures(skeleton);
+  const auto of = [&](const auto& get) { return column(all.size(), get); };
+  const auto number = [&](double BranchMeasures::*member) {
+    return of([&measures, member](std::size_t row) { return measures[row].*member; });
+  };
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  py::dict table;
+  table["start"] = of([&](std::size_t row) { return all[row].nodes.front(); });
+  table["end"] = of([&](std::size_t row) { return all[row].nodes.back(); });
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = std::string("_") + "xyz"[axis];
+    table[("start" + name).c_str()] =
+        of([&](std::size_t row) { return skeleton.nodes(all[row].nodes.front(), axis); });
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = std::string("_") + "xyz"[axis];
+    table[("end" + name).c_str()] =
+        of([&](std::size_t row) { return skeleton.nodes(all[row].nodes.back(), axis); });
+  }
+  table["nodes"] = of([&](std::size_t row) { return all[row].nodes.size(); });
+  table["length"] = number(&BranchMeasures::length);
+  table["mean_radius"] = number(&BranchMeasures::mean_radius);
+  table["life"] =
+      of([&](std::size_t row) { return has_lives(skeleton) ? levels[row].life : none; });
+  table["parent"] = of([&](std::size_t row) {
+    return levels[row].parent < 0 ? py::object(py::none()) : py::int_(levels[row].parent);
+  });
+  table["merge"] =
+      of([&](std::size_t row) { return levels[row].merge < 0 ? none : levels[row].merge; });
+  table["kind"] =
+      of([&](std::size_t row) { return std::string(name_of(branch_kinds, measures[row].kind)); });
+  table["chord"] = number(&BranchMeasures::chord);
+  table["tortuosity"] = number(&BranchMeasures::tortuosity);
+  table["radius_min"] = number(&BranchMeasures::least_radius);
+  table["radius_max"] = number(&BranchMeasures::largest_radius);
+  return table;
+}
+
+/// A view of a matrix of `Owner`, which stays alive as long as the array: no copy, not writable.
+template <typename Owner, typename Get>
+py::cpp_function view_of(const Get& get) {
+  return py::cpp_function(get, py::return_value_policy::reference_internal);
+}
+
+void bind_extraction(py::module_& module) {
+  using Owner = PythonExtraction;
+  py::class_<Owner>(module, "Extraction")
+      .def_property_readonly(
+          "skeleton", view_of<Owner>([](const Owner& one) -> const auto& { return one.skeleton; }))
+      .def_property_readonly("positions", view_of<Owner>([](const Owner& one) -> const auto& {
+                               return one.repaired.surface.positions;
+                             }))
+      .def_property_readonly("triangles", view_of<Owner>([](const Owner& one) -> const auto& {
+                               return one.repaired.surface.triangles;
+                             }))
+      .def_property_readonly("vertex_of_input", view_of<Owner>([](const Owner& one) -> const auto& {
+                               return one.repaired.vertex_of_input;
+                             }))
+      .def_property_readonly("changes",
+                             [](const Owner& one) {
+                               std::vector<std::string> lines = one.repaired.changes.lines;
+                               const auto& more = one.repaired.repairs.lines;
+                               lines.insert(lines.end(), more.begin(), more.end());
+                               return lines;
+                             })
+      .def_property_readonly("notes", [](const Owner& one) { return one.notes; })
+      .def_property_readonly("shortcomings", &shortcomings)
+      .def_property_readonly(
+          "certificate", [](const Owner& one) { return dictionary_of(one.extraction.certificate); })
+      .def_property_readonly("correct",
+                             [](const Owner& one) { return one.extraction.certificate.correct(); })
+      .def_property_readonly("holds",
+                             [](const Owner& one) { return one.extraction.certificate.holds(); })
+      .def("picture", &picture)
+      .def("save", &save_extraction);
+}
+
+void bind_skeleton(py::module_& module) {
+  using Owner = CurveSkeleton;
+  py::class_<Owner>(module, "CurveSkeleton")
+      .def_property_readonly(
+          "nodes", view_of<Owner>([](const Owner& one) -> const auto& { return one.nodes; }))
+      .def_property_readonly(
+          "edges", view_of<Owner>([](const Owner& one) -> const auto& { return one.edges; }))
+      .def_property_readonly(
+          "radii", view_of<Owner>([](const Owner& one) -> const auto& { return one.radii; }))
+      .def_property_readonly(
+          "lives", view_of<Owner>([](const Owner& one) -> const auto& { return one.lives; }))
+      .def_property_readonly("node_of_vertex", view_of<Owner>([](const Owner& one) -> const auto& {
+                               return one.node_of_vertex;
+                             }))
+      .def("branches", &nodes_of_branches)
+      .def("branch_table", &branch_table);
+}
+
+}  // namespace
+}  // namespace curveskel
+
+PYBIND11_MODULE(_core, module) {
+  namespace py = pybind11;
+  using namespace curveskel;
+  py::register_exception_translator(&translate);
+  py::class_<PolygonSoup>(module, "PolygonSoup");
+  bind_skeleton(module);
+  bind_extraction(module);
+  module.def("program_and_version", &program_and_version);
+  module.def("soup_of_arrays", &soup_of_arrays);
+  module.def("read_surface", &read_file);
+  module.def("read_skeleton", &read_skeleton_file);
+  module.def("save_skeleton", &save_skeleton);
+  module.def("extract", &extract_in_background);
+}
