@@ -5,14 +5,17 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/branch_measures.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
+#include <curveskel/evaluate_repaired.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/kernel_cache.hpp"
@@ -90,6 +93,31 @@ PolygonSoup read_file(const std::filesystem::path& path, const py::object& progr
 CurveSkeleton read_skeleton_file(const std::filesystem::path& path) {
   const py::gil_scoped_release others_may_run;
   return read_skeleton(path);
+}
+
+CurveSkeleton skeleton_of_arrays(const Positions& nodes,
+                                 const py::array_t<std::int64_t>& node_pairs) {
+  if (node_pairs.ndim() != 2 || node_pairs.shape(1) != 2) {
+    throw Error(Fault::usage, "edges: needs an array of shape (m, 2)");
+  }
+  const auto pairs = node_pairs.unchecked<2>();
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;  // as described at Edges
+  for (py::ssize_t e = 0; e < pairs.shape(0); ++e) {
+    const auto [a, b] = std::minmax({pairs(e, 0), pairs(e, 1)});
+    if (a < 0 || b >= nodes.rows() || a == b) {
+      throw Error(Fault::input, "edge " + std::to_string(e) + ": found nodes " + std::to_string(a) +
+                                    " and " + std::to_string(b) +
+                                    ", needed two different ones of " +
+                                    std::to_string(nodes.rows()));
+    }
+    edges.emplace(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
+  }
+  CurveSkeleton skeleton;
+  skeleton.nodes = nodes;
+  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  Eigen::Index row = 0;
+  for (const auto& [a, b] : edges) skeleton.edges.row(row++) << a, b;
+  return skeleton;
 }
 
 template <typename Choice, std::size_t Count>
@@ -284,6 +312,20 @@ py::dict branch_table(const CurveSkeleton& skeleton) {
   return table;
 }
 
+/// As `curveskel evaluate` does.
+py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& skeleton,
+                                const py::dict& options, const py::object& progress) {
+  const ExtractSettings settings = settings_of(options);
+  RepairedEvaluation found;
+  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+    const RepairedSurface repaired =
+        repair(soup, settings.repair, monitor, settings.extract.threads);
+    found = evaluate_repaired(repaired, settings.repair, skeleton, settings.extract.certificate,
+                              monitor);
+  });
+  return dictionary_of(found.certificate);
+}
+
 /// A view of a matrix of `Owner`, which stays alive as long as the array: no copy, not writable.
 template <typename Owner, typename Get>
 py::cpp_function view_of(const Get& get) {
@@ -356,5 +398,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("read_surface", &read_file);
   module.def("read_skeleton", &read_skeleton_file);
   module.def("save_skeleton", &save_skeleton);
+  module.def("evaluate", &evaluate_in_background);
+  module.def("skeleton_of_arrays", &skeleton_of_arrays);
   module.def("extract", &extract_in_background);
 }

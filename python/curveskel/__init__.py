@@ -12,8 +12,8 @@ networkx, trimesh and tqdm are imported when asked for.
 from . import _core
 from .errors import (CertificateWarning, DeviceError, Error, InputError, OutputError, SolverError,
                      UsageError)
-from .skeleton import Skeleton, extract, read
+from .skeleton import Skeleton, evaluate, extract, read
 
 __version__ = _core.program_and_version().split()[-1]
 __all__ = ["CertificateWarning", "DeviceError", "Error", "InputError", "OutputError", "Skeleton",
-           "SolverError", "UsageError", "extract", "read"]
+           "SolverError", "UsageError", "evaluate", "extract", "read"]

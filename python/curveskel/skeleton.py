@@ -7,7 +7,7 @@ import warnings
 import numpy
 
 from . import _core
-from .errors import CertificateWarning, SolverError, UsageError
+from .errors import CertificateWarning, Error, SolverError, UsageError
 
 
 class Skeleton:
@@ -221,6 +221,39 @@ def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **optio
             raise SolverError(message)
         warnings.warn(message, CertificateWarning, stacklevel=2)
     return Skeleton(extraction.skeleton, extraction)
+
+
+def evaluate(mesh, skeleton, *, threads=0, progress=None, **options):
+    """The certificate of any skeleton of a surface: a dict, as `Skeleton.certificate`.
+
+    skeleton: a Skeleton, a path to a skeleton file, a pair of arrays, nodes (n, 3) and edges
+        (m, 2), or an object with `vertices` and `edges`, as skeletor's.
+    options: those of repair: components, merge_overlapping, min_size, wrap, wrap_gap.
+
+    Raises UsageError or InputError.
+    """
+    if isinstance(skeleton, (str, os.PathLike)):
+        skeleton = read(skeleton)
+    if isinstance(skeleton, Skeleton):
+        graph = skeleton._graph
+    else:
+        if hasattr(skeleton, "vertices") and hasattr(skeleton, "edges"):
+            skeleton = (skeleton.vertices, skeleton.edges)
+        try:
+            nodes, edges = skeleton
+            graph = _core.skeleton_of_arrays(numpy.asarray(nodes, dtype=numpy.float64),
+                                             numpy.asarray(edges, dtype=numpy.int64))
+        except (TypeError, ValueError) as error:
+            if isinstance(error, Error):
+                raise
+            raise UsageError("skeleton: needs a Skeleton, a path or a pair (nodes, edges), not "
+                             f"{type(skeleton).__name__}") from error
+    callback, close = _progress(progress)
+    try:
+        return _core.evaluate(_soup(mesh, callback), graph, dict(options, threads=threads),
+                              callback)
+    finally:
+        close()
 
 
 def read(path):

@@ -152,6 +152,32 @@ class Arrays(Folder):
         self.assertTrue(all(data["length"] > 0 for *_, data in graph.edges(data=True)))
 
 
+class Certificates(Folder):
+    def test_of_an_extraction_is_found_again_from_arrays_and_from_a_file(self):
+        for mesh in (Y, TORUS):
+            skeleton = curveskel.extract(mesh)
+            skeleton.save(self.folder / "skeleton.ply")
+            for given in (skeleton, self.folder / "skeleton.ply",
+                          (skeleton.vertices, skeleton.edges[::-1, ::-1])):
+                found = curveskel.evaluate(mesh, given)
+                self.assertTrue(found["holds"])
+                for name, value in skeleton.certificate.items():
+                    self.assertAlmostEqual(found[name], value, delta=0.01 * max(1, abs(value)),
+                                           msg=name)
+
+    def test_of_a_wrong_skeleton_fails(self):
+        skeleton = curveskel.extract(TORUS)
+        cut = curveskel.evaluate(TORUS, (skeleton.vertices, skeleton.edges[1:]))
+        self.assertFalse(cut["topology_correct"])
+        moved = curveskel.evaluate(TORUS, (skeleton.vertices + 10, skeleton.edges))
+        self.assertEqual(moved["inside_fraction"], 0)
+        for edges in ([[0, 0]], [[0, len(skeleton.vertices)]]):
+            with self.assertRaises(curveskel.InputError):
+                curveskel.evaluate(TORUS, (skeleton.vertices, edges))
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.evaluate(TORUS, 7)
+
+
 class Errors(Folder):
     def test_each_fault_has_its_class_and_status(self):
         for error, status, call in (
