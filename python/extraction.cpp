@@ -7,6 +7,7 @@
 #include "app/report.hpp"
 
 namespace curveskel {
+
 PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
                               const Monitor& monitor) {
   PythonExtraction result;

@@ -283,15 +283,13 @@ py::dict branch_table(const CurveSkeleton& skeleton) {
   py::dict table;
   table["start"] = of([&](std::size_t row) { return all[row].nodes.front(); });
   table["end"] = of([&](std::size_t row) { return all[row].nodes.back(); });
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = std::string("_") + "xyz"[axis];
-    table[("start" + name).c_str()] =
-        of([&](std::size_t row) { return skeleton.nodes(all[row].nodes.front(), axis); });
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = std::string("_") + "xyz"[axis];
-    table[("end" + name).c_str()] =
-        of([&](std::size_t row) { return skeleton.nodes(all[row].nodes.back(), axis); });
+  for (const std::string end : {"start", "end"}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      table[(end + "_" + "xyz"[axis]).c_str()] = of([&](std::size_t row) {
+        const std::vector<int>& nodes = all[row].nodes;
+        return skeleton.nodes(end == "start" ? nodes.front() : nodes.back(), axis);
+      });
+    }
   }
   table["nodes"] = of([&](std::size_t row) { return all[row].nodes.size(); });
   table["length"] = number(&BranchMeasures::length);
@@ -315,7 +313,8 @@ py::dict branch_table(const CurveSkeleton& skeleton) {
 /// As `curveskel evaluate` does.
 py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& skeleton,
                                 const py::dict& options, const py::object& progress) {
-  const ExtractSettings settings = settings_of(options);
+  ExtractSettings settings = settings_of(options);
+  settings.extract.certificate.threads = settings.extract.threads;
   RepairedEvaluation found;
   run_beside_interpreter(progress, [&](const Monitor& monitor) {
     const RepairedSurface repaired =

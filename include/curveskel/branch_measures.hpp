@@ -24,8 +24,8 @@ struct BranchMeasures {
   double length = 0;      ///< along the branch
   double chord = 0;       ///< straight from its start to its end; 0 of one that closes
   double tortuosity = 0;  ///< length / chord - 1: 0 = straight; NaN where it closes
-  double mean_radius =
-      0;  ///< over the length, between nodes linear; NaN without radii, as the next
+  /// Over the length, linear between nodes. NaN without radii, as the next two.
+  double mean_radius = 0;
   double least_radius = 0;
   double largest_radius = 0;
 };

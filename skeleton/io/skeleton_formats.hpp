@@ -19,9 +19,6 @@ namespace curveskel {
                                        const SkeletonContext& context);
 [[nodiscard]] std::string json_from(const CurveSkeleton& skeleton, const SkeletonContext& context);
 
-/// Sum of the lengths of a branch's edges, in model units.
-[[nodiscard]] double branch_length(const CurveSkeleton& skeleton, const Branch& branch);
-
 /// The nodes that no edge touches, ascending.
 [[nodiscard]] std::vector<int> isolated_nodes(const CurveSkeleton& skeleton);
 

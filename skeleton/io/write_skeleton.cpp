@@ -40,15 +40,6 @@ void append_field(std::string& text, Number number, bool is_there = true) {
 
 }  // namespace
 
-double branch_length(const CurveSkeleton& skeleton, const Branch& branch) {
-  double length = 0;
-  for (std::size_t k = 1; k < branch.nodes.size(); ++k) {
-    length +=
-        (skeleton.nodes.row(branch.nodes[k]) - skeleton.nodes.row(branch.nodes[k - 1])).norm();
-  }
-  return length;
-}
-
 std::vector<int> isolated_nodes(const CurveSkeleton& skeleton) {
   std::vector<bool> touched(static_cast<std::size_t>(skeleton.nodes.rows()), false);
   for (const std::int32_t node : skeleton.edges.reshaped()) {
