@@ -20,10 +20,7 @@ PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
       extract_repaired(result.repaired, settings.repair, settings.extract, noting);
   if (found.wrapped) result.repaired = std::move(*found.wrapped);
   result.extraction = std::move(found.extraction);
-  result.skeleton = result.extraction.skeleton;
-  result.skeleton.node_of_vertex = result.repaired.vertex_of_input.unaryExpr([&result](int vertex) {
-    return vertex < 0 ? -1 : result.extraction.skeleton.node_of_vertex[vertex];
-  });
+  result.skeleton = on_input_vertices(result.repaired, result.extraction.skeleton);
   return result;
 }
 

@@ -50,13 +50,6 @@ auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
   return result;
 }
 
-/// From vertices of the repaired surface to those of the file.
-Eigen::VectorXi node_of_file_vertex(const RepairedSurface& repaired,
-                                    const CurveSkeleton& skeleton) {
-  return repaired.vertex_of_input.unaryExpr(
-      [&](int vertex) { return vertex < 0 ? -1 : skeleton.node_of_vertex[vertex]; });
-}
-
 std::string count_of(Eigen::Index count, const std::string& one, const std::string& many = {}) {
   return fmt::format("{} {}", count, count == 1 ? one : many.empty() ? one + "s" : many);
 }
@@ -202,8 +195,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   const Extraction& extraction = found.extraction;
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());
 
-  CurveSkeleton skeleton = extraction.skeleton;
-  skeleton.node_of_vertex = node_of_file_vertex(repaired, extraction.skeleton);
+  const CurveSkeleton skeleton = on_input_vertices(repaired, extraction.skeleton);
   const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
                                 extraction, notes,    arguments.preset};
   auto files = timed(times, "write",

@@ -37,4 +37,9 @@ struct RepairedExtraction {
                                                   const ExtractOptions& options,
                                                   const Monitor& monitor, ExtractionCache& cache);
 
+/// The same skeleton with a vertex map of the file's vertices instead of the surface's; -1 = the
+/// vertex was dropped. O(#V + #N).
+[[nodiscard]] CurveSkeleton on_input_vertices(const RepairedSurface& repaired,
+                                              CurveSkeleton skeleton);
+
 }  // namespace curveskel

@@ -208,4 +208,11 @@ RepairedExtraction extract_repaired(const RepairedSurface& repaired,
   return extracted(repaired, as_repaired, options, monitor, &kept);
 }
 
+CurveSkeleton on_input_vertices(const RepairedSurface& repaired, CurveSkeleton skeleton) {
+  const Eigen::VectorXi of_surface = std::move(skeleton.node_of_vertex);
+  skeleton.node_of_vertex = repaired.vertex_of_input.unaryExpr(
+      [&](int vertex) { return vertex < 0 ? -1 : of_surface[vertex]; });
+  return skeleton;
+}
+
 }  // namespace curveskel

@@ -10,17 +10,6 @@
 #include "viewer/software/priority.hpp"
 
 namespace curveskel::viewer {
-namespace {
-
-CurveSkeleton on_file_vertices(const RepairedSurface& repaired, const CurveSkeleton& skeleton) {
-  CurveSkeleton result = skeleton;
-  result.node_of_vertex = repaired.vertex_of_input.unaryExpr(
-      [&](int vertex) { return vertex < 0 ? -1 : skeleton.node_of_vertex[vertex]; });
-  return result;
-}
-
-}  // namespace
-
 std::string duration_text(double seconds) {
   const int digits = seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0;
   return fmt::format("{:.{}f} s", seconds, digits);
@@ -101,7 +90,7 @@ void Run::extract_all(const Monitor& monitor) {
   }
   result.extraction = std::make_shared<const Extraction>(std::move(found.extraction));
   result.skeleton = std::make_shared<const CurveSkeleton>(
-      on_file_vertices(*result.repaired, result.extraction->skeleton));
+      on_input_vertices(*result.repaired, result.extraction->skeleton));
   result.seconds = seconds();
   Moment last;
   last.stage = "skeleton";
