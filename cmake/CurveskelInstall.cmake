@@ -36,6 +36,8 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/advanced/surface_partition.hpp
   include/curveskel/advanced/surgery.hpp
   include/curveskel/branch_measures.hpp
+  include/curveskel/branch_profiles.hpp
+  include/curveskel/branch_territories.hpp
   include/curveskel/certificate.hpp
   include/curveskel/curve_skeleton.hpp
   include/curveskel/edit.hpp
@@ -43,6 +45,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/extract.hpp
   include/curveskel/extract_repaired.hpp
   include/curveskel/findings.hpp
+  include/curveskel/labelled_surface.hpp
   include/curveskel/levels.hpp
   include/curveskel/lives.hpp
   include/curveskel/preset.hpp

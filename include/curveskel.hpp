@@ -20,6 +20,8 @@
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/branch_measures.hpp>
+#include <curveskel/branch_profiles.hpp>
+#include <curveskel/branch_territories.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/check_weights.hpp>
 #include <curveskel/clean.hpp>
@@ -33,6 +35,7 @@
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/fair.hpp>
 #include <curveskel/findings.hpp>
+#include <curveskel/labelled_surface.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/preset.hpp>

@@ -1,7 +1,9 @@
 #include "python/extraction.hpp"
 
+#include <optional>
 #include <utility>
 
+#include <curveskel/branch_territories.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include "app/certificate_table.hpp"
 #include "app/report.hpp"
@@ -24,16 +26,24 @@ PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
   return result;
 }
 
-std::string format_extraction(const PythonExtraction& extraction, SkeletonFormat format) {
+std::string provenance_of(const PythonExtraction& extraction) {
   const std::filesystem::path& file = extraction.soup.file;
+  return program_and_version() + ", " + (file.empty() ? "arrays" : file.filename().string());
+}
+
+std::string format_extraction(const PythonExtraction& extraction, SkeletonFormat format) {
   SkeletonContext context;
   context.surface = &extraction.repaired.surface;
-  context.provenance =
-      program_and_version() + ", " + (file.empty() ? "arrays" : file.filename().string());
+  context.provenance = provenance_of(extraction);
   context.report_json =
       result_json({extraction.soup, extraction.repaired, extraction.settings.repair,
                    extraction.settings.extract, extraction.extraction, extraction.notes,
                    extraction.settings.preset});
+  std::optional<BranchTerritories> territories;
+  if (format == SkeletonFormat::csv) {
+    territories = branch_territories(extraction.repaired.surface, extraction.extraction.skeleton);
+    context.territories = &*territories;
+  }
   return format_skeleton(extraction.skeleton, format, context);
 }
 

@@ -32,6 +32,9 @@ struct PythonExtraction {
 [[nodiscard]] PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
                                             const Monitor& monitor);
 
+/// One line for files: the program, and the file that the surface is from.
+[[nodiscard]] std::string provenance_of(const PythonExtraction& extraction);
+
 /// The bytes of the skeleton file that `curveskel extract` writes. Errors as of `format_skeleton`.
 [[nodiscard]] std::string format_extraction(const PythonExtraction& extraction,
                                             SkeletonFormat format);

@@ -6,22 +6,21 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include <curveskel/advanced/write_file.hpp>
-#include <curveskel/branch_measures.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/evaluate_repaired.hpp>
-#include <curveskel/levels.hpp>
+#include <curveskel/labelled_surface.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
 #include "python/background_work.hpp"
 #include "python/extraction.hpp"
+#include "python/tables.hpp"
 
 namespace curveskel {
 namespace {
@@ -223,6 +222,20 @@ void save_skeleton(const CurveSkeleton& skeleton, const std::filesystem::path& o
   write_file(output, format_skeleton(skeleton, format_named(format, output), context));
 }
 
+void save_labelled(const PythonExtraction& extraction, const std::filesystem::path& output,
+                   const std::string& format) {
+  const py::gil_scoped_release others_may_run;
+  const auto chosen = choice_of(labelled_formats, format);
+  if (!chosen) {
+    throw Error(Fault::output,
+                output.string() + ": the extension is none of: " + names_in(labelled_formats));
+  }
+  const BranchLabels labels =
+      labels_of_input(extraction.soup, extraction.repaired, extraction.extraction.skeleton);
+  write_file(output,
+             format_labelled_surface(extraction.soup, labels, *chosen, provenance_of(extraction)));
+}
+
 std::string picture(const PythonExtraction& extraction) {
   const py::gil_scoped_release others_may_run;
   return format_extraction(extraction, SkeletonFormat::svg);
@@ -260,54 +273,6 @@ std::vector<std::vector<int>> nodes_of_branches(const CurveSkeleton& skeleton) {
   std::vector<std::vector<int>> nodes;
   for (Branch& branch : branches(skeleton)) nodes.push_back(std::move(branch.nodes));
   return nodes;
-}
-
-/// A column of the table of branches.
-template <typename Get>
-py::list column(std::size_t rows, const Get& get) {
-  py::list values;
-  for (std::size_t row = 0; row < rows; ++row) values.append(get(row));
-  return values;
-}
-
-/// The columns of the CSV file but the first, which is the row's number; none is NaN or None.
-py::dict branch_table(const CurveSkeleton& skeleton) {
-  const std::vector<Branch> all = branches(skeleton);
-  const std::vector<BranchLevel> levels = branch_levels(skeleton);
-  const std::vector<BranchMeasures> measures = branch_measures(skeleton);
-  const auto of = [&](const auto& get) { return column(all.size(), get); };
-  const auto number = [&](double BranchMeasures::*member) {
-    return of([&measures, member](std::size_t row) { return measures[row].*member; });
-  };
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  py::dict table;
-  table["start"] = of([&](std::size_t row) { return all[row].nodes.front(); });
-  table["end"] = of([&](std::size_t row) { return all[row].nodes.back(); });
-  for (const std::string end : {"start", "end"}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      table[(end + "_" + "xyz"[axis]).c_str()] = of([&](std::size_t row) {
-        const std::vector<int>& nodes = all[row].nodes;
-        return skeleton.nodes(end == "start" ? nodes.front() : nodes.back(), axis);
-      });
-    }
-  }
-  table["nodes"] = of([&](std::size_t row) { return all[row].nodes.size(); });
-  table["length"] = number(&BranchMeasures::length);
-  table["mean_radius"] = number(&BranchMeasures::mean_radius);
-  table["life"] =
-      of([&](std::size_t row) { return has_lives(skeleton) ? levels[row].life : none; });
-  table["parent"] = of([&](std::size_t row) {
-    return levels[row].parent < 0 ? py::object(py::none()) : py::int_(levels[row].parent);
-  });
-  table["merge"] =
-      of([&](std::size_t row) { return levels[row].merge < 0 ? none : levels[row].merge; });
-  table["kind"] =
-      of([&](std::size_t row) { return std::string(name_of(branch_kinds, measures[row].kind)); });
-  table["chord"] = number(&BranchMeasures::chord);
-  table["tortuosity"] = number(&BranchMeasures::tortuosity);
-  table["radius_min"] = number(&BranchMeasures::least_radius);
-  table["radius_max"] = number(&BranchMeasures::largest_radius);
-  return table;
 }
 
 /// As `curveskel evaluate` does.
@@ -361,6 +326,19 @@ void bind_extraction(py::module_& module) {
       .def_property_readonly("holds",
                              [](const Owner& one) { return one.extraction.certificate.holds(); })
       .def("picture", &picture)
+      .def("branch_table",
+           [](const Owner& one, int root) { return branch_table(one.skeleton, &one, root); })
+      .def("profiles",
+           [](const Owner& one, double spacing, int threads, const py::object& progress) {
+             return profile_table(one.repaired.surface, one.extraction.skeleton, spacing, threads,
+                                  progress);
+           })
+      .def("labels",
+           [](const Owner& one) {
+             BranchLabels labels = labels_of_input(one.soup, one.repaired, one.extraction.skeleton);
+             return std::pair(std::move(labels.of_vertex), std::move(labels.of_polygon));
+           })
+      .def("save_labelled", &save_labelled)
       .def("save", &save_extraction);
 }
 
@@ -379,7 +357,9 @@ void bind_skeleton(py::module_& module) {
                                return one.node_of_vertex;
                              }))
       .def("branches", &nodes_of_branches)
-      .def("branch_table", &branch_table);
+      .def("branch_table",
+           [](const Owner& one, int root) { return branch_table(one, nullptr, root); })
+      .def("junction_table", &junction_table);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 #include <chrono>
 #include <memory>
 
+#include <curveskel/branch_profiles.hpp>
+#include <curveskel/branch_territories.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/labelled_surface.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
@@ -27,6 +30,9 @@ struct ExtractArguments {
   std::vector<std::string> outputs;
   std::optional<SkeletonFormat> format;
   std::string report;
+  std::string profiles;
+  std::string junctions;
+  std::string labelled;
   int levels = 1;
   bool quiet = false;
   bool strict = false;
@@ -120,14 +126,49 @@ std::vector<std::string> skeleton_names(const ExtractArguments& arguments) {
   return names;
 }
 
+std::string provenance_of(const ExtractArguments& arguments) {
+  return program_and_version() + ", " + arguments.mesh.filename().string();
+}
+
+/// Of the finest level.
+void format_tables(const ExtractArguments& arguments, const ExtractionRecord& record,
+                   Session& session, std::vector<OutputFile>& files) {
+  const Surface& surface = record.repaired.surface;
+  const CurveSkeleton& skeleton = record.extraction.skeleton;
+  if (!arguments.profiles.empty()) {
+    const ProfileOptions options{0, arguments.options.threads};
+    files.push_back({arguments.profiles, format_profiles(branch_profiles(surface, skeleton, options,
+                                                                         session.monitor()))});
+  }
+  if (!arguments.junctions.empty()) {
+    files.push_back({arguments.junctions, format_junctions(skeleton)});
+  }
+  if (!arguments.labelled.empty()) {
+    const BranchLabels labels = labels_of_input(record.soup, record.repaired, skeleton);
+    files.push_back({arguments.labelled,
+                     format_labelled_surface(record.soup, labels,
+                                             format_of(arguments.labelled, labelled_formats),
+                                             provenance_of(arguments))});
+  }
+}
+
 std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
                                        const std::vector<SkeletonFormat>& formats,
                                        const ExtractionRecord& record,
                                        const CurveSkeleton& skeleton, Session& session) {
   SkeletonContext context;
   context.surface = &record.repaired.surface;
-  context.provenance = program_and_version() + ", " + arguments.mesh.filename().string();
+  context.provenance = provenance_of(arguments);
   context.report_json = result_json(record);
+  const auto format_level = [&](double limit, SkeletonFormat format) {
+    if (format != SkeletonFormat::csv) {
+      return format_skeleton(level_of(skeleton, limit), format, context);
+    }
+    const BranchTerritories territories =
+        branch_territories(record.repaired.surface, level_of(record.extraction.skeleton, limit));
+    context.territories = &territories;
+    return format_skeleton(level_of(skeleton, limit), format, context);
+  };
   std::vector<OutputFile> files;
   std::vector<double> limits{0};
   if (arguments.levels > 1) limits = level_limits(skeleton, arguments.levels);
@@ -135,12 +176,12 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
     session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
     const std::string& output = arguments.outputs[i];
     if (arguments.levels == 1) {
-      files.push_back({output, format_skeleton(skeleton, formats[i], context)});
+      files.push_back({output, format_level(0, formats[i])});
       continue;
     }
     for (std::size_t k = 0; k < limits.size(); ++k) {
-      files.push_back({name_of_level(output, static_cast<int>(k) + 1),
-                       format_skeleton(level_of(skeleton, limits[k]), formats[i], context)});
+      files.push_back(
+          {name_of_level(output, static_cast<int>(k) + 1), format_level(limits[k], formats[i])});
     }
   }
   if (static_cast<int>(limits.size()) < arguments.levels) {
@@ -153,7 +194,11 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
   std::vector<std::string> names = skeleton_names(arguments);
-  if (!arguments.report.empty()) names.push_back(arguments.report);
+  for (const std::string& table :
+       {arguments.report, arguments.profiles, arguments.junctions, arguments.labelled}) {
+    if (!table.empty()) names.push_back(table);
+  }
+  if (!arguments.labelled.empty()) (void)format_of(arguments.labelled, labelled_formats);
   check_outputs(names, arguments.mesh);
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
   if (to_output) session.terminal.keep_output_clean();
@@ -198,8 +243,11 @@ int run_extract(ExtractArguments arguments, Session& session) {
   const CurveSkeleton skeleton = on_input_vertices(repaired, extraction.skeleton);
   const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
                                 extraction, notes,    arguments.preset};
-  auto files = timed(times, "write",
-                     [&] { return format_outputs(arguments, formats, record, skeleton, session); });
+  auto files = timed(times, "write", [&] {
+    auto formatted = format_outputs(arguments, formats, record, skeleton, session);
+    format_tables(arguments, record, session, formatted);
+    return formatted;
+  });
   if (!arguments.report.empty()) {
     files.push_back(
         {arguments.report, report_json(record, {times, seconds_since(begin), arguments.outputs})});
@@ -217,7 +265,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   return exit_code_of(extraction.certificate, arguments, session);
 }
 
-/// MESH, --output, --format and --report.
+/// MESH and all names of files that are written.
 void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
       .add_option("MESH", arguments.mesh,
@@ -246,6 +294,18 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
       .add_option("--report", arguments.report, "what was changed, decided and measured, as JSON")
       ->type_name("FILE.json");
+  parser
+      .add_option("--profiles", arguments.profiles,
+                  "sections of the surface across the branches, at each node, as CSV")
+      ->type_name("FILE.csv");
+  parser
+      .add_option("--junctions", arguments.junctions,
+                  "junctions with the angles between their branches, as CSV")
+      ->type_name("FILE.csv");
+  parser
+      .add_option("--labelled", arguments.labelled,
+                  "the surface of the file coloured by its branches: " + names_in(labelled_formats))
+      ->type_name("FILE");
 }
 
 void add_resolution(CLI::App& parser, ExtractOptions& options) {

@@ -3,8 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <curveskel/advanced/names.hpp>
+#include <curveskel/branch_measures.hpp>
+#include <curveskel/branch_profiles.hpp>
+#include <curveskel/branch_territories.hpp>
 #include <curveskel/curve_skeleton.hpp>
 
 namespace curveskel {
@@ -17,7 +21,8 @@ inline constexpr NameTable<SkeletonFormat, 10> skeleton_formats{{
     {SkeletonFormat::cgal, "cgal", "CGAL polylines, one branch a line"},
     {SkeletonFormat::swc, "swc", "SWC neuron tree; loops are cut, the cuts are comments"},
     {SkeletonFormat::vtp, "vtp", "VTK XML PolyData, radius as point data"},
-    {SkeletonFormat::csv, "csv", "table of branches: ends, kind, length, tortuosity, radii, life"},
+    {SkeletonFormat::csv, "csv",
+     "table of branches: ends, kind, length, bends, radii, area, volume"},
     {SkeletonFormat::graphml, "graphml", "GraphML: x, y, z, radius per node, length per edge"},
     {SkeletonFormat::json, "json", "nodes, edges, radii, vertex map, parameters, certificate"},
     {SkeletonFormat::svg, "svg", "picture: the skeleton inside its surface"},
@@ -36,6 +41,7 @@ struct SkeletonContext {
   /// A node from which a tree grows, -1 = none was chosen: SWC takes it as the root of its
   /// component, which comes first; JSON has it as "root".
   int root = -1;
+  const BranchTerritories* territories = nullptr;  ///< for areas and volumes in CSV
 };
 
 /// The text or bytes of the file; give them to `write_file`. Numbers are written so that reading
@@ -46,6 +52,13 @@ struct SkeletonContext {
 /// node. O(#N log #N + #E), for pictures also O(#F + pixels).
 [[nodiscard]] std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                                           const SkeletonContext& context);
+
+/// CSV: a row for each section, an empty field where there is no number. docs/numbers.md has the
+/// columns.
+[[nodiscard]] std::string format_profiles(const std::vector<BranchSection>& sections);
+
+/// CSV: a row for each junction, several branches or angles in one field with spaces between.
+[[nodiscard]] std::string format_junctions(const CurveSkeleton& skeleton);
 
 /// Reads OBJ, PLY (all encodings), CGAL polylines, SWC, VTP (all of VTK's encodings), GraphML and
 /// JSON (this program's, or a node-link graph), gzipped or not, whoever wrote them. Coincident

@@ -91,10 +91,69 @@ class Skeleton:
 
         docs/numbers.md defines each. Lengths and radii are in the units of the surface.
         """
+        return self.branch_table()
+
+    def branch_table(self, root=None):
+        """`branches`, with orders counted from the node `root` in its component.
+
+        Without one they are counted from the thickest node of each component.
+        """
         import pandas
 
-        table = pandas.DataFrame(self._graph.branch_table())
-        return table.astype({"parent": "Int64"}).rename_axis("branch")
+        source = self._graph if self._extraction is None else self._extraction
+        table = pandas.DataFrame(source.branch_table(-1 if root is None else int(root)))
+        return table.astype({"parent": "Int64", "strahler_order": "Int64"}).rename_axis("branch")
+
+    @property
+    def junctions(self):
+        """DataFrame, one row a node of three or more branches: degree, branches, angles, planarity.
+
+        `angles` are degrees between the branches of each pair, in the order of
+        itertools.combinations(row.branches, 2). docs/numbers.md defines each column.
+        """
+        import pandas
+
+        return pandas.DataFrame(self._graph.junction_table()).set_index("node")
+
+    def profiles(self, spacing=None, *, threads=0, progress=None):
+        """DataFrame of sections along each branch: place, tangent, area, perimeter, and more.
+
+        spacing: of the sections along the branch, or the next smaller that divides it, in the
+            units of the surface; None = a section at each node, as `curveskel extract --profiles`.
+
+        docs/numbers.md defines each column. Raises UsageError of a skeleton without a surface.
+        """
+        import pandas
+
+        self._need_surface("sections")
+        callback, close = _progress(progress)
+        try:
+            return pandas.DataFrame(
+                self._extraction.profiles(0.0 if spacing is None else float(spacing), threads,
+                                          callback))
+        finally:
+            close()
+
+    def vertex_labels(self):
+        """(v,) int32: the branch of each vertex given; -1 = of none."""
+        self._need_surface("labels")
+        return self._extraction.labels()[0]
+
+    def face_labels(self):
+        """(f,) int32: the branch of each face given; -1 = of none."""
+        self._need_surface("labels")
+        return self._extraction.labels()[1]
+
+    def save_labelled(self, path):
+        """Writes the surface given with its branches as labels and colours: PLY, VTP or GLB."""
+        self._need_surface("labels")
+        self._extraction.save_labelled(pathlib.Path(path),
+                                       pathlib.Path(path).suffix.lower().lstrip("."))
+
+    def _need_surface(self, things):
+        if self._extraction is None:
+            raise UsageError(f"{things} are of the surface, which a skeleton from a file has not; "
+                             "extract it, or use evaluate")
 
     def to_networkx(self):
         """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` of edges."""
@@ -119,6 +178,21 @@ class Skeleton:
 
         return Path3D(entities=[Line(nodes) for nodes in self.branch_nodes],
                       vertices=numpy.array(self.vertices), process=False)
+
+    def to_pyvista(self):
+        """pyvista.PolyData, one polyline a branch, with `radius` and `life` of points."""
+        import pyvista
+
+        branches = self.branch_nodes
+        data = pyvista.PolyData(numpy.array(self.vertices))
+        data.lines = numpy.concatenate(
+            [numpy.concatenate(([len(nodes)], nodes)) for nodes in branches]
+        ) if branches else numpy.empty(0, dtype=int)
+        data.cell_data["branch"] = numpy.arange(len(branches))
+        for name, values in (("radius", self.radii), ("life", self.lives)):
+            if len(values):
+                data.point_data[name] = numpy.array(values)
+        return data
 
     def to_swc(self, path):
         """Writes an SWC file; loops are cut, and the cuts are comments in it."""

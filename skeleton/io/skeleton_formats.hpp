@@ -14,7 +14,7 @@ namespace curveskel {
 [[nodiscard]] std::string polylines_from(const CurveSkeleton& skeleton);
 [[nodiscard]] std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& context);
 [[nodiscard]] std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& context);
-[[nodiscard]] std::string csv_from(const CurveSkeleton& skeleton);
+[[nodiscard]] std::string csv_from(const CurveSkeleton& skeleton, const SkeletonContext& context);
 [[nodiscard]] std::string graphml_from(const CurveSkeleton& skeleton,
                                        const SkeletonContext& context);
 [[nodiscard]] std::string json_from(const CurveSkeleton& skeleton, const SkeletonContext& context);

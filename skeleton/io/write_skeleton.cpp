@@ -1,7 +1,6 @@
 // The choice of the format, and the formats that are little more than a list of points and lines.
 #include <cstdint>
 
-#include <curveskel/branch_measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
@@ -28,14 +27,6 @@ void append_points(std::string& text, const CurveSkeleton& skeleton, const Branc
     append_decimals(text, skeleton.nodes.row(node), ' ');
   }
   text += '\n';
-}
-
-/// A comma and the number, or nothing where there is none.
-template <typename Number>
-void append_field(std::string& text, Number number, bool is_there = true) {
-  text += ',';
-  if constexpr (std::is_floating_point_v<Number>) is_there = is_there && !std::isnan(number);
-  if (is_there) append_decimal(text, number);
 }
 
 }  // namespace
@@ -113,42 +104,6 @@ std::string polylines_from(const CurveSkeleton& skeleton) {
   return text;
 }
 
-std::string csv_from(const CurveSkeleton& skeleton) {
-  std::string text =
-      "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius,life,"
-      "parent,merge,kind,chord,tortuosity,radius_min,radius_max\n";
-  const std::vector<BranchLevel> levels = branch_levels(skeleton);
-  const std::vector<BranchMeasures> measures = branch_measures(skeleton);
-  std::size_t id = 0;
-  for (const Branch& branch : branches(skeleton)) {
-    const BranchLevel& level = levels[id];
-    const BranchMeasures& numbers = measures[id];
-    const int start = branch.nodes.front();
-    const int end = branch.nodes.back();
-    append_decimal(text, id++);
-    append_field(text, start);
-    append_field(text, end);
-    text += ',';
-    append_decimals(text, skeleton.nodes.row(start), ',');
-    text += ',';
-    append_decimals(text, skeleton.nodes.row(end), ',');
-    append_field(text, branch.nodes.size());
-    append_field(text, numbers.length);
-    append_field(text, numbers.mean_radius);
-    append_field(text, level.life, has_lives(skeleton));
-    append_field(text, level.parent, level.parent >= 0);
-    append_field(text, level.merge, level.merge >= 0);
-    text += ',';
-    text += name_of(branch_kinds, numbers.kind);
-    append_field(text, numbers.chord);
-    append_field(text, numbers.tortuosity);
-    append_field(text, numbers.least_radius);
-    append_field(text, numbers.largest_radius);
-    text += '\n';
-  }
-  return text;
-}
-
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                             const SkeletonContext& context) {
   if (context.root < -1 || context.root >= skeleton.nodes.rows()) {
@@ -168,7 +123,7 @@ std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format
     case SkeletonFormat::vtp:
       return vtp_from(skeleton, context);
     case SkeletonFormat::csv:
-      return csv_from(skeleton);
+      return csv_from(skeleton, context);
     case SkeletonFormat::graphml:
       return graphml_from(skeleton, context);
     case SkeletonFormat::json:

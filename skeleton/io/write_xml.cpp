@@ -8,69 +8,10 @@
 #include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
+#include "skeleton/io/xml_lines.hpp"
 
 namespace curveskel {
 namespace {
-
-/// A document that keeps the lines that it is given: pugixml escapes, and leaves blanks alone.
-class XmlLines {
- public:
-  explicit XmlLines(const std::string& provenance) {
-    pugi::xml_node head = document.append_child(pugi::node_declaration);
-    head.append_attribute("version") = "1.0";
-    head.append_attribute("encoding") = "UTF-8";
-    end_line(document);
-    if (provenance.empty()) return;
-    std::string text = " " + provenance + " ";
-    std::replace_if(text.begin(), text.end(), is_control, ' ');
-    document.append_child(pugi::node_comment).set_value(text.c_str());
-    end_line(document);
-  }
-
-  static void end_line(pugi::xml_node in) { in.append_child(pugi::node_pcdata).set_value("\n"); }
-
-  /// An element whose content begins on a line of its own.
-  static pugi::xml_node open(pugi::xml_node in, const char* name) {
-    pugi::xml_node element = in.append_child(name);
-    end_line(element);
-    return element;
-  }
-
-  [[nodiscard]] std::string text() const {
-    struct Appender : pugi::xml_writer {
-      std::string bytes;
-      void write(const void* data, std::size_t size) override {
-        bytes.append(static_cast<const char*>(data), size);
-      }
-    } appender;
-    document.save(appender, "", pugi::format_raw, pugi::encoding_utf8);
-    return std::move(appender.bytes);
-  }
-
-  pugi::xml_document document;
-
- private:
-  static bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20; }
-};
-
-/// A DataArray with one line per call of `append_row(text, row)`.
-template <typename AppendRow>
-pugi::xml_node append_array(pugi::xml_node in, const char* type, const char* name, int components,
-                            std::size_t rows, const AppendRow& append_row) {
-  pugi::xml_node array = in.append_child("DataArray");
-  array.append_attribute("type") = type;
-  array.append_attribute("Name") = name;
-  if (components > 1) array.append_attribute("NumberOfComponents") = components;
-  array.append_attribute("format") = "ascii";
-  std::string text = "\n";
-  for (std::size_t row = 0; row < rows; ++row) {
-    append_row(text, row);
-    text += '\n';
-  }
-  array.text().set(text.c_str());
-  XmlLines::end_line(in);
-  return array;
-}
 
 void append_cells(pugi::xml_node piece, const char* name, const std::vector<Branch>& cells) {
   pugi::xml_node element = XmlLines::open(piece, name);

@@ -76,6 +76,12 @@ void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vect
   for (double& distance : distances) distance /= here.scale;
 }
 
+std::vector<int> SurfaceTree::near_plane(const Eigen::Vector3d& point,
+                                         const Eigen::Vector3d& normal) const {
+  const Implementation& here = *implementation_;
+  return find_near_plane(*here.tree, here.to_local(point), here.direction_to_local(normal));
+}
+
 bool SurfaceTree::inside(const Eigen::Vector3d& point) const {
   return winds_around(*implementation_->tree, implementation_->to_local(point));
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "surface/spatial/wide_tree.hpp"
 
@@ -33,6 +34,10 @@ void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin
                              std::span<const Eigen::Vector3d> directions,
                              const Eigen::Matrix3d& rotation, double limit,
                              std::span<double> distances);
+
+/// The triangles in leaves that the plane through p comes near, ascending.
+[[nodiscard]] std::vector<int> find_near_plane(const WideTree& tree, const Eigen::Vector3d& p,
+                                               const Eigen::Vector3d& normal);
 
 /// True if the surface winds around p a non-zero number of times.
 [[nodiscard]] bool winds_around(const WideTree& tree, const Eigen::Vector3d& p);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include <curveskel/labelled_surface.hpp>
 
 namespace curveskel::viewer {
 namespace {
@@ -32,23 +33,6 @@ glm::vec3 unpacked(std::uint32_t colour) {
   return glm::vec3((colour >> 16U) & 255U, (colour >> 8U) & 255U, colour & 255U) / 255.0F;
 }
 
-glm::vec3 from_oklch(float lightness, float chroma, float hue) {
-  const float a = chroma * std::cos(hue);
-  const float b = chroma * std::sin(hue);
-  const glm::vec3 cones(lightness + 0.3963377774F * a + 0.2158037573F * b,
-                        lightness - 0.1055613458F * a - 0.0638541728F * b,
-                        lightness - 0.0894841775F * a - 1.2914855480F * b);
-  const glm::vec3 lms = cones * cones * cones;
-  glm::vec3 linear(4.0767416621F * lms.x - 3.3077115913F * lms.y + 0.2309699292F * lms.z,
-                   -1.2684380046F * lms.x + 2.6097574011F * lms.y - 0.3413193965F * lms.z,
-                   -0.0041960863F * lms.x - 0.7034186147F * lms.y + 1.7076147010F * lms.z);
-  linear = glm::clamp(linear, 0.0F, 1.0F);
-  const auto encode = [](float value) {
-    return value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
-  };
-  return {encode(linear.x), encode(linear.y), encode(linear.z)};
-}
-
 }  // namespace
 
 Rgba rgba(const glm::vec3& colour, float alpha) {
@@ -68,12 +52,8 @@ glm::vec3 mapped(ColourMap map, float value) {
 }
 
 glm::vec3 category(std::size_t number) {
-  constexpr float golden = 2.39996323F;  // radians: no two of the first few are near each other
-  constexpr float first_hue = 0.9F;
-  const float hue = std::fmod(first_hue + golden * static_cast<float>(number % 4096),
-                              2 * std::numbers::pi_v<float>);
-  const float lightness = number % 2 == 0 ? 0.72F : 0.64F;
-  return from_oklch(lightness, 0.13F, hue);
+  const auto [red, green, blue] = branch_colour(static_cast<int>(number));
+  return glm::vec3(red, green, blue) / 255.0F;
 }
 
 }  // namespace curveskel::viewer

@@ -26,8 +26,7 @@ inline constexpr NameTable<ColourMap, 3> colour_maps{{
 /// Perceptually uniform; `value` is clamped to 0..1, NaN is grey.
 [[nodiscard]] glm::vec3 mapped(ColourMap map, float value);
 
-/// Colours of equal lightness for numbered things; neighbours differ clearly. (Ottosson 2020,
-/// Oklab)
+/// `branch_colour` for any numbered things.
 [[nodiscard]] glm::vec3 category(std::size_t number);
 
 }  // namespace curveskel::viewer

@@ -1,10 +1,11 @@
-// Distance, ray, inside and inscribed-ball queries against a surface.
+// Distance, ray, plane, inside and inscribed-ball queries against a surface.
 #pragma once
 
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <curveskel/surface.hpp>
 
@@ -52,6 +53,12 @@ class SurfaceTree {
   void rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                      std::span<const Eigen::Vector3d> directions, double limit,
                      std::span<double> distances) const;
+
+  /// Numbers of all triangles that the plane through `point` crosses or touches, ascending, and of
+  /// few that it misses. Cost: linear in their
+  /// number.
+  [[nodiscard]] std::vector<int> near_plane(const Eigen::Vector3d& point,
+                                            const Eigen::Vector3d& normal) const;
 
   /// True if the surface winds around the point a non-zero number of times. Exact up to rounding at
   /// the surface itself: a ray that passes too close to an edge is retried in another fixed
