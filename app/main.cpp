@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   use_large_pages();
   CLI::App program("Curve skeletons of triangle surfaces.", "curveskel");
   const std::vector<Verb> verbs{add_extract(program), add_rig(program),      add_contract(program),
-                                add_fair(program),    add_evaluate(program), add_view(program),
-                                add_devices(program)};
+                                add_fair(program),    add_evaluate(program), add_match(program),
+                                add_view(program),    add_devices(program)};
   return run_program(program, verbs, {argv + 1, argv + argc});
 }

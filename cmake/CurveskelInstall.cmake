@@ -27,7 +27,9 @@ set(CURVESKEL_PUBLIC_CONTRACTION
   include/curveskel/advanced/laplacian.hpp
   include/curveskel/advanced/least_squares.hpp
   include/curveskel/contract.hpp
+  include/curveskel/contract_repaired.hpp
   include/curveskel/fair.hpp
+  include/curveskel/fair_polygons.hpp
 )
 set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/advanced/embed.hpp
@@ -48,6 +50,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/labelled_surface.hpp
   include/curveskel/levels.hpp
   include/curveskel/lives.hpp
+  include/curveskel/match.hpp
   include/curveskel/preset.hpp
   include/curveskel/skeleton_files.hpp
   include/curveskel/tries.hpp
@@ -68,6 +71,7 @@ set(CURVESKEL_PUBLIC_RIG
   include/curveskel/rig_character.hpp
   include/curveskel/rig_files.hpp
   include/curveskel/rig_parts.hpp
+  include/curveskel/rig_polygons.hpp
   include/curveskel/role_names.hpp
 )
 set(CURVESKEL_PUBLIC_APP

@@ -27,6 +27,7 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/compare_rigs.hpp>
 #include <curveskel/contract.hpp>
+#include <curveskel/contract_repaired.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/edit.hpp>
 #include <curveskel/error.hpp>
@@ -34,9 +35,11 @@
 #include <curveskel/extract.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/fair.hpp>
+#include <curveskel/fair_polygons.hpp>
 #include <curveskel/findings.hpp>
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/make_rig.hpp>
+#include <curveskel/match.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
@@ -47,6 +50,7 @@
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/rig_polygons.hpp>
 #include <curveskel/role_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/surface.hpp>

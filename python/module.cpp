@@ -15,11 +15,15 @@
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/evaluate_repaired.hpp>
 #include <curveskel/labelled_surface.hpp>
+#include <curveskel/match.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
 #include "python/background_work.hpp"
 #include "python/extraction.hpp"
+#include "python/options.hpp"
+#include "python/rigging.hpp"
+#include "python/surfaces.hpp"
 #include "python/tables.hpp"
 
 namespace curveskel {
@@ -82,10 +86,11 @@ PolygonSoup soup_of_arrays(const Positions& positions, const py::array_t<std::in
   return soup;
 }
 
-PolygonSoup read_file(const std::filesystem::path& path, const py::object& progress) {
+PolygonSoup read_file(const std::filesystem::path& path, bool as_bound,
+                      const py::object& progress) {
   PolygonSoup soup;
-  run_beside_interpreter(progress,
-                         [&](const Monitor& monitor) { soup = read_polygons(path, monitor); });
+  run_beside_interpreter(
+      progress, [&](const Monitor& monitor) { soup = read_polygons(path, monitor, {as_bound}); });
   return soup;
 }
 
@@ -119,75 +124,25 @@ CurveSkeleton skeleton_of_arrays(const Positions& nodes,
   return skeleton;
 }
 
-template <typename Choice, std::size_t Count>
-void choose(Choice& value, const char* option, const std::string& name,
-            const NameTable<Choice, Count>& table) {
-  const auto found = choice_of(table, name);
-  if (!found) {
-    throw Error(Fault::usage,
-                std::string(option) + ": " + name + " is none of: " + names_in(table));
-  }
-  value = *found;
-}
-
-/// One option of the program, by its name with _ for -.
-void set_option(ExtractSettings& settings, const std::string& name, const py::handle& value) {
-  ExtractOptions& extract = settings.extract;
-  RepairOptions& as_repaired = settings.repair;
-  if (name == "detail") {
-    extract.embed.detail = value.cast<double>();
-  } else if (name == "threads") {
-    extract.threads = value.cast<int>();
-  } else if (name == "resolution") {
-    extract.resolution = py::isinstance<py::str>(value) && value.cast<std::string>() == "full"
-                             ? 0
-                             : value.cast<int>();
-  } else if (name == "fair") {
-    extract.fair.iterations = value.cast<int>();
-  } else if (name == "flow") {
-    choose(extract.contraction.flow, "flow", value.cast<std::string>(), flows);
-  } else if (name == "solver") {
-    choose(extract.contraction.solver, "solver", value.cast<std::string>(), solvers);
-  } else if (name == "components") {
-    as_repaired.components = value.cast<int>();
-  } else if (name == "min_size") {
-    as_repaired.least_area = value.cast<double>();
-  } else if (name == "wrap") {
-    choose(as_repaired.wrap, "wrap", value.cast<std::string>(), wrappings);
-  } else if (name == "wrap_gap") {
-    as_repaired.wrap_gap = value.cast<double>();
-  } else if (name == "merge_overlapping") {
-    as_repaired.merge_overlapping = value.cast<bool>();
-  } else {
-    throw Error(Fault::usage, name +
-                                  " is none of the options: components, detail, fair, flow, "
-                                  "merge_overlapping, min_size, preset, resolution, solver, "
-                                  "threads, wrap, wrap_gap");
-  }
-}
-
 ExtractSettings settings_of(const py::dict& options) {
   ExtractSettings settings;
-  settings.extract.fair.iterations = 0;
+  ExtractOptions& extract = settings.extract;
+  extract.fair.iterations = 0;
   if (options.contains("preset")) {
-    choose(settings.preset, "preset", options["preset"].cast<std::string>(), presets);
-    use_preset(settings.preset, settings.repair, settings.extract);
+    set_options(py::dict(py::arg("preset") = options["preset"]),
+                {{"preset", sets(settings.preset, "preset", presets)}});
+    use_preset(settings.preset, settings.repair, extract);
   }
-  settings.extract.contraction.program_cache = kernel_cache();
-  settings.extract.fair.program_cache = kernel_cache();
-  for (const auto& [key, value] : options) {
-    const auto name = key.cast<std::string>();
-    if (name == "preset") continue;
-    try {
-      set_option(settings, name, value);
-    } catch (const py::cast_error&) {
-      throw Error(Fault::usage, name + ": a value of another type is needed than " +
-                                    py::repr(value).cast<std::string>());
-    }
-  }
-  settings.extract.fairing = settings.extract.fair.iterations > 0;
-  require_valid(settings.extract);
-  require_valid(settings.repair);
+  extract.contraction.program_cache = kernel_cache();
+  extract.fair.program_cache = kernel_cache();
+  OptionSetters setters = repair_setters(settings.repair);
+  setters.merge(extract_setters(extract));
+  setters["threads"] = sets(extract.threads);
+  setters["preset"] = [](const py::handle&) {};  // is set already, as others change what it sets
+  set_options(options, setters);
+  extract.fairing = extract.fair.iterations > 0;
+  require_valid(extract);
+  require_together(settings.repair);
   return settings;
 }
 
@@ -278,16 +233,46 @@ std::vector<std::vector<int>> nodes_of_branches(const CurveSkeleton& skeleton) {
 /// As `curveskel evaluate` does.
 py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& skeleton,
                                 const py::dict& options, const py::object& progress) {
-  ExtractSettings settings = settings_of(options);
-  settings.extract.certificate.threads = settings.extract.threads;
+  RepairOptions as_repaired;
+  CertificateOptions certificate;
+  OptionSetters setters = repair_setters(as_repaired);
+  setters["threads"] = sets(certificate.threads);
+  set_options(options, setters);
+  require_together(as_repaired);
   RepairedEvaluation found;
   run_beside_interpreter(progress, [&](const Monitor& monitor) {
-    const RepairedSurface repaired =
-        repair(soup, settings.repair, monitor, settings.extract.threads);
-    found = evaluate_repaired(repaired, settings.repair, skeleton, settings.extract.certificate,
-                              monitor);
+    const RepairedSurface repaired = repair(soup, as_repaired, monitor, certificate.threads);
+    found = evaluate_repaired(repaired, as_repaired, skeleton, certificate, monitor);
   });
   return dictionary_of(found.certificate);
+}
+
+/// Branch pairs as columns, junctions as pairs of nodes, vertices of b by those of a.
+py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction& b, int threads,
+                              const py::object& progress) {
+  SkeletonMatch match;
+  Eigen::VectorXi vertices;
+  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+    match = match_skeletons({a.repaired.surface, a.extraction.skeleton},
+                            {b.repaired.surface, b.extraction.skeleton}, {threads}, monitor);
+    vertices = matched_input_vertices(match, a.repaired, b.repaired);
+  });
+  py::list of_a;
+  py::list of_b;
+  py::list reversed;
+  py::list ambiguous;
+  for (const BranchPair& pair : match.branches) {
+    of_a.append(pair.a);
+    of_b.append(pair.b);
+    reversed.append(pair.reversed);
+    ambiguous.append(pair.ambiguous);
+  }
+  py::dict table;
+  table["a"] = of_a;
+  table["b"] = of_b;
+  table["reversed"] = reversed;
+  table["ambiguous"] = ambiguous;
+  return py::make_tuple(table, match.junctions, std::move(vertices));
 }
 
 /// A view of a matrix of `Owner`, which stays alive as long as the array: no copy, not writable.
@@ -380,4 +365,8 @@ PYBIND11_MODULE(_core, module) {
   module.def("evaluate", &evaluate_in_background);
   module.def("skeleton_of_arrays", &skeleton_of_arrays);
   module.def("extract", &extract_in_background);
+  module.def("match", &match_in_background);
+  module.def("fair", &fair_soup);
+  module.def("contract", &contract_soup);
+  bind_rig(module);
 }

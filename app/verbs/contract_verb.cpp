@@ -8,12 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <curveskel/advanced/inscribed_balls.hpp>
-#include <curveskel/advanced/tree.hpp>
-#include <curveskel/contract.hpp>
+#include <curveskel/contract_repaired.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
-#include <curveskel/topology.hpp>
 #include <curveskel/write_surface.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
@@ -32,7 +29,6 @@ struct ContractArguments {
   std::string output;
   fs::path frames;
   bool quiet = false;
-  int threads = 0;
   double time_limit_seconds = 0;
   RepairOptions repair;
   ContractionOptions options;
@@ -98,34 +94,22 @@ int run_contract(const ContractArguments& arguments, Session& session) {
   session.interruption.limit(arguments.time_limit_seconds);
   Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
-  const RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
-  Positions contracted(repaired.surface.positions.rows(), 3);
+  const RepairedSurface repaired =
+      repair(soup, arguments.repair, monitor, arguments.options.threads);
   std::vector<Frames> frames;
+  if (!arguments.frames.empty()) {
+    monitor.frame = [&frames](const Frame& now) {
+      frames.resize(std::max(frames.size(), static_cast<std::size_t>(now.component) + 1));
+      frames[static_cast<std::size_t>(now.component)].push_back(now.surface);
+    };
+  }
+  const RepairedContraction result = contract_repaired(repaired, arguments.options, monitor);
   std::string text;
-  const auto components = split_components(repaired.surface, topology(repaired.surface));
-  for (const auto& [surface, vertex_in_whole] : components) {
-    frames.emplace_back();
-    if (!arguments.frames.empty()) {
-      monitor.frame = [&frames](const Frame& now) { frames.back().push_back(now.surface); };
-    }
-    Positions centres;
-    if (arguments.options.flow == Flow::medial) {
-      centres = inscribed_balls(surface, SurfaceTree(surface), arguments.threads).centres;
-    }
-    const Contraction result = contract(surface, centres, arguments.options, monitor);
-    for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
-      contracted.row(vertex_in_whole[v]) =
-          result.surface.positions.row(result.vertex_of_input[static_cast<Eigen::Index>(v)]);
-    }
-    text += outcome(result, static_cast<int>(frames.size()) - 1);
+  for (std::size_t k = 0; k < result.components.size(); ++k) {
+    text += outcome(result.components[k], static_cast<int>(k));
   }
 
-  // The file's own vertices and faces, so that the two line up; dropped parts stay put.
-  Surface written{soup.positions, triangulate(soup)};
-  for (Eigen::Index v = 0; v < written.positions.rows(); ++v) {
-    const int vertex = repaired.vertex_of_input[v];
-    if (vertex >= 0) written.positions.row(v) = contracted.row(vertex);
-  }
+  const Surface written = moved_vertices(soup, repaired, result.positions);
   const std::string provenance =
       program_and_version() + ", " + arguments.mesh.filename().string() + ", contracted";
   auto files = arguments.frames.empty() ? std::vector<OutputFile>()
@@ -151,7 +135,9 @@ Verb add_contract(CLI::App& program) {
   parser->add_option("MESH", arguments->mesh, "surface file: " + names_in(surface_formats))
       ->required()
       ->type_name("");
-  parser->add_option("-o,--output", arguments->output, "the contracted surface")
+  parser
+      ->add_option("-o,--output", arguments->output,
+                   "the contracted surface: the file's own vertices and faces")
       ->required()
       ->type_name("OUT.ply");
   add_choice(*parser, "--flow", arguments->options.flow, flows, "contraction flow");
@@ -163,7 +149,7 @@ Verb add_contract(CLI::App& program) {
                    "folder for one surface per iteration, 0000.ply the input; merged vertices "
                    "are gone from these")
       ->type_name("DIR");
-  add_number(*parser, "--threads", arguments->threads, 0, 4096,
+  add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);

@@ -15,6 +15,7 @@
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
+#include "app/html_page.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
@@ -33,6 +34,7 @@ struct ExtractArguments {
   std::string profiles;
   std::string junctions;
   std::string labelled;
+  std::string html;
   int levels = 1;
   bool quiet = false;
   bool strict = false;
@@ -152,6 +154,27 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
   }
 }
 
+/// Everything that was done to the surface, in lines.
+std::string history_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
+  std::string text = provenance_of(arguments) + "\n";
+  if (record.preset != Preset::standard) {
+    text += fmt::format("preset: {}\n", name_of(presets, record.preset));
+  }
+  for (const std::string& line : record.repaired.changes.lines) text += "changed: " + line + "\n";
+  for (const std::string& line : record.repaired.repairs.lines) text += "repaired: " + line + "\n";
+  for (const std::string& line : record.notes) text += line + "\n";
+  return text;
+}
+
+std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
+  const Certificate& certificate = record.extraction.certificate;
+  const CertificateOptions& options = arguments.options.certificate;
+  return html_page(record.repaired.surface, record.extraction.skeleton,
+                   {arguments.mesh.filename().string(), certificate_table(certificate, options),
+                    all_failures(certificate, options), history_of(arguments, record)},
+                   arguments.options.threads);
+}
+
 std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
                                        const std::vector<SkeletonFormat>& formats,
                                        const ExtractionRecord& record,
@@ -194,8 +217,8 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
   std::vector<std::string> names = skeleton_names(arguments);
-  for (const std::string& table :
-       {arguments.report, arguments.profiles, arguments.junctions, arguments.labelled}) {
+  for (const std::string& table : {arguments.report, arguments.profiles, arguments.junctions,
+                                   arguments.labelled, arguments.html}) {
     if (!table.empty()) names.push_back(table);
   }
   if (!arguments.labelled.empty()) (void)format_of(arguments.labelled, labelled_formats);
@@ -246,6 +269,9 @@ int run_extract(ExtractArguments arguments, Session& session) {
   auto files = timed(times, "write", [&] {
     auto formatted = format_outputs(arguments, formats, record, skeleton, session);
     format_tables(arguments, record, session, formatted);
+    if (!arguments.html.empty()) {
+      formatted.push_back({arguments.html, page_of(arguments, record)});
+    }
     return formatted;
   });
   if (!arguments.report.empty()) {
@@ -302,6 +328,11 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
       .add_option("--junctions", arguments.junctions,
                   "junctions with the angles between their branches, as CSV")
       ->type_name("FILE.csv");
+  parser
+      .add_option("--html", arguments.html,
+                  "a page with the skeleton in its surface to turn, tables, plots, certificate; it "
+                  "needs no network")
+      ->type_name("FILE.html");
   parser
       .add_option("--labelled", arguments.labelled,
                   "the surface of the file coloured by its branches: " + names_in(labelled_formats))

@@ -4,13 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 
 #include <curveskel/advanced/measures.hpp>
-#include <curveskel/clean.hpp>
-#include <curveskel/fair.hpp>
+#include <curveskel/fair_polygons.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/write_surface.hpp>
 #include "app/arguments.hpp"
@@ -38,35 +35,6 @@ struct FairArguments {
   FairOptions options;
 };
 
-/// A closed surface is faired as one, seams or not. Any other is faired as it is
-/// in the file: its boundaries and seams stay where they are.
-std::optional<CleanSurface> cleaned_if_closed(const PolygonSoup& soup, const Monitor& monitor,
-                                              int threads) {
-  try {
-    return clean(soup, monitor, threads);
-  } catch (const Error& error) {
-    monitor.say(std::string(error.what()) + " - faired as it is, with its boundaries held");
-    Changes changes;
-    changes.unplaced_vertices_dropped = soup.unplaced_vertices;
-    changes.unplaced_polygons_dropped = soup.unplaced_polygons;
-    describe_changes(changes, monitor);
-    return std::nullopt;
-  }
-}
-
-/// The file's own vertices and faces, moved.
-Surface faired(const PolygonSoup& soup, const FairOptions& options, const Monitor& monitor) {
-  Surface surface{soup.positions, triangulate(soup)};
-  const auto cleaned = cleaned_if_closed(soup, monitor, options.threads);
-  if (!cleaned) return fair(surface, options, monitor);
-  const Surface smooth = fair(cleaned->surface, options, monitor);
-  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
-    const int vertex = cleaned->vertex_of_input[v];
-    if (vertex >= 0) surface.positions.row(v) = smooth.positions.row(vertex);
-  }
-  return surface;
-}
-
 /// The largest motion of a vertex, over the bounding box's diagonal.
 std::string moved(const Positions& from, const Positions& to) {
   const Eigen::VectorXd distances = (to - from).rowwise().norm();
@@ -85,7 +53,7 @@ int run_fair(const FairArguments& arguments, Session& session) {
   session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
-  const Surface result = faired(soup, arguments.options, monitor);
+  const Surface result = fair_polygons(soup, arguments.options, monitor);
   const std::string provenance =
       program_and_version() + ", " + arguments.mesh.filename().string() + ", faired";
   write_outputs({{arguments.output, format_surface(result, format, provenance)}}, session);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <curveskel/body_plan.hpp>
-#include <curveskel/extract_repaired.hpp>
+#include <curveskel/clean.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
@@ -20,6 +20,7 @@
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/rig_polygons.hpp>
 #include <curveskel/role_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
@@ -61,10 +62,10 @@ struct RigArguments {
 };
 
 /// A skeleton of this surface is not mostly elsewhere.
-void require_nodes_nearby(const CurveSkeleton& skeleton, const Surface& surface,
+void require_nodes_nearby(const CurveSkeleton& skeleton, const PolygonSoup& soup,
                           const RigArguments& arguments) {
-  const Eigen::RowVector3d low = surface.positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = surface.positions.colwise().maxCoeff();
+  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
   Eigen::Index within = 0;
   for (const auto& node : skeleton.nodes.rowwise()) {
     within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
@@ -77,30 +78,15 @@ void require_nodes_nearby(const CurveSkeleton& skeleton, const Surface& surface,
                           arguments.mesh.filename().string()));
 }
 
-/// Read or extracted; what its certificate lacks is said. Where only a wrap would do, this is what
-/// `repaired` becomes.
-CurveSkeleton skeleton_for(const RigArguments& arguments, RepairedSurface& repaired,
-                           const Monitor& monitor, Session& session) {
-  if (!arguments.skeleton.empty()) {
-    const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
-    require_nodes_nearby(skeleton, repaired.surface, arguments);
-    try {
-      return skeleton_of_repaired(skeleton, repaired.vertex_of_input,
-                                  repaired.surface.positions.rows());
-    } catch (const Error& error) {
-      throw Error(error.fault(), arguments.skeleton + ": " + error.what());
-    }
-  }
-  ExtractOptions options = arguments.extract;
-  options.threads = arguments.threads;
-  options.fairing = arguments.fair_iterations > 0;
-  options.fair.iterations = arguments.fair_iterations;
-  RepairedExtraction found = extract_repaired(repaired, arguments.repair, options, monitor);
-  if (found.wrapped) repaired = std::move(*found.wrapped);
-  const Extraction& extraction = found.extraction;
-  const std::string failed = all_failures(extraction.certificate, options.certificate);
-  if (!failed.empty()) session.terminal.warn(failed);
-  return extraction.skeleton;
+CurveSkeleton skeleton_for(const RigArguments& arguments, const PolygonSoup& soup) {
+  CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
+  require_nodes_nearby(skeleton, soup, arguments);
+  const Eigen::Index map = skeleton.node_of_vertex.size();
+  if (map == 0 || map == soup.positions.rows()) return skeleton;
+  throw Error(Fault::input,
+              fmt::format("{}: the skeleton has a node for each of {} vertices, needed one for "
+                          "each of the surface's {}; extract it again, from this surface",
+                          arguments.skeleton, map, soup.positions.rows()));
 }
 
 std::ptrdiff_t count_tips(const Rig& rig) {
@@ -217,24 +203,22 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
-/// Joints and pose as the program that the file is for wants them.
-Rig as_wanted(Rig rig, const RigArguments& arguments, const BodyPlan& plan, const Surface& given) {
-  if (arguments.pose == RestPose::t) rest_in_t_pose(rig, plan);
-  if (arguments.no_ends) rig = without_ends(rig);
-  const Eigen::RowVector3d up =
-      plan.plan == BodyKind::none ? Eigen::RowVector3d(0, 1, 0) : plan.axes.row(1);
-  if (arguments.ground_root) return with_ground_root(rig, given, up);
-  const bool is_somebodys = arguments.keep_rig || !arguments.joints.empty();
-  return is_somebodys ? rig : with_one_root(rig, given, up);
+void warn_of_names(const BodyPlan& plan, NameStyle style, Session& session) {
+  if (has_words(style, plan.plan)) return;
+  session.terminal.warn(
+      fmt::format("--names {} has no words for the plan {}; joints have readable names instead",
+                  name_of(name_styles, style), name_of(body_kinds, plan.plan)));
 }
 
-void name_joints(Rig& rig, const BodyPlan& plan, NameStyle style, Session& session) {
-  if (!has_words(style, plan.plan)) {
-    session.terminal.warn(
-        fmt::format("--names {} has no words for the plan {}; joints have readable names instead",
-                    name_of(name_styles, style), name_of(body_kinds, plan.plan)));
-  }
-  name_roles(rig, plan, style);
+RigPolygonsOptions options_of(const RigArguments& arguments) {
+  RigPolygonsOptions options;
+  options.repair = arguments.repair;
+  options.extract = arguments.extract;
+  options.extract.fairing = arguments.fair_iterations > 0;
+  options.extract.fair.iterations = arguments.fair_iterations;
+  options.character = {arguments.rig, arguments.parts, arguments.plan, arguments.names};
+  options.threads = arguments.threads;
+  return options;
 }
 
 int run_rig(RigArguments arguments, Session& session) {
@@ -254,37 +238,30 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
   session.interruption.limit(arguments.time_limit_seconds);
-  arguments.rig.skin.threads = arguments.threads;
 
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_to_rig(arguments, monitor, session);
-  arguments.rig.faces_minus_z = soup.faces_minus_z;
   std::optional<Rig> old_rig;
   if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
   if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, monitor);
-  RepairedSurface repaired = repair(soup, arguments.repair, monitor, arguments.threads);
-  arguments.parts.threads = arguments.threads;
-  // Joints, or a curve, that somebody has drawn may be for any part.
-  if (old_rig || !arguments.skeleton.empty()) arguments.parts.follow = 0;
-  const RigParts parts = find_parts(repaired.surface, arguments.parts, monitor);
-  repaired = body_of(repaired, parts);
-  CurveSkeleton skeleton = skeleton_for(arguments, repaired, monitor, session);
-  skeleton = dense_skeleton(repaired.surface, skeleton);
-  arguments.plan.faces_minus_z = soup.faces_minus_z;
-  if (arguments.rig.joints.root >= 0) arguments.plan.plan = BodyKind::none;
-  BodyPlan plan;
-  if (!old_rig) plan = find_plan(repaired.surface, skeleton, arguments.plan);
-  const Rig made =
-      old_rig ? weights_on_joints(repaired.surface, skeleton, *old_rig, arguments.rig.skin, monitor)
-              : make_planned_rig(repaired.surface, skeleton, plan, arguments.rig, monitor);
+  RigSources sources;
+  if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments, soup);
+  sources.joints = std::move(old_rig);
+  PolygonsRig found = rig_polygons(soup, sources, options_of(arguments), monitor);
+  const auto& [rig, parts, plan] = found.character;
+  if (found.certificate) {
+    const std::string failed = all_failures(*found.certificate, arguments.extract.certificate);
+    if (!failed.empty()) session.terminal.warn(failed);
+  }
+  if (!sources.joints) warn_of_names(plan, arguments.names, session);
   const Surface given{soup.positions, triangulate(soup)};
-  Rig rig = rig_of_given(made, repaired.surface, skeleton, repaired.vertex_of_input, given);
-  if (!old_rig) name_joints(rig, plan, arguments.names, session);
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
     if (arguments.pose == RestPose::input) warn_of_posture(plan, session);
   }
-  const Rig written = as_wanted(rig, arguments, plan, given);
+  const Rig written = rig_for_export(
+      rig, plan, given,
+      {arguments.pose, arguments.ground_root, !arguments.no_ends, sources.joints.has_value()});
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);

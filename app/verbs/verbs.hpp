@@ -40,6 +40,7 @@ class UsageError : public std::runtime_error {
 [[nodiscard]] Verb add_fair(CLI::App& program);
 [[nodiscard]] Verb add_rig(CLI::App& program);
 [[nodiscard]] Verb add_evaluate(CLI::App& program);
+[[nodiscard]] Verb add_match(CLI::App& program);
 /// Starts the viewer, a program of its own: this one links no OpenGL.
 [[nodiscard]] Verb add_view(CLI::App& program);
 [[nodiscard]] Verb add_devices(CLI::App& program);

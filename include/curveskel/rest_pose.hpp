@@ -35,4 +35,15 @@ void rest_in_t_pose(Rig& rig, const BodyPlan& plan);
 /// joints).
 [[nodiscard]] Rig without_ends(const Rig& rig);
 
+struct ExportOptions {
+  RestPose pose = RestPose::input;
+  bool ground_root = false;  ///< one more joint that all hangs from
+  bool ends = true;          ///< joints at tips, which move nothing
+  bool as_given = false;     ///< somebody's joints: no root is made where there are several
+};
+/// A rig as the program that it is for wants it: the functions above, in their order. Errors as
+/// `rest_in_t_pose`.
+[[nodiscard]] Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
+                                 const ExportOptions& options);
+
 }  // namespace curveskel

@@ -12,8 +12,12 @@ networkx, trimesh and tqdm are imported when asked for.
 from . import _core
 from .errors import (CertificateWarning, DeviceError, Error, InputError, OutputError, SolverError,
                      UsageError)
+from .matching import Match, match
+from .rigs import Rig, rig
 from .skeleton import Skeleton, evaluate, extract, read
+from .surfaces import contract, fair
 
 __version__ = _core.program_and_version().split()[-1]
-__all__ = ["CertificateWarning", "DeviceError", "Error", "InputError", "OutputError", "Skeleton",
-           "SolverError", "UsageError", "evaluate", "extract", "read"]
+__all__ = ["CertificateWarning", "DeviceError", "Error", "InputError", "Match", "OutputError", "Rig",
+           "Skeleton", "SolverError", "UsageError", "contract", "evaluate", "extract", "fair",
+           "match", "read", "rig"]

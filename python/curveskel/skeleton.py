@@ -249,9 +249,9 @@ def _progress(wanted):
     return show, bar.close
 
 
-def _soup(mesh, progress):
+def _soup(mesh, progress, as_bound=False):
     if isinstance(mesh, (str, os.PathLike)):
-        return _core.read_surface(os.fspath(mesh), progress)
+        return _core.read_surface(os.fspath(mesh), as_bound, progress)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         mesh = (mesh.vertices, mesh.faces)
     try:

@@ -10,7 +10,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
-#include "rig/measure/least_pairs.hpp"
+#include "base/least_pairs.hpp"
 #include "rig/measure/limb_poses.hpp"
 #include "rig/measure/rig_bones.hpp"
 

@@ -158,4 +158,14 @@ Rig without_ends(const Rig& rig) {
   return result;
 }
 
+Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
+                   const ExportOptions& options) {
+  if (options.pose == RestPose::t) rest_in_t_pose(rig, plan);
+  if (!options.ends) rig = without_ends(rig);
+  const Eigen::RowVector3d up =
+      plan.plan == BodyKind::none ? Eigen::RowVector3d(0, 1, 0) : plan.axes.row(1);
+  if (options.ground_root) return with_ground_root(rig, surface, up);
+  return options.as_given ? rig : with_one_root(rig, surface, up);
+}
+
 }  // namespace curveskel

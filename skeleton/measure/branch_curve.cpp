@@ -104,8 +104,8 @@ CurveDerivatives derivatives_at(const BranchCurve& curve, double s) {
   const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, (stretch.last - stretch.first) / most);
   const Eigen::Index count = (stretch.last - stretch.first) / step + 1;
   const double unit = length_of(curve, stretch.last) - length_of(curve, stretch.first);
-  CurveDerivatives none{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  if (!(unit > 0)) return none;
+  CurveDerivatives still{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  if (!(unit > 0)) return still;
   Eigen::MatrixX4d powers(count, 4);
   Eigen::MatrixX3d places(count, 3);
   const Eigen::RowVector3d origin = point_at(curve, s).transpose();

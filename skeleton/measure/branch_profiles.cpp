@@ -19,7 +19,7 @@
 namespace curveskel {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_section = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_sections = 1e7;
 
 std::vector<double> places_on(const BranchCurve& curve, double spacing) {
@@ -111,7 +111,7 @@ void cut(const Cutting& cutting, BranchSection& section) {
   section.position = point_at(curve, section.s);
   section.tangent = derivatives_at(curve, section.s).first.normalized();
   section.inscribed_radius = cutting.tree.inscribed_radius(section.position);
-  section.area = section.perimeter = section.equivalent_diameter = section.ellipticity = none;
+  section.area = section.perimeter = section.equivalent_diameter = section.ellipticity = no_section;
   section.near_junction = in_ball_of_junction(cutting, section);
   if (section.tangent.isZero()) return;
   const auto plane =

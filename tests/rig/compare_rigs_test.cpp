@@ -17,8 +17,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "base/least_pairs.hpp"
 #include "meshes/shapes.hpp"
-#include "rig/measure/least_pairs.hpp"
 #include "tests/rig/random_rigs.hpp"
 
 namespace curveskel::compare_rigs_laws {

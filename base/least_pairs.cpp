@@ -1,4 +1,4 @@
-#include "rig/measure/least_pairs.hpp"
+#include "base/least_pairs.hpp"
 
 #include <limits>
 

@@ -1,0 +1,142 @@
+// curveskel match: which branch, junction and vertex of one surface is which in another.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/match.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
+#include "app/command_line.hpp"
+#include "app/kernel_cache.hpp"
+#include "app/match_report.hpp"
+#include "app/output_files.hpp"
+#include "app/verbs/verbs.hpp"
+
+namespace curveskel {
+namespace {
+
+struct MatchArguments {
+  std::filesystem::path a;
+  std::filesystem::path b;
+  std::string output;
+  bool quiet = false;
+  double time_limit_seconds = 0;
+  RepairOptions repair;
+  ExtractOptions extract;
+};
+
+struct Extracted {
+  RepairedSurface repaired;
+  CurveSkeleton skeleton;
+};
+
+/// What its certificate lacks is said.
+Extracted extracted(const std::filesystem::path& file, const MatchArguments& arguments,
+                    Session& session) {
+  const Monitor monitor = session.monitor();
+  const int threads = arguments.extract.threads;
+  Extracted result;
+  result.repaired = repair(read_polygons(file, monitor), arguments.repair, monitor, threads);
+  RepairedExtraction found =
+      extract_repaired(result.repaired, arguments.repair, arguments.extract, monitor);
+  if (found.wrapped) result.repaired = std::move(*found.wrapped);
+  const std::string failed =
+      all_failures(found.extraction.certificate, arguments.extract.certificate);
+  if (!failed.empty()) session.terminal.warn(file.filename().string() + ": " + failed);
+  result.skeleton = std::move(found.extraction.skeleton);
+  return result;
+}
+
+std::string summary(const MatchRecord& record) {
+  const auto& pairs = record.match.branches;
+  const UnmatchedBranches alone =
+      unmatched_branches(record.skeleton_a, record.skeleton_b, record.match);
+  const auto ambiguous = std::count_if(pairs.begin(), pairs.end(),
+                                       [](const BranchPair& pair) { return pair.ambiguous; });
+  const auto vertices = (record.vertices.array() >= 0).count();
+  std::string text =
+      fmt::format("{} and {}: {} of {} and {} branches paired, {} of these ambiguous\n",
+                  record.file_a, record.file_b, pairs.size(), pairs.size() + alone.of_a.size(),
+                  pairs.size() + alone.of_b.size(), ambiguous);
+  if (!alone.of_a.empty()) {
+    text +=
+        fmt::format("without a partner in {}: {}\n", record.file_a, fmt::join(alone.of_a, ", "));
+  }
+  if (!alone.of_b.empty()) {
+    text +=
+        fmt::format("without a partner in {}: {}\n", record.file_b, fmt::join(alone.of_b, ", "));
+  }
+  return text + fmt::format("{} junctions, {} of {} vertices\n", record.match.junctions.size(),
+                            vertices, record.vertices.size());
+}
+
+int run_match(MatchArguments arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  if (std::filesystem::path(arguments.output).extension() != ".json" && arguments.output != "-") {
+    throw UsageError(arguments.output + ": a match is written as .json");
+  }
+  check_outputs({arguments.output}, arguments.a);
+  check_outputs({arguments.output}, arguments.b);
+  if (arguments.output == "-") session.terminal.keep_output_clean();
+  session.interruption.limit(arguments.time_limit_seconds);
+  arguments.extract.fairing = false;
+  const Extracted a = extracted(arguments.a, arguments, session);
+  const Extracted b = extracted(arguments.b, arguments, session);
+  const SkeletonMatch match =
+      match_skeletons({a.repaired.surface, a.skeleton}, {b.repaired.surface, b.skeleton},
+                      {arguments.extract.threads}, session.monitor());
+  const Eigen::VectorXi vertices = matched_input_vertices(match, a.repaired, b.repaired);
+  const std::string file_a = arguments.a.filename().string();
+  const std::string file_b = arguments.b.filename().string();
+  const MatchRecord record{file_a, file_b, a.skeleton, b.skeleton, match, vertices};
+  write_outputs({{arguments.output, match_json(record)}}, session);
+  if (!arguments.quiet) {
+    std::string text = summary(record);
+    if (arguments.output != "-") text += fmt::format("wrote {}\n", arguments.output);
+    session.terminal.result(text);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_match(CLI::App& program) {
+  const auto arguments = std::make_shared<MatchArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "match", "Say which branch, junction and vertex of one surface is which in another");
+  parser->add_option("A", arguments->a, "surface file: " + names_in(surface_formats))
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option(
+          "B", arguments->b,
+          "another: the same body in another pose, one of its kind, a later step of growth")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("-o,--output", arguments->output,
+                   "pairs of branches, junctions and vertices; - is standard output")
+      ->required()
+      ->type_name("OUT.json");
+  ExtractOptions& options = arguments->extract;
+  options.fair.iterations = 0;
+  options.contraction.program_cache = kernel_cache();
+  add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
+             "0..1: how small a branch may be and stay");
+  add_number(*parser, "--threads", options.threads, 0, 4096,
+             "at most; 0 = one per core; the result does not depend on it");
+  add_repair(*parser, arguments->repair);
+  add_time_limit(*parser, arguments->time_limit_seconds);
+  parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  return {parser, [arguments](Session& session) { return run_match(*arguments, session); }};
+}
+
+}  // namespace curveskel

@@ -1,0 +1,39 @@
+#include <curveskel/fair_polygons.hpp>
+
+#include <optional>
+#include <string>
+
+#include <curveskel/clean.hpp>
+
+namespace curveskel {
+namespace {
+
+std::optional<CleanSurface> cleaned_if_closed(const PolygonSoup& soup, const Monitor& monitor,
+                                              int threads) {
+  try {
+    return clean(soup, monitor, threads);
+  } catch (const Error& error) {
+    monitor.say(std::string(error.what()) + " - faired as it is, with its boundaries held");
+    Changes changes;
+    changes.unplaced_vertices_dropped = soup.unplaced_vertices;
+    changes.unplaced_polygons_dropped = soup.unplaced_polygons;
+    describe_changes(changes, monitor);
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Surface fair_polygons(const PolygonSoup& soup, const FairOptions& options, const Monitor& monitor) {
+  Surface surface{soup.positions, triangulate(soup)};
+  const auto cleaned = cleaned_if_closed(soup, monitor, options.threads);
+  if (!cleaned) return fair(surface, options, monitor);
+  const Surface smooth = fair(cleaned->surface, options, monitor);
+  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+    const int vertex = cleaned->vertex_of_input[v];
+    if (vertex >= 0) surface.positions.row(v) = smooth.positions.row(vertex);
+  }
+  return surface;
+}
+
+}  // namespace curveskel

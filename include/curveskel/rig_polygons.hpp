@@ -1,0 +1,43 @@
+// From a file's polygons to the rig of all that is in the file.
+#pragma once
+
+#include <optional>
+
+#include <curveskel/certificate.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/rig.hpp>
+#include <curveskel/rig_character.hpp>
+
+namespace curveskel {
+
+/// What somebody has made already. Of an empty one everything is made.
+struct RigSources {
+  std::optional<CurveSkeleton> skeleton;  ///< by the vertices of the file, or without a vertex map
+  std::optional<Rig> joints;              ///< these stay; they get weights, and there is no plan
+};
+
+struct RigPolygonsOptions {
+  RepairOptions repair;
+  ExtractOptions extract;
+  CharacterOptions character;
+  int threads =
+      0;  ///< of every stage, at most; 0 = one per core. The result does not depend on it.
+};
+
+struct PolygonsRig {
+  CharacterRig character;                  ///< the rig is by the vertices of the file
+  std::optional<Certificate> certificate;  ///< of the skeleton, where it was extracted
+};
+
+/// `repair`, `find_parts`, `extract_repaired` of the body alone, `rig_body` or
+/// `weights_on_joints`. Where a skeleton or joints are given, every part is body, as they may be
+/// for any part. Joints have their names by `character.names`. Errors as of these, and
+/// Error(Fault::input) where a skeleton's vertex map is of another number of vertices.
+[[nodiscard]] PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources = {},
+                                       const RigPolygonsOptions& options = {},
+                                       const Monitor& monitor = {});
+
+}  // namespace curveskel

@@ -1,0 +1,63 @@
+"""The same branch in another pose, another subject, a later step of growth."""
+
+import numpy
+
+from . import _core
+from .errors import UsageError
+from .skeleton import Skeleton, _progress, extract
+
+
+class Match:
+    """Which branch, junction and vertex of one skeleton is which in another; see `match`."""
+
+    def __init__(self, table, junctions, vertices, a, b):
+        self._table = table
+        #: (k, 2) int32: nodes of paired junctions.
+        self.junctions = numpy.array(junctions, dtype=numpy.int32).reshape(-1, 2)
+        #: (v,) int32: of each vertex given with A the vertex given with B, -1 = none.
+        self.vertices = vertices
+        #: The two skeletons.
+        self.a, self.b = a, b
+
+    @property
+    def branches(self):
+        """DataFrame: a, b (numbers of branches), reversed, ambiguous (another is as like to a)."""
+        import pandas
+
+        return pandas.DataFrame(self._table)
+
+    @property
+    def alone(self):
+        """Two lists: branches of A, and of B, without a partner."""
+        return tuple([number for number in range(len(skeleton.branch_nodes))
+                      if number not in set(self._table[side])]
+                     for side, skeleton in (("a", self.a), ("b", self.b)))
+
+    def __repr__(self):
+        of_a, of_b = self.alone
+        return (f"<curveskel.Match: {len(self._table['a'])} branches paired, "
+                f"{sum(self._table['ambiguous'])} ambiguous, {len(of_a)} and {len(of_b)} alone>")
+
+
+def match(a, b, *, threads=0, progress=None, **options):
+    """Which branch, junction and vertex of A is which in B.
+
+    a, b: skeletons that `extract` made, or surfaces as it takes them.
+    threads, progress: as of `extract`.
+    options: those of `extract`, for what is extracted here.
+
+    Raises UsageError for a skeleton that was read from a file, and what `extract` raises.
+    """
+    sides = []
+    for side in (a, b):
+        if not isinstance(side, Skeleton):
+            side = extract(side, threads=threads, progress=progress, **options)
+        if side._extraction is None:
+            raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
+        sides.append(side)
+    callback, close = _progress(progress)
+    try:
+        found = _core.match(sides[0]._extraction, sides[1]._extraction, threads, callback)
+    finally:
+        close()
+    return Match(*found, *sides)

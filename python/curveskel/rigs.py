@@ -1,0 +1,98 @@
+"""Rigs: joints and skin weights."""
+
+import json
+import os
+import pathlib
+
+import numpy
+
+from . import _core
+from .errors import UsageError
+from .skeleton import Skeleton, _progress, _soup, read
+
+
+class Rig:
+    """Joints that move a surface, as `rig` makes them. Arrays are views, and read-only."""
+
+    def __init__(self, made):
+        self._made = made
+
+    @property
+    def joints(self):
+        """(j, 3) float64: places, in the units of the surface; each joint's parent before it."""
+        return self._made.joints
+
+    @property
+    def parents(self):
+        """(j,) int32: the joint that each hangs from; -1 = a root."""
+        return self._made.parents
+
+    @property
+    def names(self):
+        """A list of j strings."""
+        return self._made.names
+
+    @property
+    def roles(self):
+        """A list of j strings: what each joint is in the body ("hips"); "" = nothing known."""
+        return self._made.roles or [""] * len(self.joints)
+
+    @property
+    def weights(self):
+        """scipy.sparse.csr_matrix, (v, j) float32: rows of sum 1, four joints at most."""
+        import scipy.sparse
+
+        data, indices, indptr = self._made.weights()
+        return scipy.sparse.csr_matrix((data, indices, indptr),
+                                       shape=(len(indptr) - 1, len(self.joints)))
+
+    @property
+    def report(self):
+        """A dict: plan, roles, parts, joints, checks of the weights, as `rig --report`."""
+        return json.loads(self._made.report())
+
+    @property
+    def plan(self):
+        """How the body is built: "humanoid", "quadruped", .., "other"."""
+        return self.report["plan"]
+
+    def save(self, path, *, vrm_name="", vrm_author="", vrm_licence=""):
+        """Writes the rig in the format of the extension, any of `curveskel rig`.
+
+        GLB of a surface that is from a glTF file or an OBJ with materials is that file itself with
+        the rig in it. VRM needs the three texts. Raises UsageError, InputError or OutputError.
+        """
+        self._made.save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."),
+                        vrm_name, vrm_author, vrm_licence)
+
+    def __repr__(self):
+        return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
+
+
+def rig(mesh, *, skeleton=None, joints=None, threads=0, progress=None, **options):
+    """Joints and skin weights for a surface, as `curveskel rig` makes them.
+
+    mesh: as of `extract`; a path lets `Rig.save` edit the file itself.
+    skeleton: rig this one, a Skeleton of the same surface or a path, instead of extracting one.
+    joints: a path to a rig: its joints get new weights, and no others are made.
+    threads, progress: as of `extract`.
+    options: the program's, with _ for -: bone_length, components, detail, ends (False for
+        --no-ends), fair, follow, front, ground_root, merge_overlapping, min_size, names, plan,
+        pose, root, softness, up, wrap, wrap_gap.
+
+    Raises UsageError, InputError, DeviceError or SolverError.
+    """
+    if skeleton is not None and joints is not None:
+        raise UsageError("skeleton and joints exclude each other")
+    if isinstance(skeleton, (str, os.PathLike)):
+        skeleton = read(skeleton)
+    if skeleton is not None and not isinstance(skeleton, Skeleton):
+        raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
+    callback, close = _progress(progress)
+    try:
+        soup = _soup(mesh, callback, as_bound=True)
+        return Rig(_core.rig(soup, None if skeleton is None else skeleton._graph,
+                             None if joints is None else os.fspath(joints),
+                             dict(options, threads=threads), callback))
+    finally:
+        close()

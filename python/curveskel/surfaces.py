@@ -1,0 +1,40 @@
+"""Surfaces that fairing and contraction move."""
+
+from . import _core
+from .skeleton import _progress, _soup
+
+
+def fair(mesh, *, iterations=3, threads=0, progress=None, **options):
+    """A noisy surface smoothed, its connectivity and volume kept, as `curveskel fair` does.
+
+    mesh, threads, progress: as of `extract`.
+    options: the program's, with _ for -: local_solver, method, rings, smoothing, volume.
+
+    Returns the vertices (v, 3), in the order given, and triangles (f, 3). Raises UsageError,
+    InputError, DeviceError or SolverError.
+    """
+    callback, close = _progress(progress)
+    try:
+        return _core.fair(_soup(mesh, callback),
+                          dict(options, iterations=iterations, threads=threads), callback)
+    finally:
+        close()
+
+
+def contract(mesh, *, threads=0, progress=None, **options):
+    """Where each vertex ends up when the surface collapses, as `curveskel contract` finds it.
+
+    mesh, threads, progress: as of `extract`.
+    options: the program's, with _ for -: components, flow, iterations, merge_overlapping, min_size,
+        solver, wrap, wrap_gap.
+
+    Returns the vertices (v, 3), in the order given, triangles (f, 3), and a dict of lists with an
+    entry for each iteration of each component: component, iteration, area_ratio and volume_ratio
+    (over those at the start), residual, vertices left; pandas.DataFrame takes it. Raises
+    UsageError, InputError, DeviceError or SolverError.
+    """
+    callback, close = _progress(progress)
+    try:
+        return _core.contract(_soup(mesh, callback), dict(options, threads=threads), callback)
+    finally:
+        close()

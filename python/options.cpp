@@ -1,0 +1,52 @@
+#include "python/options.hpp"
+
+namespace curveskel {
+
+namespace py = pybind11;
+
+void set_options(const py::dict& options, const OptionSetters& setters) {
+  for (const auto& [key, value] : options) {
+    const auto name = key.cast<std::string>();
+    const auto setter = setters.find(name);
+    if (setter == setters.end()) {
+      std::string known;
+      for (const auto& [other, set] : setters) known += (known.empty() ? "" : ", ") + other;
+      throw Error(Fault::usage, name + " is none of the options: " + known);
+    }
+    try {
+      setter->second(value);
+    } catch (const py::cast_error&) {
+      throw Error(Fault::usage, name + ": a value of another type is needed than " +
+                                    py::repr(value).cast<std::string>());
+    }
+  }
+}
+
+OptionSetters repair_setters(RepairOptions& options) {
+  return {{"components", sets(options.components)},
+          {"merge_overlapping", sets(options.merge_overlapping)},
+          {"min_size", sets(options.least_area)},
+          {"wrap", sets(options.wrap, "wrap", wrappings)},
+          {"wrap_gap", sets(options.wrap_gap)}};
+}
+
+OptionSetters extract_setters(ExtractOptions& options) {
+  const auto set_resolution = [&options](const py::handle& value) {
+    const bool is_full = py::isinstance<py::str>(value) && value.cast<std::string>() == "full";
+    options.resolution = is_full ? 0 : value.cast<int>();
+  };
+  return {{"detail", sets(options.embed.detail)},
+          {"fair", sets(options.fair.iterations)},
+          {"flow", sets(options.contraction.flow, "flow", flows)},
+          {"resolution", set_resolution},
+          {"solver", sets(options.contraction.solver, "solver", solvers)}};
+}
+
+void require_together(const RepairOptions& options) {
+  require_valid(options);
+  if (options.wrap == Wrapping::never && options.wrap_gap > 0) {
+    throw Error(Fault::usage, "wrap_gap needs a wrap, so not wrap=\"never\"");
+  }
+}
+
+}  // namespace curveskel

@@ -1,0 +1,56 @@
+#include <curveskel/rig_polygons.hpp>
+
+#include <utility>
+
+#include <curveskel/clean.hpp>
+#include <curveskel/extract_repaired.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/rig_parts.hpp>
+
+namespace curveskel {
+namespace {
+
+/// Given or extracted. Where only a wrap would do, this is what `body` becomes.
+CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& options,
+                           RepairedSurface& body, std::optional<Certificate>& certificate,
+                           const Monitor& monitor) {
+  if (sources.skeleton) {
+    return skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
+                                body.surface.positions.rows());
+  }
+  ExtractOptions wanted = options.extract;
+  wanted.threads = options.threads;
+  RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor);
+  if (found.wrapped) body = std::move(*found.wrapped);
+  certificate = found.extraction.certificate;
+  return std::move(found.extraction.skeleton);
+}
+
+}  // namespace
+
+PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
+                         const RigPolygonsOptions& options, const Monitor& monitor) {
+  CharacterOptions wanted = options.character;
+  wanted.rig.skin.threads = wanted.parts.threads = options.threads;
+  wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
+  if (sources.joints || sources.skeleton) wanted.parts.follow = 0;
+
+  const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
+  RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
+  RepairedSurface body = body_of(repaired, parts);
+  PolygonsRig result;
+  const CurveSkeleton skeleton = skeleton_for(sources, options, body, result.certificate, monitor);
+  const Surface given{soup.positions, triangulate(soup)};
+  if (sources.joints) {
+    const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+    const Rig made =
+        weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
+    result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+  } else {
+    result.character = rig_body(given, body, skeleton, wanted, monitor);
+  }
+  result.character.parts = std::move(parts);
+  return result;
+}
+
+}  // namespace curveskel

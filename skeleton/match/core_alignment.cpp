@@ -1,0 +1,210 @@
+#include "skeleton/match/core_alignment.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "base/parallel.hpp"
+
+namespace curveskel {
+namespace {
+
+using Points = Eigen::Matrix3Xd;
+
+/// Evenly through the vertices.
+Points spread(const Positions& positions, const std::vector<int>& vertices, std::size_t most) {
+  const std::size_t count = std::min(vertices.size(), most);
+  Points points(3, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    points.col(static_cast<Eigen::Index>(k)) = positions.row(vertices[k * vertices.size() / count]);
+  }
+  return points;
+}
+
+std::vector<int> all_vertices(const Surface& surface) {
+  std::vector<int> vertices(idx(surface.positions.rows()));
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return vertices;
+}
+
+Eigen::Vector3d whole_centroid(const TipFeatures& features) {
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < features.centroid.size(); ++k) {
+    centroid += features.area_share[k] * features.centroid[k];
+  }
+  return centroid;
+}
+
+/// Columns: axes of the core's points, the longest first, right-handed.
+Eigen::Matrix3d principal_axes(const Points& points) {
+  const Points centred = points.colwise() - points.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(centred * centred.transpose());
+  Eigen::Matrix3d axes = spectrum.eigenvectors().rowwise().reverse();
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  return axes;
+}
+
+/// All rotations that take axes to axes, up to sign.
+void add_axis_rotations(const Points& of_a, const Points& of_b,
+                        std::vector<Eigen::Matrix3d>& starts) {
+  const Eigen::Matrix3d a = principal_axes(of_a);
+  const Eigen::Matrix3d b = principal_axes(of_b);
+  // A body of revolution has two of its axes anywhere: those normal to the first or to the last.
+  constexpr int turns = 12;
+  for (const int axis : {0, 2}) {
+    Eigen::Vector3d signs = Eigen::Vector3d::Constant(-1);
+    signs[1] = 1;
+    for (int turn = 0; turn < 2 * turns; ++turn) {
+      const Eigen::Matrix3d about =
+          Eigen::AngleAxisd(2 * EIGEN_PI * turn / turns, Eigen::Vector3d::Unit(axis))
+              .toRotationMatrix();
+      const Eigen::Matrix3d flip =
+          turn < turns ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : signs.asDiagonal();
+      starts.emplace_back(b * about * flip * a.transpose());
+    }
+  }
+}
+
+/// The tips whose limbs reach farthest, `most` of them.
+std::vector<int> farthest_tips(const TipFeatures& features, std::size_t most) {
+  std::vector<int> order(features.tips.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int i, int k) { return features.reach[i] > features.reach[k]; });
+  if (order.size() > most) order.resize(most);
+  return order;
+}
+
+/// Three tips of a as far apart in their roots as any of the farthest.
+std::array<int, 3> spread_tips(const TipFeatures& features) {
+  const std::vector<int> order = farthest_tips(features, 12);
+  std::array<int, 3> best{order[0], order[1], order[2]};
+  double best_area = -1;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = i + 1; k < order.size(); ++k) {
+      for (std::size_t l = k + 1; l < order.size(); ++l) {
+        const Eigen::Vector3d u = features.roots.col(order[k]) - features.roots.col(order[i]);
+        const Eigen::Vector3d v = features.roots.col(order[l]) - features.roots.col(order[i]);
+        const double area = u.cross(v).norm();
+        if (area <= best_area * (1 + 1e-9)) continue;
+        best_area = area;
+        best = {order[i], order[k], order[l]};
+      }
+    }
+  }
+  return best;
+}
+
+void add_limb_rotations(const TipFeatures& of_a, const TipFeatures& of_b,
+                        const Eigen::MatrixXd& like, std::vector<Eigen::Matrix3d>& starts) {
+  if (of_a.tips.size() < 3 || of_b.tips.size() < 3) return;
+  const std::array<int, 3> anchors = spread_tips(of_a);
+  Points from(3, 3);
+  for (int k = 0; k < 3; ++k) from.col(k) = of_a.roots.col(anchors[idx(k)]) - of_a.centre;
+  const std::vector<int> of_b_tips = farthest_tips(of_b, 24);
+  const auto apart = [&](std::size_t k, std::size_t l, int i, int j) {
+    return std::abs(of_a.apart(anchors[k], anchors[l]) - of_b.apart(i, j)) /
+           (0.05 + of_a.apart(anchors[k], anchors[l]));
+  };
+  std::vector<std::pair<double, std::array<int, 3>>> triples;
+  for (const int i : of_b_tips) {
+    for (const int j : of_b_tips) {
+      for (const int k : of_b_tips) {
+        if (i == j || j == k || i == k) continue;
+        const double cost = apart(0, 1, i, j) + apart(0, 2, i, k) + apart(1, 2, j, k) -
+                            std::log(1e-6 + like(anchors[0], i)) -
+                            std::log(1e-6 + like(anchors[1], j)) -
+                            std::log(1e-6 + like(anchors[2], k));
+        triples.push_back({cost, {i, j, k}});
+      }
+    }
+  }
+  constexpr std::size_t most = 60;
+  std::sort(triples.begin(), triples.end());
+  if (triples.size() > most) triples.resize(most);
+  for (const auto& [cost, triple] : triples) {
+    Points to(3, 3);
+    for (int k = 0; k < 3; ++k) to.col(k) = of_b.roots.col(triple[idx(k)]) - of_b.centre;
+    starts.push_back(rotation_between(from, to));
+  }
+}
+
+bool differs(const CoreAlignment& one, const CoreAlignment& other) {
+  const Eigen::AngleAxisd between(
+      Eigen::Matrix3d(one.motion.rotation.transpose() * other.motion.rotation));
+  return std::abs(between.angle()) > EIGEN_PI / 6;
+}
+
+/// The best that differ, from all starts.
+std::vector<CoreAlignment> align_points(const Points& few, const Points& many,
+                                        const Similarity& start, const SurfaceTree& tree_b,
+                                        double unit, const std::vector<Eigen::Matrix3d>& rotations,
+                                        std::size_t most, int threads) {
+  std::vector<CoreAlignment> found(rotations.size());
+  const auto improve = [&](const Points& points, int rounds) {
+    parallel_for(found.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        refine(found[k].motion, points, tree_b, rounds);
+        found[k].residual = misfit(found[k].motion, points, tree_b) / unit;
+      }
+    });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const CoreAlignment& one, const CoreAlignment& other) {
+                       return one.residual < other.residual;
+                     });
+  };
+  for (std::size_t k = 0; k < rotations.size(); ++k) {
+    found[k].motion = start;
+    found[k].motion.rotation = rotations[k];
+  }
+  improve(few, 3);
+  constexpr std::size_t refined = 16;
+  if (found.size() > refined) found.resize(refined);
+  improve(many, 20);
+  std::vector<CoreAlignment> apart;
+  for (const CoreAlignment& one : found) {
+    if (apart.size() < most && std::all_of(apart.begin(), apart.end(), [&](const auto& other) {
+          return differs(one, other);
+        })) {
+      apart.push_back(one);
+    }
+  }
+  return apart;
+}
+
+}  // namespace
+
+std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
+                                       const SurfaceTree& tree_b, const MatchSide& b,
+                                       const TipFeatures& of_b, const Eigen::MatrixXd& like,
+                                       std::size_t most, int threads) {
+  const Points core_a = spread(a.surface.positions, of_a.core_vertices, 400);
+  const Points core_b = spread(b.surface.positions, of_b.core_vertices, 400);
+  std::vector<Eigen::Matrix3d> starts{Eigen::Matrix3d::Identity()};
+  add_limb_rotations(of_a, of_b, like, starts);
+  add_axis_rotations(core_a, core_b, starts);
+  const double scale = of_b.unit / of_a.unit;
+  std::vector<CoreAlignment> found =
+      align_points(spread(a.surface.positions, of_a.core_vertices, 80), core_a,
+                   {Eigen::Matrix3d::Identity(), of_a.centre, of_b.centre, scale}, tree_b,
+                   of_b.unit, starts, most, threads);
+  const std::vector<int> all_a = all_vertices(a.surface);
+  const Points whole_a = spread(a.surface.positions, all_a, 400);
+  const Points whole_b = spread(b.surface.positions, all_vertices(b.surface), 400);
+  starts = {Eigen::Matrix3d::Identity()};
+  add_limb_rotations(of_a, of_b, like, starts);
+  add_axis_rotations(whole_a, whole_b, starts);
+  const std::vector<CoreAlignment> of_whole =
+      align_points(spread(a.surface.positions, all_a, 80), whole_a,
+                   {Eigen::Matrix3d::Identity(), whole_centroid(of_a), whole_centroid(of_b), scale},
+                   tree_b, of_b.unit, starts, most, threads);
+  found.insert(found.end(), of_whole.begin(), of_whole.end());
+  return found;
+}
+
+}  // namespace curveskel

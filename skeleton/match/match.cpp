@@ -1,0 +1,175 @@
+#include <curveskel/match.hpp>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "base/parallel.hpp"
+#include "skeleton/match/branch_overlaps.hpp"
+#include "skeleton/match/branch_pairs.hpp"
+#include "skeleton/match/component_pairs.hpp"
+#include "skeleton/match/core_alignment.hpp"
+#include "skeleton/match/motions.hpp"
+#include "skeleton/match/tip_pairs.hpp"
+#include "skeleton/match/tips.hpp"
+#include "skeleton/match/vertex_pairs.hpp"
+
+namespace curveskel {
+namespace {
+
+void require_whole(const MatchSide& side, const std::string& name) {
+  const CurveSkeleton& skeleton = side.skeleton;
+  const auto refuse = [&](const std::string& found, const std::string& needed) {
+    throw Error(Fault::input,
+                "matching: the skeleton of " + name + " has " + found + ", needed " + needed);
+  };
+  if (skeleton.edges.rows() == 0) refuse("no edges", "one at least");
+  if (skeleton.radii.size() != skeleton.nodes.rows()) refuse("no radii", "one for each node");
+  if (skeleton.node_of_vertex.size() != side.surface.positions.rows()) {
+    refuse("a map of " + std::to_string(skeleton.node_of_vertex.size()) + " vertices",
+           "one of its surface's " + std::to_string(side.surface.positions.rows()));
+  }
+}
+
+/// A fit within a fifth, or within a thousandth of the size, is as good.
+constexpr double as_good = 1.2;
+constexpr double as_near = 1e-3;
+
+constexpr std::size_t most_alignments = 3;
+
+/// How a might have become b.
+std::vector<NodeMotions> follow_cores(const MatchSide& a, const TipFeatures& of_a,
+                                      const SurfaceTree& tree_b,
+                                      const std::vector<CoreAlignment>& alignments, int threads,
+                                      const Monitor& monitor) {
+  std::vector<NodeMotions> hypotheses(alignments.size());
+  monitor.report("match", 0.3);
+  parallel_for(hypotheses.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      hypotheses[k] = follow_motions(a, of_a, tree_b, alignments[k].motion);
+    }
+  });
+  return hypotheses;
+}
+
+Eigen::Matrix3Xd tips_of(const TipFeatures& features, const MatchSide& side) {
+  return side.skeleton.nodes(features.tips, Eigen::all).transpose() / features.unit;
+}
+
+Eigen::Matrix3Xd moved_tips(const TipFeatures& of_a, const MatchSide& a, const TipFeatures& of_b,
+                            const NodeMotions& motions) {
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(of_a.tips.size()));
+  for (std::size_t tip = 0; tip < of_a.tips.size(); ++tip) {
+    const int node = of_a.tips[tip];
+    const Eigen::Vector3d at = a.skeleton.nodes.row(node);
+    places.col(static_cast<Eigen::Index>(tip)) = motions.of_node[idx(node)](at) / of_b.unit;
+  }
+  return places;
+}
+
+struct Outcome {
+  std::vector<BranchPair> pairs;
+  NodeMotions motions;
+  double misfit;
+};
+
+/// Over the unit: how far a's vertices, where they are thought to go, are from b's in the partner's
+/// territory, in the mean; a vertex without a partner is a tenth of the size off.
+double misfit_of(const MatchSide& a, const MatchSide& b, double unit,
+                 const std::vector<BranchPair>& pairs, const NodeMotions& motions, int threads) {
+  constexpr double lost = 0.1;
+  constexpr Eigen::Index most_samples = 2000;
+  const Eigen::Index step = std::max<Eigen::Index>(1, a.surface.positions.rows() / most_samples);
+  const VertexPairs moved = pair_vertices(a, b, pairs, motions, static_cast<int>(step), threads);
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
+    sum += moved.partner[v] < 0 ? lost : std::min(lost, moved.distance[v] / unit);
+    ++count;
+  }
+  return sum / count;
+}
+
+/// A pair is ambiguous if a second alignment that fits the core as well gives another partner.
+void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair>& otherwise) {
+  std::map<int, int> partner;
+  for (const BranchPair& pair : otherwise) partner[pair.a] = pair.b;
+  for (BranchPair& pair : pairs) {
+    const auto found = partner.find(pair.a);
+    if (found != partner.end() && found->second != pair.b) pair.ambiguous = true;
+  }
+}
+
+}  // namespace
+
+SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const MatchOptions& options,
+                              const Monitor& monitor) {
+  require_whole(a, "A");
+  require_whole(b, "B");
+  monitor.report("match", 0);
+  const TipFeatures of_a = tip_features(a);
+  const TipFeatures of_b = tip_features(b);
+  const Eigen::MatrixXd like = likeness(of_a, of_b);
+  monitor.report("match", 0.1);
+  const SurfaceTree tree_b(b.surface, options.threads);
+  std::vector<NodeMotions> hypotheses =
+      follow_cores(a, of_a, tree_b,
+                   align_cores(a, of_a, tree_b, b, of_b, like, most_alignments, options.threads),
+                   options.threads, monitor);
+  const Eigen::Matrix3Xd tips_b = tips_of(of_b, b);
+  const BranchTerritories territories_a = branch_territories(a.surface, a.skeleton);
+  const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
+  const auto pairs_of = [&](const NodeMotions& motions) {
+    const std::vector<int> tips = pair_tips(of_a, of_b, like, moved_tips(of_a, a, of_b, motions),
+                                            tips_b, pair_components(of_a, of_b, motions));
+    const Eigen::MatrixXd overlaps =
+        branch_overlaps(a, territories_a, b, territories_b, tree_b, motions, options.threads);
+    return pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
+  };
+  // What the surface has followed wrongly, such as a part that hangs on by nothing, the pairs that
+  // are clear put right.
+  std::vector<Outcome> outcomes;
+  for (NodeMotions& motions : hypotheses) {
+    constexpr int rounds = 2;
+    for (int round = 0; round <= rounds; ++round) {
+      std::vector<BranchPair> pairs = pairs_of(motions);
+      const double misfit = misfit_of(a, b, of_b.unit, pairs, motions, options.threads);
+      NodeMotions anchored = anchored_motions(a, of_a, b, pairs, motions);
+      outcomes.push_back({std::move(pairs), std::move(motions), misfit});
+      motions = std::move(anchored);
+    }
+    monitor.report("match", 0.5);
+  }
+  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& one, const Outcome& other) {
+    return one.misfit < other.misfit;
+  });
+  const Outcome& best = outcomes.front();
+  SkeletonMatch match;
+  match.branches = best.pairs;
+  for (std::size_t k = 1; k < outcomes.size(); ++k) {
+    if (outcomes[k].misfit > as_good * best.misfit + as_near) break;
+    mark_ambiguous(match.branches, outcomes[k].pairs);
+  }
+  match.junctions = pair_junctions(a, b, match.branches);
+  monitor.report("match", 0.7);
+  match.vertex_of_a = pair_vertices(a, b, match.branches, best.motions, 1, options.threads).partner;
+  return match;
+}
+
+Eigen::VectorXi matched_input_vertices(const SkeletonMatch& match, const RepairedSurface& a,
+                                       const RepairedSurface& b) {
+  Eigen::VectorXi input_of_b = Eigen::VectorXi::Constant(b.surface.positions.rows(), -1);
+  for (Eigen::Index v = b.vertex_of_input.size(); v-- > 0;) {
+    if (b.vertex_of_input[v] >= 0) input_of_b[b.vertex_of_input[v]] = static_cast<int>(v);
+  }
+  Eigen::VectorXi partner = a.vertex_of_input;
+  for (int& vertex : partner) {
+    const int matched = vertex < 0 ? -1 : match.vertex_of_a[vertex];
+    vertex = matched < 0 ? -1 : input_of_b[matched];
+  }
+  return partner;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,225 @@
+#include "skeleton/match/motions.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "skeleton/measure/branch_curve.hpp"
+
+namespace curveskel {
+namespace {
+
+class Follower {
+ public:
+  Follower(const MatchSide& a, const TipFeatures& of_a, const SurfaceTree& tree_b,
+           const Similarity& core)
+      : a_(a),
+        of_a_(of_a),
+        tree_b_(tree_b),
+        core_(core),
+        vertices_(idx(a.skeleton.nodes.rows())),
+        settled_(vertices_.size(), false) {
+    for (int vertex = 0; vertex < a.skeleton.node_of_vertex.size(); ++vertex) {
+      const int node = a.skeleton.node_of_vertex[vertex];
+      if (node >= 0) vertices_[idx(node)].push_back(vertex);
+    }
+    motions_.of_node.assign(vertices_.size(), core);
+  }
+
+  NodeMotions follow() {
+    std::vector<int> order(vertices_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [this](int i, int k) { return key(i) < key(k); });
+    for (const int node : order) settle(node);
+    return std::move(motions_);
+  }
+
+ private:
+  /// Large components first, in each from the middle outwards.
+  [[nodiscard]] std::tuple<double, int, double> key(int node) const {
+    const int component = of_a_.component[idx(node)];
+    return {-of_a_.area_share[idx(component)], component, of_a_.from_centre[idx(node)]};
+  }
+
+  void settle(int node) {
+    Similarity motion = start_of(node);
+    const Eigen::Matrix3Xd points = surroundings(node);
+    constexpr int rounds = 4;
+    constexpr Eigen::Index least_points = 12;
+    if (points.cols() >= least_points && is_large(node)) refine(motion, points, tree_b_, rounds);
+    motions_.of_node[idx(node)] = motion;
+    settled_[idx(node)] = true;
+  }
+
+  /// A small part would be drawn onto whatever is near; it goes with what it sits on.
+  [[nodiscard]] bool is_large(int node) const {
+    constexpr double least_share = 0.02;
+    return of_a_.area_share[idx(of_a_.component[idx(node)])] >= least_share;
+  }
+
+  [[nodiscard]] Similarity start_of(int node) const {
+    for (const int next : of_a_.graph.neighbours(node)) {
+      if (settled_[idx(next)] && of_a_.from_centre[idx(next)] <= of_a_.from_centre[idx(node)]) {
+        return motions_.of_node[idx(next)];
+      }
+    }
+    int nearest = -1;
+    double least = 0;
+    for (int other = 0; other < of_a_.graph.nodes(); ++other) {
+      if (!settled_[idx(other)] || !is_large(other)) continue;
+      const double distance =
+          (a_.skeleton.nodes.row(other) - a_.skeleton.nodes.row(node)).squaredNorm();
+      if (nearest >= 0 && distance >= least) continue;
+      nearest = other;
+      least = distance;
+    }
+    return nearest < 0 ? core_ : motions_.of_node[idx(nearest)];
+  }
+
+  /// Vertices of the nodes within two radii along the curve.
+  [[nodiscard]] Eigen::Matrix3Xd surroundings(int node) {
+    constexpr std::size_t most = 80;
+    const double reach = 2 * std::max(0.0, a_.skeleton.radii[node]);
+    std::vector<int> near;
+    std::vector<std::pair<int, double>> open{{node, 0.0}};
+    std::vector<int> seen{node};
+    while (!open.empty()) {
+      const auto [at, far] = open.back();
+      open.pop_back();
+      near.insert(near.end(), vertices_[idx(at)].begin(), vertices_[idx(at)].end());
+      for (const int next : of_a_.graph.neighbours(at)) {
+        const double there = far + (a_.skeleton.nodes.row(next) - a_.skeleton.nodes.row(at)).norm();
+        if (there > reach || std::find(seen.begin(), seen.end(), next) != seen.end()) continue;
+        seen.push_back(next);
+        open.emplace_back(next, there);
+      }
+    }
+    std::sort(near.begin(), near.end());
+    const std::size_t count = std::min(most, near.size());
+    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      points.col(static_cast<Eigen::Index>(k)) =
+          a_.surface.positions.row(near[k * near.size() / count]);
+    }
+    return points;
+  }
+
+  const MatchSide& a_;
+  const TipFeatures& of_a_;
+  const SurfaceTree& tree_b_;
+  const Similarity& core_;
+  std::vector<std::vector<int>> vertices_;  ///< per node
+  std::vector<bool> settled_;
+  NodeMotions motions_;
+};
+
+}  // namespace
+
+NodeMotions follow_motions(const MatchSide& a, const TipFeatures& of_a, const SurfaceTree& tree_b,
+                           const Similarity& core) {
+  return Follower(a, of_a, tree_b, core).follow();
+}
+
+namespace {
+
+bool share_an_end(const Branch& one, const Branch& other) {
+  for (const int node : {one.nodes.front(), one.nodes.back()}) {
+    if (node == other.nodes.front() || node == other.nodes.back()) return true;
+  }
+  return false;
+}
+
+/// Pairs that hang together in both: from the middle outwards, each has a neighbour nearer to it
+/// whose partner is a neighbour of its own partner.
+std::vector<BranchPair> hanging_together(const std::vector<Branch>& of_a,
+                                         const std::vector<Branch>& of_b,
+                                         const TipFeatures& features,
+                                         std::vector<BranchPair> pairs) {
+  const auto nearness = [&](const BranchPair& pair) {
+    const std::vector<int>& nodes = of_a[idx(pair.a)].nodes;
+    return std::min(features.from_centre[idx(nodes.front())],
+                    features.from_centre[idx(nodes.back())]);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const auto& one, const auto& other) {
+    return nearness(one) < nearness(other);
+  });
+  std::vector<BranchPair> kept;
+  std::vector<bool> has_one(features.middle.size(), false);
+  for (const BranchPair& pair : pairs) {
+    const std::size_t component = idx(features.component[idx(of_a[idx(pair.a)].nodes.front())]);
+    const bool hangs =
+        !has_one[component] || std::any_of(kept.begin(), kept.end(), [&](const BranchPair& other) {
+          return share_an_end(of_a[idx(pair.a)], of_a[idx(other.a)]) &&
+                 share_an_end(of_b[idx(pair.b)], of_b[idx(other.b)]);
+        });
+    if (!hangs) continue;
+    has_one[component] = true;
+    kept.push_back(pair);
+  }
+  return kept;
+}
+
+/// Motions of known nodes go on along the curve, and from there to the other components.
+void spread_motions(const MatchSide& a, const TipFeatures& features, std::vector<bool> known,
+                    NodeMotions& motions) {
+  std::vector<int> open;
+  for (int node = 0; node < features.graph.nodes(); ++node) {
+    if (known[idx(node)]) open.push_back(node);
+  }
+  const std::vector<int> anchors = open;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    for (const int next : features.graph.neighbours(open[k])) {
+      if (known[idx(next)]) continue;
+      known[idx(next)] = true;
+      motions.of_node[idx(next)] = motions.of_node[idx(open[k])];
+      open.push_back(next);
+    }
+  }
+  for (int node = 0; node < features.graph.nodes(); ++node) {
+    if (known[idx(node)]) continue;
+    int nearest = -1;
+    double least = 0;
+    for (const int other : anchors) {
+      const double distance =
+          (a.skeleton.nodes.row(other) - a.skeleton.nodes.row(node)).squaredNorm();
+      if (nearest >= 0 && distance >= least) continue;
+      nearest = other;
+      least = distance;
+    }
+    if (nearest >= 0) motions.of_node[idx(node)] = motions.of_node[idx(nearest)];
+  }
+}
+
+}  // namespace
+
+NodeMotions anchored_motions(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
+                             const std::vector<BranchPair>& pairs, const NodeMotions& motions) {
+  NodeMotions anchored = motions;
+  std::vector<bool> is_known(motions.of_node.size(), false);
+  const std::vector<Branch> all_a = branches(a.skeleton);
+  const std::vector<Branch> all_b = branches(b.skeleton);
+  for (const BranchPair& pair : hanging_together(all_a, all_b, of_a, pairs)) {
+    const std::vector<int>& nodes = all_a[idx(pair.a)].nodes;
+    const BranchCurve from = branch_curve(a.skeleton, all_a[idx(pair.a)]);
+    const BranchCurve to = branch_curve(b.skeleton, all_b[idx(pair.b)]);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (is_known[idx(nodes[k])]) continue;
+      is_known[idx(nodes[k])] = true;
+      const double share = from.length() > 0 ? from.lengths[k] / from.length() : 0;
+      const double t = (pair.reversed ? 1 - share : share) * to.length();
+      Similarity& motion = anchored.of_node[idx(nodes[k])];
+      const Eigen::Vector3d here = motion.rotation * derivatives_at(from, from.lengths[k]).first;
+      const Eigen::Vector3d there = (pair.reversed ? -1 : 1) * derivatives_at(to, t).first;
+      motion.rotation = Eigen::Quaterniond::FromTwoVectors(here, there) * motion.rotation;
+      motion.from = from.points.row(static_cast<Eigen::Index>(k));
+      motion.to = point_at(to, t);
+    }
+  }
+  spread_motions(a, of_a, std::move(is_known), anchored);
+  return anchored;
+}
+
+}  // namespace curveskel

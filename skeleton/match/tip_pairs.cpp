@@ -1,0 +1,116 @@
+#include "skeleton/match/tip_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <curveskel/advanced/indices.hpp>
+#include "base/least_pairs.hpp"
+
+namespace curveskel {
+namespace {
+
+struct Candidate {
+  int a;
+  int b;
+  double own;    ///< log of likeness and of how near the roots are
+  double share;  ///< 0..1, of the assignment
+  double score;  ///< log
+};
+
+/// The same tip, moved, lies within a twentieth of the size, most likely.
+constexpr double place_scale = 0.05;
+
+std::vector<Candidate> candidates_of(const TipFeatures& a, const TipFeatures& b,
+                                     const Eigen::MatrixXd& like, const Eigen::Matrix3Xd& places_a,
+                                     const Eigen::Matrix3Xd& places_b,
+                                     const std::vector<int>& component_pairs) {
+  constexpr std::size_t most = 16;
+  std::vector<Candidate> all;
+  for (int i = 0; i < static_cast<int>(a.tips.size()); ++i) {
+    std::vector<Candidate> row;
+    const int component = component_pairs[idx(a.component[idx(a.tips[idx(i)])])];
+    for (int j = 0; j < static_cast<int>(b.tips.size()); ++j) {
+      if (b.component[idx(b.tips[idx(j)])] != component) continue;
+      const double off = (places_b.col(j) - places_a.col(i)).norm() / place_scale;
+      // What has been lost on the way to the tip says no more than that.
+      const double own = std::log(1e-4 + like(i, j)) + std::log(0.02 + std::exp(-0.5 * off * off));
+      row.push_back({i, j, own, 0, own});
+    }
+    std::stable_sort(row.begin(), row.end(),
+                     [](const Candidate& x, const Candidate& y) { return x.own > y.own; });
+    if (row.size() > most) row.resize(most);
+    all.insert(all.end(), row.begin(), row.end());
+  }
+  return all;
+}
+
+/// Rows and columns that sum to one at most: what is left of each is for no partner.
+void normalise(std::vector<Candidate>& candidates, std::size_t rows, std::size_t columns,
+               double temperature) {
+  // A pair as good as this is as good as none.
+  constexpr double none = -6;
+  double top = none;
+  for (const Candidate& one : candidates) top = std::max(top, one.score);
+  for (Candidate& one : candidates) one.share = std::exp((one.score - top) / temperature);
+  const double alone = std::exp((none - top) / temperature);
+  for (int round = 0; round < 30; ++round) {
+    std::vector<double> row(rows, alone);
+    for (const Candidate& one : candidates) row[idx(one.a)] += one.share;
+    for (Candidate& one : candidates) one.share /= row[idx(one.a)];
+    std::vector<double> column(columns, alone);
+    for (const Candidate& one : candidates) column[idx(one.b)] += one.share;
+    for (Candidate& one : candidates) one.share /= column[idx(one.b)];
+  }
+}
+
+/// 0..1: the other pairs, by their shares, that are as far from this in a as in b.
+double support(const Candidate& one, const std::vector<Candidate>& candidates, const TipFeatures& a,
+               const TipFeatures& b) {
+  double agreed = 0;
+  double all = 0;
+  for (const Candidate& other : candidates) {
+    if (other.a == one.a || other.b == one.b || other.share < 1e-6) continue;
+    const double in_a = a.apart(one.a, other.a);
+    const double in_b = b.apart(one.b, other.b);
+    const double off = (in_a - in_b) / (0.03 + 0.1 * std::min(in_a, in_b));
+    agreed += other.share * std::exp(-0.5 * off * off);
+    all += other.share;
+  }
+  return all > 0 ? agreed / all : 1;
+}
+
+}  // namespace
+
+std::vector<int> pair_tips(const TipFeatures& a, const TipFeatures& b, const Eigen::MatrixXd& like,
+                           const Eigen::Matrix3Xd& places_a, const Eigen::Matrix3Xd& places_b,
+                           const std::vector<int>& component_pairs) {
+  std::vector<int> partner(a.tips.size(), -1);
+  if (a.tips.empty() || b.tips.empty()) return partner;
+  std::vector<Candidate> candidates =
+      candidates_of(a, b, like, places_a, places_b, component_pairs);
+  constexpr int rounds = 16;
+  for (int round = 0; round < rounds; ++round) {
+    const double temperature = 1.5 * std::pow(0.85, round);
+    normalise(candidates, a.tips.size(), b.tips.size(), temperature);
+    std::vector<double> scores;
+    for (const Candidate& one : candidates) {
+      scores.push_back(one.own + 4 * std::log(0.02 + support(one, candidates, a, b)));
+    }
+    for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].score = scores[k];
+  }
+  // Worse than the worst that a pair can be and still is one.
+  constexpr double no_pair = 1e3;
+  constexpr double least_score = -8;
+  Eigen::MatrixXd costs = Eigen::MatrixXd::Constant(
+      static_cast<Eigen::Index>(a.tips.size()), static_cast<Eigen::Index>(b.tips.size()), no_pair);
+  for (const Candidate& one : candidates) costs(one.a, one.b) = -one.score;
+  const std::vector<int> pairs = least_pairs(costs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i] < 0) continue;
+    if (costs(static_cast<Eigen::Index>(i), pairs[i]) < -least_score) partner[i] = pairs[i];
+  }
+  return partner;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,146 @@
+#include "skeleton/match/vertex_pairs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/branch_territories.hpp>
+#include "base/parallel.hpp"
+#include "skeleton/measure/branch_curve.hpp"
+
+namespace curveskel {
+namespace {
+
+/// The faces of one branch, to find the vertex nearest to a place.
+class Territory {
+ public:
+  Territory(const Surface& surface, const std::vector<int>& faces)
+      : surface_{surface.positions, Triangles(static_cast<Eigen::Index>(faces.size()), 3)} {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      surface_.triangles.row(static_cast<Eigen::Index>(k)) = surface.triangles.row(faces[k]);
+    }
+    if (!faces.empty()) tree_ = std::make_unique<SurfaceTree>(surface_, 1);
+  }
+
+  [[nodiscard]] int nearest(const Eigen::Vector3d& place) const {
+    if (!tree_) return -1;
+    const auto corners = surface_.triangles.row(tree_->nearest(place).triangle);
+    Eigen::Index best = 0;
+    (surface_.positions(corners.transpose(), Eigen::all).rowwise() - place.transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&best);
+    return corners[best];
+  }
+
+ private:
+  Surface surface_;
+  std::unique_ptr<SurfaceTree> tree_;
+};
+
+/// Where on a branch the point nearest to a place lies, from two nodes before `node` to two after.
+double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::Vector3d& place) {
+  constexpr Eigen::Index around = 2;
+  double best = curve.lengths[idx(node)];
+  double least = (curve.points.row(node).transpose() - place).squaredNorm();
+  const Eigen::Index last = curve.points.rows() - 1;
+  for (Eigen::Index k = std::max<Eigen::Index>(0, node - around); k < std::min(last, node + around);
+       ++k) {
+    const Eigen::Vector3d from = curve.points.row(k);
+    const Eigen::Vector3d way = curve.points.row(k + 1).transpose() - from;
+    if (!(way.squaredNorm() > 0)) continue;
+    const double share = std::clamp((place - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double distance = (from + share * way - place).squaredNorm();
+    if (distance >= least) continue;
+    least = distance;
+    best = curve.lengths[idx(k)] + share * way.norm();
+  }
+  return best;
+}
+
+/// One pair of branches, and how places around the one become places around the other.
+class BranchTransfer {
+ public:
+  BranchTransfer(BranchCurve from, BranchCurve to, bool reversed)
+      : from_(std::move(from)), to_(std::move(to)), reversed_(reversed) {}
+
+  [[nodiscard]] const BranchCurve& from() const { return from_; }
+
+  [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& place, double s,
+                                           const Similarity& motion) const {
+    const double share = from_.length() > 0 ? s / from_.length() : 0;
+    const double t = (reversed_ ? 1 - share : share) * to_.length();
+    const Eigen::Vector3d here = motion.rotation * derivatives_at(from_, s).first;
+    const Eigen::Vector3d there = (reversed_ ? -1 : 1) * derivatives_at(to_, t).first;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(here, there);
+    const double radius = radius_at(from_, s);
+    const double scale = radius > 0 ? radius_at(to_, t) / radius : motion.scale;
+    const Eigen::Vector3d out = motion.rotation * (place - point_at(from_, s));
+    return point_at(to_, t) + scale * (turn * out);
+  }
+
+ private:
+  BranchCurve from_;
+  BranchCurve to_;
+  bool reversed_;
+};
+
+std::vector<std::vector<int>> faces_of_branches(const Eigen::VectorXi& branch_of_face,
+                                                std::size_t count) {
+  std::vector<std::vector<int>> faces(count);
+  for (int face = 0; face < branch_of_face.size(); ++face) {
+    if (branch_of_face[face] >= 0) faces[idx(branch_of_face[face])].push_back(face);
+  }
+  return faces;
+}
+
+/// The place of each node in the order of a branch's nodes.
+std::map<int, Eigen::Index> places_of(const Branch& branch) {
+  std::map<int, Eigen::Index> places;
+  for (std::size_t k = 0; k < branch.nodes.size(); ++k) {
+    places.emplace(branch.nodes[k], static_cast<Eigen::Index>(k));
+  }
+  return places;
+}
+
+}  // namespace
+
+VertexPairs pair_vertices(const MatchSide& a, const MatchSide& b,
+                          const std::vector<BranchPair>& branch_pairs, const NodeMotions& motions,
+                          int step, int threads) {
+  const std::vector<Branch> of_a = branches(a.skeleton);
+  const std::vector<Branch> of_b = branches(b.skeleton);
+  const Eigen::VectorXi branch_of_vertex =
+      branch_territories(a.surface, a.skeleton).branch_of_vertex;
+  const auto faces =
+      faces_of_branches(branch_territories(b.surface, b.skeleton).branch_of_face, of_b.size());
+  std::vector<std::vector<int>> vertices(of_a.size());
+  for (int vertex = 0; vertex < branch_of_vertex.size(); vertex += step) {
+    if (branch_of_vertex[vertex] >= 0) vertices[idx(branch_of_vertex[vertex])].push_back(vertex);
+  }
+  VertexPairs result{Eigen::VectorXi::Constant(a.surface.positions.rows(), -1),
+                     Eigen::VectorXd::Zero(a.surface.positions.rows())};
+  parallel_for(branch_pairs.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const BranchPair& pair = branch_pairs[k];
+      const BranchTransfer transfer(branch_curve(a.skeleton, of_a[idx(pair.a)]),
+                                    branch_curve(b.skeleton, of_b[idx(pair.b)]), pair.reversed);
+      const Territory territory(b.surface, faces[idx(pair.b)]);
+      const auto places = places_of(of_a[idx(pair.a)]);
+      for (const int vertex : vertices[idx(pair.a)]) {
+        const Eigen::Vector3d at = a.surface.positions.row(vertex);
+        const int node = a.skeleton.node_of_vertex[vertex];
+        const double s = nearest_length(transfer.from(), places.at(node), at);
+        const Eigen::Vector3d there = transfer(at, s, motions.of_node[idx(node)]);
+        const int partner = territory.nearest(there);
+        result.partner[vertex] = partner;
+        if (partner < 0) continue;
+        result.distance[vertex] = (b.surface.positions.row(partner).transpose() - there).norm();
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace curveskel

@@ -1,0 +1,175 @@
+// Which branch is which: of surfaces that are known to be the same, turned, noised, cut shorter.
+#include <curveskel/match.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/extract.hpp>
+#include "meshes/shapes.hpp"
+
+namespace curveskel {
+namespace {
+
+using shapes::Shape;
+
+struct Side {
+  Surface surface;
+  CurveSkeleton skeleton;
+  [[nodiscard]] MatchSide as_given() const { return {surface, skeleton}; }
+};
+
+Side side_of(const Surface& surface) { return {surface, extract(surface).skeleton}; }
+
+Shape turned(const Shape& shape) {
+  return shapes::translated(shapes::rotated(shape, {0.3, 1, -0.4}, 2.1), {5, -7, 3});
+}
+
+/// Five limbs of different lengths from two junctions.
+CurveSkeleton beast(double tail) {
+  CurveSkeleton graph;
+  graph.nodes.resize(7, 3);
+  graph.nodes << 0, 0, 0,  // shoulders
+      5, 0, 0,             // hips
+      -2, 1.5, 0.5,        // head
+      -0.5, -4, 1.5,       // front leg
+      -0.5, -3.2, -2,      // the other, shorter
+      5.5, -3.8, 0.8,      // hind leg
+      5 + tail, 1, -0.5;   // tail
+  graph.edges.resize(6, 2);
+  graph.edges << 0, 1, 0, 2, 0, 3, 0, 4, 1, 5, 1, 6;
+  graph.radii.resize(7);
+  graph.radii << 0.6, 0.7, 0.5, 0.4, 0.35, 0.45, 0.3;
+  return graph;
+}
+
+TEST(MatchSkeletons, FindEachBranchOfATurnedAndScaledSurface) {
+  for (const int seed : {3, 8, 21, 34}) {
+    SCOPED_TRACE(seed);
+    const Shape shape = shapes::random_tubes(seed);
+    const Side a = side_of(shape.surface);
+    const Side b = side_of(shapes::scaled(turned(shape), 2.5).surface);
+    const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+    ASSERT_EQ(match.branches.size(), branches(a.skeleton).size());
+    const double size = bounding_box_diagonal(b.surface.positions);
+    const auto of_a = branches(a.skeleton);
+    const auto of_b = branches(b.skeleton);
+    for (const BranchPair& pair : match.branches) {
+      // The same vertices lie around both.
+      const auto middle = [](const CurveSkeleton& skeleton, const Branch& branch) {
+        const std::set<int> nodes(branch.nodes.begin(), branch.nodes.end());
+        std::set<Eigen::Index> vertices;
+        for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+          if (nodes.count(skeleton.node_of_vertex[v]) > 0) vertices.insert(v);
+        }
+        return vertices;
+      };
+      const auto mine = middle(a.skeleton, of_a[static_cast<std::size_t>(pair.a)]);
+      const auto theirs = middle(b.skeleton, of_b[static_cast<std::size_t>(pair.b)]);
+      std::size_t shared = 0;
+      for (const Eigen::Index vertex : mine) shared += theirs.count(vertex);
+      EXPECT_GT(2 * shared, mine.size());
+      EXPECT_FALSE(pair.ambiguous);
+    }
+    int near = 0;
+    for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+      const int found = match.vertex_of_a[v];
+      if (found < 0) continue;
+      const double off = (b.surface.positions.row(found) - b.surface.positions.row(v)).norm();
+      near += off < 0.01 * size ? 1 : 0;
+    }
+    EXPECT_GT(near, 0.9 * static_cast<double>(match.vertex_of_a.size()));
+  }
+}
+
+TEST(MatchSkeletons, TellWhatHasNoPartner) {
+  const Shape whole = shapes::tube_union("beast", beast(4));
+  CurveSkeleton docked = beast(4);
+  docked.nodes.row(5) << 5.5, -3.8, 0.8;
+  docked.nodes.conservativeResize(6, 3);
+  docked.radii.conservativeResize(6);
+  docked.edges.conservativeResize(5, 2);
+  const Side a = side_of(whole.surface);
+  const Side b = side_of(turned(shapes::tube_union("docked", docked)).surface);
+  ASSERT_EQ(branches(a.skeleton).size(), 6U);
+  ASSERT_EQ(branches(b.skeleton).size(), 4U);
+  const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+  // Without the tail, trunk and hind leg are one branch, which is that of one of the two.
+  EXPECT_EQ(match.branches.size(), 4U);
+  const auto of_a = branches(a.skeleton);
+  for (const BranchPair& pair : match.branches) {
+    const int end = of_a[static_cast<std::size_t>(pair.a)].nodes.back();
+    const int start = of_a[static_cast<std::size_t>(pair.a)].nodes.front();
+    for (const int node : {start, end}) {
+      EXPECT_LT(a.skeleton.nodes(node, 0), 7) << "the tail has a partner";
+    }
+  }
+  // And the other way round.
+  EXPECT_EQ(match_skeletons(b.as_given(), a.as_given()).branches.size(), 4U);
+}
+
+TEST(MatchSkeletons, FollowTheSurfaceWhereTheCurveAloneCannot) {
+  // Left and right are alike in the curve; a bump in front tells them apart.
+  CurveSkeleton figure;
+  figure.nodes.resize(6, 3);
+  figure.nodes << 0, 0, 0, 0, 4, 0, 3, 0, 0, -3, 0, 0, 0, -4, 0, 0, 2, 1.2;
+  figure.edges.resize(5, 2);
+  figure.edges << 0, 1, 0, 2, 0, 3, 0, 4, 0, 5;
+  figure.radii.resize(6);
+  figure.radii << 0.8, 0.6, 0.5, 0.5, 0.6, 0.5;
+  const Shape shape = shapes::tube_union("figure", figure);
+  const Side a = side_of(shape.surface);
+  const Side b = side_of(turned(shape).surface);
+  const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+  ASSERT_EQ(match.branches.size(), branches(a.skeleton).size());
+  for (const BranchPair& pair : match.branches) EXPECT_FALSE(pair.ambiguous);
+  int wrong = 0;
+  const double size = bounding_box_diagonal(b.surface.positions);
+  for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+    const int found = match.vertex_of_a[v];
+    const auto off =
+        found < 0 ? size : (b.surface.positions.row(found) - b.surface.positions.row(v)).norm();
+    wrong += off > 0.05 * size ? 1 : 0;
+  }
+  EXPECT_LT(wrong, 0.05 * static_cast<double>(match.vertex_of_a.size()));
+}
+
+TEST(MatchSkeletons, SayWhereASymmetryLeavesTheChoice) {
+  const Shape star = shapes::tube_union("star", shapes::star(3, 5, 1));
+  const Side a = side_of(star.surface);
+  const Side b = side_of(turned(star).surface);
+  const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+  ASSERT_EQ(match.branches.size(), 3U);
+  for (const BranchPair& pair : match.branches) EXPECT_TRUE(pair.ambiguous);
+}
+
+TEST(MatchSkeletons, PairRingsJunctionsAndComponents) {
+  const Shape chain = shapes::tube_union("chain", shapes::ring_chain(2, 3, 0.6));
+  const Shape ring = shapes::translated(shapes::torus(2, 0.4, 20), {0, 0, 9});
+  const Shape both = shapes::together("both", {chain, ring});
+  const Side a = side_of(both.surface);
+  const Side b = side_of(turned(both).surface);
+  const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+  EXPECT_EQ(match.branches.size(), branches(a.skeleton).size());
+  EXPECT_EQ(static_cast<int>(match.junctions.size()), graph_topology(a.skeleton).junctions);
+}
+
+TEST(MatchSkeletons, AreTheSameFromAnyNumberOfThreadsAndRefuseWhatLacksAMap) {
+  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Side a = side_of(shape.surface);
+  Side b = side_of(turned(shape).surface);
+  const SkeletonMatch one = match_skeletons(a.as_given(), b.as_given(), {1});
+  const SkeletonMatch two = match_skeletons(a.as_given(), b.as_given(), {2});
+  EXPECT_EQ(one.vertex_of_a, two.vertex_of_a);
+  EXPECT_EQ(one.junctions, two.junctions);
+  b.skeleton.node_of_vertex.resize(0);
+  EXPECT_THROW((void)match_skeletons(a.as_given(), b.as_given()), Error);
+}
+
+}  // namespace
+}  // namespace curveskel
