@@ -50,11 +50,8 @@ def topology(skeleton):
     return components, len(skeleton.edges) - len(parent) + components
 
 
-def samples(skeleton, step):
-    """Points along the edges, with radii (NaN where there are none)."""
-    radii = numpy.asarray(skeleton.radii)
-    if len(radii) == 0:
-        radii = numpy.full(len(skeleton.vertices), numpy.nan)
+def samples(skeleton, radii, step):
+    """Points along the edges, with radii."""
     places, sizes = [numpy.asarray(skeleton.vertices)], [radii]
     for a, b in numpy.asarray(skeleton.edges):
         length = numpy.linalg.norm(skeleton.vertices[b] - skeleton.vertices[a])
@@ -90,11 +87,8 @@ def found(truth, truth_radii, others):
     return len(of_truth)
 
 
-def reconstruction(surface, skeleton, step, size):
+def reconstruction(surface, places, radii, size):
     """Mean distance of the surface's vertices to the boundary of the union of balls, over `size`."""
-    places, radii = samples(skeleton, step)
-    if numpy.isnan(radii).any():
-        return numpy.nan
     total = 0.0
     for begin in range(0, len(surface), 512):
         block = numpy.linalg.norm(surface[begin:begin + 512, None, :] - places[None, :, :], axis=2)
@@ -106,8 +100,12 @@ def score(surface, truth, skeleton):
     size = numpy.linalg.norm(numpy.ptp(surface, axis=0))
     step = 0.002 * size
     row = {"topology": topology(truth) == topology(skeleton)}
-    ours, radii = samples(skeleton, step)
-    theirs, true_radii = samples(truth, step)
+    nodes = numpy.asarray(skeleton.vertices)
+    own_radii = numpy.asarray(skeleton.radii)
+    if len(own_radii) == 0:  # then the nearest vertex tells
+        own_radii, _ = nearest(nodes, surface)
+    ours, radii = samples(skeleton, own_radii, step)
+    theirs, true_radii = samples(truth, numpy.asarray(truth.radii), step)
     there, number = nearest(ours, theirs)
     back, _ = nearest(theirs, ours)
     row["hausdorff"] = max(there.max(), back.max()) / size
@@ -118,7 +116,7 @@ def score(surface, truth, skeleton):
         row[f"{name}_found"] = found(truth.vertices[true], numpy.asarray(truth.radii)[true],
                                      skeleton.vertices[mine])
         row[f"{name}_true"], row[f"{name}_ours"] = int(true.sum()), int(mine.sum())
-    row["reconstruction"] = reconstruction(surface, skeleton, step, size)
+    row["reconstruction"] = reconstruction(surface, ours, radii, size)
     return row
 
 

@@ -182,13 +182,12 @@ std::vector<CoreAlignment> align_points(const Points& few, const Points& many,
 std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
                                        const SurfaceTree& tree_b, const MatchSide& b,
                                        const TipFeatures& of_b, const Eigen::MatrixXd& like,
-                                       std::size_t most, int threads) {
+                                       double scale, std::size_t most, int threads) {
   const Points core_a = spread(a.surface.positions, of_a.core_vertices, 400);
   const Points core_b = spread(b.surface.positions, of_b.core_vertices, 400);
   std::vector<Eigen::Matrix3d> starts{Eigen::Matrix3d::Identity()};
   add_limb_rotations(of_a, of_b, like, starts);
   add_axis_rotations(core_a, core_b, starts);
-  const double scale = of_b.unit / of_a.unit;
   std::vector<CoreAlignment> found =
       align_points(spread(a.surface.positions, of_a.core_vertices, 80), core_a,
                    {Eigen::Matrix3d::Identity(), of_a.centre, of_b.centre, scale}, tree_b,

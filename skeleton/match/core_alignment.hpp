@@ -15,15 +15,15 @@ struct CoreAlignment {
       0;  ///< distance of a's core, or of all, to b's surface over b's unit: mean, best 80 %
 };
 
-/// The best of the cores first, each 30 degrees or more from all before it, at most `most`; then
-/// the same of the whole surfaces, which have a middle even where cycles leave the curve none.
-/// Starts are the rotations of three limbs of a onto three of b that are as far apart, those of the
-/// principal axes, and none; the best are refined by nearest points (P. Besl and N. McKay, A method
-/// for registration of 3-D shapes, 1992).
+/// With b so many times as large as a. The best of the cores first, each 30 degrees or more from
+/// all before it, at most `most`; then the same of the whole surfaces, which have a middle even
+/// where cycles leave the curve none. Starts are the rotations of three limbs of a onto three of b
+/// that are as far apart, those of the principal axes, and none; the best are refined by nearest
+/// points (P. Besl and N. McKay, A method for registration of 3-D shapes, 1992).
 [[nodiscard]] std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
                                                      const SurfaceTree& tree_b, const MatchSide& b,
                                                      const TipFeatures& of_b,
-                                                     const Eigen::MatrixXd& like, std::size_t most,
-                                                     int threads);
+                                                     const Eigen::MatrixXd& like, double scale,
+                                                     std::size_t most, int threads);
 
 }  // namespace curveskel

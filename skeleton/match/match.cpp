@@ -1,10 +1,13 @@
 #include <curveskel/match.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/branch_measures.hpp>
+#include <curveskel/branch_territories.hpp>
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/match/branch_overlaps.hpp"
@@ -54,6 +57,14 @@ std::vector<NodeMotions> follow_cores(const MatchSide& a, const TipFeatures& of_
   return hypotheses;
 }
 
+/// The same body keeps its size, whatever it has lost; another of its kind has that of its area.
+std::vector<double> scales_between(const TipFeatures& a, const TipFeatures& b) {
+  constexpr double as_large = 0.02;
+  const double ratio = b.unit / a.unit;
+  if (std::abs(ratio - 1) < as_large || std::abs(std::log(ratio)) > std::log(1.5)) return {ratio};
+  return {1, ratio};
+}
+
 Eigen::Matrix3Xd tips_of(const TipFeatures& features, const MatchSide& side) {
   return side.skeleton.nodes(features.tips, Eigen::all).transpose() / features.unit;
 }
@@ -75,19 +86,46 @@ struct Outcome {
   double misfit;
 };
 
-/// Over the unit: how far a's vertices, where they are thought to go, are from b's in the partner's
-/// territory, in the mean; a vertex without a partner is a tenth of the size off.
-double misfit_of(const MatchSide& a, const MatchSide& b, double unit,
-                 const std::vector<BranchPair>& pairs, const NodeMotions& motions, int threads) {
+/// Of each branch of a with a partner: how much longer or thicker the partner is, as the sum of the
+/// absolute logarithms over the scale; 0 of others.
+std::vector<double> stretches(const MatchSide& a, const MatchSide& b, double scale,
+                              const std::vector<BranchPair>& pairs) {
+  const std::vector<BranchMeasures> of_a = branch_measures(a.skeleton);
+  const std::vector<BranchMeasures> of_b = branch_measures(b.skeleton);
+  std::vector<double> stretch(of_a.size(), 0);
+  for (const BranchPair& pair : pairs) {
+    const BranchMeasures& one = of_a[idx(pair.a)];
+    const BranchMeasures& other = of_b[idx(pair.b)];
+    // A short branch is as long as its junctions make it.
+    const double slack = scale * one.mean_radius + other.mean_radius;
+    stretch[idx(pair.a)] =
+        std::abs(std::log((scale * one.length + slack) / (other.length + slack))) +
+        std::abs(std::log((scale * one.mean_radius + 1e-9) / (other.mean_radius + 1e-9)));
+  }
+  return stretch;
+}
+
+/// Over the unit: how far a's vertices, where they are thought to go, are from b's surface in the
+/// partner's territory, in the mean, and what their branches are stretched by. A vertex without a
+/// partner is a tenth of the size off; so is one whose branch is stretched e times.
+double misfit_of(const MatchSide& a, const MatchSide& b, const BranchTerritories& territories_a,
+                 double unit, const std::vector<BranchPair>& pairs, const NodeMotions& motions,
+                 int threads) {
   constexpr double lost = 0.1;
   constexpr Eigen::Index most_samples = 2000;
   const Eigen::Index step = std::max<Eigen::Index>(1, a.surface.positions.rows() / most_samples);
   const VertexPairs moved = pair_vertices(a, b, pairs, motions, static_cast<int>(step), threads);
+  const std::vector<double> stretch = stretches(a, b, motions.of_node.front().scale, pairs);
   double sum = 0;
   int count = 0;
   for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
-    sum += moved.partner[v] < 0 ? lost : std::min(lost, moved.distance[v] / unit);
     ++count;
+    if (moved.partner[v] < 0) {
+      sum += lost;
+      continue;
+    }
+    const double pulled = stretch[idx(territories_a.branch_of_vertex[v])];
+    sum += std::min(lost, moved.distance[v] / unit + lost * pulled);
   }
   return sum / count;
 }
@@ -114,10 +152,14 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   const Eigen::MatrixXd like = likeness(of_a, of_b);
   monitor.report("match", 0.1);
   const SurfaceTree tree_b(b.surface, options.threads);
+  std::vector<CoreAlignment> alignments;
+  for (const double scale : scales_between(of_a, of_b)) {
+    const auto found =
+        align_cores(a, of_a, tree_b, b, of_b, like, scale, most_alignments, options.threads);
+    alignments.insert(alignments.end(), found.begin(), found.end());
+  }
   std::vector<NodeMotions> hypotheses =
-      follow_cores(a, of_a, tree_b,
-                   align_cores(a, of_a, tree_b, b, of_b, like, most_alignments, options.threads),
-                   options.threads, monitor);
+      follow_cores(a, of_a, tree_b, alignments, options.threads, monitor);
   const Eigen::Matrix3Xd tips_b = tips_of(of_b, b);
   const BranchTerritories territories_a = branch_territories(a.surface, a.skeleton);
   const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
@@ -135,7 +177,8 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
     constexpr int rounds = 2;
     for (int round = 0; round <= rounds; ++round) {
       std::vector<BranchPair> pairs = pairs_of(motions);
-      const double misfit = misfit_of(a, b, of_b.unit, pairs, motions, options.threads);
+      const double misfit =
+          misfit_of(a, b, territories_a, of_b.unit, pairs, motions, options.threads);
       NodeMotions anchored = anchored_motions(a, of_a, b, pairs, motions);
       outcomes.push_back({std::move(pairs), std::move(motions), misfit});
       motions = std::move(anchored);

@@ -23,15 +23,20 @@ class Territory {
     if (!faces.empty()) tree_ = std::make_unique<SurfaceTree>(surface_, 1);
   }
 
-  [[nodiscard]] int nearest(const Eigen::Vector3d& place) const {
-    if (!tree_) return -1;
-    const auto corners = surface_.triangles.row(tree_->nearest(place).triangle);
+  struct Nearest {
+    int vertex = -1;      ///< a corner of the nearest face; -1 = the branch has no face
+    double distance = 0;  ///< of the surface
+  };
+  [[nodiscard]] Nearest nearest(const Eigen::Vector3d& place) const {
+    if (!tree_) return {};
+    const SurfaceTree::Nearest found = tree_->nearest(place);
+    const auto corners = surface_.triangles.row(found.triangle);
     Eigen::Index best = 0;
     (surface_.positions(corners.transpose(), Eigen::all).rowwise() - place.transpose())
         .rowwise()
         .squaredNorm()
         .minCoeff(&best);
-    return corners[best];
+    return {corners[best], found.distance};
   }
 
  private:
@@ -133,10 +138,9 @@ VertexPairs pair_vertices(const MatchSide& a, const MatchSide& b,
         const int node = a.skeleton.node_of_vertex[vertex];
         const double s = nearest_length(transfer.from(), places.at(node), at);
         const Eigen::Vector3d there = transfer(at, s, motions.of_node[idx(node)]);
-        const int partner = territory.nearest(there);
-        result.partner[vertex] = partner;
-        if (partner < 0) continue;
-        result.distance[vertex] = (b.surface.positions.row(partner).transpose() - there).norm();
+        const Territory::Nearest found = territory.nearest(there);
+        result.partner[vertex] = found.vertex;
+        result.distance[vertex] = found.distance;
       }
     }
   });

@@ -9,8 +9,9 @@
 namespace curveskel {
 
 struct VertexPairs {
-  Eigen::VectorXi partner;   ///< #V of a, -1 = none
-  Eigen::VectorXd distance;  ///< #V of a: from the partner to where the vertex was thought to be
+  Eigen::VectorXi partner;  ///< #V of a, -1 = none
+  Eigen::VectorXd
+      distance;  ///< #V of a: from the partner's surface to where the vertex is thought to be
 };
 
 /// Of each vertex: the place on its branch, laid onto the partner by shares of the length, and from

@@ -1,0 +1,147 @@
+"""`rig`, `match`, `fair` and `contract` of the module beside the program's verbs, and the stubs."""
+
+import ast
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy
+
+import curveskel
+
+PROGRAM = os.environ["CURVESKEL_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
+MESHES = SOURCE / "meshes"
+Y = MESHES / "y.off"
+TORUS = MESHES / "torus.off"
+
+
+def has(module):
+    try:
+        __import__(module)
+    except ImportError:
+        return False
+    return True
+
+
+def places_in(path):
+    """Vertices of a binary PLY file of doubles."""
+    head, _, content = path.read_bytes().partition(b"end_header\n")
+    count = int(head.split(b"element vertex ")[1].split()[0])
+    return numpy.frombuffer(content, "<f8", 3 * count).reshape(-1, 3)
+
+
+class Verbs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def program(self, *arguments):
+        subprocess.run([PROGRAM, *map(str, arguments), "-q"], check=True)
+
+    def test_fair_is_the_program_s(self):
+        self.program("fair", Y, "-o", self.folder / "y.ply", "--iterations", 5, "--rings", 2,
+                     "--local-solver", "qr")
+        vertices, faces = curveskel.fair(Y, iterations=5, rings=2, local_solver="qr")
+        numpy.testing.assert_array_equal(vertices, places_in(self.folder / "y.ply"))
+        again, same = curveskel.fair((curveskel.extract(Y).mesh[0], faces), iterations=0)
+        numpy.testing.assert_array_equal(same, faces)
+        self.assertEqual(again.shape, vertices.shape)
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.fair(Y, ring=2)
+
+    def test_contract_is_the_program_s(self):
+        for mesh in (Y, MESHES / "linked-rings.off"):
+            self.program("contract", mesh, "-o", self.folder / "c.ply", "--iterations", 7)
+            vertices, faces, steps = curveskel.contract(mesh, iterations=7)
+            numpy.testing.assert_array_equal(vertices, places_in(self.folder / "c.ply"))
+            self.assertEqual(len(steps["area_ratio"]), len(steps["component"]))
+            for component in set(steps["component"]):
+                areas = [area for area, of in zip(steps["area_ratio"], steps["component"])
+                         if of == component]
+                self.assertEqual(areas, sorted(areas, reverse=True))
+
+    @unittest.skipUnless(has("scipy"), "no scipy")
+    def test_rig_is_the_program_s(self):
+        human = MESHES / "free" / "humanoid-10k.ply.gz"
+        for options, arguments in (({"front": "-x"}, ("--front=-x",)),
+                                   ({"front": "-x", "names": "mixamo", "ends": False},
+                                    ("--front=-x", "--names", "mixamo", "--no-ends"))):
+            self.program("rig", human, "-o", self.folder / "h.json", "-o", self.folder / "h.glb",
+                         *arguments)
+            rig = curveskel.rig(human, **options)
+            expected = json.loads((self.folder / "h.json").read_text())
+            rig.save(self.folder / "m.json")
+            rig.save(self.folder / "m.glb")
+            for extension in ("json", "glb"):
+                self.assertEqual((self.folder / f"m.{extension}").read_bytes(),
+                                 (self.folder / f"h.{extension}").read_bytes())
+            self.assertEqual(rig.plan, "humanoid")
+            self.assertEqual(rig.names, [joint["name"] for joint in expected["joints"]])
+            weights = rig.weights
+            self.assertEqual(weights.shape[1], len(rig.joints))
+            numpy.testing.assert_allclose(weights.sum(axis=1), 1, atol=1e-5)
+            self.assertTrue((rig.parents < numpy.arange(len(rig.parents))).all())
+            self.assertIn("hips", rig.roles)
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.rig(Y, plan="centaur")
+        with self.assertRaises(curveskel.UsageError):
+            rig.save(self.folder / "h.vrm")
+
+    @unittest.skipUnless(has("scipy"), "no scipy")
+    def test_rig_takes_a_skeleton_or_joints(self):
+        skeleton = curveskel.extract(Y)
+        skeleton.save(self.folder / "y.json")
+        self.program("rig", Y, "--skeleton", self.folder / "y.json", "-o", self.folder / "r.json")
+        rig = curveskel.rig(Y, skeleton=skeleton)
+        rig.save(self.folder / "m.json")
+        self.assertEqual((self.folder / "m.json").read_bytes(),
+                         (self.folder / "r.json").read_bytes())
+        again = curveskel.rig(Y, joints=self.folder / "r.json")
+        numpy.testing.assert_allclose(again.joints, rig.joints)
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.rig(Y, skeleton=skeleton, joints=self.folder / "r.json")
+
+    @unittest.skipUnless(has("pandas"), "no pandas")
+    def test_match_is_the_program_s_and_knows_a_turned_surface(self):
+        vertices, faces = map(numpy.array, curveskel.extract(MESHES / "double-torus.off").mesh)
+        turn = numpy.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]])
+        found = curveskel.match((vertices, faces), (vertices @ turn.T + 3, faces))
+        self.assertEqual(found.alone, ([], []))
+        spot = MESHES / "free" / "spot-3k.obj"
+        a = curveskel.extract(spot)
+        moved = (numpy.array(a.mesh[0]) @ turn.T, numpy.array(a.mesh[1]))
+        match = curveskel.match(a, moved)
+        self.assertEqual(match.alone, ([], []))
+        self.assertFalse(match.branches.ambiguous.any())
+        self.assertEqual(len(match.junctions), len(a.junctions))
+        self.program("match", spot, spot, "-o", self.folder / "m.json")
+        written = json.loads((self.folder / "m.json").read_text())
+        again = curveskel.match(spot, spot)
+        self.assertEqual([pair["b"] for pair in written["branches"]], again.branches.b.tolist())
+        self.assertEqual(written["vertices"], again.vertices.tolist())
+        self.assertEqual(again.branches.a.tolist(), again.branches.b.tolist())
+        self.assertGreater((again.vertices == numpy.arange(len(again.vertices))).mean(), 0.9)
+        a.save(self.folder / "a.json")
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.match(curveskel.read(self.folder / "a.json"), a)
+
+    def test_the_stubs_have_the_public_names(self):
+        stubs = ast.parse((SOURCE / "python" / "curveskel" / "__init__.pyi").read_text())
+        known = {node.name: node for node in stubs.body
+                 if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        for name in curveskel.__all__:
+            self.assertIn(name, known)
+            if not isinstance(known[name], ast.ClassDef) or name.endswith(("Error", "Warning")):
+                continue
+            there = {member for member in vars(getattr(curveskel, name)) if member[0] != "_"}
+            stubbed = {node.name for node in known[name].body if isinstance(node, ast.FunctionDef)}
+            self.assertEqual(there, stubbed, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,66 @@
+"""Rows of a shard: one for each surface, whatever became of it, and one for each branch.
+
+usage: rows.py SHEET.tsv WORK SURFACES.csv BRANCHES.csv SECONDS.csv
+The first two hold nothing that depends on the machine or the day: the same surfaces, the same bytes.
+"""
+
+import csv
+import json
+import pathlib
+import sys
+
+COLUMNS = ("id", "path", "options", "status", "message", "vertices", "faces", "components", "genus",
+           "cycle_rank", "tips", "junctions", "branches", "length", "inside_fraction",
+           "centredness_median", "coverage", "reach", "tube_share", "curve_like",
+           "topology_correct", "holds", "repairs")
+
+
+def certificate_of(report):
+    certificate = report["certificate"]
+    names = {"components": "components_of_surface"}
+    known = {column: certificate.get(names.get(column, column)) for column in COLUMNS}
+    return {column: value for column, value in known.items() if value is not None}
+
+
+def row_of(surface, work):
+    name = surface["id"]
+    row = dict.fromkeys(COLUMNS, "")
+    row.update(surface)
+    row["status"] = (work / f"{name}.status").read_text().strip()
+    lines = (work / f"{name}.err").read_text().strip().splitlines()
+    row["message"] = lines[0].removeprefix("curveskel: ") if lines else ""
+    report = work / f"{name}.json"
+    if not report.exists():
+        return row, [], ""
+    report = json.loads(report.read_text())
+    row.update(certificate_of(report))
+    row["vertices"] = report["input"]["vertices"]
+    row["faces"] = report["input"]["polygons"]
+    row["repairs"] = sum(value for value in report["repairs"].values() if type(value) is int)
+    with open(work / f"{name}.csv", newline="") as file:
+        branches = list(csv.DictReader(file))
+    row["branches"] = len(branches)
+    return row, branches, report.get("seconds", "")
+
+
+def main():
+    sheet, work, *outputs = map(pathlib.Path, sys.argv[1:])
+    with open(sheet, newline="") as file:
+        surfaces = list(csv.DictReader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
+    rows, all_branches, seconds = [], [], []
+    for surface in surfaces:
+        row, branches, taken = row_of(surface, work)
+        rows.append(row)
+        all_branches += [{"id": surface["id"], **branch} for branch in branches]
+        seconds.append({"id": surface["id"], "seconds": taken})
+    columns = list(all_branches[0]) if all_branches else ["id"]
+    for path, header, content in zip(outputs, (COLUMNS, columns, ("id", "seconds")),
+                                     (rows, all_branches, seconds)):
+        with open(path, "w", newline="") as file:
+            writer = csv.DictWriter(file, header, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(content)
+
+
+if __name__ == "__main__":
+    main()
