@@ -47,6 +47,7 @@ set(CURVESKEL_PUBLIC_SKELETON
   include/curveskel/extract.hpp
   include/curveskel/extract_repaired.hpp
   include/curveskel/findings.hpp
+  include/curveskel/html_page.hpp
   include/curveskel/labelled_surface.hpp
   include/curveskel/levels.hpp
   include/curveskel/lives.hpp
@@ -115,11 +116,14 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
-# Two packages: a server has no use for what the window needs.
+# Several packages: a server has no use for what the window needs, nor for Python.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL curveskel)
 if(CURVESKEL_BUILD_VIEWER)
   list(APPEND CPACK_COMPONENTS_ALL viewer)
+endif()
+if(CURVESKEL_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_CURVESKEL_PACKAGE_NAME curveskel)
@@ -130,4 +134,12 @@ set(CPACK_DEBIAN_CURVESKEL_PACKAGE_SUGGESTS "curveskel-view, libeigen3-dev, pocl
 set(CPACK_COMPONENT_VIEWER_DESCRIPTION "Curve skeletons: the window, and pictures by OpenGL")
 set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME curveskel-view)
 set(CPACK_DEBIAN_VIEWER_PACKAGE_DEPENDS "curveskel (= ${PROJECT_VERSION}), libgl1-mesa-dri")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Curve skeletons: import curveskel in Python 3")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-curveskel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# The module is for one version of the interpreter.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "curveskel (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS
+  "python3-pandas, python3-networkx, python3-scipy, python3-tqdm")
 include(CPack)

@@ -37,6 +37,7 @@
 #include <curveskel/fair.hpp>
 #include <curveskel/fair_polygons.hpp>
 #include <curveskel/findings.hpp>
+#include <curveskel/html_page.hpp>
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/match.hpp>

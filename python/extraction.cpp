@@ -5,6 +5,7 @@
 
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/html_page.hpp>
 #include "app/certificate_table.hpp"
 #include "app/report.hpp"
 
@@ -49,6 +50,24 @@ std::string format_extraction(const PythonExtraction& extraction, SkeletonFormat
 
 std::string shortcomings(const PythonExtraction& extraction) {
   return all_failures(extraction.extraction.certificate, extraction.settings.extract.certificate);
+}
+
+std::string page_of(const PythonExtraction& extraction) {
+  const Certificate& certificate = extraction.extraction.certificate;
+  std::string provenance = provenance_of(extraction) + "\n";
+  for (const std::string& line : extraction.repaired.changes.lines) {
+    provenance += "changed: " + line + "\n";
+  }
+  for (const std::string& line : extraction.repaired.repairs.lines) {
+    provenance += "repaired: " + line + "\n";
+  }
+  for (const std::string& line : extraction.notes) provenance += line + "\n";
+  const std::filesystem::path& file = extraction.soup.file;
+  return html_page(extraction.repaired.surface, extraction.extraction.skeleton,
+                   {file.empty() ? "arrays" : file.filename().string(),
+                    certificate_table(certificate, extraction.settings.extract.certificate),
+                    shortcomings(extraction), provenance},
+                   extraction.settings.extract.threads);
 }
 
 }  // namespace curveskel

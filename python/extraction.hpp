@@ -39,6 +39,9 @@ struct PythonExtraction {
 [[nodiscard]] std::string format_extraction(const PythonExtraction& extraction,
                                             SkeletonFormat format);
 
+/// The page of `curveskel extract --html`.
+[[nodiscard]] std::string page_of(const PythonExtraction& extraction);
+
 /// All that keeps the certificate from holding, in one line; empty if it holds.
 [[nodiscard]] std::string shortcomings(const PythonExtraction& extraction);
 

@@ -324,6 +324,11 @@ void bind_extraction(py::module_& module) {
              return std::pair(std::move(labels.of_vertex), std::move(labels.of_polygon));
            })
       .def("save_labelled", &save_labelled)
+      .def("save_page",
+           [](const Owner& one, const std::filesystem::path& output) {
+             const py::gil_scoped_release others_may_run;
+             write_file(output, page_of(one));
+           })
       .def("save", &save_extraction);
 }
 

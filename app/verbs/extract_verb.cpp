@@ -7,6 +7,7 @@
 #include <curveskel/branch_profiles.hpp>
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/html_page.hpp>
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/read.hpp>
@@ -15,7 +16,6 @@
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
-#include "app/html_page.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"

@@ -150,6 +150,11 @@ class Skeleton:
         self._extraction.save_labelled(pathlib.Path(path),
                                        pathlib.Path(path).suffix.lower().lstrip("."))
 
+    def save_html(self, path):
+        """Writes the page of `curveskel extract --html`: the shape to turn, tables, plots."""
+        self._need_surface("pages")
+        self._extraction.save_page(pathlib.Path(path))
+
     def _need_surface(self, things):
         if self._extraction is None:
             raise UsageError(f"{things} are of the surface, which a skeleton from a file has not; "

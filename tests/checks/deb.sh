@@ -35,4 +35,22 @@ needs contents ' \./usr/bin/curveskel-view$'
 needs depends 'curveskel \(= '
 needs depends 'libglfw3 '
 lacks contents ' \./usr/bin/curveskel$|libcurveskel'
+
+if compgen -G "$work/python3-curveskel_*.deb" >/dev/null; then
+  open_package python3-curveskel
+  needs contents ' \./usr/lib/python3/dist-packages/curveskel/__init__\.py$'
+  needs contents ' \./usr/lib/python3/dist-packages/curveskel/__init__\.pyi$'
+  needs contents ' \./usr/lib/python3/dist-packages/curveskel/_core\..*\.so$'
+  needs depends 'curveskel \(= '
+  needs depends 'python3 \(<< 3\.12\)'
+  needs depends 'python3-numpy'
+  lacks contents 'libcurveskel|/bin/'
+  # Unpacked, it works.
+  root=$work/root
+  for package in curveskel python3-curveskel; do dpkg-deb -x "$work/${package}"_*.deb "$root"; done
+  libraries=$(dirname "$(find "$root/usr/lib" -name 'libcurveskel.so.*' | head -1)")
+  LD_LIBRARY_PATH=$libraries PYTHONPATH=$root/usr/lib/python3/dist-packages /usr/bin/python3 -c \
+    'import curveskel; print(curveskel.__version__, curveskel.__file__)' | grep "$root" \
+    || { echo "python3-curveskel cannot be imported"; failed=1; }
+fi
 exit $failed

@@ -129,11 +129,19 @@ class Tables(unittest.TestCase):
         with self.assertRaises(curveskel.OutputError):
             skeleton.save_labelled(self.folder / "y.obj")
 
+    def test_the_page_is_the_program_s(self):
+        curveskel.extract(Y).save_html(self.folder / "y.html")
+        subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "s.obj", "-q", "--html",
+                        self.folder / "program.html"], check=True)
+        self.assertEqual((self.folder / "y.html").read_bytes(),
+                         (self.folder / "program.html").read_bytes())
+
     def test_what_needs_a_surface_says_so(self):
         curveskel.extract(Y).save(self.folder / "y.ply")
         again = curveskel.read(self.folder / "y.ply")
         for call in (again.profiles, again.vertex_labels, again.face_labels,
-                     lambda: again.save_labelled(self.folder / "z.ply")):
+                     lambda: again.save_labelled(self.folder / "z.ply"),
+                     lambda: again.save_html(self.folder / "z.html")):
             with self.assertRaises(curveskel.UsageError):
                 call()
         self.assertTrue(again.branches.area.isna().all())

@@ -1,6 +1,4 @@
-#include "app/html_page.hpp"
-
-#include <fmt/core.h>
+#include <curveskel/html_page.hpp>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -13,8 +11,8 @@
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/view.hpp>
-#include "app/page/page.hpp"
 #include "base/base64.hpp"
+#include "skeleton/page/page.hpp"
 
 namespace curveskel {
 namespace {
@@ -136,9 +134,10 @@ std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
   const UnitFrame frame(surface.positions);
   const Json data = {
       {"title", content.title},
-      {"counts",
-       fmt::format("{} vertices, {} triangles; {} nodes, {} branches", surface.positions.rows(),
-                   surface.triangles.rows(), skeleton.nodes.rows(), all.size())},
+      {"counts", std::to_string(surface.positions.rows()) + " vertices, " +
+                     std::to_string(surface.triangles.rows()) + " triangles; " +
+                     std::to_string(skeleton.nodes.rows()) + " nodes, " +
+                     std::to_string(all.size()) + " branches"},
       {"failures", content.failures},
       {"certificate", content.certificate},
       {"provenance", content.provenance},
