@@ -9,9 +9,8 @@
 namespace curveskel {
 
 Eigen::MatrixXd branch_overlaps(const MatchSide& a, const BranchTerritories& territories_a,
-                                const MatchSide& b, const BranchTerritories& territories_b,
-                                const SurfaceTree& tree_b, const NodeMotions& motions,
-                                int threads) {
+                                const BranchTerritories& territories_b, const SurfaceTree& tree_b,
+                                const NodeMotions& motions, int threads) {
   constexpr Eigen::Index most = 4000;
   const Eigen::Index all = a.surface.positions.rows();
   const Eigen::Index step = std::max<Eigen::Index>(1, all / most);

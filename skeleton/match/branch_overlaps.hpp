@@ -14,7 +14,6 @@ namespace curveskel {
 /// area that either has, areas as shares of the whole. From some thousand vertices of a.
 [[nodiscard]] Eigen::MatrixXd branch_overlaps(const MatchSide& a,
                                               const BranchTerritories& territories_a,
-                                              const MatchSide& b,
                                               const BranchTerritories& territories_b,
                                               const SurfaceTree& tree_b, const NodeMotions& motions,
                                               int threads);

@@ -69,6 +69,7 @@ Points shifts_of(const Centroids& centroids, const std::vector<int>& pairs) {
     if (near.size() > neighbours) near.resize(neighbours);
     for (Eigen::Index axis = 0; axis < 3 && !near.empty(); ++axis) {
       std::vector<double> values;
+      values.reserve(near.size());
       for (const auto& [distance, k] : near) {
         values.push_back(centroids.of_b(axis, pairs[idx(k)]) - centroids.moved(axis, k));
       }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -61,7 +62,7 @@ void add_axis_rotations(const Points& of_a, const Points& of_b,
     signs[1] = 1;
     for (int turn = 0; turn < 2 * turns; ++turn) {
       const Eigen::Matrix3d about =
-          Eigen::AngleAxisd(2 * EIGEN_PI * turn / turns, Eigen::Vector3d::Unit(axis))
+          Eigen::AngleAxisd(2 * std::numbers::pi * turn / turns, Eigen::Vector3d::Unit(axis))
               .toRotationMatrix();
       const Eigen::Matrix3d flip =
           turn < turns ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : signs.asDiagonal();
@@ -137,7 +138,7 @@ void add_limb_rotations(const TipFeatures& of_a, const TipFeatures& of_b,
 bool differs(const CoreAlignment& one, const CoreAlignment& other) {
   const Eigen::AngleAxisd between(
       Eigen::Matrix3d(one.motion.rotation.transpose() * other.motion.rotation));
-  return std::abs(between.angle()) > EIGEN_PI / 6;
+  return std::abs(between.angle()) > std::numbers::pi / 6;
 }
 
 /// The best that differ, from all starts.

@@ -167,7 +167,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
     const std::vector<int> tips = pair_tips(of_a, of_b, like, moved_tips(of_a, a, of_b, motions),
                                             tips_b, pair_components(of_a, of_b, motions));
     const Eigen::MatrixXd overlaps =
-        branch_overlaps(a, territories_a, b, territories_b, tree_b, motions, options.threads);
+        branch_overlaps(a, territories_a, territories_b, tree_b, motions, options.threads);
     return pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
   };
   // What the surface has followed wrongly, such as a part that hangs on by nothing, the pairs that

@@ -94,6 +94,7 @@ std::vector<int> pair_tips(const TipFeatures& a, const TipFeatures& b, const Eig
     const double temperature = 1.5 * std::pow(0.85, round);
     normalise(candidates, a.tips.size(), b.tips.size(), temperature);
     std::vector<double> scores;
+    scores.reserve(candidates.size());
     for (const Candidate& one : candidates) {
       scores.push_back(one.own + 4 * std::log(0.02 + support(one, candidates, a, b)));
     }

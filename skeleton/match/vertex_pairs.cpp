@@ -1,5 +1,6 @@
 #include "skeleton/match/vertex_pairs.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <memory>

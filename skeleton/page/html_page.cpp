@@ -17,7 +17,7 @@
 namespace curveskel {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using PageJson = nlohmann::ordered_json;
 
 /// Numbers in the machine's order, which is that of every browser's machine.
 template <typename Value>
@@ -54,7 +54,7 @@ struct UnitFrame {
   }
 };
 
-Json json_of(const Shown& shown, const UnitFrame& frame) {
+PageJson json_of(const Shown& shown, const UnitFrame& frame) {
   std::vector<float> places;
   places.reserve(3 * idx(shown.surface.positions.rows()));
   for (const auto& row : shown.surface.positions.rowwise()) {
@@ -70,8 +70,8 @@ Json json_of(const Shown& shown, const UnitFrame& frame) {
                          shown.branch_of_vertex.data() + shown.branch_of_vertex.size()))}};
 }
 
-Json nodes_of(const CurveSkeleton& skeleton, const UnitFrame& frame) {
-  Json nodes = Json::array();
+PageJson nodes_of(const CurveSkeleton& skeleton, const UnitFrame& frame) {
+  PageJson nodes = PageJson::array();
   for (const auto& row : skeleton.nodes.rowwise()) {
     const Eigen::RowVector3d at = (row - frame.centre) * frame.scale;
     nodes.push_back(
@@ -80,14 +80,14 @@ Json nodes_of(const CurveSkeleton& skeleton, const UnitFrame& frame) {
   return nodes;
 }
 
-Json rows_of(const Eigen::Matrix3d& axes) {
-  Json rows = Json::array();
+PageJson rows_of(const Eigen::Matrix3d& axes) {
+  PageJson rows = PageJson::array();
   for (const double value : axes.reshaped<Eigen::RowMajor>()) rows.push_back(value);
   return rows;
 }
 
 /// Text that stands in a script element, where no tag may begin.
-std::string in_script(const Json& json) {
+std::string in_script(const PageJson& json) {
   std::string text;
   for (const char c : json.dump()) {
     if (c == '<') {
@@ -121,18 +121,18 @@ std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
   SkeletonContext context;
   context.territories = &territories;
   const std::vector<Branch> all = branches(skeleton);
-  Json lines = Json::array();
-  Json colours = Json::array();
+  PageJson lines = PageJson::array();
+  PageJson colours = PageJson::array();
   for (std::size_t b = 0; b < all.size(); ++b) {
     lines.push_back(all[b].nodes);
-    Json colour = Json::array();
+    PageJson colour = PageJson::array();
     for (const std::uint8_t part : branch_colour(static_cast<int>(b))) {
       colour.push_back(std::round(part / 0.255) / 1000);
     }
     colours.push_back(std::move(colour));
   }
   const UnitFrame frame(surface.positions);
-  const Json data = {
+  const PageJson data = {
       {"title", content.title},
       {"counts", std::to_string(surface.positions.rows()) + " vertices, " +
                      std::to_string(surface.triangles.rows()) + " triangles; " +

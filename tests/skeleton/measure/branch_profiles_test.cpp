@@ -13,9 +13,10 @@
 namespace curveskel {
 namespace {
 
-constexpr int sides = 40;
+constexpr Eigen::Index sides = 40;
 /// The area of a polygon over that of the ellipse around it.
-const double filled = sides / (2 * std::numbers::pi) * std::sin(2 * std::numbers::pi / sides);
+const double filled =
+    double(sides) / (2 * std::numbers::pi) * std::sin(2 * std::numbers::pi / double(sides));
 
 Eigen::Matrix3d some_rotation() {
   return Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
@@ -24,7 +25,7 @@ Eigen::Matrix3d some_rotation() {
 TEST(BranchProfiles, OfTaperingEllipticTubesAreThoseOfTheFormula) {
   const auto a = [](double x) { return 0.5 - 0.03 * x; };
   const auto b = [](double x) { return 0.3 + 0.01 * x; };
-  const Surface tube = straight_tube<std::function<double(double)>>(6, 31, sides, a, b);
+  const Surface tube = straight_tube<std::function<double(double)>>(6, 31, int(sides), a, b);
   for (const Eigen::Matrix3d& turn :
        {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), some_rotation()}) {
     const Eigen::Vector3d origin(100, -20, 3);
@@ -53,15 +54,16 @@ TEST(BranchProfiles, SubtractHolesAndLeaveOtherPartsOut) {
   const auto one = [](double) { return 1.0; };
   const auto third = [](double) { return 1.0 / 3; };
   const Eigen::Matrix3d as_is = Eigen::Matrix3d::Identity();
-  const Surface outer = straight_tube(4, 9, sides, one, one);
+  const Surface outer = straight_tube(4, 9, int(sides), one, one);
   const Surface hole = turned_inside_out(
-      moved(straight_tube(3, 7, sides, third, third), as_is, Eigen::Vector3d(0.5, 0.4, 0)));
+      moved(straight_tube(3, 7, int(sides), third, third), as_is, Eigen::Vector3d(0.5, 0.4, 0)));
   const Surface beside = moved(outer, as_is, Eigen::Vector3d(0, 2.5, 0));
   const Surface surface = together(together(outer, hole), beside);
   Positions line = points_on_x(1, 3, 5);
   line.col(1).setConstant(-0.4);
   const double area = filled * std::numbers::pi * (1 - 1.0 / 9);
-  const double perimeter = 2 * sides * std::sin(std::numbers::pi / sides) * (1 + 1.0 / 3);
+  const double perimeter =
+      2 * double(sides) * std::sin(std::numbers::pi / double(sides)) * (1 + 1.0 / 3);
   for (const BranchSection& section : branch_profiles(surface, chain(line, 0.5))) {
     EXPECT_NEAR(section.area, area, 1e-9);
     EXPECT_NEAR(section.perimeter, perimeter, 1e-9);
@@ -75,20 +77,21 @@ TEST(BranchProfiles, SubtractHolesAndLeaveOtherPartsOut) {
 
 /// A torus with its circle: the plane cuts it in two places.
 TEST(BranchProfiles, GoRoundARing) {
-  constexpr int around = 96;
+  constexpr Eigen::Index around = 96;
   Surface torus;
   torus.positions.resize(around * sides, 3);
   torus.triangles.resize(2 * around * sides, 3);
-  for (int i = 0; i < around; ++i) {
-    for (int k = 0; k < sides; ++k) {
-      const double u = 2 * std::numbers::pi * i / around;
-      const double v = 2 * std::numbers::pi * k / sides;
+  for (Eigen::Index i = 0; i < around; ++i) {
+    for (Eigen::Index k = 0; k < sides; ++k) {
+      const double u = 2 * std::numbers::pi * double(i) / around;
+      const double v = 2 * std::numbers::pi * double(k) / sides;
       const double r = 3 + 0.5 * std::cos(v);
       torus.positions.row(i * sides + k) << r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v);
-      const int right = (i + 1) % around * sides;
-      const int up = (k + 1) % sides;
-      torus.triangles.row(2 * (i * sides + k)) << i * sides + k, right + k, right + up;
-      torus.triangles.row(2 * (i * sides + k) + 1) << i * sides + k, right + up, i * sides + up;
+      const auto at = [](Eigen::Index ring, Eigen::Index side) {
+        return static_cast<std::int32_t>(ring % around * sides + side % sides);
+      };
+      torus.triangles.row(2 * (i * sides + k)) << at(i, k), at(i + 1, k), at(i + 1, k + 1);
+      torus.triangles.row(2 * (i * sides + k) + 1) << at(i, k), at(i + 1, k + 1), at(i, k + 1);
     }
   }
   CurveSkeleton ring;
@@ -118,7 +121,7 @@ TEST(BranchProfiles, GoRoundARing) {
 
 TEST(BranchProfiles, FlagWhatOtherBranchesPassThrough) {
   const auto wide = [](double) { return 2.0; };
-  const Surface tube = straight_tube(10, 21, sides, wide, wide);
+  const Surface tube = straight_tube(10, 21, int(sides), wide, wide);
   CurveSkeleton fork;  // one branch along the axis, two that leave it side by side
   fork.nodes.resize(5, 3);
   fork.nodes << 1, 0, 0, 4, 0, 0, 9, 0.5, 0, 9, -0.5, 0, 2, 0, 0;
@@ -137,7 +140,7 @@ TEST(BranchProfiles, FlagWhatOtherBranchesPassThrough) {
 
 TEST(BranchProfiles, AreTheSameFromAnyNumberOfThreadsAndRefuseABadSpacing) {
   const auto one = [](double) { return 1.0; };
-  const Surface tube = straight_tube(4, 9, sides, one, one);
+  const Surface tube = straight_tube(4, 9, int(sides), one, one);
   const CurveSkeleton skeleton = chain(points_on_x(0.5, 3.5, 7), 1);
   const auto alone = branch_profiles(tube, skeleton, {0.01, 1});
   const auto many = branch_profiles(tube, skeleton, {0.01, 4});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include <curveskel/advanced/measures.hpp>
@@ -46,7 +47,7 @@ TEST(BranchTerritories, DivideATubeWhereItsJunctionLies) {
   skeleton.edges = edges;
   skeleton.node_of_vertex.resize(tube.positions.rows());
   for (Eigen::Index v = 0; v < tube.positions.rows(); ++v) {
-    skeleton.node_of_vertex[v] = static_cast<int>(tube.positions(v, 0) * 2 + 0.5);
+    skeleton.node_of_vertex[v] = static_cast<int>(std::lround(tube.positions(v, 0) * 2));
   }
   const BranchTerritories parts = branch_territories(tube, skeleton);
   ASSERT_EQ(parts.volumes.size(), 3U);

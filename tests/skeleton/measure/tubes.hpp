@@ -18,28 +18,31 @@ namespace curveskel {
 template <typename HalfAxis>
 Surface straight_tube(double length, int rings, int sides, const HalfAxis& a, const HalfAxis& b) {
   Surface tube;
-  tube.positions.resize(rings * sides + 2, 3);
+  const int count = rings * sides;
+  tube.positions.resize(count + 2, 3);
   for (int ring = 0; ring < rings; ++ring) {
     const double x = length * ring / (rings - 1);
     for (int side = 0; side < sides; ++side) {
       const double angle = 2 * std::numbers::pi * side / sides;
-      tube.positions.row(ring * sides + side) << x, a(x) * std::cos(angle), b(x) * std::sin(angle);
+      const int vertex = ring * sides + side;
+      tube.positions.row(vertex) << x, a(x) * std::cos(angle), b(x) * std::sin(angle);
     }
   }
-  tube.positions.row(rings * sides) << 0, 0, 0;
-  tube.positions.row(rings * sides + 1) << length, 0, 0;
-  tube.triangles.resize(2 * sides * rings, 3);
+  tube.positions.row(count) << 0, 0, 0;
+  tube.positions.row(count + 1) << length, 0, 0;
+  const int faces = 2 * count;
+  tube.triangles.resize(faces, 3);
   int face = 0;
   for (int side = 0; side < sides; ++side) {
     const int next = (side + 1) % sides;
-    tube.triangles.row(face++) << rings * sides, next, side;
+    tube.triangles.row(face++) << count, next, side;
     for (int ring = 0; ring + 1 < rings; ++ring) {
       const int here = ring * sides;
       tube.triangles.row(face++) << here + side, here + next, here + sides + next;
       tube.triangles.row(face++) << here + side, here + sides + next, here + sides + side;
     }
     const int last = (rings - 1) * sides;
-    tube.triangles.row(face++) << rings * sides + 1, last + side, last + next;
+    tube.triangles.row(face++) << count + 1, last + side, last + next;
   }
   return tube;
 }
