@@ -21,6 +21,7 @@ std::vector<int> roots_of(const CurveSkeleton& skeleton, int chosen) {
   }
   if (chosen >= 0) roots[component[idx(chosen)]] = chosen;
   std::vector<int> nodes;
+  nodes.reserve(roots.size());
   for (const auto& [number, node] : roots) nodes.push_back(node);
   return nodes;
 }

@@ -144,6 +144,7 @@ std::optional<PlaneSection> section_around(const Surface& surface, const Surface
   section.axes.col(1) = normal.cross(section.axes.col(0));
   std::vector<Loop> loops = loops_of(surface, section, crossings(surface, tree, point, normal));
   std::vector<double> areas;
+  areas.reserve(loops.size());
   for (const Loop& loop : loops) areas.push_back(signed_area(loop));
 
   const int outer = innermost(loops, areas, Eigen::Vector2d::Zero(), loops.size());

@@ -19,7 +19,7 @@ Float4 misses(const WideNode& node, const std::array<Float4, 3>& p,
     least += minimum(a, b);
     most += maximum(a, b);
   }
-  const Float4 margin = four(double{box_margin});
+  const Float4 margin = four(static_cast<double>(box_margin));
   const Float4 unused = node.lo[0] > node.hi[0] ? four(2) : four(0);
   const Float4 below = least <= margin ? four(0) : four(2);
   const Float4 above = most >= -margin ? four(0) : four(2);
