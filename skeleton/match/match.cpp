@@ -110,11 +110,11 @@ std::vector<double> stretches(const MatchSide& a, const MatchSide& b, double sca
 /// partner is a tenth of the size off; so is one whose branch is stretched e times.
 double misfit_of(const MatchSide& a, const MatchSide& b, const BranchTerritories& territories_a,
                  double unit, const std::vector<BranchPair>& pairs, const NodeMotions& motions,
-                 int threads) {
+                 const VertexPairing& pairing) {
   constexpr double lost = 0.1;
   constexpr Eigen::Index most_samples = 2000;
   const Eigen::Index step = std::max<Eigen::Index>(1, a.surface.positions.rows() / most_samples);
-  const VertexPairs moved = pair_vertices(a, b, pairs, motions, static_cast<int>(step), threads);
+  const VertexPairs moved = pairing.pair(pairs, motions, step);
   const std::vector<double> stretch = stretches(a, b, motions.of_node.front().scale, pairs);
   double sum = 0;
   int count = 0;
@@ -163,6 +163,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   const Eigen::Matrix3Xd tips_b = tips_of(of_b, b);
   const BranchTerritories territories_a = branch_territories(a.surface, a.skeleton);
   const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
+  const VertexPairing pairing(a, territories_a, b, territories_b, options.threads);
   const auto pairs_of = [&](const NodeMotions& motions) {
     const std::vector<int> tips = pair_tips(of_a, of_b, like, moved_tips(of_a, a, of_b, motions),
                                             tips_b, pair_components(of_a, of_b, motions));
@@ -177,8 +178,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
     constexpr int rounds = 2;
     for (int round = 0; round <= rounds; ++round) {
       std::vector<BranchPair> pairs = pairs_of(motions);
-      const double misfit =
-          misfit_of(a, b, territories_a, of_b.unit, pairs, motions, options.threads);
+      const double misfit = misfit_of(a, b, territories_a, of_b.unit, pairs, motions, pairing);
       NodeMotions anchored = anchored_motions(a, of_a, b, pairs, motions);
       outcomes.push_back({std::move(pairs), std::move(motions), misfit});
       motions = std::move(anchored);
@@ -197,7 +197,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   }
   match.junctions = pair_junctions(a, b, match.branches);
   monitor.report("match", 0.7);
-  match.vertex_of_a = pair_vertices(a, b, match.branches, best.motions, 1, options.threads).partner;
+  match.vertex_of_a = pairing.pair(match.branches, best.motions, 1).partner;
   return match;
 }
 

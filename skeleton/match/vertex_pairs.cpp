@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/branch_territories.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 
@@ -16,11 +16,18 @@ namespace {
 /// The faces of one branch, to find the vertex nearest to a place.
 class Territory {
  public:
-  Territory(const Surface& surface, const std::vector<int>& faces)
-      : surface_{surface.positions, Triangles(static_cast<Eigen::Index>(faces.size()), 3)} {
+  Territory(const Surface& surface, const std::vector<int>& faces) {
+    std::map<int, int> number;
+    surface_.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      surface_.triangles.row(static_cast<Eigen::Index>(k)) = surface.triangles.row(faces[k]);
+      for (int corner = 0; corner < 3; ++corner) {
+        const int vertex = surface.triangles(faces[k], corner);
+        const auto [known, added] = number.emplace(vertex, static_cast<int>(vertices_.size()));
+        if (added) vertices_.push_back(vertex);
+        surface_.triangles(static_cast<Eigen::Index>(k), corner) = known->second;
+      }
     }
+    surface_.positions = surface.positions(vertices_, Eigen::all);
     if (!faces.empty()) tree_ = std::make_unique<SurfaceTree>(surface_, 1);
   }
 
@@ -37,10 +44,11 @@ class Territory {
         .rowwise()
         .squaredNorm()
         .minCoeff(&best);
-    return {corners[best], found.distance};
+    return {vertices_[idx(corners[best])], found.distance};
   }
 
  private:
+  std::vector<int> vertices_;  ///< of the whole surface
   Surface surface_;
   std::unique_ptr<SurfaceTree> tree_;
 };
@@ -112,34 +120,57 @@ std::map<int, Eigen::Index> places_of(const Branch& branch) {
 
 }  // namespace
 
-VertexPairs pair_vertices(const MatchSide& a, const MatchSide& b,
-                          const std::vector<BranchPair>& branch_pairs, const NodeMotions& motions,
-                          int step, int threads) {
-  const std::vector<Branch> of_a = branches(a.skeleton);
-  const std::vector<Branch> of_b = branches(b.skeleton);
-  const Eigen::VectorXi branch_of_vertex =
-      branch_territories(a.surface, a.skeleton).branch_of_vertex;
-  const auto faces =
-      faces_of_branches(branch_territories(b.surface, b.skeleton).branch_of_face, of_b.size());
-  std::vector<std::vector<int>> vertices(of_a.size());
-  for (int vertex = 0; vertex < branch_of_vertex.size(); vertex += step) {
-    if (branch_of_vertex[vertex] >= 0) vertices[idx(branch_of_vertex[vertex])].push_back(vertex);
+struct VertexPairing::Implementation {
+  const MatchSide& a;
+  const MatchSide& b;
+  const BranchTerritories& territories_a;
+  int threads;
+  std::vector<Branch> of_a;
+  std::vector<Branch> of_b;
+  std::vector<std::unique_ptr<const Territory>> territories;  ///< by branch of b
+};
+
+VertexPairing::VertexPairing(const MatchSide& a, const BranchTerritories& territories_a,
+                             const MatchSide& b, const BranchTerritories& territories_b,
+                             int threads) {
+  auto made = std::make_unique<Implementation>(
+      Implementation{a, b, territories_a, threads, branches(a.skeleton), branches(b.skeleton), {}});
+  const auto faces = faces_of_branches(territories_b.branch_of_face, made->of_b.size());
+  made->territories.resize(faces.size());
+  parallel_for(faces.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      made->territories[k] = std::make_unique<const Territory>(b.surface, faces[k]);
+    }
+  });
+  implementation_ = std::move(made);
+}
+VertexPairing::~VertexPairing() = default;
+
+VertexPairs VertexPairing::pair(const std::vector<BranchPair>& branch_pairs,
+                                const NodeMotions& motions, Eigen::Index step) const {
+  const Implementation& made = *implementation_;
+  const Surface& surface = made.a.surface;
+  const Eigen::VectorXi& branch_of_vertex = made.territories_a.branch_of_vertex;
+  std::vector<std::vector<int>> vertices(made.of_a.size());
+  for (Eigen::Index vertex = 0; vertex < branch_of_vertex.size(); vertex += step) {
+    if (branch_of_vertex[vertex] < 0) continue;
+    vertices[idx(branch_of_vertex[vertex])].push_back(static_cast<int>(vertex));
   }
-  VertexPairs result{Eigen::VectorXi::Constant(a.surface.positions.rows(), -1),
-                     Eigen::VectorXd::Zero(a.surface.positions.rows())};
-  parallel_for(branch_pairs.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+  VertexPairs result{Eigen::VectorXi::Constant(surface.positions.rows(), -1),
+                     Eigen::VectorXd::Zero(surface.positions.rows())};
+  parallel_for(branch_pairs.size(), 1, made.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const BranchPair& pair = branch_pairs[k];
-      const BranchTransfer transfer(branch_curve(a.skeleton, of_a[idx(pair.a)]),
-                                    branch_curve(b.skeleton, of_b[idx(pair.b)]), pair.reversed);
-      const Territory territory(b.surface, faces[idx(pair.b)]);
-      const auto places = places_of(of_a[idx(pair.a)]);
+      const BranchTransfer transfer(branch_curve(made.a.skeleton, made.of_a[idx(pair.a)]),
+                                    branch_curve(made.b.skeleton, made.of_b[idx(pair.b)]),
+                                    pair.reversed);
+      const auto places = places_of(made.of_a[idx(pair.a)]);
       for (const int vertex : vertices[idx(pair.a)]) {
-        const Eigen::Vector3d at = a.surface.positions.row(vertex);
-        const int node = a.skeleton.node_of_vertex[vertex];
+        const Eigen::Vector3d at = surface.positions.row(vertex);
+        const int node = made.a.skeleton.node_of_vertex[vertex];
         const double s = nearest_length(transfer.from(), places.at(node), at);
         const Eigen::Vector3d there = transfer(at, s, motions.of_node[idx(node)]);
-        const Territory::Nearest found = territory.nearest(there);
+        const Territory::Nearest found = made.territories[idx(pair.b)]->nearest(there);
         result.partner[vertex] = found.vertex;
         result.distance[vertex] = found.distance;
       }

@@ -87,9 +87,9 @@ PageJson rows_of(const Eigen::Matrix3d& axes) {
 }
 
 /// Text that stands in a script element, where no tag may begin.
-std::string in_script(const PageJson& json) {
+std::string in_script(const PageJson& data) {
   std::string text;
-  for (const char c : json.dump()) {
+  for (const char c : data.dump()) {
     if (c == '<') {
       text += "\\u003c";
     } else {
