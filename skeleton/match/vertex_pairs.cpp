@@ -11,12 +11,11 @@
 #include "skeleton/measure/branch_curve.hpp"
 
 namespace curveskel {
-namespace {
 
 /// The faces of one branch, to find the vertex nearest to a place.
-class Territory {
+class TerritorySurface {
  public:
-  Territory(const Surface& surface, const std::vector<int>& faces) {
+  TerritorySurface(const Surface& surface, const std::vector<int>& faces) {
     std::map<int, int> number;
     surface_.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
     for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -52,6 +51,8 @@ class Territory {
   Surface surface_;
   std::unique_ptr<SurfaceTree> tree_;
 };
+
+namespace {
 
 /// Where on a branch the point nearest to a place lies, from two nodes before `node` to two after.
 double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::Vector3d& place) {
@@ -127,7 +128,7 @@ struct VertexPairing::Implementation {
   int threads;
   std::vector<Branch> of_a;
   std::vector<Branch> of_b;
-  std::vector<std::unique_ptr<const Territory>> territories;  ///< by branch of b
+  std::vector<std::unique_ptr<const TerritorySurface>> territories;  ///< by branch of b
 };
 
 VertexPairing::VertexPairing(const MatchSide& a, const BranchTerritories& territories_a,
@@ -139,7 +140,7 @@ VertexPairing::VertexPairing(const MatchSide& a, const BranchTerritories& territ
   made->territories.resize(faces.size());
   parallel_for(faces.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      made->territories[k] = std::make_unique<const Territory>(b.surface, faces[k]);
+      made->territories[k] = std::make_unique<const TerritorySurface>(b.surface, faces[k]);
     }
   });
   implementation_ = std::move(made);
@@ -170,7 +171,7 @@ VertexPairs VertexPairing::pair(const std::vector<BranchPair>& branch_pairs,
         const int node = made.a.skeleton.node_of_vertex[vertex];
         const double s = nearest_length(transfer.from(), places.at(node), at);
         const Eigen::Vector3d there = transfer(at, s, motions.of_node[idx(node)]);
-        const Territory::Nearest found = made.territories[idx(pair.b)]->nearest(there);
+        const TerritorySurface::Nearest found = made.territories[idx(pair.b)]->nearest(there);
         result.partner[vertex] = found.vertex;
         result.distance[vertex] = found.distance;
       }
