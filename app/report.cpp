@@ -267,6 +267,17 @@ std::string text_of(const Json& json, int indent) {
 
 std::string program_and_version() { return "curveskel " CURVESKEL_VERSION; }
 
+std::string history_in_lines(const ExtractionRecord& record, const std::string& provenance) {
+  std::string text = provenance + "\n";
+  if (record.preset != Preset::standard) {
+    text += "preset: " + std::string(name_of(presets, record.preset)) + "\n";
+  }
+  for (const std::string& line : record.repaired.changes.lines) text += "changed: " + line + "\n";
+  for (const std::string& line : record.repaired.repairs.lines) text += "repaired: " + line + "\n";
+  for (const std::string& line : record.notes) text += line + "\n";
+  return text;
+}
+
 std::string result_json(const ExtractionRecord& record) {
   return text_of(to_json(record, false), -1);
 }

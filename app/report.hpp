@@ -33,6 +33,10 @@ struct RunRecord {
   std::vector<std::string> outputs;
 };
 
+/// All that was done to the surface on its way, a line each, after `provenance`.
+[[nodiscard]] std::string history_in_lines(const ExtractionRecord& record,
+                                           const std::string& provenance);
+
 /// A JSON object: the same input and options give the same text.
 [[nodiscard]] std::string result_json(const ExtractionRecord& record);
 

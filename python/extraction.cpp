@@ -27,6 +27,20 @@ PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
   return result;
 }
 
+namespace {
+
+ExtractionRecord record_of(const PythonExtraction& extraction) {
+  return {extraction.soup,
+          extraction.repaired,
+          extraction.settings.repair,
+          extraction.settings.extract,
+          extraction.extraction,
+          extraction.notes,
+          extraction.settings.preset};
+}
+
+}  // namespace
+
 std::string provenance_of(const PythonExtraction& extraction) {
   const std::filesystem::path& file = extraction.soup.file;
   return program_and_version() + ", " + (file.empty() ? "arrays" : file.filename().string());
@@ -36,10 +50,7 @@ std::string format_extraction(const PythonExtraction& extraction, SkeletonFormat
   SkeletonContext context;
   context.surface = &extraction.repaired.surface;
   context.provenance = provenance_of(extraction);
-  context.report_json =
-      result_json({extraction.soup, extraction.repaired, extraction.settings.repair,
-                   extraction.settings.extract, extraction.extraction, extraction.notes,
-                   extraction.settings.preset});
+  context.report_json = result_json(record_of(extraction));
   std::optional<BranchTerritories> territories;
   if (format == SkeletonFormat::csv) {
     territories = branch_territories(extraction.repaired.surface, extraction.extraction.skeleton);
@@ -54,19 +65,12 @@ std::string shortcomings(const PythonExtraction& extraction) {
 
 std::string page_of(const PythonExtraction& extraction) {
   const Certificate& certificate = extraction.extraction.certificate;
-  std::string provenance = provenance_of(extraction) + "\n";
-  for (const std::string& line : extraction.repaired.changes.lines) {
-    provenance += "changed: " + line + "\n";
-  }
-  for (const std::string& line : extraction.repaired.repairs.lines) {
-    provenance += "repaired: " + line + "\n";
-  }
-  for (const std::string& line : extraction.notes) provenance += line + "\n";
   const std::filesystem::path& file = extraction.soup.file;
   return html_page(extraction.repaired.surface, extraction.extraction.skeleton,
                    {file.empty() ? "arrays" : file.filename().string(),
                     certificate_table(certificate, extraction.settings.extract.certificate),
-                    shortcomings(extraction), provenance},
+                    shortcomings(extraction),
+                    history_in_lines(record_of(extraction), provenance_of(extraction))},
                    extraction.settings.extract.threads);
 }
 

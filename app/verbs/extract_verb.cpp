@@ -154,25 +154,14 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
   }
 }
 
-/// Everything that was done to the surface, in lines.
-std::string history_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
-  std::string text = provenance_of(arguments) + "\n";
-  if (record.preset != Preset::standard) {
-    text += fmt::format("preset: {}\n", name_of(presets, record.preset));
-  }
-  for (const std::string& line : record.repaired.changes.lines) text += "changed: " + line + "\n";
-  for (const std::string& line : record.repaired.repairs.lines) text += "repaired: " + line + "\n";
-  for (const std::string& line : record.notes) text += line + "\n";
-  return text;
-}
-
 std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
   const Certificate& certificate = record.extraction.certificate;
   const CertificateOptions& options = arguments.options.certificate;
-  return html_page(record.repaired.surface, record.extraction.skeleton,
-                   {arguments.mesh.filename().string(), certificate_table(certificate, options),
-                    all_failures(certificate, options), history_of(arguments, record)},
-                   arguments.options.threads);
+  return html_page(
+      record.repaired.surface, record.extraction.skeleton,
+      {arguments.mesh.filename().string(), certificate_table(certificate, options),
+       all_failures(certificate, options), history_in_lines(record, provenance_of(arguments))},
+      arguments.options.threads);
 }
 
 std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,

@@ -38,7 +38,7 @@ struct Extracted {
   CurveSkeleton skeleton;
 };
 
-/// What its certificate lacks is said.
+/// Says all that its certificate lacks.
 Extracted extracted(const std::filesystem::path& file, const MatchArguments& arguments,
                     Session& session) {
   const Monitor monitor = session.monitor();

@@ -38,14 +38,15 @@ struct SkeletonMatch {
   Eigen::VectorXi vertex_of_a;  ///< #V of a: the vertex of b; -1 where its branch has no partner
 };
 
-/// Tips are paired first: by the radii on the way to the middle of the curve, by the distances
-/// along the curve to the other tips, and by where their limbs leave the middle of the body, once
-/// that of a is laid onto that of b by a rotation. A branch is then that one of b which divides the
-/// tips in the same two parts; branches on cycles are paired by length, radius and place. Where a
-/// second rotation fits the middle as well and gives another branch, the pair is ambiguous. Sizes
-/// are over the square roots of the areas.
-/// Throws Error(Fault::input) for a skeleton without edges, radii or a vertex map, Cancelled on a
-/// stop. O(#V log #V), for the tips up to the fourth power, of at most 16 candidates for each.
+/// a's surface is laid onto b's in several ways, each followed from the middle of the body
+/// outwards, so that limbs may bend. Tips are paired by the radii on their way to the middle, by
+/// the distances along the curve to the other tips, and by where they come to lie; branches by the
+/// division of the tips that they make and by how much of their surfaces comes to lie on each
+/// other, those on cycles by the latter alone. The way that leaves the least apart is taken. Where
+/// another fits as well and gives another branch, the pair is ambiguous. Sizes are over the square
+/// roots of the areas. docs/match.md has the method. Throws Error(Fault::input) for a skeleton
+/// without edges, radii or a vertex map, Cancelled on a stop. O(#V log #V), for the tips up to the
+/// fourth power, of at most 16 candidates for each.
 [[nodiscard]] SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b,
                                             const MatchOptions& options = {},
                                             const Monitor& monitor = {});

@@ -13,7 +13,7 @@
 
 namespace curveskel {
 
-/// What somebody has made already. Of an empty one everything is made.
+/// Work that somebody has done already. Of an empty one everything is made.
 struct RigSources {
   std::optional<CurveSkeleton> skeleton;  ///< by the vertices of the file, or without a vertex map
   std::optional<Rig> joints;              ///< these stay; they get weights, and there is no plan

@@ -42,7 +42,7 @@ constexpr double as_near = 1e-3;
 
 constexpr std::size_t most_alignments = 3;
 
-/// How a might have become b.
+/// By alignment: how a might have become b.
 std::vector<NodeMotions> follow_cores(const MatchSide& a, const TipFeatures& of_a,
                                       const SurfaceTree& tree_b,
                                       const std::vector<CoreAlignment>& alignments, int threads,
@@ -88,10 +88,9 @@ struct Outcome {
 
 /// Of each branch of a with a partner: how much longer or thicker the partner is, as the sum of the
 /// absolute logarithms over the scale; 0 of others.
-std::vector<double> stretches(const MatchSide& a, const MatchSide& b, double scale,
+std::vector<double> stretches(const std::vector<BranchMeasures>& of_a,
+                              const std::vector<BranchMeasures>& of_b, double scale,
                               const std::vector<BranchPair>& pairs) {
-  const std::vector<BranchMeasures> of_a = branch_measures(a.skeleton);
-  const std::vector<BranchMeasures> of_b = branch_measures(b.skeleton);
   std::vector<double> stretch(of_a.size(), 0);
   for (const BranchPair& pair : pairs) {
     const BranchMeasures& one = of_a[idx(pair.a)];
@@ -105,17 +104,27 @@ std::vector<double> stretches(const MatchSide& a, const MatchSide& b, double sca
   return stretch;
 }
 
+/// Everything that each trial is judged by, made once.
+struct Trials {
+  const BranchTerritories& territories_a;
+  const VertexPairing& pairing;
+  std::vector<BranchMeasures> measures_a;
+  std::vector<BranchMeasures> measures_b;
+  double unit;  ///< of b
+};
+
 /// Over the unit: how far a's vertices, where they are thought to go, are from b's surface in the
 /// partner's territory, in the mean, and what their branches are stretched by. A vertex without a
 /// partner is a tenth of the size off; so is one whose branch is stretched e times.
-double misfit_of(const MatchSide& a, const MatchSide& b, const BranchTerritories& territories_a,
-                 double unit, const std::vector<BranchPair>& pairs, const NodeMotions& motions,
-                 const VertexPairing& pairing) {
+double misfit_of(const Trials& trials, const std::vector<BranchPair>& pairs,
+                 const NodeMotions& motions) {
   constexpr double lost = 0.1;
   constexpr Eigen::Index most_samples = 2000;
-  const Eigen::Index step = std::max<Eigen::Index>(1, a.surface.positions.rows() / most_samples);
-  const VertexPairs moved = pairing.pair(pairs, motions, step);
-  const std::vector<double> stretch = stretches(a, b, motions.of_node.front().scale, pairs);
+  const Eigen::VectorXi& branch_of_vertex = trials.territories_a.branch_of_vertex;
+  const Eigen::Index step = std::max<Eigen::Index>(1, branch_of_vertex.size() / most_samples);
+  const VertexPairs moved = trials.pairing.pair(pairs, motions, step);
+  const std::vector<double> stretch =
+      stretches(trials.measures_a, trials.measures_b, motions.of_node.front().scale, pairs);
   double sum = 0;
   int count = 0;
   for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
@@ -124,13 +133,13 @@ double misfit_of(const MatchSide& a, const MatchSide& b, const BranchTerritories
       sum += lost;
       continue;
     }
-    const double pulled = stretch[idx(territories_a.branch_of_vertex[v])];
-    sum += std::min(lost, moved.distance[v] / unit + lost * pulled);
+    const double pulled = stretch[idx(branch_of_vertex[v])];
+    sum += std::min(lost, moved.distance[v] / trials.unit + lost * pulled);
   }
   return sum / count;
 }
 
-/// A pair is ambiguous if a second alignment that fits the core as well gives another partner.
+/// A pair is ambiguous if another outcome that fits as well gives another partner.
 void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair>& otherwise) {
   std::map<int, int> partner;
   for (const BranchPair& pair : otherwise) partner[pair.a] = pair.b;
@@ -171,17 +180,20 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
         branch_overlaps(a, territories_a, territories_b, tree_b, motions, options.threads);
     return pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
   };
-  // What the surface has followed wrongly, such as a part that hangs on by nothing, the pairs that
-  // are clear put right.
+  // Clear pairs put right a motion that was followed wrongly, such as that of a part that hangs on
+  // by nothing.
+  const Trials trials{territories_a, pairing, branch_measures(a.skeleton),
+                      branch_measures(b.skeleton), of_b.unit};
   std::vector<Outcome> outcomes;
   for (NodeMotions& motions : hypotheses) {
     constexpr int rounds = 2;
     for (int round = 0; round <= rounds; ++round) {
+      if (round > 0) {
+        motions = anchored_motions(a, of_a, b, outcomes.back().pairs, outcomes.back().motions);
+      }
       std::vector<BranchPair> pairs = pairs_of(motions);
-      const double misfit = misfit_of(a, b, territories_a, of_b.unit, pairs, motions, pairing);
-      NodeMotions anchored = anchored_motions(a, of_a, b, pairs, motions);
+      const double misfit = misfit_of(trials, pairs, motions);
       outcomes.push_back({std::move(pairs), std::move(motions), misfit});
-      motions = std::move(anchored);
     }
     monitor.report("match", 0.5);
   }

@@ -19,7 +19,7 @@ struct NodeMotions {
 [[nodiscard]] NodeMotions follow_motions(const MatchSide& a, const TipFeatures& of_a,
                                          const SurfaceTree& tree_b, const Similarity& core);
 
-/// Where pairs of branches are known, and hang together in both: nodes on them go to the same share
+/// From pairs of branches that hang together in both: nodes on them go to the same share
 /// of the partner's length, turned as before and then by the least rotation that takes one curve's
 /// direction to the other's; all others go with the nearest of these along the curve, those of
 /// other components with the nearest in space. O(#N^2).

@@ -13,7 +13,7 @@ namespace {
 struct Candidate {
   int a;
   int b;
-  double own;    ///< log of likeness and of how near the roots are
+  double own;    ///< log of likeness and of how near the moved tip comes
   double share;  ///< 0..1, of the assignment
   double score;  ///< log
 };
@@ -33,7 +33,7 @@ std::vector<Candidate> candidates_of(const TipFeatures& a, const TipFeatures& b,
     for (int j = 0; j < static_cast<int>(b.tips.size()); ++j) {
       if (b.component[idx(b.tips[idx(j)])] != component) continue;
       const double off = (places_b.col(j) - places_a.col(i)).norm() / place_scale;
-      // What has been lost on the way to the tip says no more than that.
+      // A motion that was lost on the way to the tip says nothing of where the tip is.
       const double own = std::log(1e-4 + like(i, j)) + std::log(0.02 + std::exp(-0.5 * off * off));
       row.push_back({i, j, own, 0, own});
     }

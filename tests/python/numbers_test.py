@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy
 
@@ -130,11 +131,14 @@ class Tables(unittest.TestCase):
             skeleton.save_labelled(self.folder / "y.obj")
 
     def test_the_page_is_the_program_s(self):
-        curveskel.extract(Y).save_html(self.folder / "y.html")
-        subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "s.obj", "-q", "--html",
-                        self.folder / "program.html"], check=True)
-        self.assertEqual((self.folder / "y.html").read_bytes(),
-                         (self.folder / "program.html").read_bytes())
+        for options, arguments in (({}, ()), ({"preset": "paper"}, ("--preset", "paper"))):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                curveskel.extract(Y, **options).save_html(self.folder / "y.html")
+            subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "s.obj", "-q", "--html",
+                            self.folder / "program.html", *arguments], check=True)
+            self.assertEqual((self.folder / "y.html").read_bytes(),
+                             (self.folder / "program.html").read_bytes())
 
     def test_what_needs_a_surface_says_so(self):
         curveskel.extract(Y).save(self.folder / "y.ply")
