@@ -25,6 +25,7 @@
 #include "python/rigging.hpp"
 #include "python/surfaces.hpp"
 #include "python/tables.hpp"
+#include "python/views.hpp"
 
 namespace curveskel {
 namespace {
@@ -275,24 +276,18 @@ py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction&
   return py::make_tuple(table, match.junctions, std::move(vertices));
 }
 
-/// A view of a matrix of `Owner`, which stays alive as long as the array: no copy, not writable.
-template <typename Owner, typename Get>
-py::cpp_function view_of(const Get& get) {
-  return py::cpp_function(get, py::return_value_policy::reference_internal);
-}
-
 void bind_extraction(py::module_& module) {
   using Owner = PythonExtraction;
   py::class_<Owner>(module, "Extraction")
-      .def_property_readonly(
-          "skeleton", view_of<Owner>([](const Owner& one) -> const auto& { return one.skeleton; }))
-      .def_property_readonly("positions", view_of<Owner>([](const Owner& one) -> const auto& {
+      .def_property_readonly("skeleton",
+                             view_of([](const Owner& one) -> const auto& { return one.skeleton; }))
+      .def_property_readonly("positions", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.surface.positions;
                              }))
-      .def_property_readonly("triangles", view_of<Owner>([](const Owner& one) -> const auto& {
+      .def_property_readonly("triangles", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.surface.triangles;
                              }))
-      .def_property_readonly("vertex_of_input", view_of<Owner>([](const Owner& one) -> const auto& {
+      .def_property_readonly("vertex_of_input", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.vertex_of_input;
                              }))
       .def_property_readonly("changes",
@@ -335,15 +330,15 @@ void bind_extraction(py::module_& module) {
 void bind_skeleton(py::module_& module) {
   using Owner = CurveSkeleton;
   py::class_<Owner>(module, "CurveSkeleton")
-      .def_property_readonly(
-          "nodes", view_of<Owner>([](const Owner& one) -> const auto& { return one.nodes; }))
-      .def_property_readonly(
-          "edges", view_of<Owner>([](const Owner& one) -> const auto& { return one.edges; }))
-      .def_property_readonly(
-          "radii", view_of<Owner>([](const Owner& one) -> const auto& { return one.radii; }))
-      .def_property_readonly(
-          "lives", view_of<Owner>([](const Owner& one) -> const auto& { return one.lives; }))
-      .def_property_readonly("node_of_vertex", view_of<Owner>([](const Owner& one) -> const auto& {
+      .def_property_readonly("nodes",
+                             view_of([](const Owner& one) -> const auto& { return one.nodes; }))
+      .def_property_readonly("edges",
+                             view_of([](const Owner& one) -> const auto& { return one.edges; }))
+      .def_property_readonly("radii",
+                             view_of([](const Owner& one) -> const auto& { return one.radii; }))
+      .def_property_readonly("lives",
+                             view_of([](const Owner& one) -> const auto& { return one.lives; }))
+      .def_property_readonly("node_of_vertex", view_of([](const Owner& one) -> const auto& {
                                return one.node_of_vertex;
                              }))
       .def("branches", &nodes_of_branches)

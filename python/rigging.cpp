@@ -21,6 +21,7 @@
 #include "app/rig_report.hpp"
 #include "python/background_work.hpp"
 #include "python/options.hpp"
+#include "python/views.hpp"
 
 namespace curveskel {
 namespace {
@@ -129,12 +130,6 @@ py::tuple rows_of(const PythonRig& rig) {
   return py::make_tuple(py::array_t<float>(count, weights.valuePtr()),
                         py::array_t<std::int32_t>(count, weights.innerIndexPtr()),
                         py::array_t<std::int32_t>(rows, weights.outerIndexPtr()));
-}
-
-/// A view into the rig, which stays alive as long as the array.
-template <typename Get>
-py::cpp_function view_of(const Get& get) {
-  return py::cpp_function(get, py::return_value_policy::reference_internal);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .skeleton import Skeleton, _progress, extract
+from .inputs import shown
+from .skeleton import Skeleton, extract
 
 
 class Match:
@@ -55,9 +56,6 @@ def match(a, b, *, threads=0, progress=None, **options):
         if side._extraction is None:
             raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
         sides.append(side)
-    callback, close = _progress(progress)
-    try:
+    with shown(progress) as callback:
         found = _core.match(sides[0]._extraction, sides[1]._extraction, threads, callback)
-    finally:
-        close()
     return Match(*found, *sides)

@@ -8,7 +8,8 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .skeleton import Skeleton, _progress, _soup, read
+from .inputs import shown, soup_of
+from .skeleton import Skeleton, read
 
 
 class Rig:
@@ -88,11 +89,8 @@ def rig(mesh, *, skeleton=None, joints=None, threads=0, progress=None, **options
         skeleton = read(skeleton)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
-    callback, close = _progress(progress)
-    try:
-        soup = _soup(mesh, callback, as_bound=True)
+    with shown(progress) as callback:
+        soup = soup_of(mesh, callback, as_bound=True)
         return Rig(_core.rig(soup, None if skeleton is None else skeleton._graph,
                              None if joints is None else os.fspath(joints),
                              dict(options, threads=threads), callback))
-    finally:
-        close()

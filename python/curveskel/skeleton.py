@@ -8,6 +8,7 @@ import numpy
 
 from . import _core
 from .errors import CertificateWarning, Error, SolverError, UsageError
+from .inputs import shown, soup_of
 
 
 class Skeleton:
@@ -126,13 +127,10 @@ class Skeleton:
         import pandas
 
         self._need_surface("sections")
-        callback, close = _progress(progress)
-        try:
+        with shown(progress) as callback:
             return pandas.DataFrame(
                 self._extraction.profiles(0.0 if spacing is None else float(spacing), threads,
                                           callback))
-        finally:
-            close()
 
     def vertex_labels(self):
         """(v,) int32: the branch of each vertex given; -1 = of none."""
@@ -234,45 +232,6 @@ class Skeleton:
         return f"<div style='max-width:480px'>{picture[picture.index('<svg'):]}{words}</div>"
 
 
-def _progress(wanted):
-    """A callback, and a function that ends it."""
-    if wanted is None or callable(wanted):
-        return wanted, lambda: None
-    if wanted is False:
-        return None, lambda: None
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return None, lambda: None
-    bar = tqdm(total=1.0, bar_format="{desc}: {percentage:3.0f}% {bar} {elapsed}")
-
-    def show(stage, fraction):
-        bar.set_description_str(stage)
-        bar.n = fraction
-        bar.refresh()
-
-    return show, bar.close
-
-
-def _soup(mesh, progress, as_bound=False):
-    if isinstance(mesh, (str, os.PathLike)):
-        return _core.read_surface(os.fspath(mesh), as_bound, progress)
-    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
-        mesh = (mesh.vertices, mesh.faces)
-    try:
-        vertices, faces = mesh
-        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
-        faces = numpy.asarray(faces)
-    except (TypeError, ValueError) as error:
-        raise UsageError("mesh: needs a path, a pair (vertices, faces), or an object with "
-                         f"vertices and faces, not {type(mesh).__name__}") from error
-    if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise UsageError(f"vertices: needs shape (n, 3), not {vertices.shape}")
-    if not numpy.issubdtype(faces.dtype, numpy.integer):
-        raise UsageError(f"faces: needs integers, not {faces.dtype}")
-    return _core.soup_of_arrays(vertices, numpy.ascontiguousarray(faces, dtype=numpy.int64))
-
-
 def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **options):
     """The curve skeleton of a surface, as `curveskel extract` makes it.
 
@@ -288,12 +247,9 @@ def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **optio
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
     meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.
     """
-    callback, close = _progress(progress)
-    try:
-        extraction = _core.extract(_soup(mesh, callback),
+    with shown(progress) as callback:
+        extraction = _core.extract(soup_of(mesh, callback),
                                    dict(options, detail=detail, threads=threads), callback)
-    finally:
-        close()
     if not extraction.holds:
         message = "the certificate failed: " + extraction.shortcomings
         if strict:
@@ -327,12 +283,9 @@ def evaluate(mesh, skeleton, *, threads=0, progress=None, **options):
                 raise
             raise UsageError("skeleton: needs a Skeleton, a path or a pair (nodes, edges), not "
                              f"{type(skeleton).__name__}") from error
-    callback, close = _progress(progress)
-    try:
-        return _core.evaluate(_soup(mesh, callback), graph, dict(options, threads=threads),
+    with shown(progress) as callback:
+        return _core.evaluate(soup_of(mesh, callback), graph, dict(options, threads=threads),
                               callback)
-    finally:
-        close()
 
 
 def read(path):

@@ -1,7 +1,7 @@
 """Surfaces that fairing and contraction move."""
 
 from . import _core
-from .skeleton import _progress, _soup
+from .inputs import shown, soup_of
 
 
 def fair(mesh, *, iterations=3, threads=0, progress=None, **options):
@@ -13,12 +13,9 @@ def fair(mesh, *, iterations=3, threads=0, progress=None, **options):
     Returns the vertices (v, 3), in the order given, and triangles (f, 3). Raises UsageError,
     InputError, DeviceError or SolverError.
     """
-    callback, close = _progress(progress)
-    try:
-        return _core.fair(_soup(mesh, callback),
+    with shown(progress) as callback:
+        return _core.fair(soup_of(mesh, callback),
                           dict(options, iterations=iterations, threads=threads), callback)
-    finally:
-        close()
 
 
 def contract(mesh, *, threads=0, progress=None, **options):
@@ -33,8 +30,5 @@ def contract(mesh, *, threads=0, progress=None, **options):
     (over those at the start), residual, vertices left; pandas.DataFrame takes it. Raises
     UsageError, InputError, DeviceError or SolverError.
     """
-    callback, close = _progress(progress)
-    try:
-        return _core.contract(_soup(mesh, callback), dict(options, threads=threads), callback)
-    finally:
-        close()
+    with shown(progress) as callback:
+        return _core.contract(soup_of(mesh, callback), dict(options, threads=threads), callback)

@@ -91,18 +91,9 @@ void append_labels(pugi::xml_node piece, const char* element, const Eigen::Vecto
 std::string vtp_of(const Labelled& labelled) {
   const PolygonSoup& soup = labelled.soup;
   XmlLines xml{std::string(labelled.provenance)};
-  pugi::xml_node file = XmlLines::open(xml.document, "VTKFile");
-  file.append_attribute("type") = "PolyData";
-  file.append_attribute("version") = "1.0";
-  file.append_attribute("byte_order") = "LittleEndian";
-  file.append_attribute("header_type") = "UInt64";
-  pugi::xml_node body = XmlLines::open(file, "PolyData");
-  pugi::xml_node piece = XmlLines::open(body, "Piece");
-  piece.append_attribute("NumberOfPoints") = labelled.vertices();
-  piece.append_attribute("NumberOfVerts") = 0;
-  piece.append_attribute("NumberOfLines") = 0;
-  piece.append_attribute("NumberOfStrips") = 0;
-  piece.append_attribute("NumberOfPolys") = labelled.polygons();
+  const PolyDataElements elements =
+      open_poly_data(xml, {labelled.vertices(), 0, 0, labelled.polygons()});
+  pugi::xml_node piece = elements.piece;
   append_labels(piece, "PointData", labelled.of_vertex);
   append_labels(piece, "CellData", labelled.of_polygon);
   pugi::xml_node points = XmlLines::open(piece, "Points");
@@ -123,9 +114,7 @@ std::string vtp_of(const Labelled& labelled) {
       cells, "Int64", "offsets", 1, labelled.polygons(),
       [&](std::string& text, std::size_t p) { append_decimal(text, soup.offsets[p + 1]); });
   XmlLines::end_line(piece);
-  XmlLines::end_line(body);
-  XmlLines::end_line(file);
-  XmlLines::end_line(xml.document);
+  close_poly_data(xml, elements);
   return xml.text();
 }
 

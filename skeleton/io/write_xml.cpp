@@ -60,18 +60,8 @@ std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   const auto nodes = static_cast<std::size_t>(skeleton.nodes.rows());
 
   XmlLines xml(context.provenance);
-  pugi::xml_node file = XmlLines::open(xml.document, "VTKFile");
-  file.append_attribute("type") = "PolyData";
-  file.append_attribute("version") = "1.0";
-  file.append_attribute("byte_order") = "LittleEndian";
-  file.append_attribute("header_type") = "UInt64";
-  pugi::xml_node body = XmlLines::open(file, "PolyData");
-  pugi::xml_node piece = XmlLines::open(body, "Piece");
-  piece.append_attribute("NumberOfPoints") = nodes;
-  piece.append_attribute("NumberOfVerts") = points.size();
-  piece.append_attribute("NumberOfLines") = lines.size();
-  piece.append_attribute("NumberOfStrips") = 0;
-  piece.append_attribute("NumberOfPolys") = 0;
+  const PolyDataElements elements = open_poly_data(xml, {nodes, points.size(), lines.size(), 0});
+  pugi::xml_node piece = elements.piece;
   if (skeleton.radii.size() > 0) {
     pugi::xml_node data = XmlLines::open(piece, "PointData");
     data.append_attribute("Scalars") = "radius";
@@ -88,9 +78,7 @@ std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   XmlLines::end_line(piece);
   append_cells(piece, "Verts", points);
   append_cells(piece, "Lines", lines);
-  for (pugi::xml_node parent : {body, file, pugi::xml_node(xml.document)}) {
-    XmlLines::end_line(parent);
-  }
+  close_poly_data(xml, elements);
   return xml.text();
 }
 

@@ -69,4 +69,41 @@ pugi::xml_node append_array(pugi::xml_node in, const char* type, const char* nam
   return array;
 }
 
+/// The elements of a VTK PolyData file, from the outermost to the piece that holds all.
+struct PolyDataElements {
+  pugi::xml_node file;
+  pugi::xml_node body;
+  pugi::xml_node piece;
+};
+
+struct PolyDataCounts {
+  std::size_t points = 0;
+  std::size_t verts = 0;
+  std::size_t lines = 0;
+  std::size_t polys = 0;
+};
+
+[[nodiscard]] inline PolyDataElements open_poly_data(XmlLines& xml, const PolyDataCounts& counts) {
+  PolyDataElements elements;
+  elements.file = XmlLines::open(xml.document, "VTKFile");
+  elements.file.append_attribute("type") = "PolyData";
+  elements.file.append_attribute("version") = "1.0";
+  elements.file.append_attribute("byte_order") = "LittleEndian";
+  elements.file.append_attribute("header_type") = "UInt64";
+  elements.body = XmlLines::open(elements.file, "PolyData");
+  elements.piece = XmlLines::open(elements.body, "Piece");
+  elements.piece.append_attribute("NumberOfPoints") = counts.points;
+  elements.piece.append_attribute("NumberOfVerts") = counts.verts;
+  elements.piece.append_attribute("NumberOfLines") = counts.lines;
+  elements.piece.append_attribute("NumberOfStrips") = 0;
+  elements.piece.append_attribute("NumberOfPolys") = counts.polys;
+  return elements;
+}
+
+inline void close_poly_data(XmlLines& xml, const PolyDataElements& elements) {
+  for (pugi::xml_node parent : {elements.body, elements.file, pugi::xml_node(xml.document)}) {
+    XmlLines::end_line(parent);
+  }
+}
+
 }  // namespace curveskel

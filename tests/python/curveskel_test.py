@@ -19,19 +19,12 @@ import warnings
 import numpy
 
 import curveskel
+from installed import has
 
 PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 MESHES = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"]) / "meshes"
 Y = MESHES / "y.off"
 TORUS = MESHES / "torus.off"
-
-
-def has(module):
-    try:
-        __import__(module)
-    except ImportError:
-        return False
-    return True
 
 
 class Folder(unittest.TestCase):

@@ -11,20 +11,13 @@ import unittest
 import numpy
 
 import curveskel
+from installed import has
 
 PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
 MESHES = SOURCE / "meshes"
 Y = MESHES / "y.off"
 TORUS = MESHES / "torus.off"
-
-
-def has(module):
-    try:
-        __import__(module)
-    except ImportError:
-        return False
-    return True
 
 
 def places_in(path):
