@@ -90,3 +90,22 @@ function(curveskel_unit name)
   set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
   set(units ${units} ${unit} PARENT_SCOPE)
 endfunction()
+
+# An object library with files as string constants, declared by `header` (cmake/EmbedText.cmake). A
+# library of its own, as a custom command serves only the targets of its own folder; and so that it
+# can be made before anything else.
+function(curveskel_embed library header)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE files)
+  get_filename_component(name ${header} NAME_WE)
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  list(JOIN files "," files_joined)
+  add_custom_command(OUTPUT ${embedded}
+    COMMAND ${CMAKE_COMMAND} -DHEADER=${header} -DOUTPUT=${embedded} -DFILES=${files_joined}
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+    COMMENT "Embedding ${name}" VERBATIM)
+  add_library(${library} OBJECT ${embedded})
+  curveskel_compile_settings(${library})
+  set_target_properties(${library} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+endfunction()
