@@ -33,7 +33,7 @@ std::string match_json(const MatchRecord& record) {
     return Json::array({branch.nodes.front(), branch.nodes.back()});
   };
   Json pairs = Json::array();
-  for (const BranchPair& pair : record.match.branches) {
+  for (const BranchPair& pair : record.found.match.branches) {
     pairs.push_back({{"a", pair.a},
                      {"b", pair.b},
                      {"ends_a", ends(of_a[idx(pair.a)])},
@@ -42,18 +42,19 @@ std::string match_json(const MatchRecord& record) {
                      {"ambiguous", pair.ambiguous}});
   }
   Json junctions = Json::array();
-  for (const auto& [a, b] : record.match.junctions) junctions.push_back({{"a", a}, {"b", b}});
+  for (const auto& [a, b] : record.found.match.junctions) junctions.push_back({{"a", a}, {"b", b}});
   const UnmatchedBranches alone =
-      unmatched_branches(record.skeleton_a, record.skeleton_b, record.match);
-  const Json json = {
-      {"program", program_and_version()},
-      {"a", record.file_a},
-      {"b", record.file_b},
-      {"branches", pairs},
-      {"branches_without_partner", {{"a", alone.of_a}, {"b", alone.of_b}}},
-      {"junctions", junctions},
-      {"vertices",
-       std::vector<int>(record.vertices.data(), record.vertices.data() + record.vertices.size())}};
+      unmatched_branches(record.skeleton_a, record.skeleton_b, record.found.match);
+  const Json json = {{"program", program_and_version()},
+                     {"a", record.file_a},
+                     {"b", record.file_b},
+                     {"by", record.found.by_vertices ? "vertices" : "shape"},
+                     {"branches", pairs},
+                     {"branches_without_partner", {{"a", alone.of_a}, {"b", alone.of_b}}},
+                     {"junctions", junctions},
+                     {"vertices", std::vector<int>(record.found.vertex_of_a.data(),
+                                                   record.found.vertex_of_a.data() +
+                                                       record.found.vertex_of_a.size())}};
   return json.dump() + "\n";
 }
 

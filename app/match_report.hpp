@@ -1,7 +1,6 @@
 // The report of a match, as JSON.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,7 @@ struct MatchRecord {
   const std::string& file_b;
   const CurveSkeleton& skeleton_a;
   const CurveSkeleton& skeleton_b;
-  const SkeletonMatch& match;
-  const Eigen::VectorXi& vertices;  ///< of a's file: the vertex of b's
+  const InputMatch& found;
 };
 
 /// Branches of each without a partner, ascending.

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Branches that `curveskel.match` pairs right: usage: match.py COLLECTION [NAME...]
+"""Branches that `curveskel.match` pairs right: usage: match.py COLLECTION [--by-vertices] [NAME...]
 
 Each surface against itself rotated, noised, decimated and subdivided, and each character in
 COLLECTION/characters against itself in the poses of its clips in COLLECTION/clips (linear blend
 skinning by the artist's weights). Two branches are the same if each has most of the other's
-vertices, and half of those that either has; of these pairs the share that is found is printed.
+vertices, and half of those that either has; of these pairs the share that is found is printed, and
+the share that is after a rotation of the surface onto itself and said to be ambiguous.
+Shapes alone are compared, unless `--by-vertices` is among the arguments.
 Run it with `./run python bench/match.py ../shared/meshes`.
 """
 
@@ -20,6 +22,7 @@ import numpy
 import curveskel
 
 warnings.simplefilter("ignore")
+BY_SHAPE = "--by-vertices" not in sys.argv
 
 
 class Glb:
@@ -111,43 +114,75 @@ class Glb:
         return turns
 
 
-def component_of(skeleton):
-    """Of each branch."""
-    import networkx
+def symmetry(match, mesh_a, positions_b, to_b, turn):
+    """Where the match sends each vertex of A, if that is a rotation of A onto itself, else None.
 
-    graph = networkx.Graph()
-    graph.add_edges_from(numpy.asarray(skeleton.edges).tolist())
-    of_node = {node: number for number, nodes in enumerate(networkx.connected_components(graph))
-               for node in nodes}
-    return numpy.array([of_node[int(nodes[0])] for nodes in skeleton.branch_nodes])
+    `turn` takes A to B but for small changes; to_b: of each vertex of A that of B.
+    """
+    from scipy.spatial import cKDTree
+
+    places, faces = mesh_a
+    known = match.vertices >= 0
+    size = numpy.linalg.norm(numpy.ptp(places, axis=0))
+    back = positions_b[match.vertices[known]] @ turn
+    here = places[known]
+    keep = numpy.ones(len(here), bool)
+    for _ in range(10):
+        middles = here[keep].mean(axis=0), back[keep].mean(axis=0)
+        u, _, v = numpy.linalg.svd((back[keep] - middles[1]).T @ (here[keep] - middles[0]))
+        rotation = u @ numpy.diag([1, 1, numpy.linalg.det(u @ v)]) @ v
+        off = numpy.linalg.norm((here - middles[0]) @ rotation.T + middles[1] - back, axis=1)
+        keep = off <= numpy.quantile(off, 0.7)
+    moved = (places - middles[0]) @ rotation.T + middles[1]
+    distances, nearest = cKDTree(places).query(moved)
+    edges = numpy.linalg.norm(numpy.diff(places[faces[:, :2]], axis=1), axis=2)
+    if numpy.quantile(distances, 0.95) > 0.002 * size + numpy.median(edges):
+        return None
+    return to_b[nearest]
 
 
-def agreement(match, labels_a, labels_b):
-    """Of branches that are in both: those paired right, all, those wrong and not called ambiguous."""
-    count_a, count_b = len(match.a.branch_nodes), len(match.b.branch_nodes)
+def in_both(match, labels_a, labels_b):
+    """Branch of B by branch of A: each has most of the other's vertices, and half of all."""
     known = (labels_a >= 0) & (labels_b >= 0)
-    shared = numpy.zeros((count_a, count_b))
+    shared = numpy.zeros((len(match.a.branch_nodes), len(match.b.branch_nodes)))
     numpy.add.at(shared, (labels_a[known], labels_b[known]), 1)
     of_a, of_b = shared.sum(axis=1), shared.sum(axis=0)
-    partner = dict(zip(match.branches.a, match.branches.b))
-    ambiguous = dict(zip(match.branches.a, match.branches.ambiguous))
-    right = there = misled = large = large_right = 0
-    component = component_of(match.a)
-    vertices = numpy.bincount(component[labels_a[labels_a >= 0]], minlength=component.max() + 1)
-    for a in range(count_a):
-        if of_a[a] == 0:
-            continue
+    same = {}
+    for a in numpy.flatnonzero(of_a):
         b = int(shared[a].argmax())
         overlap = shared[a, b] / (of_a[a] + of_b[b] - shared[a, b])
-        if shared[:, b].argmax() != a or overlap < 0.5:
-            continue
-        there += 1
-        right += partner.get(a) == b
-        misled += partner.get(a) != b and not ambiguous.get(a, False)
-        if vertices[component[a]] >= 0.05 * vertices.sum():
-            large += 1
-            large_right += partner.get(a) == b
-    return right, there, misled, large_right, large
+        if shared[:, b].argmax() == a and overlap >= 0.5:
+            same[int(a)] = b
+    return same
+
+
+class Score:
+    """Counts of branches that are in both."""
+
+    def __init__(self):
+        self.there = self.right = self.symmetric = self.misled = 0
+
+    def add(self, match, same, turned):
+        """same, turned: truth, and truth after a turn of A onto itself."""
+        partner = dict(zip(match.branches.a, match.branches.b))
+        ambiguous = dict(zip(match.branches.a, match.branches.ambiguous))
+        for a, b in same.items():
+            right = partner.get(a) == b
+            said = ambiguous.get(a, False)
+            self.there += 1
+            self.right += right
+            self.symmetric += not right and said and a in partner and turned.get(a) == partner[a]
+            self.misled += not right and not said
+        return self
+
+    def __iadd__(self, other):
+        for name, value in vars(other).items():
+            setattr(self, name, getattr(self, name) + value)
+        return self
+
+    def __str__(self):
+        return (f"{self.right:4d} right, {self.symmetric:3d} turned by a symmetry and said to be "
+                f"ambiguous, {self.misled:3d} wrong unsaid of {self.there:4d}")
 
 
 def rotation(seed):
@@ -193,43 +228,46 @@ def decimated(vertices, faces, step):
 
 
 def changes(vertices, faces):
-    """Name, surface, and of each old vertex that of the new surface."""
+    """Name, rotation, surface, and of each old vertex that of the new surface."""
     same = numpy.arange(len(vertices))
     size = numpy.linalg.norm(numpy.ptp(vertices, axis=0))
-    yield "rotated", (vertices @ rotation(1).T, faces), same
+    yield "rotated", rotation(1), (vertices @ rotation(1).T, faces), same
     noise = numpy.random.default_rng(2).normal(size=vertices.shape) * 0.001 * size
-    yield "noised", (vertices @ rotation(3).T + noise, faces), same
+    yield "noised", rotation(3), (vertices @ rotation(3).T + noise, faces), same
     if len(vertices) < 60000:
         places, triangles = subdivided(vertices, faces)
-        yield "subdivided", (places @ rotation(4).T, triangles), same
+        yield "subdivided", rotation(4), (places @ rotation(4).T, triangles), same
     places, triangles, cell = decimated(vertices, faces, 0.008)
-    yield "decimated", (places @ rotation(5).T, triangles), cell
+    yield "decimated", rotation(5), (places @ rotation(5).T, triangles), cell
 
 
-def report(name, change, a, surface, to_b):
+def report(name, change, a, surface, to_b, turn=None, mesh_a=None):
+    """turn, mesh_a: None if the surface is posed."""
+    score = Score()
     try:
         b = curveskel.extract(surface)
     except curveskel.Error as error:
         print(f"{name:24} {change:14} refused: {str(error)[:60]}")
-        return 0, 0, 0, 0, 0
+        return score
     begin = time.time()
-    match = curveskel.match(a, b)
+    match = curveskel.match(a, b, by_shape=BY_SHAPE)
     seconds = time.time() - begin
-    right, there, misled, large_right, large = agreement(match, a.vertex_labels(), b.vertex_labels()[to_b])
-    vertices = match.vertices
-    known = vertices >= 0
-    far = numpy.linalg.norm(numpy.asarray(surface[0])[vertices[known]] -
+    labels_a, labels_b = a.vertex_labels(), b.vertex_labels()
+    by_turn = None if turn is None else symmetry(match, mesh_a, surface[0], to_b, turn)
+    score.add(match, in_both(match, labels_a, labels_b[to_b]),
+              {} if by_turn is None else in_both(match, labels_a, labels_b[by_turn]))
+    known = match.vertices >= 0
+    far = numpy.linalg.norm(numpy.asarray(surface[0])[match.vertices[known]] -
                             numpy.asarray(surface[0])[to_b[known]], axis=1)
     size = numpy.linalg.norm(numpy.ptp(numpy.asarray(surface[0]), axis=0))
-    print(f"{name:24} {change:14} {right:3d} of {there:3d} right, {misled:3d} wrong unsaid, "
-          f"{len(a.branch_nodes):4d} and {len(b.branch_nodes):4d} branches, vertices "
-          f"{numpy.median(far) / size:.4f} D off, {seconds:.2f} s", flush=True)
-    return right, there, misled, large_right, large
+    print(f"{name:24} {change:14} {score}, {len(a.branch_nodes):4d} and {len(b.branch_nodes):4d} "
+          f"branches, vertices {numpy.median(far) / size:.4f} D off, {seconds:.2f} s", flush=True)
+    return score
 
 
 def main():
     collection = pathlib.Path(sys.argv[1])
-    names = sys.argv[2:]
+    names = [name for name in sys.argv[2:] if name != "--by-vertices"]
     totals = {}
     for path in sorted(collection.glob("*.*")):
         if path.suffix not in (".ply", ".obj", ".off") or "neuron" in path.name:
@@ -239,9 +277,10 @@ def main():
         a = curveskel.extract(path)
         vertices, faces = a.mesh
         a = curveskel.extract((vertices, faces))
-        for change, surface, to_b in changes(numpy.array(vertices), numpy.array(faces)):
-            score = report(path.stem, change, a, surface, to_b)
-            totals[change] = numpy.add(totals.get(change, (0, 0, 0, 0, 0)), score)
+        mesh = numpy.array(vertices), numpy.array(faces)
+        for change, turn, surface, to_b in changes(*mesh):
+            totals.setdefault(change, Score())
+            totals[change] += report(path.stem, change, a, surface, to_b, turn, mesh)
     clips = {"bird": "bird-animations", "fox": "fox-animations", "human": "human-sample",
              "kaiju": "kaiju-animations"}
     for path in sorted((collection / "characters").glob("*.glb")):
@@ -259,14 +298,18 @@ def main():
                 turns = {character.names.index(name): turn
                          for name, turn in clip.turns_at(animation, share).items()
                          if name in character.names}
-                score = report(path.stem, f"{animation['name'][:10]} {share}", a,
-                               character.posed(turns), numpy.arange(len(rest[0])))
-                totals["posed"] = numpy.add(totals.get("posed", (0, 0, 0, 0, 0)), score)
-    for change, (right, there, misled, large_right, large) in totals.items():
-        print(f"{change}: {right} of {there}, {100 * right / max(1, there):.1f} %; wrong and not "
-              f"called ambiguous {misled}, {100 * misled / max(1, there):.1f} %; of components with "
-              f"5 % of the vertices {large_right} of {large} right, "
-              f"{100 * large_right / max(1, large):.1f} %")
+                totals.setdefault("posed " + path.stem, Score())
+                totals["posed " + path.stem] += report(
+                    path.stem, f"{animation['name'][:10]} {share}", a, character.posed(turns),
+                    numpy.arange(len(rest[0])))
+    whole = Score(), Score()
+    for change, score in totals.items():
+        whole[change.startswith("posed")].__iadd__(score)
+    totals["all by themselves"], totals["all posed"] = whole
+    for change, score in totals.items():
+        share = 100 / max(1, score.there)
+        print(f"{change:24} {score}: {share * score.right:.1f} % right, "
+              f"{share * (score.right + score.symmetric):.1f} % with the symmetries")
 
 
 if __name__ == "__main__":

@@ -248,16 +248,16 @@ py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& sk
   return dictionary_of(found.certificate);
 }
 
-/// Branch pairs as columns, junctions as pairs of nodes, vertices of b by those of a.
-py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction& b, int threads,
-                              const py::object& progress) {
-  SkeletonMatch match;
-  Eigen::VectorXi vertices;
+/// Branch pairs as columns, junctions as pairs of nodes, vertices of b by those of a, and whether
+/// these told the branches.
+py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction& b, bool by_shape,
+                              int threads, const py::object& progress) {
+  InputMatch found;
   run_beside_interpreter(progress, [&](const Monitor& monitor) {
-    match = match_skeletons({a.repaired.surface, a.extraction.skeleton},
-                            {b.repaired.surface, b.extraction.skeleton}, {threads}, monitor);
-    vertices = matched_input_vertices(match, a.repaired, b.repaired);
+    found = match_inputs({a.soup, a.repaired, a.extraction.skeleton},
+                         {b.soup, b.repaired, b.extraction.skeleton}, {threads, by_shape}, monitor);
   });
+  const SkeletonMatch& match = found.match;
   py::list of_a;
   py::list of_b;
   py::list reversed;
@@ -273,7 +273,7 @@ py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction&
   table["b"] = of_b;
   table["reversed"] = reversed;
   table["ambiguous"] = ambiguous;
-  return py::make_tuple(table, match.junctions, std::move(vertices));
+  return py::make_tuple(table, match.junctions, std::move(found.vertex_of_a), found.by_vertices);
 }
 
 void bind_extraction(py::module_& module) {

@@ -27,6 +27,7 @@ struct MatchArguments {
   std::filesystem::path a;
   std::filesystem::path b;
   std::string output;
+  bool by_shape = false;
   bool quiet = false;
   double time_limit_seconds = 0;
   RepairOptions repair;
@@ -34,6 +35,7 @@ struct MatchArguments {
 };
 
 struct Extracted {
+  PolygonSoup soup;
   RepairedSurface repaired;
   CurveSkeleton skeleton;
 };
@@ -44,7 +46,8 @@ Extracted extracted(const std::filesystem::path& file, const MatchArguments& arg
   const Monitor monitor = session.monitor();
   const int threads = arguments.extract.threads;
   Extracted result;
-  result.repaired = repair(read_polygons(file, monitor), arguments.repair, monitor, threads);
+  result.soup = read_polygons(file, monitor);
+  result.repaired = repair(result.soup, arguments.repair, monitor, threads);
   RepairedExtraction found =
       extract_repaired(result.repaired, arguments.repair, arguments.extract, monitor);
   if (found.wrapped) result.repaired = std::move(*found.wrapped);
@@ -56,12 +59,12 @@ Extracted extracted(const std::filesystem::path& file, const MatchArguments& arg
 }
 
 std::string summary(const MatchRecord& record) {
-  const auto& pairs = record.match.branches;
+  const auto& pairs = record.found.match.branches;
   const UnmatchedBranches alone =
-      unmatched_branches(record.skeleton_a, record.skeleton_b, record.match);
+      unmatched_branches(record.skeleton_a, record.skeleton_b, record.found.match);
   const auto ambiguous = std::count_if(pairs.begin(), pairs.end(),
                                        [](const BranchPair& pair) { return pair.ambiguous; });
-  const auto vertices = (record.vertices.array() >= 0).count();
+  const auto vertices = (record.found.vertex_of_a.array() >= 0).count();
   std::string text =
       fmt::format("{} and {}: {} of {} and {} branches paired, {} of these ambiguous\n",
                   record.file_a, record.file_b, pairs.size(), pairs.size() + alone.of_a.size(),
@@ -74,8 +77,13 @@ std::string summary(const MatchRecord& record) {
     text +=
         fmt::format("without a partner in {}: {}\n", record.file_b, fmt::join(alone.of_b, ", "));
   }
-  return text + fmt::format("{} junctions, {} of {} vertices\n", record.match.junctions.size(),
-                            vertices, record.vertices.size());
+  text += fmt::format("{} junctions, {} of {} vertices\n", record.found.match.junctions.size(),
+                      vertices, record.found.vertex_of_a.size());
+  if (record.found.by_vertices) {
+    text +=
+        "both files have the same faces: paired by their vertices (--by-shape: by shape alone)\n";
+  }
+  return text;
 }
 
 int run_match(MatchArguments arguments, Session& session) {
@@ -90,13 +98,12 @@ int run_match(MatchArguments arguments, Session& session) {
   arguments.extract.fairing = false;
   const Extracted a = extracted(arguments.a, arguments, session);
   const Extracted b = extracted(arguments.b, arguments, session);
-  const SkeletonMatch match =
-      match_skeletons({a.repaired.surface, a.skeleton}, {b.repaired.surface, b.skeleton},
-                      {arguments.extract.threads}, session.monitor());
-  const Eigen::VectorXi vertices = matched_input_vertices(match, a.repaired, b.repaired);
+  const InputMatch match =
+      match_inputs({a.soup, a.repaired, a.skeleton}, {b.soup, b.repaired, b.skeleton},
+                   {arguments.extract.threads, arguments.by_shape}, session.monitor());
   const std::string file_a = arguments.a.filename().string();
   const std::string file_b = arguments.b.filename().string();
-  const MatchRecord record{file_a, file_b, a.skeleton, b.skeleton, match, vertices};
+  const MatchRecord record{file_a, file_b, a.skeleton, b.skeleton, match};
   write_outputs({{arguments.output, match_json(record)}}, session);
   if (!arguments.quiet) {
     std::string text = summary(record);
@@ -126,6 +133,10 @@ Verb add_match(CLI::App& program) {
                    "pairs of branches, junctions and vertices; - is standard output")
       ->required()
       ->type_name("OUT.json");
+  parser->add_flag(
+      "--by-shape", arguments->by_shape,
+      "compare shapes alone, also where both files have the same faces, whose vertices "
+      "are taken for the same");
   ExtractOptions& options = arguments->extract;
   options.fair.iterations = 0;
   options.contraction.program_cache = kernel_cache();

@@ -8,6 +8,7 @@
 
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/surface.hpp>
 
@@ -22,6 +23,8 @@ struct MatchSide {
 
 struct MatchOptions {
   int threads = 0;  ///< at most; 0 = one per core. The result does not depend on it.
+  /// The shapes alone are compared where the vertices would tell, see `match_inputs`.
+  bool by_shape = false;
 };
 
 /// Numbers are those of `branches` of either skeleton.
@@ -51,10 +54,33 @@ struct SkeletonMatch {
                                             const MatchOptions& options = {},
                                             const Monitor& monitor = {});
 
-/// #V of a's file: the vertex of b's file, -1 = none; from files to the surfaces that were matched
-/// and back by `vertex_of_input`. O(#V).
-[[nodiscard]] Eigen::VectorXi matched_input_vertices(const SkeletonMatch& match,
-                                                     const RepairedSurface& a,
-                                                     const RepairedSurface& b);
+/// Where the vertices of a are known in b (#V of a, -1 = not known), as in the frames of an
+/// animation: tips are paired as above by where their surroundings are known to go, branches by
+/// their division of the tips and by the vertices that they share. Nothing is ambiguous, and
+/// `vertex_of_a` is what is given. Errors as of `match_skeletons`; also Error(Fault::input) for
+/// another number of vertices, or a vertex that b does not have. O(#V), for the tips as above.
+[[nodiscard]] SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
+                                              const Eigen::VectorXi& vertex_of_a,
+                                              const Monitor& monitor = {});
+
+/// Polygons as given, and what was made of them; alive as long as they are used.
+struct MatchInput {
+  const PolygonSoup& soup;
+  const RepairedSurface& repaired;
+  const CurveSkeleton& skeleton;  ///< `node_of_vertex` is by the repaired surface's vertices
+};
+
+struct InputMatch {
+  SkeletonMatch match;
+  Eigen::VectorXi vertex_of_a;  ///< #V of a's soup: the vertex of b's soup, -1 = none
+  bool by_vertices = false;     ///< both soups have the same polygons
+};
+
+/// `match_by_vertices` if both soups have the same polygons of the same vertices, which two shapes
+/// have only if one is the other in another pose or form; else, and with `by_shape`,
+/// `match_skeletons`. Errors as of these.
+[[nodiscard]] InputMatch match_inputs(const MatchInput& a, const MatchInput& b,
+                                      const MatchOptions& options = {},
+                                      const Monitor& monitor = {});
 
 }  // namespace curveskel

@@ -11,12 +11,14 @@ from .skeleton import Skeleton, extract
 class Match:
     """Which branch, junction and vertex of one skeleton is which in another; see `match`."""
 
-    def __init__(self, table, junctions, vertices, a, b):
+    def __init__(self, table, junctions, vertices, by_vertices, a, b):
         self._table = table
         #: (k, 2) int32: nodes of paired junctions.
         self.junctions = numpy.array(junctions, dtype=numpy.int32).reshape(-1, 2)
         #: (v,) int32: of each vertex given with A the vertex given with B, -1 = none.
         self.vertices = vertices
+        #: bool: both have the same faces, whose vertices told the branches.
+        self.by_vertices = by_vertices
         #: The two skeletons.
         self.a, self.b = a, b
 
@@ -40,10 +42,12 @@ class Match:
                 f"{sum(self._table['ambiguous'])} ambiguous, {len(of_a)} and {len(of_b)} alone>")
 
 
-def match(a, b, *, threads=0, progress=None, **options):
+def match(a, b, *, by_shape=False, threads=0, progress=None, **options):
     """Which branch, junction and vertex of A is which in B.
 
     a, b: skeletons that `extract` made, or surfaces as it takes them.
+    by_shape: compare shapes alone, also where A and B have the same faces, whose vertices are
+        taken for the same.
     threads, progress: as of `extract`.
     options: those of `extract`, for what is extracted here.
 
@@ -57,5 +61,6 @@ def match(a, b, *, threads=0, progress=None, **options):
             raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
         sides.append(side)
     with shown(progress) as callback:
-        found = _core.match(sides[0]._extraction, sides[1]._extraction, threads, callback)
+        found = _core.match(sides[0]._extraction, sides[1]._extraction, by_shape, threads,
+                            callback)
     return Match(*found, *sides)

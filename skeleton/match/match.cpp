@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_measures.hpp>
 #include <curveskel/branch_territories.hpp>
-#include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/match/branch_overlaps.hpp"
 #include "skeleton/match/branch_pairs.hpp"
@@ -21,20 +19,6 @@
 
 namespace curveskel {
 namespace {
-
-void require_whole(const MatchSide& side, const std::string& name) {
-  const CurveSkeleton& skeleton = side.skeleton;
-  const auto refuse = [&](const std::string& found, const std::string& needed) {
-    throw Error(Fault::input,
-                "matching: the skeleton of " + name + " has " + found + ", needed " + needed);
-  };
-  if (skeleton.edges.rows() == 0) refuse("no edges", "one at least");
-  if (skeleton.radii.size() != skeleton.nodes.rows()) refuse("no radii", "one for each node");
-  if (skeleton.node_of_vertex.size() != side.surface.positions.rows()) {
-    refuse("a map of " + std::to_string(skeleton.node_of_vertex.size()) + " vertices",
-           "one of its surface's " + std::to_string(side.surface.positions.rows()));
-  }
-}
 
 /// A fit within a fifth, or within a thousandth of the size, is as good.
 constexpr double as_good = 1.2;
@@ -63,21 +47,6 @@ std::vector<double> scales_between(const TipFeatures& a, const TipFeatures& b) {
   const double ratio = b.unit / a.unit;
   if (std::abs(ratio - 1) < as_large || std::abs(std::log(ratio)) > std::log(1.5)) return {ratio};
   return {1, ratio};
-}
-
-Eigen::Matrix3Xd tips_of(const TipFeatures& features, const MatchSide& side) {
-  return side.skeleton.nodes(features.tips, Eigen::all).transpose() / features.unit;
-}
-
-Eigen::Matrix3Xd moved_tips(const TipFeatures& of_a, const MatchSide& a, const TipFeatures& of_b,
-                            const NodeMotions& motions) {
-  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(of_a.tips.size()));
-  for (std::size_t tip = 0; tip < of_a.tips.size(); ++tip) {
-    const int node = of_a.tips[tip];
-    const Eigen::Vector3d at = a.skeleton.nodes.row(node);
-    places.col(static_cast<Eigen::Index>(tip)) = motions.of_node[idx(node)](at) / of_b.unit;
-  }
-  return places;
 }
 
 struct Outcome {
@@ -153,11 +122,9 @@ void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair
 
 SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const MatchOptions& options,
                               const Monitor& monitor) {
-  require_whole(a, "A");
-  require_whole(b, "B");
   monitor.report("match", 0);
-  const TipFeatures of_a = tip_features(a);
-  const TipFeatures of_b = tip_features(b);
+  const TipFeatures of_a = tip_features(a, "A");
+  const TipFeatures of_b = tip_features(b, "B");
   const Eigen::MatrixXd like = likeness(of_a, of_b);
   monitor.report("match", 0.1);
   const SurfaceTree tree_b(b.surface, options.threads);
@@ -167,17 +134,16 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
         align_cores(a, of_a, tree_b, b, of_b, like, scale, most_alignments, options.threads);
     alignments.insert(alignments.end(), found.begin(), found.end());
   }
-  std::vector<NodeMotions> hypotheses =
+  const std::vector<NodeMotions> hypotheses =
       follow_cores(a, of_a, tree_b, alignments, options.threads, monitor);
-  const Eigen::Matrix3Xd tips_b = tips_of(of_b, b);
   const BranchTerritories territories_a = branch_territories(a.surface, a.skeleton);
   const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
   const VertexPairing pairing(a, territories_a, b, territories_b, options.threads);
   const auto pairs_of = [&](const NodeMotions& motions) {
-    const std::vector<int> tips = pair_tips(of_a, of_b, like, moved_tips(of_a, a, of_b, motions),
-                                            tips_b, pair_components(of_a, of_b, motions));
-    const Eigen::MatrixXd overlaps =
-        branch_overlaps(a, territories_a, territories_b, tree_b, motions, options.threads);
+    const std::vector<int> tips =
+        pair_tips(a, of_a, b, of_b, like, motions, pair_components(of_a, of_b, motions));
+    const Landings landings = landings_of(a, territories_b, tree_b, motions, options.threads);
+    const Eigen::MatrixXd overlaps = branch_overlaps(territories_a, territories_b, landings);
     return pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
   };
   // Clear pairs put right a motion that was followed wrongly, such as that of a part that hangs on
@@ -185,12 +151,12 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   const Trials trials{territories_a, pairing, branch_measures(a.skeleton),
                       branch_measures(b.skeleton), of_b.unit};
   std::vector<Outcome> outcomes;
-  for (NodeMotions& motions : hypotheses) {
+  for (const NodeMotions& hypothesis : hypotheses) {
     constexpr int rounds = 2;
     for (int round = 0; round <= rounds; ++round) {
-      if (round > 0) {
-        motions = anchored_motions(a, of_a, b, outcomes.back().pairs, outcomes.back().motions);
-      }
+      NodeMotions motions =
+          round == 0 ? hypothesis
+                     : anchored_motions(a, of_a, b, outcomes.back().pairs, outcomes.back().motions);
       std::vector<BranchPair> pairs = pairs_of(motions);
       const double misfit = misfit_of(trials, pairs, motions);
       outcomes.push_back({std::move(pairs), std::move(motions), misfit});
@@ -211,20 +177,6 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   monitor.report("match", 0.7);
   match.vertex_of_a = pairing.pair(match.branches, best.motions, 1).partner;
   return match;
-}
-
-Eigen::VectorXi matched_input_vertices(const SkeletonMatch& match, const RepairedSurface& a,
-                                       const RepairedSurface& b) {
-  Eigen::VectorXi input_of_b = Eigen::VectorXi::Constant(b.surface.positions.rows(), -1);
-  for (Eigen::Index v = b.vertex_of_input.size(); v-- > 0;) {
-    if (b.vertex_of_input[v] >= 0) input_of_b[b.vertex_of_input[v]] = static_cast<int>(v);
-  }
-  Eigen::VectorXi partner = a.vertex_of_input;
-  for (int& vertex : partner) {
-    const int matched = vertex < 0 ? -1 : match.vertex_of_a[vertex];
-    vertex = matched < 0 ? -1 : input_of_b[matched];
-  }
-  return partner;
 }
 
 }  // namespace curveskel

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -12,14 +13,19 @@
 namespace curveskel {
 namespace {
 
+/// Improves the motion of a node's surroundings, some vertices of a.
+using Lay = std::function<void(Similarity&, const std::vector<int>&)>;
+
 class Follower {
  public:
-  Follower(const MatchSide& a, const TipFeatures& of_a, const SurfaceTree& tree_b,
-           const Similarity& core)
+  /// Components with less than a share of the area are not laid: each goes with what it sits on.
+  Follower(const MatchSide& a, const TipFeatures& of_a, const Similarity& core, double least_share,
+           Lay lay)
       : a_(a),
         of_a_(of_a),
-        tree_b_(tree_b),
         core_(core),
+        least_share_(least_share),
+        lay_(std::move(lay)),
         vertices_(idx(a.skeleton.nodes.rows())),
         settled_(vertices_.size(), false) {
     for (int vertex = 0; vertex < a.skeleton.node_of_vertex.size(); ++vertex) {
@@ -46,18 +52,13 @@ class Follower {
 
   void settle(int node) {
     Similarity motion = start_of(node);
-    const Eigen::Matrix3Xd points = surroundings(node);
-    constexpr int rounds = 4;
-    constexpr Eigen::Index least_points = 12;
-    if (points.cols() >= least_points && is_large(node)) refine(motion, points, tree_b_, rounds);
+    if (is_large(node)) lay_(motion, surroundings(node));
     motions_.of_node[idx(node)] = motion;
     settled_[idx(node)] = true;
   }
 
-  /// A small part would be drawn onto whatever is near; it goes with what it sits on.
   [[nodiscard]] bool is_large(int node) const {
-    constexpr double least_share = 0.02;
-    return of_a_.area_share[idx(of_a_.component[idx(node)])] >= least_share;
+    return of_a_.area_share[idx(of_a_.component[idx(node)])] >= least_share_;
   }
 
   [[nodiscard]] Similarity start_of(int node) const {
@@ -80,7 +81,7 @@ class Follower {
   }
 
   /// Vertices of the nodes within two radii along the curve.
-  [[nodiscard]] Eigen::Matrix3Xd surroundings(int node) {
+  [[nodiscard]] std::vector<int> surroundings(int node) {
     constexpr std::size_t most = 80;
     const double reach = 2 * std::max(0.0, a_.skeleton.radii[node]);
     std::vector<int> near;
@@ -98,19 +99,18 @@ class Follower {
       }
     }
     std::sort(near.begin(), near.end());
-    const std::size_t count = std::min(most, near.size());
-    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(count));
-    for (std::size_t k = 0; k < count; ++k) {
-      points.col(static_cast<Eigen::Index>(k)) =
-          a_.surface.positions.row(near[k * near.size() / count]);
-    }
-    return points;
+    if (near.size() <= most) return near;
+    std::vector<int> some;
+    some.reserve(most);
+    for (std::size_t k = 0; k < most; ++k) some.push_back(near[k * near.size() / most]);
+    return some;
   }
 
   const MatchSide& a_;
   const TipFeatures& of_a_;
-  const SurfaceTree& tree_b_;
   const Similarity& core_;
+  double least_share_;
+  Lay lay_;
   std::vector<std::vector<int>> vertices_;  ///< per node
   std::vector<bool> settled_;
   NodeMotions motions_;
@@ -120,7 +120,39 @@ class Follower {
 
 NodeMotions follow_motions(const MatchSide& a, const TipFeatures& of_a, const SurfaceTree& tree_b,
                            const Similarity& core) {
-  return Follower(a, of_a, tree_b, core).follow();
+  // A small part would be drawn onto whatever is near.
+  constexpr double least_share = 0.02;
+  const auto lay = [&](Similarity& motion, const std::vector<int>& vertices) {
+    constexpr int rounds = 4;
+    constexpr std::size_t least_points = 12;
+    if (vertices.size() < least_points) return;
+    refine(motion, a.surface.positions(vertices, Eigen::all).transpose(), tree_b, rounds);
+  };
+  return Follower(a, of_a, core, least_share, lay).follow();
+}
+
+NodeMotions known_motions(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
+                          const TipFeatures& of_b, const Eigen::VectorXi& vertex_of_a) {
+  const auto lay = [&](Similarity& motion, const std::vector<int>& vertices) {
+    std::vector<int> mine;
+    std::vector<int> theirs;
+    for (const int vertex : vertices) {
+      if (vertex_of_a[vertex] < 0) continue;
+      mine.push_back(vertex);
+      theirs.push_back(vertex_of_a[vertex]);
+    }
+    if (mine.size() < 3) return;
+    Eigen::Matrix3Xd from = a.surface.positions(mine, Eigen::all).transpose();
+    Eigen::Matrix3Xd to = b.surface.positions(theirs, Eigen::all).transpose();
+    motion.from = from.rowwise().mean();
+    motion.to = to.rowwise().mean();
+    from.colwise() -= motion.from;
+    to.colwise() -= motion.to;
+    motion.rotation = rotation_between(from, to);
+  };
+  Similarity start;
+  start.scale = of_b.unit / of_a.unit;
+  return Follower(a, of_a, start, 0, lay).follow();
 }
 
 namespace {

@@ -19,6 +19,13 @@ struct NodeMotions {
 [[nodiscard]] NodeMotions follow_motions(const MatchSide& a, const TipFeatures& of_a,
                                          const SurfaceTree& tree_b, const Similarity& core);
 
+/// That of each node's surroundings, by least squares, where the vertices of a are known in b
+/// (#V of a, -1 = not known); the scale is that of the whole. A node with fewer than three moves as
+/// the node before it.
+[[nodiscard]] NodeMotions known_motions(const MatchSide& a, const TipFeatures& of_a,
+                                        const MatchSide& b, const TipFeatures& of_b,
+                                        const Eigen::VectorXi& vertex_of_a);
+
 /// From pairs of branches that hang together in both: nodes on them go to the same share
 /// of the partner's length, turned as before and then by the least rotation that takes one curve's
 /// direction to the other's; all others go with the nearest of these along the curve, those of

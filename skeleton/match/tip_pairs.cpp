@@ -21,6 +21,21 @@ struct Candidate {
 /// The same tip, moved, lies within a twentieth of the size, most likely.
 constexpr double place_scale = 0.05;
 
+Eigen::Matrix3Xd tips_of(const MatchSide& side, const TipFeatures& features) {
+  return side.skeleton.nodes(features.tips, Eigen::all).transpose();
+}
+
+Eigen::Matrix3Xd moved_tips(const MatchSide& side, const TipFeatures& features,
+                            const NodeMotions& motions) {
+  Eigen::Matrix3Xd places = tips_of(side, features);
+  for (std::size_t tip = 0; tip < features.tips.size(); ++tip) {
+    const Eigen::Vector3d at = places.col(static_cast<Eigen::Index>(tip));
+    places.col(static_cast<Eigen::Index>(tip)) = motions.of_node[idx(features.tips[tip])](at);
+  }
+  return places;
+}
+
+/// Places are over b's unit.
 std::vector<Candidate> candidates_of(const TipFeatures& a, const TipFeatures& b,
                                      const Eigen::MatrixXd& like, const Eigen::Matrix3Xd& places_a,
                                      const Eigen::Matrix3Xd& places_b,
@@ -82,29 +97,31 @@ double support(const Candidate& one, const std::vector<Candidate>& candidates, c
 
 }  // namespace
 
-std::vector<int> pair_tips(const TipFeatures& a, const TipFeatures& b, const Eigen::MatrixXd& like,
-                           const Eigen::Matrix3Xd& places_a, const Eigen::Matrix3Xd& places_b,
-                           const std::vector<int>& component_pairs) {
-  std::vector<int> partner(a.tips.size(), -1);
-  if (a.tips.empty() || b.tips.empty()) return partner;
+std::vector<int> pair_tips(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
+                           const TipFeatures& of_b, const Eigen::MatrixXd& like,
+                           const NodeMotions& motions, const std::vector<int>& component_pairs) {
+  std::vector<int> partner(of_a.tips.size(), -1);
+  if (of_a.tips.empty() || of_b.tips.empty()) return partner;
   std::vector<Candidate> candidates =
-      candidates_of(a, b, like, places_a, places_b, component_pairs);
+      candidates_of(of_a, of_b, like, moved_tips(a, of_a, motions) / of_b.unit,
+                    tips_of(b, of_b) / of_b.unit, component_pairs);
   constexpr int rounds = 16;
   for (int round = 0; round < rounds; ++round) {
     const double temperature = 1.5 * std::pow(0.85, round);
-    normalise(candidates, a.tips.size(), b.tips.size(), temperature);
+    normalise(candidates, of_a.tips.size(), of_b.tips.size(), temperature);
     std::vector<double> scores;
     scores.reserve(candidates.size());
     for (const Candidate& one : candidates) {
-      scores.push_back(one.own + 4 * std::log(0.02 + support(one, candidates, a, b)));
+      scores.push_back(one.own + 4 * std::log(0.02 + support(one, candidates, of_a, of_b)));
     }
     for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].score = scores[k];
   }
   // Worse than the worst that a pair can be and still is one.
   constexpr double no_pair = 1e3;
   constexpr double least_score = -8;
-  Eigen::MatrixXd costs = Eigen::MatrixXd::Constant(
-      static_cast<Eigen::Index>(a.tips.size()), static_cast<Eigen::Index>(b.tips.size()), no_pair);
+  Eigen::MatrixXd costs =
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(of_a.tips.size()),
+                                static_cast<Eigen::Index>(of_b.tips.size()), no_pair);
   for (const Candidate& one : candidates) costs(one.a, one.b) = -one.score;
   const std::vector<int> pairs = least_pairs(costs);
   for (std::size_t i = 0; i < pairs.size(); ++i) {

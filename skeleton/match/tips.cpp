@@ -6,11 +6,26 @@
 #include <numeric>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 namespace {
 
 constexpr Eigen::Index radius_samples = 16;
+
+void require_whole(const MatchSide& side, const std::string& name) {
+  const CurveSkeleton& skeleton = side.skeleton;
+  const auto refuse = [&](const std::string& found, const std::string& needed) {
+    throw Error(Fault::input,
+                "matching: the skeleton of " + name + " has " + found + ", needed " + needed);
+  };
+  if (skeleton.edges.rows() == 0) refuse("no edges", "one at least");
+  if (skeleton.radii.size() != skeleton.nodes.rows()) refuse("no radii", "one for each node");
+  if (skeleton.node_of_vertex.size() != side.surface.positions.rows()) {
+    refuse("a map of " + std::to_string(skeleton.node_of_vertex.size()) + " vertices",
+           "one of its surface's " + std::to_string(side.surface.positions.rows()));
+  }
+}
 
 class FeatureFinder {
  public:
@@ -201,7 +216,10 @@ class FeatureFinder {
 
 }  // namespace
 
-TipFeatures tip_features(const MatchSide& side) { return FeatureFinder(side).find(); }
+TipFeatures tip_features(const MatchSide& side, const std::string& name) {
+  require_whole(side, name);
+  return FeatureFinder(side).find();
+}
 
 Eigen::MatrixXd likeness(const TipFeatures& a, const TipFeatures& b) {
   // Of the same limb in another pose, reach changes by a few percent, radii by more.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include <curveskel/advanced/graph.hpp>
@@ -36,7 +37,8 @@ inline constexpr double unconnected = 10;
 /// limbs.
 inline constexpr double core_share = 0.35;
 
-[[nodiscard]] TipFeatures tip_features(const MatchSide& side);
+/// Throws Error(Fault::input) that says `name` for a skeleton without edges, radii or a vertex map.
+[[nodiscard]] TipFeatures tip_features(const MatchSide& side, const std::string& name);
 
 /// tips of a x tips of b, 0..1: how alike the ways of two tips to the middle are.
 [[nodiscard]] Eigen::MatrixXd likeness(const TipFeatures& a, const TipFeatures& b);

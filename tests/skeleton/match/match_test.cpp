@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
 #include "meshes/shapes.hpp"
 
 namespace curveskel {
@@ -169,6 +172,98 @@ TEST(MatchSkeletons, AreTheSameFromAnyNumberOfThreadsAndRefuseWhatLacksAMap) {
   EXPECT_EQ(one.junctions, two.junctions);
   b.skeleton.node_of_vertex.resize(0);
   EXPECT_THROW((void)match_skeletons(a.as_given(), b.as_given()), Error);
+}
+
+/// A star of like limbs: nothing but its vertices tells which is which.
+Shape star(int limbs) {
+  CurveSkeleton graph;
+  graph.nodes.setZero(limbs + 1, 3);
+  graph.edges.resize(limbs, 2);
+  graph.radii.setConstant(limbs + 1, 0.4);
+  for (int k = 0; k < limbs; ++k) {
+    const double angle = 2 * std::numbers::pi * k / limbs;
+    graph.nodes.row(k + 1) << 4 * std::cos(angle), 4 * std::sin(angle), 0;
+    graph.edges.row(k) << 0, k + 1;
+  }
+  return shapes::tube_union("star", graph);
+}
+
+struct Given {
+  PolygonSoup soup;
+  RepairedSurface repaired;
+  CurveSkeleton skeleton;
+  [[nodiscard]] MatchInput as_input() const { return {soup, repaired, skeleton}; }
+};
+
+Given given(const Surface& surface) {
+  Given made{soup_of(surface), {}, {}};
+  made.repaired = repair(made.soup);
+  made.skeleton = extract(made.repaired.surface).skeleton;
+  return made;
+}
+
+TEST(MatchInputs, KnowByVerticesWhatTheShapeLeavesOpen) {
+  for (const int limbs : {3, 5}) {
+    SCOPED_TRACE(limbs);
+    const Shape shape = star(limbs);
+    const Given a = given(shape.surface);
+    const Given b = given(turned(shape).surface);
+    const InputMatch by_vertices = match_inputs(a.as_input(), b.as_input());
+    EXPECT_TRUE(by_vertices.by_vertices);
+    ASSERT_EQ(by_vertices.match.branches.size(), static_cast<std::size_t>(limbs));
+    EXPECT_EQ(by_vertices.match.junctions.size(), 1U);
+    for (Eigen::Index v = 0; v < by_vertices.vertex_of_a.size(); ++v) {
+      ASSERT_EQ(by_vertices.vertex_of_a[v], v);
+    }
+    const auto of_a = branches(a.skeleton);
+    const auto of_b = branches(b.skeleton);
+    for (const BranchPair& pair : by_vertices.match.branches) {
+      EXPECT_FALSE(pair.ambiguous);
+      const auto tip = [](const CurveSkeleton& skeleton, const Branch& branch) {
+        const auto degree = degrees(skeleton.nodes.rows(), skeleton.edges);
+        const int end = branch.nodes.back();
+        return degree[static_cast<std::size_t>(end)] == 1 ? end : branch.nodes.front();
+      };
+      // The tips are where the vertices say.
+      const Eigen::RowVector3d mine =
+          a.skeleton.nodes.row(tip(a.skeleton, of_a[static_cast<std::size_t>(pair.a)]));
+      const Eigen::RowVector3d theirs =
+          b.skeleton.nodes.row(tip(b.skeleton, of_b[static_cast<std::size_t>(pair.b)]));
+      Eigen::Index nearest = 0;
+      (a.repaired.surface.positions.rowwise() - mine).rowwise().squaredNorm().minCoeff(&nearest);
+      EXPECT_LT((b.repaired.surface.positions.row(nearest) - theirs).norm(), 1.0);
+    }
+    MatchOptions by_shape;
+    by_shape.by_shape = true;
+    const InputMatch alone = match_inputs(a.as_input(), b.as_input(), by_shape);
+    EXPECT_FALSE(alone.by_vertices);
+    for (const BranchPair& pair : alone.match.branches) EXPECT_TRUE(pair.ambiguous);
+  }
+}
+
+TEST(MatchInputs, CompareShapesWhereTheFacesDiffer) {
+  const Given a = given(star(3).surface);
+  Surface other = star(3).surface;
+  other.triangles.row(0).swap(other.triangles.row(1));
+  EXPECT_FALSE(match_inputs(a.as_input(), given(other).as_input()).by_vertices);
+}
+
+TEST(MatchByVertices, TakeWhatIsKnownAndRefuseWhatCannotBe) {
+  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Side a = side_of(shape.surface);
+  const Side b = side_of(turned(shape).surface);
+  const Eigen::Index count = a.surface.positions.rows();
+  Eigen::VectorXi known = Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1);
+  // One vertex of five is enough.
+  for (Eigen::Index v = 0; v < count; ++v) known[v] = v % 5 == 0 ? known[v] : -1;
+  const SkeletonMatch match = match_by_vertices(a.as_given(), b.as_given(), known);
+  EXPECT_EQ(match.branches.size(), branches(a.skeleton).size());
+  EXPECT_EQ(match.junctions.size(), 2U);
+  EXPECT_EQ(match.vertex_of_a, known);
+  known[0] = static_cast<int>(count);
+  EXPECT_THROW((void)match_by_vertices(a.as_given(), b.as_given(), known), Error);
+  known.conservativeResize(count - 1);
+  EXPECT_THROW((void)match_by_vertices(a.as_given(), b.as_given(), known), Error);
 }
 
 }  // namespace
