@@ -17,6 +17,8 @@ namespace {
 
 using Points = Eigen::Matrix3Xd;
 
+constexpr int rounds_of_refinement = 20;
+
 /// Evenly through the vertices.
 Points spread(const Positions& positions, const std::vector<int>& vertices, std::size_t most) {
   const std::size_t count = std::min(vertices.size(), most);
@@ -166,7 +168,7 @@ std::vector<CoreAlignment> align_points(const Points& few, const Points& many,
   improve(few, 3);
   constexpr std::size_t refined = 16;
   if (found.size() > refined) found.resize(refined);
-  improve(many, 20);
+  improve(many, rounds_of_refinement);
   std::vector<CoreAlignment> apart;
   for (const CoreAlignment& one : found) {
     if (apart.size() < most && std::all_of(apart.begin(), apart.end(), [&](const auto& other) {
@@ -176,6 +178,15 @@ std::vector<CoreAlignment> align_points(const Points& few, const Points& many,
     }
   }
   return apart;
+}
+
+CoreAlignment as_they_stand(const Points& core_a, const TipFeatures& of_a,
+                            const SurfaceTree& tree_b, const TipFeatures& of_b, double scale) {
+  CoreAlignment standing;
+  standing.motion = {Eigen::Matrix3d::Identity(), of_a.centre, of_b.centre, scale};
+  refine(standing.motion, core_a, tree_b, rounds_of_refinement);
+  standing.residual = misfit(standing.motion, core_a, tree_b) / of_b.unit;
+  return standing;
 }
 
 }  // namespace
@@ -204,6 +215,7 @@ std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of
                    {Eigen::Matrix3d::Identity(), whole_centroid(of_a), whole_centroid(of_b), scale},
                    tree_b, of_b.unit, starts, most, threads);
   found.insert(found.end(), of_whole.begin(), of_whole.end());
+  found.push_back(as_they_stand(core_a, of_a, tree_b, of_b, scale));
   return found;
 }
 

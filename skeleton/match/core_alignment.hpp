@@ -17,9 +17,10 @@ struct CoreAlignment {
 
 /// With b so many times as large as a. The best of the cores first, each 30 degrees or more from
 /// all before it, at most `most`; then the same of the whole surfaces, which have a middle even
-/// where cycles leave the curve none. Starts are the rotations of three limbs of a onto three of b
-/// that are as far apart, those of the principal axes, and none; the best are refined by nearest
-/// points (P. Besl and N. McKay, A method for registration of 3-D shapes, 1992).
+/// where cycles leave the curve none; then as both stand, as bodies are upright in most files, from
+/// where the other starts may fall into a like turn. Starts are the rotations of three limbs of a
+/// onto three of b that are as far apart, those of the principal axes, and none; the best are
+/// refined by nearest points (P. Besl and N. McKay, A method for registration of 3-D shapes, 1992).
 [[nodiscard]] std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
                                                      const SurfaceTree& tree_b, const MatchSide& b,
                                                      const TipFeatures& of_b,

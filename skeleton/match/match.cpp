@@ -13,6 +13,7 @@
 #include "skeleton/match/component_pairs.hpp"
 #include "skeleton/match/core_alignment.hpp"
 #include "skeleton/match/motions.hpp"
+#include "skeleton/match/part_seats.hpp"
 #include "skeleton/match/tip_pairs.hpp"
 #include "skeleton/match/tips.hpp"
 #include "skeleton/match/vertex_pairs.hpp"
@@ -73,41 +74,6 @@ std::vector<double> stretches(const std::vector<BranchMeasures>& of_a,
   return stretch;
 }
 
-/// Everything that each trial is judged by, made once.
-struct Trials {
-  const BranchTerritories& territories_a;
-  const VertexPairing& pairing;
-  std::vector<BranchMeasures> measures_a;
-  std::vector<BranchMeasures> measures_b;
-  double unit;  ///< of b
-};
-
-/// Over the unit: how far a's vertices, where they are thought to go, are from b's surface in the
-/// partner's territory, in the mean, and what their branches are stretched by. A vertex without a
-/// partner is a tenth of the size off; so is one whose branch is stretched e times.
-double misfit_of(const Trials& trials, const std::vector<BranchPair>& pairs,
-                 const NodeMotions& motions) {
-  constexpr double lost = 0.1;
-  constexpr Eigen::Index most_samples = 2000;
-  const Eigen::VectorXi& branch_of_vertex = trials.territories_a.branch_of_vertex;
-  const Eigen::Index step = std::max<Eigen::Index>(1, branch_of_vertex.size() / most_samples);
-  const VertexPairs moved = trials.pairing.pair(pairs, motions, step);
-  const std::vector<double> stretch =
-      stretches(trials.measures_a, trials.measures_b, motions.of_node.front().scale, pairs);
-  double sum = 0;
-  int count = 0;
-  for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
-    ++count;
-    if (moved.partner[v] < 0) {
-      sum += lost;
-      continue;
-    }
-    const double pulled = stretch[idx(branch_of_vertex[v])];
-    sum += std::min(lost, moved.distance[v] / trials.unit + lost * pulled);
-  }
-  return sum / count;
-}
-
 /// A pair is ambiguous if another outcome that fits as well gives another partner.
 void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair>& otherwise) {
   std::map<int, int> partner;
@@ -116,6 +82,116 @@ void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair
     const auto found = partner.find(pair.a);
     if (found != partner.end() && found->second != pair.b) pair.ambiguous = true;
   }
+}
+
+/// All that trials have in common, made once.
+class Trials {
+ public:
+  Trials(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b, const TipFeatures& of_b,
+         const Eigen::MatrixXd& like, const SurfaceTree& tree_b, int threads)
+      : a_(a),
+        of_a_(of_a),
+        b_(b),
+        of_b_(of_b),
+        like_(like),
+        tree_b_(tree_b),
+        threads_(threads),
+        territories_a_(branch_territories(a.surface, a.skeleton)),
+        territories_b_(branch_territories(b.surface, b.skeleton)),
+        pairing_(a, territories_a_, b, territories_b_, threads),
+        seats_(a, of_a, b, of_b, threads),
+        measures_a_(branch_measures(a.skeleton)),
+        measures_b_(branch_measures(b.skeleton)) {}
+
+  [[nodiscard]] Outcome outcome_of(NodeMotions motions) const {
+    std::vector<int> components = pair_components(of_a_, of_b_, motions);
+    std::vector<BranchPair> pairs = pairs_of(motions, components);
+    if (!seats_.empty()) {
+      seats_.seat(motions, vertex_pairs(pairs, motions).partner);
+      components = pair_components(of_a_, of_b_, motions);
+      seats_.lay_onto_partners(motions, components);
+      pairs = pairs_of(motions, components);
+    }
+    const double misfit = misfit_of(pairs, motions);
+    return {std::move(pairs), std::move(motions), misfit};
+  }
+
+  [[nodiscard]] NodeMotions anchored(const Outcome& outcome) const {
+    return anchored_motions(a_, of_a_, b_, outcome.pairs, outcome.motions);
+  }
+
+  [[nodiscard]] VertexPairs vertex_pairs(const std::vector<BranchPair>& pairs,
+                                         const NodeMotions& motions) const {
+    return pairing_.pair(pairs, motions, 1);
+  }
+
+ private:
+  [[nodiscard]] std::vector<BranchPair> pairs_of(const NodeMotions& motions,
+                                                 const std::vector<int>& components) const {
+    const std::vector<int> tips = pair_tips(a_, of_a_, b_, of_b_, like_, motions, components);
+    const Landings landings = landings_of(a_, territories_b_, tree_b_, motions, threads_);
+    const Eigen::MatrixXd overlaps = branch_overlaps(territories_a_, territories_b_, landings);
+    return pair_branches(a_, of_a_, b_, of_b_, tips, overlaps, motions);
+  }
+
+  /// Over the unit: how far a's vertices, where they are thought to go, are from b's surface in the
+  /// partner's territory, in the mean, and what their branches are stretched by. A vertex without a
+  /// partner is a tenth of the size off; so is one whose branch is stretched e times.
+  [[nodiscard]] double misfit_of(const std::vector<BranchPair>& pairs,
+                                 const NodeMotions& motions) const {
+    constexpr double lost = 0.1;
+    constexpr Eigen::Index most_samples = 2000;
+    const Eigen::VectorXi& branch_of_vertex = territories_a_.branch_of_vertex;
+    const Eigen::Index step = std::max<Eigen::Index>(1, branch_of_vertex.size() / most_samples);
+    const VertexPairs moved = pairing_.pair(pairs, motions, step);
+    const std::vector<double> stretch =
+        stretches(measures_a_, measures_b_, motions.of_node.front().scale, pairs);
+    double sum = 0;
+    int count = 0;
+    for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
+      ++count;
+      if (moved.partner[v] < 0) {
+        sum += lost;
+        continue;
+      }
+      const double pulled = stretch[idx(branch_of_vertex[v])];
+      sum += std::min(lost, moved.distance[v] / of_b_.unit + lost * pulled);
+    }
+    return sum / count;
+  }
+
+  const MatchSide& a_;
+  const TipFeatures& of_a_;
+  const MatchSide& b_;
+  const TipFeatures& of_b_;
+  const Eigen::MatrixXd& like_;
+  const SurfaceTree& tree_b_;
+  int threads_;
+  BranchTerritories territories_a_;
+  BranchTerritories territories_b_;
+  VertexPairing pairing_;
+  PartSeats seats_;
+  std::vector<BranchMeasures> measures_a_;
+  std::vector<BranchMeasures> measures_b_;
+};
+
+/// Of each way that a might have become b, and of the same with clear pairs taken for granted: they
+/// put right a motion that was followed wrongly. The best first.
+std::vector<Outcome> outcomes_of(const Trials& trials, const std::vector<NodeMotions>& hypotheses,
+                                 const Monitor& monitor) {
+  std::vector<Outcome> outcomes;
+  for (const NodeMotions& hypothesis : hypotheses) {
+    outcomes.push_back(trials.outcome_of(hypothesis));
+    constexpr int rounds = 2;
+    for (int round = 0; round < rounds; ++round) {
+      outcomes.push_back(trials.outcome_of(trials.anchored(outcomes.back())));
+    }
+    monitor.report("match", 0.5);
+  }
+  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& one, const Outcome& other) {
+    return one.misfit < other.misfit;
+  });
+  return outcomes;
 }
 
 }  // namespace
@@ -134,38 +210,9 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
         align_cores(a, of_a, tree_b, b, of_b, like, scale, most_alignments, options.threads);
     alignments.insert(alignments.end(), found.begin(), found.end());
   }
-  const std::vector<NodeMotions> hypotheses =
-      follow_cores(a, of_a, tree_b, alignments, options.threads, monitor);
-  const BranchTerritories territories_a = branch_territories(a.surface, a.skeleton);
-  const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
-  const VertexPairing pairing(a, territories_a, b, territories_b, options.threads);
-  const auto pairs_of = [&](const NodeMotions& motions) {
-    const std::vector<int> tips =
-        pair_tips(a, of_a, b, of_b, like, motions, pair_components(of_a, of_b, motions));
-    const Landings landings = landings_of(a, territories_b, tree_b, motions, options.threads);
-    const Eigen::MatrixXd overlaps = branch_overlaps(territories_a, territories_b, landings);
-    return pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
-  };
-  // Clear pairs put right a motion that was followed wrongly, such as that of a part that hangs on
-  // by nothing.
-  const Trials trials{territories_a, pairing, branch_measures(a.skeleton),
-                      branch_measures(b.skeleton), of_b.unit};
-  std::vector<Outcome> outcomes;
-  for (const NodeMotions& hypothesis : hypotheses) {
-    constexpr int rounds = 2;
-    for (int round = 0; round <= rounds; ++round) {
-      NodeMotions motions =
-          round == 0 ? hypothesis
-                     : anchored_motions(a, of_a, b, outcomes.back().pairs, outcomes.back().motions);
-      std::vector<BranchPair> pairs = pairs_of(motions);
-      const double misfit = misfit_of(trials, pairs, motions);
-      outcomes.push_back({std::move(pairs), std::move(motions), misfit});
-    }
-    monitor.report("match", 0.5);
-  }
-  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& one, const Outcome& other) {
-    return one.misfit < other.misfit;
-  });
+  const Trials trials(a, of_a, b, of_b, like, tree_b, options.threads);
+  const std::vector<Outcome> outcomes = outcomes_of(
+      trials, follow_cores(a, of_a, tree_b, alignments, options.threads, monitor), monitor);
   const Outcome& best = outcomes.front();
   SkeletonMatch match;
   match.branches = best.pairs;
@@ -175,7 +222,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   }
   match.junctions = pair_junctions(a, b, match.branches);
   monitor.report("match", 0.7);
-  match.vertex_of_a = pairing.pair(match.branches, best.motions, 1).partner;
+  match.vertex_of_a = trials.vertex_pairs(match.branches, best.motions).partner;
   return match;
 }
 

@@ -120,15 +120,13 @@ class Follower {
 
 NodeMotions follow_motions(const MatchSide& a, const TipFeatures& of_a, const SurfaceTree& tree_b,
                            const Similarity& core) {
-  // A small part would be drawn onto whatever is near.
-  constexpr double least_share = 0.02;
   const auto lay = [&](Similarity& motion, const std::vector<int>& vertices) {
     constexpr int rounds = 4;
     constexpr std::size_t least_points = 12;
     if (vertices.size() < least_points) return;
     refine(motion, a.surface.positions(vertices, Eigen::all).transpose(), tree_b, rounds);
   };
-  return Follower(a, of_a, core, least_share, lay).follow();
+  return Follower(a, of_a, core, least_body_share, lay).follow();
 }
 
 NodeMotions known_motions(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,

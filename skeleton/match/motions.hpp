@@ -8,6 +8,10 @@
 
 namespace curveskel {
 
+/// Components with a smaller share of the area, such as eyes, teeth and nails: each would be drawn
+/// onto whatever is near, so it goes with what it sits on.
+inline constexpr double least_body_share = 0.02;
+
 struct NodeMotions {
   std::vector<Similarity> of_node;  ///< per node of a: for its surroundings
 };
