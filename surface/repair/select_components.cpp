@@ -2,9 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -27,49 +28,40 @@ std::vector<double> areas(const Surface& surface, const Topology& counted) {
   return result;
 }
 
-using PositionList = std::vector<std::array<double, 3>>;
-
-PositionList sorted_positions(const Surface& surface, const std::vector<std::int32_t>& vertices) {
-  PositionList list;
-  list.reserve(vertices.size());
-  for (const std::int32_t v : vertices) {
-    const auto p = surface.positions.row(v);
-    list.push_back({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});  // -0.0 becomes 0.0
+/// The vertices' groups of each component, ascending; vertices that lie within the distance are of
+/// one group. Of components that have as many vertices and faces as another; empty of others.
+std::vector<std::vector<std::int32_t>> groups_where_alike(const Surface& surface,
+                                                          const Topology& counted,
+                                                          double distance) {
+  std::map<std::pair<std::int64_t, std::int64_t>, int> number_of;
+  for (int c = 0; c < counted.components(); ++c) {
+    ++number_of[{counted.vertices[idx(c)], counted.faces[idx(c)]}];
   }
-  std::sort(list.begin(), list.end());
-  return list;
+  std::vector<bool> among(idx(surface.positions.rows()));
+  for (std::size_t v = 0; v < among.size(); ++v) {
+    const int c = counted.component_of_vertex[static_cast<Eigen::Index>(v)];
+    among[v] = number_of[{counted.vertices[idx(c)], counted.faces[idx(c)]}] > 1;
+  }
+  const auto group = distance > 0 ? nearby_vertices(surface.positions, among, distance)
+                                  : coincident_vertices(surface.positions, among);
+  std::vector<std::vector<std::int32_t>> groups(idx(counted.components()));
+  for (std::size_t v = 0; v < among.size(); ++v) {
+    const int c = counted.component_of_vertex[static_cast<Eigen::Index>(v)];
+    if (among[v]) groups[idx(c)].push_back(group[v]);
+  }
+  for (auto& of_component : groups) std::sort(of_component.begin(), of_component.end());
+  return groups;
 }
 
-/// Components with as many vertices and faces and the same bounding box are compared in full.
-void mark_copies(const Surface& surface, const Topology& counted, std::vector<Fate>& fates) {
-  std::vector<std::vector<std::int32_t>> vertices(idx(counted.components()));
-  std::vector<std::array<double, 8>> key(idx(counted.components()));
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(surface.positions.rows()); ++v) {
-    vertices[idx(counted.component_of_vertex[v])].push_back(v);
-  }
+/// A copy has as many vertices and faces as an earlier component, and each vertex where that has
+/// one.
+void mark_copies(const Surface& surface, const Topology& counted, double distance,
+                 std::vector<Fate>& fates) {
+  const auto groups = groups_where_alike(surface, counted, distance);
+  std::set<std::pair<std::int64_t, std::vector<std::int32_t>>> seen;
   for (int c = 0; c < counted.components(); ++c) {
-    const auto box = surface.positions(vertices[idx(c)], Eigen::all);
-    const Eigen::RowVector3d low = box.colwise().minCoeff();
-    const Eigen::RowVector3d high = box.colwise().maxCoeff();
-    key[idx(c)] = {double(counted.vertices[idx(c)]),
-                   double(counted.faces[idx(c)]),
-                   low.x() + 0.0,
-                   low.y() + 0.0,
-                   low.z() + 0.0,
-                   high.x() + 0.0,
-                   high.y() + 0.0,
-                   high.z() + 0.0};
-  }
-  std::map<std::array<double, 8>, std::vector<int>> alike;
-  for (int c = 0; c < counted.components(); ++c) alike[key[idx(c)]].push_back(c);
-  for (const auto& [same, group] : alike) {
-    std::map<PositionList, int> seen;
-    if (group.size() < 2) continue;
-    for (const int c : group) {
-      if (!seen.try_emplace(sorted_positions(surface, vertices[idx(c)]), c).second) {
-        fates[idx(c)] = Fate::copy;
-      }
-    }
+    if (groups[idx(c)].empty()) continue;
+    if (!seen.emplace(counted.faces[idx(c)], groups[idx(c)]).second) fates[idx(c)] = Fate::copy;
   }
 }
 
@@ -104,7 +96,7 @@ std::vector<Fate> choose_components(const Surface& surface, const Topology& coun
                                     const SelectionRules& rules) {
   std::vector<Fate> fates(idx(counted.components()), Fate::kept);
   if (counted.components() < 2) return fates;
-  mark_copies(surface, counted, fates);
+  mark_copies(surface, counted, rules.copy_distance, fates);
   const auto area = areas(surface, counted);
   if (rules.least_crumb > 0) mark_crumbs(surface, counted, area, rules.least_crumb, fates);
   const double least = rules.least_area * *std::max_element(area.begin(), area.end());

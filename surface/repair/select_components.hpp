@@ -14,9 +14,10 @@ namespace curveskel {
 enum class Fate : std::uint8_t { kept, copy, crumb, speck, not_chosen };
 
 struct SelectionRules {
-  double least_area = 0;   ///< of the largest component's; less is a speck
-  double least_crumb = 0;  ///< of the largest that it touches; less is a crumb
-  int most = 0;            ///< components, 0 = all
+  double copy_distance = 0;  ///< model units: nearer vertices of two components are the same
+  double least_area = 0;     ///< of the largest component's; less is a speck
+  double least_crumb = 0;    ///< of the largest that it touches; less is a crumb
+  int most = 0;              ///< components, 0 = all
 };
 
 /// Keeps the components marked so, in order. Returns the new index of each vertex, -1 = gone.
@@ -24,9 +25,10 @@ std::vector<std::int32_t> keep_components(Surface& surface, const Topology& coun
                                           const std::vector<Fate>& fates);
 
 /// Drops, and counts in `result.repairs`, in this order: components that coincide with an earlier
-/// one vertex by vertex; those that touch, in a position that both have, directly or through
-/// others, a much larger one; those with little area; and all but the largest by area (the earlier
-/// one of two equals). Vertices of crumbs follow the nearest one that stays. O(#V log #V).
+/// one vertex by vertex, within the copy distance; those that touch, in a position that both have,
+/// directly or through others, a much larger one; those with little area; and all but the largest
+/// by area (the earlier one of two equals). Vertices of crumbs follow the nearest one that stays.
+/// O(#V log #V).
 void leave_out_components(RepairedSurface& result, const SelectionRules& rules);
 
 }  // namespace curveskel

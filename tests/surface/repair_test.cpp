@@ -159,6 +159,22 @@ TEST_P(AnyShape, IsCountedOnceWhenItIsThereTwice) {
   EXPECT_EQ(result.repairs.copies_dropped, shape().components);
 }
 
+TEST_P(AnyShape, IsCountedOnceWhenItsCopyIsRounded) {
+  const PolygonSoup once = soup_of(shape().surface);
+  PolygonSoup rounded = once;
+  const double size = bounding_box_diagonal(once.positions);
+  for (double& coordinate : rounded.positions.reshaped()) {
+    coordinate += 2e-8 * size * std::sin(1e7 * coordinate / size);
+  }
+  const RepairedSurface result = repair(together(once, rounded, Position::Zero()), {}, {});
+  expect_the_shape(result, 1e-12);
+  EXPECT_EQ(result.repairs.copies_dropped, shape().components);
+  RepairOptions exactly;
+  exactly.join_distance = 0;
+  EXPECT_EQ(repair(together(once, rounded, Position::Zero()), exactly, {}).repairs.copies_dropped,
+            0);
+}
+
 TEST_P(AnyShape, IsFoundAmongSpecks) {
   PolygonSoup soup = soup_of(shape().surface);
   const double size = 1e-3 * bounding_box_diagonal(soup.positions);
