@@ -298,14 +298,17 @@ def main():
                 turns = {character.names.index(name): turn
                          for name, turn in clip.turns_at(animation, share).items()
                          if name in character.names}
-                totals.setdefault("posed " + path.stem, Score())
-                totals["posed " + path.stem] += report(
-                    path.stem, f"{animation['name'][:10]} {share}", a, character.posed(turns),
-                    numpy.arange(len(rest[0])))
-    whole = Score(), Score()
-    for change, score in totals.items():
-        whole[change.startswith("posed")].__iadd__(score)
-    totals["all by themselves"], totals["all posed"] = whole
+                places, faces = character.posed(turns)
+                for how, surface in (("posed", (places, faces)),
+                                     ("posed, turned", (places @ rotation(7).T, faces))):
+                    kind = f"{how} {path.stem}"
+                    totals.setdefault(kind, Score())
+                    totals[kind] += report(kind, f"{animation['name'][:10]} {share}", a, surface,
+                                           numpy.arange(len(rest[0])))
+    for change, score in list(totals.items()):
+        kind = change.rsplit(" ", 1)[0] if change.startswith("posed") else "by themselves"
+        totals.setdefault("all " + kind, Score())
+        totals["all " + kind] += score
     for change, score in totals.items():
         share = 100 / max(1, score.there)
         print(f"{change:24} {score}: {share * score.right:.1f} % right, "
