@@ -49,6 +49,7 @@ const char* class_of(Fault fault) {
   return "Error";
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11's signature
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
@@ -354,7 +355,7 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   using namespace curveskel;
   py::register_exception_translator(&translate);
-  py::class_<PolygonSoup>(module, "PolygonSoup");
+  const py::class_<PolygonSoup> opaque(module, "PolygonSoup");
   bind_skeleton(module);
   bind_extraction(module);
   module.def("program_and_version", &program_and_version);

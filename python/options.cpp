@@ -1,5 +1,7 @@
 #include "python/options.hpp"
 
+#include <fmt/core.h>
+
 namespace curveskel {
 
 namespace py = pybind11;
@@ -10,14 +12,17 @@ void set_options(const py::dict& options, const OptionSetters& setters) {
     const auto setter = setters.find(name);
     if (setter == setters.end()) {
       std::string known;
-      for (const auto& [other, set] : setters) known += (known.empty() ? "" : ", ") + other;
-      throw Error(Fault::usage, name + " is none of the options: " + known);
+      for (const auto& [other, set] : setters) {
+        known += known.empty() ? "" : ", ";
+        known += other;
+      }
+      throw Error(Fault::usage, fmt::format("{} is none of the options: {}", name, known));
     }
     try {
       setter->second(value);
     } catch (const py::cast_error&) {
-      throw Error(Fault::usage, name + ": a value of another type is needed than " +
-                                    py::repr(value).cast<std::string>());
+      throw Error(Fault::usage, fmt::format("{}: a value of another type is needed than {}", name,
+                                            py::repr(value).cast<std::string>()));
     }
   }
 }

@@ -1,7 +1,10 @@
 // curveskel extract: a surface file in, its curve skeleton out.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
+#include <limits>
 #include <memory>
 
 #include <curveskel/branch_profiles.hpp>
@@ -32,8 +35,9 @@ struct ExtractArguments {
   std::optional<SkeletonFormat> format;
   std::string report;
   std::string profiles;
+  double spacing = 0;
   std::string junctions;
-  std::string labelled;
+  std::vector<std::string> labelled;
   std::string html;
   int levels = 1;
   bool quiet = false;
@@ -138,19 +142,19 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
   const Surface& surface = record.repaired.surface;
   const CurveSkeleton& skeleton = record.extraction.skeleton;
   if (!arguments.profiles.empty()) {
-    const ProfileOptions options{0, arguments.options.threads};
+    const ProfileOptions options{arguments.spacing, arguments.options.threads};
     files.push_back({arguments.profiles, format_profiles(branch_profiles(surface, skeleton, options,
                                                                          session.monitor()))});
   }
   if (!arguments.junctions.empty()) {
     files.push_back({arguments.junctions, format_junctions(skeleton)});
   }
-  if (!arguments.labelled.empty()) {
-    const BranchLabels labels = labels_of_input(record.soup, record.repaired, skeleton);
-    files.push_back({arguments.labelled,
-                     format_labelled_surface(record.soup, labels,
-                                             format_of(arguments.labelled, labelled_formats),
-                                             provenance_of(arguments))});
+  if (arguments.labelled.empty()) return;
+  const BranchLabels labels = labels_of_input(record.soup, record.repaired, skeleton);
+  for (const std::string& name : arguments.labelled) {
+    files.push_back(
+        {name, format_labelled_surface(record.soup, labels, format_of(name, labelled_formats),
+                                       provenance_of(arguments))});
   }
 }
 
@@ -203,14 +207,30 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   return files;
 }
 
+/// "labelled.ply" and "arm.labelled.ply" among the outputs are the surface with its branches.
+void take_labelled(ExtractArguments& arguments) {
+  const auto is_labelled = [](const std::string& output) {
+    const fs::path stem = fs::path(output).stem();
+    return stem == "labelled" || stem.extension() == ".labelled";
+  };
+  std::vector<std::string>& outputs = arguments.outputs;
+  const auto first =
+      std::stable_partition(outputs.begin(), outputs.end(), std::not_fn(is_labelled));
+  arguments.labelled.insert(arguments.labelled.end(), first, outputs.end());
+  outputs.erase(first, outputs.end());
+}
+
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
   std::vector<std::string> names = skeleton_names(arguments);
-  for (const std::string& table : {arguments.report, arguments.profiles, arguments.junctions,
-                                   arguments.labelled, arguments.html}) {
+  for (const std::string& table :
+       {arguments.report, arguments.profiles, arguments.junctions, arguments.html}) {
     if (!table.empty()) names.push_back(table);
   }
-  if (!arguments.labelled.empty()) (void)format_of(arguments.labelled, labelled_formats);
+  for (const std::string& name : arguments.labelled) {
+    (void)format_of(name, labelled_formats);
+    names.push_back(name);
+  }
   check_outputs(names, arguments.mesh);
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
   if (to_output) session.terminal.keep_output_clean();
@@ -231,6 +251,7 @@ int exit_code_of(const Certificate& certificate, const ExtractArguments& argumen
 int run_extract(ExtractArguments arguments, Session& session) {
   const auto begin = Clock::now();
   if (arguments.quiet) session.terminal.be_quiet();
+  take_labelled(arguments);
   const auto formats = formats_of(arguments.outputs, arguments.format);
   check_names(arguments, session);
   arguments.options.fairing = arguments.options.fair.iterations > 0;
@@ -290,7 +311,7 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
       .add_option("-o,--output", arguments.outputs,
                   "skeleton file, its format by the extension; may be given several times; - is "
-                  "standard output")
+                  "standard output; NAME.labelled.ply, .vtp or .glb is as --labelled")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
@@ -313,6 +334,8 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
       .add_option("--profiles", arguments.profiles,
                   "sections of the surface across the branches, at each node, as CSV")
       ->type_name("FILE.csv");
+  add_number(parser, "--spacing", arguments.spacing, 0.0, std::numeric_limits<double>::max(),
+             "of the sections along a branch, in units of the model; 0 = at each node");
   parser
       .add_option("--junctions", arguments.junctions,
                   "junctions with the angles between their branches, as CSV")
@@ -325,7 +348,8 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
       .add_option("--labelled", arguments.labelled,
                   "the surface of the file coloured by its branches: " + names_in(labelled_formats))
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 void add_resolution(CLI::App& parser, ExtractOptions& options) {

@@ -18,10 +18,10 @@ export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 names=("$@")
 if [ ${#names[@]} -eq 0 ]; then
   for layer in $programs; do
-    for file in tests/"$layer"/*_test.cpp; do
+    while read -r file; do
       file=${file##*/}
       names+=("${file%_test.cpp}")
-    done
+    done < <(find "tests/$layer" -name '*_test.cpp')
   done
 fi
 joined=$(IFS='|'; echo "${names[*]}")

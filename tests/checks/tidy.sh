@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$1"
 export only=${2:-}
 cmake --preset tidy -DCURVESKEL_BUILD_BENCH="$([ "$only" = bench ] && echo ON || echo OFF)" \
-  >/dev/null 2>&1
+  -DCURVESKEL_BUILD_PYTHON=ON >/dev/null 2>&1
 ninja -C build/tidy kernels/sources.cpp skeleton/page/page.cpp viewer/shaders.cpp >/dev/null
 
 # The largest first, so that no core ends up with a long one alone; a main of a few lines is left to

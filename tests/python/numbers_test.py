@@ -48,16 +48,10 @@ class Tables(unittest.TestCase):
             subprocess.run([PROGRAM, "extract", mesh, "-o", self.folder / "s.obj", "-q",
                             "--profiles", self.folder / "p.csv",
                             "--junctions", self.folder / "j.csv"], check=True)
-            profiles = skeleton.profiles()
-            rows = rows_of(self.folder / "p.csv")
-            self.assertEqual(list(profiles.columns), list(rows[0]))
-            self.assertEqual(len(profiles), len(rows))
-            for (_, found), row in zip(profiles.iterrows(), rows):
-                for name, text in row.items():
-                    if text == "":
-                        self.assertTrue(math.isnan(found[name]), name)
-                    else:
-                        self.assertEqual(float(found[name]), float(text), name)
+            self.expect_profiles(skeleton.profiles(), self.folder / "p.csv")
+            subprocess.run([PROGRAM, "extract", mesh, "-o", self.folder / "s.obj", "-q",
+                            "--profiles", self.folder / "even.csv", "--spacing", "0.1"], check=True)
+            self.expect_profiles(skeleton.profiles(0.1), self.folder / "even.csv")
             junctions = skeleton.junctions.reset_index()
             rows = rows_of(self.folder / "j.csv")
             self.assertEqual(len(junctions), len(rows))
@@ -66,6 +60,17 @@ class Tables(unittest.TestCase):
                 self.assertEqual([str(branch) for branch in found["branches"]],
                                  row["branches"].split())
                 self.assertEqual(found["angles"], [float(text) for text in row["angles"].split()])
+
+    def expect_profiles(self, profiles, path):
+        rows = rows_of(path)
+        self.assertEqual(list(profiles.columns), list(rows[0]))
+        self.assertEqual(len(profiles), len(rows))
+        for (_, found), row in zip(profiles.iterrows(), rows):
+            for name, text in row.items():
+                if text == "":
+                    self.assertTrue(math.isnan(found[name]), name)
+                else:
+                    self.assertEqual(float(found[name]), float(text), name)
 
     def test_a_profile_is_as_dense_as_asked(self):
         skeleton = curveskel.extract(Y)
@@ -113,9 +118,12 @@ class Tables(unittest.TestCase):
             path = self.folder / f"y.{extension}"
             skeleton.save_labelled(path)
             by_program = self.folder / f"program.{extension}"
-            subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "s.obj", "-q", "--labelled",
-                            by_program], check=True)
+            # A name that says so is enough.
+            named = self.folder / f"named.labelled.{extension}"
+            subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "s.obj", "-o", named, "-q",
+                            "--labelled", by_program], check=True)
             self.assertEqual(path.read_bytes(), by_program.read_bytes())
+            self.assertEqual(path.read_bytes(), named.read_bytes())
             again = curveskel.extract(path)
             self.assertEqual(len(again.mesh_map), len(labels))
             numpy.testing.assert_allclose(again.mesh[0], plain[0], atol=1e-6)
