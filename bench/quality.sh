@@ -2,7 +2,7 @@
 # usage: bench/quality.sh BUILD_DIR
 # Makes docs/quality.md and its pictures anew: this program beside CGAL's mean curvature flow
 # skeletonization on every closed surface of ../shared/meshes, and the effect of small changes on the
-# skeletons of both. Six minutes on an idle machine.
+# skeletons of both. Ten minutes on an idle machine.
 set -euo pipefail
 build=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -25,6 +25,8 @@ done
 "$build/bin/surgeries" "${paths[@]}" >"$work/surgeries.md"
 "$build/bin/stability" "${paths[@]}" >"$work/stability.md"
 "$build/bin/stability" --cgal "${paths[@]}" >"$work/stability-cgal.md"
+"$build/bin/stability" --noise "${paths[@]}" >"$work/noise.md"
+"$build/bin/stability" --noise --cgal "${paths[@]}" >"$work/noise-cgal.md"
 
 python3 - "$work/quality.csv" >"$work/summary.md" <<'PYTHON'
 import csv, sys
@@ -66,5 +68,9 @@ Tips and junctions after a small change of the surface, and the Hausdorff distan
 TEXT
   cat "$work/stability.md"
   printf '\nCGAL, on the same surfaces: %s\n' "$(tail -1 "$work/stability-cgal.md" | sed 's/^S/s/')"
+  printf '\nThe same counts, of %s surfaces each, as the noise grows; this program, then CGAL:\n\n' \
+    "${#paths[@]}"
+  cat "$work/noise.md"
+  sed -n '3,$s/^|/| CGAL,/p' "$work/noise-cgal.md"
 } >"$work/quality.md"
 mv "$work/quality.md" docs/quality.md

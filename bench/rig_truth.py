@@ -8,8 +8,11 @@ Each NAME.glb of FOLDER that has a rig: a new rig beside the old one, as `curves
 
 Each NAME.joints.json of FOLDER with a surface NAME.ply or NAME.obj beside it: joints alone.
 Distances are over the diagonal of the surface's joints; of the people's joints only those inside the
-surface count, and none of faces, toes and helpers.
+surface count, and none of faces, toes and helpers. Then how well the life of a branch with a tip
+tells whether people put a joint in it: the share of pairs, one with a joint and one without, in
+which that with the joint has the longer life (AUC).
 """
+import collections
 import json
 import math
 import pathlib
@@ -109,13 +112,19 @@ def print_rigs(program, characters, options):
         print(f"| {stem} | " + " | ".join(cells) + " |")
 
 
+def surface_of(truth):
+    """The surface beside NAME.joints.json, or None."""
+    stem = truth.name.removesuffix(".joints.json")
+    meshes = [truth.with_name(stem + end) for end in (".ply", ".obj")]
+    return next((file for file in meshes if file.exists()), None)
+
+
 def print_joints(program, truths, options):
     print("| surface | joints | people's | of theirs to ours / D | within 3 % | of ours to theirs |")
     print("|---|---|---|---|---|---|")
     for truth in truths:
         stem = truth.name.removesuffix(".joints.json")
-        meshes = [truth.with_name(stem + end) for end in (".ply", ".obj")]
-        mesh = next((file for file in meshes if file.exists()), None)
+        mesh = surface_of(truth)
         theirs = people_joints(truth)
         if mesh is None or not theirs:
             print(f"{stem}: skipped, no surface or no joint inside it", file=sys.stderr)
@@ -132,6 +141,40 @@ def print_joints(program, truths, options):
               f"| {mean([a < NEAR for a in away]):.2f} | {mean(back):.4f} |")
 
 
+def tip_branches(program, mesh, detail, joints):
+    """(life, whether a joint lies in it) of each branch with a tip.
+
+    A joint lies in the branch of its nearest node, but for the branch's inner end, if the node's
+    ball half as large again holds it.
+    """
+    made = subprocess.run(
+        [program, "extract", mesh, "-o", "-", "--format", "json", "--detail", str(detail), "-q"],
+        check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    skeleton = json.loads(made.stdout)
+    degree = collections.Counter(node for edge in skeleton["edges"] for node in edge)
+    holds = set()
+    for joint in joints:
+        node = min(range(len(skeleton["nodes"])),
+                   key=lambda k: math.dist(skeleton["nodes"][k], joint))
+        if math.dist(skeleton["nodes"][node], joint) < 1.5 * skeleton["radii"][node]:
+            holds.add(node)
+    for branch in skeleton["branches"]:
+        own = [node for node in branch["nodes"] if degree[node] < 3]
+        if any(degree[node] == 1 for node in own) and branch["life"] is not None:
+            yield branch["life"], not holds.isdisjoint(own)
+
+
+def print_lives(program, surfaces):
+    for detail in (0.5, 1):
+        lives = {True: [], False: []}
+        for mesh, joints in surfaces:
+            for life, held in tip_branches(program, mesh, detail, joints):
+                lives[held].append(life)
+        pairs = [(a > b) + 0.5 * (a == b) for a in lives[True] for b in lives[False]]
+        print(f"Lives at --detail {detail}: {len(lives[True])} branches with a tip hold a joint, "
+              f"{len(lives[False])} do not, AUC {mean(pairs):.3f}" if pairs else "no pairs")
+
+
 def main(program, folder, *options):
     folder = pathlib.Path(folder)
     characters = [file for file in sorted(folder.glob("*.glb")) if has_rig(file)]
@@ -142,6 +185,8 @@ def main(program, folder, *options):
         print_rigs(program, characters, options)
     if truths:
         print_joints(program, truths, options)
+        surfaces = [(surface_of(truth), people_joints(truth)) for truth in truths]
+        print_lives(program, [(mesh, joints) for mesh, joints in surfaces if mesh and joints])
 
 
 if __name__ == "__main__":

@@ -159,7 +159,7 @@ class Skeleton:
                              "extract it, or use evaluate")
 
     def to_networkx(self):
-        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` of edges."""
+        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` and `branch` of edges."""
         import networkx
 
         graph = networkx.Graph()
@@ -172,6 +172,9 @@ class Skeleton:
         lengths = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         for (a, b), length in zip(self.edges.tolist(), lengths.tolist()):
             graph.add_edge(a, b, length=length)
+        for branch, nodes in enumerate(self.branch_nodes):
+            for a, b in zip(nodes[:-1].tolist(), nodes[1:].tolist()):
+                graph.edges[a, b]["branch"] = branch
         return graph
 
     def to_trimesh(self):

@@ -45,6 +45,18 @@ std::vector<Branch> branches(const CurveSkeleton& skeleton) {
   return result;
 }
 
+std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
+  std::vector<int> branch_of_edge(idx(skeleton.edges.rows()), -1);
+  const std::vector<Branch> all = branches(skeleton);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const std::vector<int>& nodes = all[b].nodes;
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      branch_of_edge[idx(edge_between(skeleton, nodes[k - 1], nodes[k]))] = static_cast<int>(b);
+    }
+  }
+  return branch_of_edge;
+}
+
 int edge_between(const CurveSkeleton& skeleton, int a, int b) {
   const std::array wanted{std::min(a, b), std::max(a, b)};
   int first = 0;

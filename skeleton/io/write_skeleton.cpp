@@ -75,7 +75,10 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   text += "element edge ";
   append_decimal(text, skeleton.edges.rows());
   text += "\nproperty int vertex1\nproperty int vertex2\n";
-  if (has_lives(skeleton)) text += "property double life\n";
+  if (has_lives(skeleton)) {
+    text += "property double life\nproperty int branch\nproperty int parent\n";
+    text += "property double merge\n";
+  }
   text += "end_header\n";
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     append_decimals(text, skeleton.nodes.row(node), ' ');
@@ -85,12 +88,17 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
     }
     text += '\n';
   }
-  const Eigen::VectorXd lives = edge_lives(skeleton);
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
+  const std::vector<int> branch_of_edge = branch_of_edges(skeleton);
   for (Eigen::Index edge = 0; edge < skeleton.edges.rows(); ++edge) {
     append_decimals(text, skeleton.edges.row(edge), ' ');
     if (has_lives(skeleton)) {
+      const BranchLevel& level = levels[idx(branch_of_edge[idx(edge)])];
       text += ' ';
-      append_decimal(text, lives[edge]);
+      append_decimals(
+          text,
+          Eigen::RowVector4d(level.life, branch_of_edge[idx(edge)], level.parent, level.merge),
+          ' ');
     }
     text += '\n';
   }

@@ -43,6 +43,35 @@ void append_levels(pugi::xml_node piece, const CurveSkeleton& skeleton, std::siz
   XmlLines::end_line(piece);
 }
 
+void append_keys(pugi::xml_node file, bool has_lives) {
+  struct Key {
+    const char* id;
+    const char* name;
+    const char* element;
+    const char* type;
+  };
+  const auto append = [&](const std::vector<Key>& keys) {
+    for (const Key& one : keys) {
+      pugi::xml_node key = file.append_child("key");
+      key.append_attribute("id") = one.id;
+      key.append_attribute("for") = one.element;
+      key.append_attribute("attr.name") = one.name;
+      key.append_attribute("attr.type") = one.type;
+      XmlLines::end_line(file);
+    }
+  };
+  append({{"x", "x", "node", "double"},
+          {"y", "y", "node", "double"},
+          {"z", "z", "node", "double"},
+          {"r", "radius", "node", "double"},
+          {"l", "length", "edge", "double"}});
+  if (!has_lives) return;
+  append({{"life", "life", "edge", "double"},
+          {"branch", "branch", "edge", "int"},
+          {"parent", "parent", "edge", "int"},
+          {"merge", "merge", "edge", "double"}});
+}
+
 void append_data(pugi::xml_node element, const char* key, double value) {
   std::string text;
   append_decimal(text, value);
@@ -90,15 +119,7 @@ std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& c
   file.append_attribute("xsi:schemaLocation") =
       "http://graphml.graphdrawing.org/xmlns "
       "http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd";
-  for (const std::string name : {"x", "y", "z", "radius", "length", "life"}) {
-    if (name == "life" && !has_lives(skeleton)) continue;
-    pugi::xml_node key = file.append_child("key");
-    key.append_attribute("id") = (name == "life" ? name : name.substr(0, 1)).c_str();
-    key.append_attribute("for") = name.front() == 'l' ? "edge" : "node";
-    key.append_attribute("attr.name") = name.c_str();
-    key.append_attribute("attr.type") = "double";
-    XmlLines::end_line(file);
-  }
+  append_keys(file, has_lives(skeleton));
   pugi::xml_node graph = XmlLines::open(file, "graph");
   graph.append_attribute("id") = "skeleton";
   graph.append_attribute("edgedefault") = "undirected";
@@ -112,14 +133,21 @@ std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& c
     if (skeleton.radii.size() > 0) append_data(element, "r", skeleton.radii(node));
     XmlLines::end_line(graph);
   }
-  const Eigen::VectorXd lives = edge_lives(skeleton);
+  const std::vector<BranchLevel> levels = branch_levels(skeleton);
+  const std::vector<int> branch_of_edge = branch_of_edges(skeleton);
   for (Eigen::Index row = 0; row < skeleton.edges.rows(); ++row) {
     const auto edge = skeleton.edges.row(row);
     pugi::xml_node element = graph.append_child("edge");
     element.append_attribute("source") = id_of(edge(0)).c_str();
     element.append_attribute("target") = id_of(edge(1)).c_str();
     append_data(element, "l", (skeleton.nodes.row(edge(0)) - skeleton.nodes.row(edge(1))).norm());
-    if (has_lives(skeleton)) append_data(element, "life", lives[row]);
+    if (has_lives(skeleton)) {
+      const BranchLevel& level = levels[idx(branch_of_edge[idx(row)])];
+      append_data(element, "life", level.life);
+      append_data(element, "branch", branch_of_edge[idx(row)]);
+      if (level.parent >= 0) append_data(element, "parent", level.parent);
+      if (level.merge >= 0) append_data(element, "merge", level.merge);
+    }
     XmlLines::end_line(graph);
   }
   XmlLines::end_line(file);

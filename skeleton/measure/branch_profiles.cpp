@@ -50,13 +50,10 @@ struct Cutting {
 Cutting prepare(const Surface& surface, const SurfaceTree& tree, const CurveSkeleton& skeleton) {
   Cutting cutting{surface, tree, skeleton, branches(skeleton), {}, {}, {}, {}};
   cutting.degree = degrees(skeleton.nodes.rows(), skeleton.edges);
-  cutting.branch_of_edge.assign(idx(skeleton.edges.rows()), -1);
-  for (std::size_t b = 0; b < cutting.all_branches.size(); ++b) {
-    const std::vector<int>& nodes = cutting.all_branches[b].nodes;
-    cutting.curves.push_back(branch_curve(skeleton, cutting.all_branches[b]));
-    for (std::size_t k = 1; k < nodes.size(); ++k) {
-      cutting.branch_of_edge[idx(edge_between(skeleton, nodes[k - 1], nodes[k]))] = int(b);
-    }
+  cutting.branch_of_edge = branch_of_edges(skeleton);
+  cutting.curves.reserve(cutting.all_branches.size());
+  for (const Branch& branch : cutting.all_branches) {
+    cutting.curves.push_back(branch_curve(skeleton, branch));
   }
   if (skeleton.node_of_vertex.size() == surface.positions.rows()) {
     cutting.branch_of_face = branch_territories(surface, skeleton).branch_of_face;

@@ -139,6 +139,9 @@ class Arrays(Folder):
     def test_networkx_has_the_same_graph(self):
         import networkx
 
+        skeleton = curveskel.extract(Y)
+        branches = [branch for _, _, branch in skeleton.to_networkx().edges(data="branch")]
+        self.assertEqual(sorted(set(branches)), list(range(len(skeleton.branch_nodes))))
         graph = curveskel.extract(TORUS).to_networkx()
         self.assertEqual(len(networkx.cycle_basis(graph)), 1)
         self.assertTrue(all(data["radius"] > 0 for _, data in graph.nodes(data=True)))

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <tuple>
 
@@ -266,6 +267,36 @@ TEST(SkeletonLives, AreInFilesAsTheyAreInTheSkeleton) {
       if (!for_ever) {
         EXPECT_EQ(parsed["branches"][b]["life"], levels[b].life);
       }
+    }
+    // Edges have what their branches have: the last lines of a PLY file are its edges.
+    const auto of_edge = branch_of_edges(skeleton);
+    std::istringstream ply(format_skeleton(skeleton, SkeletonFormat::ply, {}));
+    std::string line;
+    while (std::getline(ply, line) && line != "end_header") {
+    }
+    for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) std::getline(ply, line);
+    for (std::size_t edge = 0; edge < of_edge.size(); ++edge) {
+      const int branch = of_edge[edge];
+      int from = 0;
+      int to = 0;
+      double life = 0;
+      int number = 0;
+      int parent = 0;
+      double merge = 0;
+      ply >> from >> to >> life >> number >> parent >> merge;
+      ASSERT_TRUE(ply);
+      EXPECT_EQ(edge_between(skeleton, from, to), static_cast<int>(edge));
+      EXPECT_EQ(number, branch);
+      EXPECT_EQ(life, levels[static_cast<std::size_t>(branch)].life);
+      EXPECT_EQ(parent, levels[static_cast<std::size_t>(branch)].parent);
+      EXPECT_EQ(merge, levels[static_cast<std::size_t>(branch)].merge);
+    }
+    const std::string graphml = format_skeleton(skeleton, SkeletonFormat::graphml, {});
+    for (const char* key : {"life", "branch"}) {
+      const std::string data = std::string("<data key=\"") + key + "\"";
+      int count = 0;
+      for (std::size_t at = 0; (at = graphml.find(data, at)) != std::string::npos; ++at) ++count;
+      EXPECT_EQ(count, skeleton.edges.rows());
     }
     // Other readers pass over what they do not know.
     for (const char* file : {"lives.ply", "lives.vtp", "lives.graphml"}) {

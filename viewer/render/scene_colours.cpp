@@ -9,33 +9,6 @@
 namespace curveskel::viewer {
 namespace {
 
-/// The branch of every edge row; -1 for none.
-std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
-  std::vector<int> branch(static_cast<std::size_t>(skeleton.edges.rows()), -1);
-  const auto row_of = [&](int a, int b) {
-    const std::pair<int, int> wanted = std::minmax(a, b);
-    Eigen::Index low = 0;
-    Eigen::Index high = skeleton.edges.rows();
-    while (low < high) {
-      const Eigen::Index middle = (low + high) / 2;
-      if (std::pair<int, int>(skeleton.edges(middle, 0), skeleton.edges(middle, 1)) < wanted) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return static_cast<std::size_t>(low);
-  };
-  int number = 0;
-  for (const Branch& one : branches(skeleton)) {
-    for (std::size_t i = 1; i < one.nodes.size(); ++i) {
-      branch[row_of(one.nodes[i - 1], one.nodes[i])] = number;
-    }
-    ++number;
-  }
-  return branch;
-}
-
 float share_of(const ColourScale& scale, double radius) {
   return scale.high > scale.low
              ? (static_cast<float>(radius) - scale.low) / (scale.high - scale.low)
