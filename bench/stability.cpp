@@ -275,14 +275,14 @@ void print_noise_curve(const std::vector<std::filesystem::path>& files, Program 
          "< 1 % | of |\n|---|---|---|---|---|---|---|\n";
   std::vector<Base> bases;
   for (const auto& file : files) bases.push_back(base_of(file, program));
-  for (const double percent : {0.1, 0.2, 0.5, 1.0}) {
+  for (const double percent : {1e-6, 1e-3, 0.1, 0.2, 0.5, 1.0}) {
     Tally tally;
     for (const Base& base : bases) {
       (void)cell(base, with_noise(base.surface, percent / 100 * base.diagonal), program, tally);
     }
-    std::cout << fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", percent,
-                             tally.same_graph, tally.same_but_for_balls, tally.same_tips,
-                             tally.near, tally.near_in_the_mean, tally.all)
+    std::cout << fmt::format("| {:g} | {} | {} | {} | {} | {} | {} |\n", percent, tally.same_graph,
+                             tally.same_but_for_balls, tally.same_tips, tally.near,
+                             tally.near_in_the_mean, tally.all)
               << std::flush;
   }
 }
@@ -294,7 +294,7 @@ int run(int argc, char** argv) {
   bool of_cgal = false;
   app.add_flag("--cgal", of_cgal, "CGAL's mean curvature flow skeletons instead");
   bool as_curve = false;
-  app.add_flag("--noise", as_curve, "noise of .1 to 1 % D alone, a row for each");
+  app.add_flag("--noise", as_curve, "noise of 1e-6 to 1 % D alone, a row for each");
   CLI11_PARSE(app, argc, argv);
   const Program program = of_cgal ? Program::cgal : Program::curveskel;
   if (as_curve) {

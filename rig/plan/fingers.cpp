@@ -45,6 +45,7 @@ class Hand {
     double farthest = 0;
     for (const Finger& finger : fingers_) farthest = std::max(farthest, finger.reach);
     std::erase_if(fingers_, [&](const Finger& finger) { return finger.reach < 0.35 * farthest; });
+    leave_out_forks();
   }
 
   std::vector<Place> places() {
@@ -72,6 +73,22 @@ class Hand {
     finger.reach = (finger.tip - wrist_).norm();
     finger.direction = (finger.tip - at_share(finger, 0.6)).normalized();
     fingers_.push_back(std::move(finger));
+  }
+
+  /// Two tips of one finger, such as that of its nail: what parts beyond the last joint is no
+  /// finger of its own. The one that reaches farther stays.
+  void leave_out_forks() {
+    std::stable_sort(fingers_.begin(), fingers_.end(),
+                     [](const Finger& a, const Finger& b) { return a.reach > b.reach; });
+    std::vector<Finger> own;
+    for (Finger& finger : fingers_) {
+      const bool is_fork = std::any_of(own.begin(), own.end(), [&](const Finger& other) {
+        const std::size_t parts = last_shared(finger.course, other.course);
+        return (finger.course.points[parts] - wrist_).norm() > finger_shares.back() * finger.reach;
+      });
+      if (!is_fork) own.push_back(std::move(finger));
+    }
+    fingers_ = std::move(own);
   }
 
   /// The first sample beyond the wrist as far from it as this share of the reach.

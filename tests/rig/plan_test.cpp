@@ -88,8 +88,8 @@ RigSubject human() {
   return subject_of("human", figure);
 }
 
-/// The same with a thumb and `fingers` on each hand.
-RigSubject human_with_hands(int fingers) {
+/// The same with a thumb and `fingers` on each hand, the last of which may end in two tips.
+RigSubject human_with_hands(int fingers, bool is_forked = false) {
   Figure figure;
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
@@ -105,7 +105,11 @@ RigSubject human_with_hands(int fingers) {
     for (int finger = 0; finger < fingers; ++finger) {
       const double z = 0.9 - 1.8 * finger / std::max(fingers - 1, 1);
       const int knuckle = figure.add({side * 9.0, 15, z}, 0.2, palm);
-      figure.add({side * (10.6 - 0.5 * std::abs(finger - 1)), 15, 1.1 * z}, 0.18, knuckle);
+      const double reach = 10.6 - 0.5 * std::abs(finger - 1);
+      const int tip = figure.add({side * reach, 15, 1.1 * z}, 0.18, knuckle);
+      if (!is_forked || finger + 1 < fingers) continue;
+      figure.add({side * (reach + 0.15), 15.25, 1.1 * z}, 0.12, tip);
+      figure.add({side * (reach + 0.15), 14.75, 1.1 * z}, 0.12, tip);
     }
   }
   return subject_of("hands", figure, 1.7);  // thin fingers, so many vertices
@@ -222,6 +226,20 @@ TEST(FindPlan, FingersAreInTheirOrder) {
       }
       EXPECT_LT(std::abs(hand->position.x()), 7.5) << "before the thumb";
     }
+  }
+}
+
+// A nail, or a crumb of it, may make two tips.
+TEST(FindPlan, AFingerThatEndsInTwoTipsIsOne) {
+  const RigSubject plain = human_with_hands(4);
+  const RigSubject forked = human_with_hands(4, true);
+  const BodyPlan wanted = find_plan(plain.surface, plain.skeleton);
+  const BodyPlan plan = find_plan(forked.surface, forked.skeleton);
+  ASSERT_EQ(plan.joints.size(), wanted.joints.size());
+  for (const PlannedJoint& joint : wanted.joints) {
+    const PlannedJoint* found = joint_of(plan, joint.role);
+    ASSERT_NE(found, nullptr) << joint.role;
+    EXPECT_LT((found->position - joint.position).norm(), 0.3) << joint.role;
   }
 }
 
