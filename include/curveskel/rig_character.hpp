@@ -47,4 +47,12 @@ struct CharacterRig {
                                          const CharacterOptions& options = {},
                                          const Monitor& monitor = {});
 
+/// The character with fewer joints: without those that lie on branches of a shorter life than the
+/// limit and without those below them, but with all that VRM requires of a human, and with the
+/// trunk and head of others. What stays has
+/// its name and its place at every limit, and moves what the joints below it moved. `skeleton`, of
+/// which the rig was made, has lives; without them nothing goes. O(weights + joints times #E).
+[[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
+                                              double least_life);
+
 }  // namespace curveskel

@@ -1,14 +1,19 @@
 #include <curveskel/rig_polygons.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include <curveskel/clean.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/levels.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
 
 namespace curveskel {
 namespace {
+
+/// The level of detail at which all is there that was extracted, see `least_life`.
+constexpr double everything = 0.5;
 
 /// Given or extracted. Where only a wrap would do, this is what `body` becomes.
 CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& options,
@@ -18,7 +23,9 @@ CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& 
     return skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
                                 body.surface.positions.rows());
   }
+  // Everything is named first; then what a coarser level does without goes.
   ExtractOptions wanted = options.extract;
+  wanted.embed.detail = std::max(wanted.embed.detail, everything);
   wanted.threads = options.threads;
   RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor);
   if (found.wrapped) body = std::move(*found.wrapped);
@@ -47,7 +54,8 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
         weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
     result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
   } else {
-    result.character = rig_body(given, body, skeleton, wanted, monitor);
+    result.character = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
+                                          skeleton, least_life(options.extract.embed.detail));
   }
   result.character.parts = std::move(parts);
   return result;

@@ -10,6 +10,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "rig/joints/keep_joints.hpp"
 
 namespace curveskel {
 namespace {
@@ -124,38 +125,11 @@ Rig without_ends(const Rig& rig) {
       if (it.value() > 0) stays[idx(it.col())] = 1;
     }
   }
-  for (Eigen::Index joint = count; joint-- > 0;) {
+  for (Eigen::Index joint = 0; joint < count; ++joint) {
     const bool is_end = rig.names[idx(joint)].find("_end") != std::string::npos;
     if (!is_end || rig.parents[joint] < 0) stays[idx(joint)] = 1;
-    if (stays[idx(joint)] != 0 && rig.parents[joint] >= 0) stays[idx(rig.parents[joint])] = 1;
   }
-  std::vector<int> number(idx(count), -1);
-  std::vector<int> kept;
-  for (int joint = 0; joint < static_cast<int>(count); ++joint) {
-    if (stays[idx(joint)] == 0) continue;
-    number[idx(joint)] = static_cast<int>(kept.size());
-    kept.push_back(joint);
-  }
-  Rig result;
-  result.joints = rig.joints(kept, Eigen::all);
-  result.parents.resize(static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    const int parent = rig.parents[kept[k]];
-    result.parents[static_cast<Eigen::Index>(k)] = parent < 0 ? -1 : number[idx(parent)];
-    result.names.push_back(rig.names[idx(kept[k])]);
-    if (!rig.roles.empty()) result.roles.push_back(rig.roles[idx(kept[k])]);
-    if (!rig.turns.empty()) result.turns.push_back(rig.turns[idx(kept[k])]);
-  }
-  std::vector<Eigen::Triplet<float>> entries;
-  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (number[idx(it.col())] < 0) continue;
-      entries.emplace_back(static_cast<int>(vertex), number[idx(it.col())], it.value());
-    }
-  }
-  result.weights.resize(rig.weights.rows(), result.joints.rows());
-  result.weights.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return keep_joints(rig, numbers_of_kept(rig, stays));
 }
 
 Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include <curveskel/extract_repaired.hpp>
@@ -50,6 +51,52 @@ TEST_F(RigCharacter, IsTheSameFromTheCurveOfAllAndOfTheBodyAlone) {
   EXPECT_EQ(from_all.rig.parents, from_body.rig.parents);
   EXPECT_LT((from_all.rig.joints - from_body.rig.joints).norm(), 1e-12);
   EXPECT_LT((from_all.rig.weights - from_body.rig.weights).norm(), 1e-5F);
+}
+
+/// Limbs of several lengths on a trunk: a shorter one has a shorter life.
+Shape limbs() {
+  CurveSkeleton graph;
+  graph.nodes.resize(8, 3);
+  graph.nodes << 0, 0, 0, 6, 0, 0, -5, 1, 0, 11, 1, 0, 0, -4, 2, 0, -2, -1.6, 6, -5, 2, 6, 1, -2.4;
+  graph.edges.resize(7, 2);
+  graph.edges << 0, 1, 0, 2, 1, 3, 0, 4, 0, 5, 1, 6, 1, 7;
+  graph.radii.resize(8);
+  graph.radii << 1, 1, 0.8, 0.7, 0.5, 0.5, 0.5, 0.6;
+  return shapes::tube_union("limbs", graph);
+}
+
+TEST(CharacterLevels, JointsOfACoarserLevelAreTheSameButFewer) {
+  const Shape shape = limbs();
+  const RepairedSurface repaired = repair(soup_of(shape.surface));
+  const CurveSkeleton skeleton =
+      extract_repaired(repaired, RepairOptions{}, ExtractOptions{}).extraction.skeleton;
+  const CharacterRig all = rig_character(shape.surface, repaired, skeleton);
+  std::size_t before = all.rig.names.size();
+  for (const double limit : {0.0, 1.5, 3.0, 4.5, 6.0, 100.0}) {
+    SCOPED_TRACE(limit);
+    const CharacterRig level = level_of_character(all, skeleton, limit);
+    ASSERT_LE(level.rig.names.size(), before);
+    before = level.rig.names.size();
+    for (std::size_t joint = 0; joint < level.rig.names.size(); ++joint) {
+      const auto found =
+          std::find(all.rig.names.begin(), all.rig.names.end(), level.rig.names[joint]);
+      ASSERT_NE(found, all.rig.names.end());
+      const Eigen::Index same = found - all.rig.names.begin();
+      const auto row = static_cast<Eigen::Index>(joint);
+      EXPECT_EQ(level.rig.joints.row(row), all.rig.joints.row(same));
+      const int parent = level.rig.parents[row];
+      ASSERT_LT(parent, row);
+      EXPECT_EQ(parent < 0 ? "" : level.rig.names[static_cast<std::size_t>(parent)],
+                all.rig.parents[same] < 0
+                    ? ""
+                    : all.rig.names[static_cast<std::size_t>(all.rig.parents[same])]);
+    }
+    for (Eigen::Index vertex = 0; vertex < level.rig.weights.rows(); ++vertex) {
+      ASSERT_NEAR(level.rig.weights.row(vertex).sum(), 1, 1e-5);
+    }
+  }
+  EXPECT_LT(before, all.rig.names.size());
+  EXPECT_EQ(level_of_character(all, skeleton, 0).rig.names, all.rig.names);
 }
 
 TEST_F(RigCharacter, EveryVertexMovesAndFollowersHaveNoJoints) {

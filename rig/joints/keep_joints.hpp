@@ -1,0 +1,18 @@
+// A rig without some of its joints.
+#pragma once
+
+#include <vector>
+
+#include <curveskel/rig.hpp>
+
+namespace curveskel {
+
+/// Of each joint its number among those that stay, -1 = it goes. Marks the ancestors of what stays
+/// as staying, too.
+[[nodiscard]] std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays);
+
+/// What a joint that goes moved, the nearest of its ancestors that stays moves. Precondition: the
+/// first joint stays. O(weights + joints).
+[[nodiscard]] Rig keep_joints(const Rig& rig, const std::vector<int>& number);
+
+}  // namespace curveskel
