@@ -33,6 +33,8 @@ struct BranchPair {
   int b = -1;
   bool reversed = false;   ///< a's start is b's end
   bool ambiguous = false;  ///< the surface does not tell b from another branch as like to a
+
+  [[nodiscard]] bool operator==(const BranchPair&) const = default;
 };
 
 struct SkeletonMatch {
@@ -45,7 +47,8 @@ struct SkeletonMatch {
 /// outwards, so that limbs may bend. Tips are paired by the radii on their way to the middle, by
 /// the distances along the curve to the other tips, and by where they come to lie; branches by the
 /// division of the tips that they make and by how much of their surfaces comes to lie on each
-/// other, those on cycles by the latter alone. The way that leaves the least apart is taken. Where
+/// other, those on cycles by the latter alone. Small components move with what they sit on. The way
+/// that leaves the least apart is taken. Where
 /// another fits as well and gives another branch, the pair is ambiguous. Sizes are over the square
 /// roots of the areas. docs/match.md has the method. Throws Error(Fault::input) for a skeleton
 /// without edges, radii or a vertex map, Cancelled on a stop. O(#V log #V), for the tips up to the

@@ -20,9 +20,9 @@ struct Division {
   double length = 0;    ///< over the unit
 };
 
-constexpr char before = '-';
-constexpr char beyond = '+';
-constexpr char elsewhere = ' ';
+constexpr char is_before = '-';
+constexpr char is_beyond = '+';
+constexpr char is_elsewhere = ' ';
 
 /// One of a skeleton's two, with the numbers of its tips' pairs.
 class Divider {
@@ -42,16 +42,16 @@ class Divider {
       const std::vector<int>& nodes = all_[b].nodes;
       std::vector<char> reached(idx(side_.skeleton.nodes.rows()), 0);
       if (nodes.front() == nodes.back() || reaches_start(nodes, reached)) continue;
-      Division division{static_cast<int>(b), std::string(pairs_, elsewhere), false};
+      Division division{static_cast<int>(b), std::string(pairs_, is_elsewhere), false};
       const int component = features_.component[idx(nodes.front())];
       for (std::size_t tip = 0; tip < pair_of_tip_.size(); ++tip) {
         const int pair = pair_of_tip_[tip];
         const int node = features_.tips[tip];
         if (pair < 0 || features_.component[idx(node)] != component) continue;
-        division.sides[idx(pair)] = reached[idx(node)] != 0 ? beyond : before;
+        division.sides[idx(pair)] = reached[idx(node)] != 0 ? is_beyond : is_before;
       }
-      if (division.sides.find(beyond) == std::string::npos ||
-          division.sides.find(before) == std::string::npos) {
+      if (division.sides.find(is_beyond) == std::string::npos ||
+          division.sides.find(is_before) == std::string::npos) {
         continue;
       }
       turn(division);
@@ -79,11 +79,11 @@ class Divider {
   }
 
   static void turn(Division& division) {
-    const std::size_t first = division.sides.find_first_not_of(elsewhere);
-    if (division.sides[first] == before) return;
+    const std::size_t first = division.sides.find_first_not_of(is_elsewhere);
+    if (division.sides[first] == is_before) return;
     division.turned = true;
     for (char& side : division.sides) {
-      if (side != elsewhere) side = side == before ? beyond : before;
+      if (side != is_elsewhere) side = side == is_before ? is_beyond : is_before;
     }
   }
 

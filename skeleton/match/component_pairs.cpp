@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/least_pairs.hpp"
@@ -92,7 +93,10 @@ std::vector<int> pair_components(const TipFeatures& a, const TipFeatures& b,
   constexpr int rounds = 6;
   for (int round = 0; round < rounds && pairs.size() > 2; ++round) {
     costs = costs_of(a, b, centroids, shifts_of(centroids, pairs));
-    pairs = least_pairs(costs);
+    std::vector<int> better = least_pairs(costs);
+    const bool settled = better == pairs;
+    pairs = std::move(better);
+    if (settled) break;
   }
   constexpr double no_pair = 4;
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -11,6 +11,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
+#include "skeleton/match/some_of.hpp"
 
 namespace curveskel {
 namespace {
@@ -21,12 +22,7 @@ constexpr int rounds_of_refinement = 20;
 
 /// Evenly through the vertices.
 Points spread(const Positions& positions, const std::vector<int>& vertices, std::size_t most) {
-  const std::size_t count = std::min(vertices.size(), most);
-  Points points(3, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    points.col(static_cast<Eigen::Index>(k)) = positions.row(vertices[k * vertices.size() / count]);
-  }
-  return points;
+  return positions(evenly(vertices, most), Eigen::all).transpose();
 }
 
 std::vector<int> all_vertices(const Surface& surface) {

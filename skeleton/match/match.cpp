@@ -184,7 +184,10 @@ std::vector<Outcome> outcomes_of(const Trials& trials, const std::vector<NodeMot
     outcomes.push_back(trials.outcome_of(hypothesis));
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round) {
-      outcomes.push_back(trials.outcome_of(trials.anchored(outcomes.back())));
+      Outcome next = trials.outcome_of(trials.anchored(outcomes.back()));
+      const bool settled = next.pairs == outcomes.back().pairs;
+      outcomes.push_back(std::move(next));
+      if (settled) break;
     }
     monitor.report("match", 0.5);
   }

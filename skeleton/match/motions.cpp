@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/match/some_of.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 
 namespace curveskel {
@@ -99,11 +100,7 @@ class Follower {
       }
     }
     std::sort(near.begin(), near.end());
-    if (near.size() <= most) return near;
-    std::vector<int> some;
-    some.reserve(most);
-    for (std::size_t k = 0; k < most; ++k) some.push_back(near[k * near.size() / most]);
-    return some;
+    return evenly(near, most);
   }
 
   const MatchSide& a_;

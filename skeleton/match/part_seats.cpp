@@ -1,15 +1,16 @@
 #include "skeleton/match/part_seats.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
+#include "skeleton/match/some_of.hpp"
 
 namespace curveskel {
 namespace {
+
+constexpr std::size_t most_seats = 40;
 
 /// Of each vertex, -1 = of none.
 std::vector<int> component_of_vertex(const MatchSide& side, const TipFeatures& features) {
@@ -21,15 +22,8 @@ std::vector<int> component_of_vertex(const MatchSide& side, const TipFeatures& f
   return component;
 }
 
-std::vector<int> evenly(const std::vector<int>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  std::vector<int> some;
-  some.reserve(most);
-  for (std::size_t k = 0; k < most; ++k) some.push_back(all[k * all.size() / most]);
-  return some;
-}
-
-/// The surfaces of all components whose share of the area is small.
+/// The surfaces of all components that may be a part's partner: the same part has another share in
+/// another body.
 std::vector<std::unique_ptr<const SurfaceTree>> part_surfaces(const MatchSide& side,
                                                               const TipFeatures& features,
                                                               int threads) {
@@ -37,16 +31,14 @@ std::vector<std::unique_ptr<const SurfaceTree>> part_surfaces(const MatchSide& s
   std::vector<std::vector<int>> faces(features.middle.size());
   for (int face = 0; face < side.surface.triangles.rows(); ++face) {
     const int one = component[idx(side.surface.triangles(face, 0))];
-    if (one >= 0 && features.area_share[idx(one)] < 2 * least_body_share) {
-      faces[idx(one)].push_back(face);
-    }
+    constexpr double at_most = 2 * least_body_share;
+    if (one >= 0 && features.area_share[idx(one)] < at_most) faces[idx(one)].push_back(face);
   }
   std::vector<std::unique_ptr<const SurfaceTree>> trees(faces.size());
   parallel_for(faces.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (faces[k].empty()) continue;
-      const Surface part{side.surface.positions, side.surface.triangles(faces[k], Eigen::all)};
-      trees[k] = std::make_unique<const SurfaceTree>(part, 1);
+      trees[k] = std::make_unique<const SurfaceTree>(part_of(side.surface, faces[k]).surface, 1);
     }
   });
   return trees;
@@ -58,7 +50,7 @@ PartSeats::~PartSeats() = default;
 
 PartSeats::PartSeats(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
                      const TipFeatures& of_b, int threads)
-    : a_(a), of_a_(of_a), b_(b), threads_(threads) {
+    : a_(a), b_(b), threads_(threads) {
   const std::vector<int> component = component_of_vertex(a, of_a);
   std::vector<std::vector<int>> vertices(of_a.middle.size());
   for (int v = 0; v < static_cast<int>(component.size()); ++v) {
@@ -72,7 +64,8 @@ PartSeats::PartSeats(const MatchSide& a, const TipFeatures& of_a, const MatchSid
       constexpr std::size_t most = 64;
       parts_.push_back({static_cast<int>(k),
                         {},
-                        a.surface.positions(evenly(vertices[k], most), Eigen::all).transpose()});
+                        a.surface.positions(evenly(vertices[k], most), Eigen::all).transpose(),
+                        {}});
     }
   }
   if (parts_.empty()) return;
@@ -82,30 +75,37 @@ PartSeats::PartSeats(const MatchSide& a, const TipFeatures& of_a, const MatchSid
     }
   }
   constexpr std::size_t most_of_bodies = 6000;
-  body_vertices_ = evenly(of_bodies, most_of_bodies);
+  find_seats(evenly(of_bodies, most_of_bodies));
   surface_of_b_ = part_surfaces(b, of_b, threads);
 }
 
-void PartSeats::seat(NodeMotions& motions, const Eigen::VectorXi& vertex_of_a) const {
+void PartSeats::find_seats(const std::vector<int>& vertices) {
   parallel_for(parts_.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::vector<std::pair<double, int>> near;
-      for (const int vertex : body_vertices_) {
-        if (vertex_of_a[vertex] < 0) continue;
+      near.reserve(vertices.size());
+      for (const int vertex : vertices) {
         const Eigen::Vector3d at = a_.surface.positions.row(vertex);
         near.emplace_back((parts_[k].points.colwise() - at).colwise().squaredNorm().minCoeff(),
                           vertex);
       }
-      constexpr std::size_t most_seats = 40;
-      const std::size_t count = std::min(most_seats, near.size());
+      // Twice as many as are needed, as some have no partner.
+      const std::size_t count = std::min(2 * most_seats, near.size());
       std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
                         near.end());
-      std::vector<int> seats;
-      seats.reserve(count);
-      for (std::size_t s = 0; s < count; ++s) seats.push_back(near[s].second);
-      move_part(parts_[k], seats, vertex_of_a, motions);
+      for (std::size_t s = 0; s < count; ++s) parts_[k].seats.push_back(near[s].second);
     }
   });
+}
+
+void PartSeats::seat(NodeMotions& motions, const Eigen::VectorXi& vertex_of_a) const {
+  for (const Part& part : parts_) {
+    std::vector<int> seats;
+    for (const int vertex : part.seats) {
+      if (vertex_of_a[vertex] >= 0 && seats.size() < most_seats) seats.push_back(vertex);
+    }
+    move_part(part, seats, vertex_of_a, motions);
+  }
 }
 
 void PartSeats::move_part(const Part& part, const std::vector<int>& seats,

@@ -22,7 +22,7 @@ class PartSeats {
 
   /// Each part moves as the nearest vertices of the larger components do, of those whose partners
   /// are known: by the rigid motion that leaves the sum of their squares least, without those that
-  /// fit worst. vertex_of_a: #V of a, -1 = not known. O(#parts #V), of some thousand vertices.
+  /// fit worst. vertex_of_a: #V of a, -1 = not known. O(#parts).
   void seat(NodeMotions& motions, const Eigen::VectorXi& vertex_of_a) const;
 
   /// Lays each part onto the component of b that it is paired with.
@@ -33,16 +33,16 @@ class PartSeats {
     int component;
     std::vector<int> nodes;
     Eigen::Matrix3Xd points;  ///< some of its vertices
+    std::vector<int> seats;   ///< vertices of larger components, the nearest first
   };
+  void find_seats(const std::vector<int>& vertices);
   void move_part(const Part& part, const std::vector<int>& seats,
                  const Eigen::VectorXi& vertex_of_a, NodeMotions& motions) const;
 
   const MatchSide& a_;
-  const TipFeatures& of_a_;
   const MatchSide& b_;
   int threads_;
   std::vector<Part> parts_;
-  std::vector<int> body_vertices_;  ///< of a: some of those of the larger components
   std::vector<std::unique_ptr<const SurfaceTree>> surface_of_b_;  ///< per component of b, if small
 };
 

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
+#include "skeleton/match/some_of.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 
 namespace curveskel {
@@ -15,19 +16,9 @@ namespace curveskel {
 /// The faces of one branch, to find the vertex nearest to a place.
 class TerritorySurface {
  public:
-  TerritorySurface(const Surface& surface, const std::vector<int>& faces) {
-    std::map<int, int> number;
-    surface_.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const int vertex = surface.triangles(faces[k], corner);
-        const auto [known, added] = number.emplace(vertex, static_cast<int>(vertices_.size()));
-        if (added) vertices_.push_back(vertex);
-        surface_.triangles(static_cast<Eigen::Index>(k), corner) = known->second;
-      }
-    }
-    surface_.positions = surface.positions(vertices_, Eigen::all);
-    if (!faces.empty()) tree_ = std::make_unique<SurfaceTree>(surface_, 1);
+  TerritorySurface(const Surface& surface, const std::vector<int>& faces)
+      : part_(part_of(surface, faces)) {
+    if (!faces.empty()) tree_ = std::make_unique<SurfaceTree>(part_.surface, 1);
   }
 
   struct Nearest {
@@ -37,18 +28,17 @@ class TerritorySurface {
   [[nodiscard]] Nearest nearest(const Eigen::Vector3d& place) const {
     if (!tree_) return {};
     const SurfaceTree::Nearest found = tree_->nearest(place);
-    const auto corners = surface_.triangles.row(found.triangle);
+    const auto corners = part_.surface.triangles.row(found.triangle);
     Eigen::Index best = 0;
-    (surface_.positions(corners.transpose(), Eigen::all).rowwise() - place.transpose())
+    (part_.surface.positions(corners.transpose(), Eigen::all).rowwise() - place.transpose())
         .rowwise()
         .squaredNorm()
         .minCoeff(&best);
-    return {vertices_[idx(corners[best])], found.distance};
+    return {part_.vertices[idx(corners[best])], found.distance};
   }
 
  private:
-  std::vector<int> vertices_;  ///< of the whole surface
-  Surface surface_;
+  SurfacePart part_;
   std::unique_ptr<SurfaceTree> tree_;
 };
 

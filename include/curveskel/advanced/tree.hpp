@@ -55,8 +55,7 @@ class SurfaceTree {
                      std::span<double> distances) const;
 
   /// Numbers of all triangles that the plane through `point` crosses or touches, ascending, and of
-  /// few that it misses. Cost: linear in their
-  /// number.
+  /// few that it misses. Cost: linear in their number.
   [[nodiscard]] std::vector<int> near_plane(const Eigen::Vector3d& point,
                                             const Eigen::Vector3d& normal) const;
 
