@@ -79,12 +79,24 @@ void normalise(std::vector<Candidate>& candidates, std::size_t rows, std::size_t
   }
 }
 
-/// 0..1: the other pairs, by their shares, that are as far from this in a as in b.
-double support(const Candidate& one, const std::vector<Candidate>& candidates, const TipFeatures& a,
+/// Of each component of a the candidates of its tips.
+std::vector<std::vector<std::size_t>> by_component(const std::vector<Candidate>& candidates,
+                                                   const TipFeatures& a) {
+  std::vector<std::vector<std::size_t>> numbers(a.middle.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    numbers[idx(a.component[idx(a.tips[idx(candidates[k].a)])])].push_back(k);
+  }
+  return numbers;
+}
+
+/// 0..1: the other pairs of the component, by their shares, that are as far from this in a as in b.
+double support(const Candidate& one, const std::vector<Candidate>& candidates,
+               const std::vector<std::size_t>& of_component, const TipFeatures& a,
                const TipFeatures& b) {
   double agreed = 0;
   double all = 0;
-  for (const Candidate& other : candidates) {
+  for (const std::size_t k : of_component) {
+    const Candidate& other = candidates[k];
     if (other.a == one.a || other.b == one.b || other.share < 1e-6) continue;
     const double in_a = a.apart(one.a, other.a);
     const double in_b = b.apart(one.b, other.b);
@@ -105,14 +117,17 @@ std::vector<int> pair_tips(const MatchSide& a, const TipFeatures& of_a, const Ma
   std::vector<Candidate> candidates =
       candidates_of(of_a, of_b, like, moved_tips(a, of_a, motions) / of_b.unit,
                     tips_of(b, of_b) / of_b.unit, component_pairs);
+  const auto of_components = by_component(candidates, of_a);
   constexpr int rounds = 16;
   for (int round = 0; round < rounds; ++round) {
     const double temperature = 1.5 * std::pow(0.85, round);
     normalise(candidates, of_a.tips.size(), of_b.tips.size(), temperature);
-    std::vector<double> scores;
-    scores.reserve(candidates.size());
-    for (const Candidate& one : candidates) {
-      scores.push_back(one.own + 4 * std::log(0.02 + support(one, candidates, of_a, of_b)));
+    std::vector<double> scores(candidates.size());
+    for (const std::vector<std::size_t>& numbers : of_components) {
+      for (const std::size_t k : numbers) {
+        const double agreed = support(candidates[k], candidates, numbers, of_a, of_b);
+        scores[k] = candidates[k].own + 4 * std::log(0.02 + agreed);
+      }
     }
     for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].score = scores[k];
   }
