@@ -330,12 +330,14 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
   parser
       .add_option("--report", arguments.report, "what was changed, decided and measured, as JSON")
       ->type_name("FILE.json");
-  parser
-      .add_option("--profiles", arguments.profiles,
-                  "sections of the surface across the branches, at each node, as CSV")
-      ->type_name("FILE.csv");
+  CLI::Option* const profiles =
+      parser
+          .add_option("--profiles", arguments.profiles,
+                      "sections of the surface across the branches, at each node, as CSV")
+          ->type_name("FILE.csv");
   add_number(parser, "--spacing", arguments.spacing, 0.0, std::numeric_limits<double>::max(),
-             "of the sections along a branch, in units of the model; 0 = at each node");
+             "of the sections along a branch, in units of the model; 0 = at each node")
+      ->needs(profiles);
   parser
       .add_option("--junctions", arguments.junctions,
                   "junctions with the angles between their branches, as CSV")

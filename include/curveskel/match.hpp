@@ -57,11 +57,12 @@ struct SkeletonMatch {
                                             const MatchOptions& options = {},
                                             const Monitor& monitor = {});
 
-/// Where the vertices of a are known in b (#V of a, -1 = not known), as in the frames of an
-/// animation: tips are paired as above by where their surroundings are known to go, branches by
-/// their division of the tips and by the vertices that they share. Nothing is ambiguous, and
-/// `vertex_of_a` is what is given. Errors as of `match_skeletons`; also Error(Fault::input) for
-/// another number of vertices, or a vertex that b does not have. O(#V), for the tips as above.
+/// For surfaces whose vertices are known in each other, as in the frames of an animation;
+/// vertex_of_a is #V of a, the vertex of b, -1 = not known. Tips are paired as above by where their
+/// surroundings are known to go, branches by their division of the tips and by the vertices that
+/// they share. Nothing is ambiguous, and `vertex_of_a` is what is given. Errors as of
+/// `match_skeletons`; also Error(Fault::input) for another number of vertices, or a vertex that b
+/// does not have. O(#V), for the tips as above.
 [[nodiscard]] SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
                                               const Eigen::VectorXi& vertex_of_a,
                                               const Monitor& monitor = {});

@@ -1,7 +1,5 @@
 #include "rig/joints/keep_joints.hpp"
 
-#include <algorithm>
-
 #include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
@@ -24,8 +22,7 @@ Rig keep_joints(const Rig& rig, const std::vector<int>& number) {
   for (int joint = 0; joint < static_cast<int>(number.size()); ++joint) {
     const bool stays = number[idx(joint)] >= 0;
     if (stays) kept.push_back(joint);
-    stands_for[idx(joint)] =
-        stays ? number[idx(joint)] : stands_for[idx(std::max(0, rig.parents[joint]))];
+    stands_for[idx(joint)] = stays ? number[idx(joint)] : stands_for[idx(rig.parents[joint])];
   }
   Rig result;
   result.joints = rig.joints(kept, Eigen::all);

@@ -11,8 +11,8 @@ namespace curveskel {
 /// as staying, too.
 [[nodiscard]] std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays);
 
-/// What a joint that goes moved, the nearest of its ancestors that stays moves. Precondition: the
-/// first joint stays. O(weights + joints).
+/// The nearest ancestor that stays moves what a joint that goes has moved. Precondition: roots
+/// stay. O(weights + joints).
 [[nodiscard]] Rig keep_joints(const Rig& rig, const std::vector<int>& number);
 
 }  // namespace curveskel

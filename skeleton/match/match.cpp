@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_measures.hpp>
@@ -101,13 +102,18 @@ class Trials {
         pairing_(a, territories_a_, b, territories_b_, threads),
         seats_(a, of_a, b, of_b, threads),
         measures_a_(branch_measures(a.skeleton)),
-        measures_b_(branch_measures(b.skeleton)) {}
+        measures_b_(branch_measures(b.skeleton)) {
+    constexpr int most_samples = 2000;
+    const auto all = static_cast<int>(a.surface.positions.rows());
+    const int step = std::max(1, all / most_samples);
+    for (int vertex = 0; vertex < all; vertex += step) samples_.push_back(vertex);
+  }
 
   [[nodiscard]] Outcome outcome_of(NodeMotions motions) const {
     std::vector<int> components = pair_components(of_a_, of_b_, motions);
     std::vector<BranchPair> pairs = pairs_of(motions, components);
     if (!seats_.empty()) {
-      seats_.seat(motions, vertex_pairs(pairs, motions).partner);
+      seats_.seat(motions, pairing_.pair(pairs, motions, seats_.vertices()).partner);
       components = pair_components(of_a_, of_b_, motions);
       seats_.lay_onto_partners(motions, components);
       pairs = pairs_of(motions, components);
@@ -120,9 +126,11 @@ class Trials {
     return anchored_motions(a_, of_a_, b_, outcome.pairs, outcome.motions);
   }
 
-  [[nodiscard]] VertexPairs vertex_pairs(const std::vector<BranchPair>& pairs,
-                                         const NodeMotions& motions) const {
-    return pairing_.pair(pairs, motions, 1);
+  [[nodiscard]] Eigen::VectorXi vertex_of_a(const std::vector<BranchPair>& pairs,
+                                            const NodeMotions& motions) const {
+    std::vector<int> all(idx(a_.surface.positions.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    return pairing_.pair(pairs, motions, all).partner;
   }
 
  private:
@@ -140,16 +148,12 @@ class Trials {
   [[nodiscard]] double misfit_of(const std::vector<BranchPair>& pairs,
                                  const NodeMotions& motions) const {
     constexpr double lost = 0.1;
-    constexpr Eigen::Index most_samples = 2000;
     const Eigen::VectorXi& branch_of_vertex = territories_a_.branch_of_vertex;
-    const Eigen::Index step = std::max<Eigen::Index>(1, branch_of_vertex.size() / most_samples);
-    const VertexPairs moved = pairing_.pair(pairs, motions, step);
+    const VertexPairs moved = pairing_.pair(pairs, motions, samples_);
     const std::vector<double> stretch =
         stretches(measures_a_, measures_b_, motions.of_node.front().scale, pairs);
     double sum = 0;
-    int count = 0;
-    for (Eigen::Index v = 0; v < moved.partner.size(); v += step) {
-      ++count;
+    for (const int v : samples_) {
       if (moved.partner[v] < 0) {
         sum += lost;
         continue;
@@ -157,7 +161,7 @@ class Trials {
       const double pulled = stretch[idx(branch_of_vertex[v])];
       sum += std::min(lost, moved.distance[v] / of_b_.unit + lost * pulled);
     }
-    return sum / count;
+    return sum / static_cast<double>(samples_.size());
   }
 
   const MatchSide& a_;
@@ -173,6 +177,7 @@ class Trials {
   PartSeats seats_;
   std::vector<BranchMeasures> measures_a_;
   std::vector<BranchMeasures> measures_b_;
+  std::vector<int> samples_;  ///< vertices of a, by which an outcome is judged
 };
 
 /// Of each way that a might have become b, and of the same with clear pairs taken for granted: they
@@ -225,7 +230,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   }
   match.junctions = pair_junctions(a, b, match.branches);
   monitor.report("match", 0.7);
-  match.vertex_of_a = trials.vertex_pairs(match.branches, best.motions).partner;
+  match.vertex_of_a = trials.vertex_of_a(match.branches, best.motions);
   return match;
 }
 

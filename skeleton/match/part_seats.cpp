@@ -96,6 +96,11 @@ void PartSeats::find_seats(const std::vector<int>& vertices) {
       for (std::size_t s = 0; s < count; ++s) parts_[k].seats.push_back(near[s].second);
     }
   });
+  for (const Part& part : parts_) {
+    vertices_.insert(vertices_.end(), part.seats.begin(), part.seats.end());
+  }
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
 }
 
 void PartSeats::seat(NodeMotions& motions, const Eigen::VectorXi& vertex_of_a) const {

@@ -20,6 +20,9 @@ class PartSeats {
 
   [[nodiscard]] bool empty() const { return parts_.empty(); }
 
+  /// All vertices of a that some part may sit on, ascending.
+  [[nodiscard]] const std::vector<int>& vertices() const { return vertices_; }
+
   /// Each part moves as the nearest vertices of the larger components do, of those whose partners
   /// are known: by the rigid motion that leaves the sum of their squares least, without those that
   /// fit worst. vertex_of_a: #V of a, -1 = not known. O(#parts).
@@ -43,6 +46,7 @@ class PartSeats {
   const MatchSide& b_;
   int threads_;
   std::vector<Part> parts_;
+  std::vector<int> vertices_;
   std::vector<std::unique_ptr<const SurfaceTree>> surface_of_b_;  ///< per component of b, if small
 };
 

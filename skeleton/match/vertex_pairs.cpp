@@ -138,14 +138,14 @@ VertexPairing::VertexPairing(const MatchSide& a, const BranchTerritories& territ
 VertexPairing::~VertexPairing() = default;
 
 VertexPairs VertexPairing::pair(const std::vector<BranchPair>& branch_pairs,
-                                const NodeMotions& motions, Eigen::Index step) const {
+                                const NodeMotions& motions,
+                                const std::vector<int>& vertices_of_a) const {
   const Implementation& made = *implementation_;
   const Surface& surface = made.a.surface;
   const Eigen::VectorXi& branch_of_vertex = made.territories_a.branch_of_vertex;
   std::vector<std::vector<int>> vertices(made.of_a.size());
-  for (Eigen::Index vertex = 0; vertex < branch_of_vertex.size(); vertex += step) {
-    if (branch_of_vertex[vertex] < 0) continue;
-    vertices[idx(branch_of_vertex[vertex])].push_back(static_cast<int>(vertex));
+  for (const int vertex : vertices_of_a) {
+    if (branch_of_vertex[vertex] >= 0) vertices[idx(branch_of_vertex[vertex])].push_back(vertex);
   }
   VertexPairs result{Eigen::VectorXi::Constant(surface.positions.rows(), -1),
                      Eigen::VectorXd::Zero(surface.positions.rows())};

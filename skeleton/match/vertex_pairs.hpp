@@ -28,9 +28,10 @@ class VertexPairing {
   /// Of each vertex: the place on its branch, laid onto the partner by shares of the length, and
   /// from there the way to the vertex, turned as the node is and then by the least rotation that
   /// takes the curve's direction to the partner's; the vertex of the partner's territory nearest to
-  /// where that ends. Of every `step`th vertex only. O(#V / step log #V).
+  /// where that ends. Of these vertices of a only, once each. O(vertices log #V).
   [[nodiscard]] VertexPairs pair(const std::vector<BranchPair>& branch_pairs,
-                                 const NodeMotions& motions, Eigen::Index step) const;
+                                 const NodeMotions& motions,
+                                 const std::vector<int>& vertices_of_a) const;
 
  private:
   struct Implementation;

@@ -52,6 +52,10 @@ class Tables(unittest.TestCase):
             subprocess.run([PROGRAM, "extract", mesh, "-o", self.folder / "s.obj", "-q",
                             "--profiles", self.folder / "even.csv", "--spacing", "0.1"], check=True)
             self.expect_profiles(skeleton.profiles(0.1), self.folder / "even.csv")
+            alone = subprocess.run([PROGRAM, "extract", mesh, "-o", self.folder / "s.obj",
+                                    "--spacing", "0.1"], capture_output=True)
+            self.assertEqual(alone.returncode, 2)
+            self.assertIn(b"--profiles", alone.stderr)
             junctions = skeleton.junctions.reset_index()
             rows = rows_of(self.folder / "j.csv")
             self.assertEqual(len(junctions), len(rows))
