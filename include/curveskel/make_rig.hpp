@@ -42,9 +42,9 @@ void require_valid(const RigOptions& options);
                                    const BodyPlan& plan, const RigOptions& options = {},
                                    const Monitor& monitor = {});
 
-/// The same joints with new weights: each node of the skeleton goes with the nearest bone of
-/// `given` (rig/skin/given_joints.hpp), then `skin_weights`. For joints that somebody has placed;
-/// `given.weights` is not read. Errors as `make_rig`.
+/// The same joints with new weights: `skin_weights` of their bones (rig/skin/skin_bones.hpp), a
+/// node of the skeleton with the nearest. For joints that somebody has placed; `given.weights` is
+/// not read. Errors as `make_rig`.
 [[nodiscard]] Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton,
                                     const Rig& given, const SkinOptions& options = {},
                                     const Monitor& monitor = {});

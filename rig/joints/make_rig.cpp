@@ -9,7 +9,7 @@
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
 #include "rig/joints/sides.hpp"
-#include "rig/skin/given_joints.hpp"
+#include "rig/skin/skin_bones.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
@@ -71,9 +71,9 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   Joints joints = place_planned_joints(skeleton, plan.joints, options.joints);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
-  rig.weights =
-      skin_weights(surface, fully_mapped(surface, skeleton, options.skin.threads, monitor),
-                   joints.joint_of_node, count, options.skin, monitor);
+  rig.weights = skin_weights(
+      surface, fully_mapped(surface, skeleton, options.skin.threads, monitor), joints.joint_of_node,
+      bones_of_own(skeleton, joints), count, options.skin, monitor);
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
@@ -99,8 +99,9 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
   }
   monitor.report("joints", 0);
   Rig rig{given.joints, given.parents, given.names, {}, given.roles, {}};
+  const std::vector<Bone> bones = bones_of_given(surface, given);
   rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
-                             joints_of_nodes(skeleton, given),
+                             joints_of_nodes(skeleton, bones), bones,
                              static_cast<int>(given.joints.rows()), options, monitor);
   return rig;
 }

@@ -18,6 +18,7 @@
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"
+#include "rig/skin/skin_sources.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
@@ -63,57 +64,35 @@ class TopShares {
   std::size_t count_ = 0;
 };
 
-/// Start values of vertices of the whole surface.
-struct SkinBeginning {
-  Eigen::VectorXi joint;     ///< that moves the vertex' node
-  Eigen::VectorXd distance;  ///< to that node, in model units; > 0
-};
-
-SkinBeginning beginning_of(const Surface& surface, const CurveSkeleton& skeleton,
-                           const Eigen::VectorXi& joint_of_node) {
-  const Eigen::Index count = surface.positions.rows();
-  const double least_distance = 1e-3 * bounding_box_diagonal(surface.positions);
-  SkinBeginning beginning{Eigen::VectorXi(count), Eigen::VectorXd(count)};
-  for (Eigen::Index v = 0; v < count; ++v) {
-    const int node = skeleton.node_of_vertex[v];
-    beginning.joint[v] = joint_of_node[node];
-    beginning.distance[v] =
-        std::max((surface.positions.row(v) - skeleton.nodes.row(node)).norm(), least_distance);
-  }
-  return beginning;
-}
-
-/// The sources of heat, and their rates.
-struct HeatSources {
-  Eigen::VectorXi joint;     ///< by vertex
-  Eigen::VectorXd strength;  ///< by vertex: area / (softness d)^2
-  std::vector<int> joints;   ///< that occur, ascending
-};
-
 /// Solves for one component.
 class SkinHeat {
  public:
-  SkinHeat(const Component& part, const SkinBeginning& beginning, const SkinOptions& options)
-      : part_(part), options_(options) {
-    const Eigen::Index count = part.surface.positions.rows();
-    sources_.joint.resize(count);
-    sources_.strength = vertex_areas(part.surface);
-    for (Eigen::Index v = 0; v < count; ++v) {
+  SkinHeat(const Component& part, const SkinSources& sources, const SkinOptions& options)
+      : part_(part), options_(options), strength_(vertex_areas(part.surface)) {
+    std::vector<Eigen::Triplet<double>> rates;
+    rates.reserve(part.vertex_in_whole.size());
+    joints_.reserve(part.vertex_in_whole.size());
+    for (Eigen::Index v = 0; v < strength_.size(); ++v) {
       const int whole = part.vertex_in_whole[idx(v)];
-      sources_.joint[v] = beginning.joint[whole];
-      const double way = options.softness * beginning.distance[whole];
-      sources_.strength[v] /= way * way;
+      const double way = options.softness * sources.distances[whole];
+      const double strength = strength_[v] / (way * way);
+      strength_[v] = 0;
+      for (SkinSources::Shares::InnerIterator it(sources.shares, whole); it; ++it) {
+        rates.emplace_back(static_cast<int>(v), static_cast<int>(it.col()), strength * it.value());
+        strength_[v] = strength;
+        joints_.push_back(static_cast<int>(it.col()));
+      }
     }
-    sources_.joints.assign(sources_.joint.begin(), sources_.joint.end());
-    std::sort(sources_.joints.begin(), sources_.joints.end());
-    sources_.joints.erase(std::unique(sources_.joints.begin(), sources_.joints.end()),
-                          sources_.joints.end());
+    std::sort(joints_.begin(), joints_.end());
+    joints_.erase(std::unique(joints_.begin(), joints_.end()), joints_.end());
+    rates_.resize(strength_.size(), sources.shares.cols());
+    rates_.setFromTriplets(rates.begin(), rates.end());
   }
 
   /// report(share done) is called from this thread.
   template <typename Report>
   void solve(std::vector<TopShares>& shares, int threads, const Report& report) {
-    const std::vector<int>& joints = sources_.joints;
+    const std::vector<int>& joints = joints_;
     if (joints.size() == 1) {
       for (const int vertex : part_.vertex_in_whole) {
         shares[idx(vertex)].add(joints.front(), 1, 1);
@@ -121,7 +100,7 @@ class SkinHeat {
       return;
     }
     SparseMatrix heat = -intrinsic_delaunay_laplacian(part_.surface);
-    heat.diagonal() += sources_.strength;
+    heat.diagonal() += strength_;
     factor_.factorize(heat);
     const std::size_t workers = std::min(thread_count(threads), most_workers);
     while (workspaces_.size() < workers) {
@@ -140,7 +119,7 @@ class SkinHeat {
 
   void solve_blocks(std::size_t first, std::size_t workers, int threads,
                     std::vector<TopShares>& shares) {
-    const std::vector<int>& joints = sources_.joints;
+    const std::vector<int>& joints = joints_;
     const std::size_t blocks = std::min(workers, (joints.size() - first + block - 1) / block);
     std::vector<const double*> results(blocks);
     parallel_for(blocks, 1, threads, [&](std::size_t begin, std::size_t end) {
@@ -164,21 +143,18 @@ class SkinHeat {
 
   [[nodiscard]] Eigen::MatrixXd right_hand_sides(std::size_t from, std::size_t to) const {
     Eigen::MatrixXd right =
-        Eigen::MatrixXd::Zero(sources_.joint.size(), static_cast<Eigen::Index>(to - from));
-    for (Eigen::Index v = 0; v < sources_.joint.size(); ++v) {
-      const auto place =
-          std::lower_bound(sources_.joints.begin(), sources_.joints.end(), sources_.joint[v]) -
-          sources_.joints.begin();
-      if (idx(place) >= from && idx(place) < to) {
-        right(v, place - static_cast<Eigen::Index>(from)) = sources_.strength[v];
-      }
+        Eigen::MatrixXd::Zero(strength_.size(), static_cast<Eigen::Index>(to - from));
+    for (std::size_t k = from; k < to; ++k) {
+      right.col(static_cast<Eigen::Index>(k - from)) = rates_.col(joints_[k]);
     }
     return right;
   }
 
   const Component& part_;
   const SkinOptions& options_;
-  HeatSources sources_;
+  Eigen::VectorXd strength_;           // by vertex: area / (softness d)^2, 0 without a source
+  Eigen::SparseMatrix<double> rates_;  // by vertex and joint, their rows of sum `strength_`
+  std::vector<int> joints_;            // that occur, ascending
   CholeskyFactor factor_;
   std::vector<std::unique_ptr<CholeskyFactor::Workspace>> workspaces_;
 };
@@ -186,9 +162,9 @@ class SkinHeat {
 /// All components, with the progress of all.
 class SkinRun {
  public:
-  SkinRun(Eigen::Index vertices, const SkinBeginning& beginning, const SkinOptions& options,
+  SkinRun(Eigen::Index vertices, const SkinSources& sources, const SkinOptions& options,
           const Monitor& monitor)
-      : beginning_(beginning), options_(options), monitor_(monitor), shares_(idx(vertices)) {}
+      : sources_(sources), options_(options), monitor_(monitor), shares_(idx(vertices)) {}
 
   /// Large ones use all cores one after the other, small ones a core each.
   const std::vector<TopShares>& solve(const std::vector<Component>& parts) {
@@ -212,7 +188,7 @@ class SkinRun {
  private:
   void solve_large(const Component& part) {
     const std::size_t size = part.vertex_in_whole.size();
-    SkinHeat(part, beginning_, options_).solve(shares_, options_.threads, [&](double fraction) {
+    SkinHeat(part, sources_, options_).solve(shares_, options_.threads, [&](double fraction) {
       report(fraction * static_cast<double>(size));
     });
     done_ += size;
@@ -222,7 +198,7 @@ class SkinRun {
     report(0);
     parallel_for(parts.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
       for (const Component* part : parts.subspan(begin, end - begin)) {
-        SkinHeat(*part, beginning_, options_).solve(shares_, 1, [](double /*fraction*/) {});
+        SkinHeat(*part, sources_, options_).solve(shares_, 1, [](double /*fraction*/) {});
       }
     });
     for (const Component* part : parts) done_ += part->vertex_in_whole.size();
@@ -233,7 +209,7 @@ class SkinRun {
                     (static_cast<double>(done_) + more) / static_cast<double>(shares_.size()));
   }
 
-  const SkinBeginning& beginning_;
+  const SkinSources& sources_;
   const SkinOptions& options_;
   const Monitor& monitor_;
   std::vector<TopShares> shares_;
@@ -253,18 +229,26 @@ SkinWeights matrix_of(const std::vector<TopShares>& shares, int joints, double l
 }
 
 void require_joints(const Surface& surface, const CurveSkeleton& skeleton,
-                    const Eigen::VectorXi& joint_of_node, int joints) {
-  const bool every_vertex_has_a_node = skeleton.node_of_vertex.size() == surface.positions.rows() &&
-                                       (skeleton.node_of_vertex.array() >= 0).all();
-  const bool every_node_has_a_joint =
-      joint_of_node.size() == skeleton.nodes.rows() &&
-      (joint_of_node.array() >= 0 && joint_of_node.array() < joints).all();
-  if (every_vertex_has_a_node && every_node_has_a_joint) return;
-  throw Error(Fault::input,
-              std::string("skin_weights: found a ") +
-                  (every_vertex_has_a_node ? "node without a joint" : "vertex without a node") +
-                  ", needed a node for each vertex and one of " + std::to_string(joints) +
-                  " joints for each node; see make_rig");
+                    const Eigen::VectorXi& joint_of_node, const std::vector<Bone>& bones,
+                    int joints) {
+  const auto is_joint = [&](int joint) { return joint >= 0 && joint < joints; };
+  const auto refuse = [&](const std::string& found) {
+    throw Error(Fault::input,
+                "skin_weights: found " + found + ", needed a node for each vertex and one of " +
+                    std::to_string(joints) + " joints for each node and each bone; see make_rig");
+  };
+  if (skeleton.node_of_vertex.size() != surface.positions.rows() ||
+      !(skeleton.node_of_vertex.array() >= 0).all()) {
+    refuse("a vertex without a node");
+  }
+  if (joint_of_node.size() != skeleton.nodes.rows() ||
+      !std::all_of(joint_of_node.begin(), joint_of_node.end(), is_joint)) {
+    refuse("a node without a joint");
+  }
+  if (!std::all_of(bones.begin(), bones.end(),
+                   [&](const Bone& bone) { return is_joint(bone.joint); })) {
+    refuse("a bone without a joint");
+  }
 }
 
 }  // namespace
@@ -281,15 +265,19 @@ void require_valid(const SkinOptions& options) {
 }
 
 SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
-                         const Eigen::VectorXi& joint_of_node, int joints,
-                         const SkinOptions& options, const Monitor& monitor) {
+                         const Eigen::VectorXi& joint_of_node, const std::vector<Bone>& bones,
+                         int joints, const SkinOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "skin_weights", options.threads);
   require_sound(skeleton, "skin_weights");
-  require_joints(surface, skeleton, joint_of_node, joints);
-  const SkinBeginning beginning = beginning_of(surface, skeleton, joint_of_node);
+  require_joints(surface, skeleton, joint_of_node, bones, joints);
   const std::vector<Component> parts = split_components(surface, topology(surface));
-  SkinRun run(surface.positions.rows(), beginning, options, monitor);
+  SkinSources sources = sources_of_curve(surface, skeleton, joint_of_node, joints);
+  if (!bones.empty()) {
+    monitor.report("weights", 0);
+    sources = sources_of_bones(surface, skeleton, parts, bones, sources, options.threads);
+  }
+  SkinRun run(surface.positions.rows(), sources, options, monitor);
   return matrix_of(run.solve(parts), joints, options.least_weight);
 }
 

@@ -73,7 +73,8 @@ std::vector<Door> doors() {
       {"evaluate_repaired", true,
        [](const Surface& s) { (void)evaluate_repaired(as_if_repaired(s), {}, a_skeleton()); }},
       {"make_rig", true, [](const Surface& s) { (void)make_rig(s, a_skeleton()); }},
-      {"skin_weights", true, [](const Surface& s) { (void)skin_weights(s, a_skeleton(), {}, 1); }},
+      {"skin_weights", true,
+       [](const Surface& s) { (void)skin_weights(s, a_skeleton(), {}, {}, 1); }},
       {"coarsen", true, [](const Surface& s) { (void)coarsen(s); }},
       {"contract", true, [paper](const Surface& s) { (void)contract(s, {}, paper); }},
       {"surgery", true,
@@ -206,7 +207,8 @@ TEST(Doors, RefuseASkeletonWithNumbersOfNoNode) {
     EXPECT_THROW((void)make_rig(torus(), spoilt), Error);
   }
   EXPECT_THROW((void)make_rig(torus(), few_vertices), Error);
-  EXPECT_THROW((void)skin_weights(torus(), few_vertices, Eigen::VectorXi::Zero(nodes), 1), Error);
+  EXPECT_THROW((void)skin_weights(torus(), few_vertices, Eigen::VectorXi::Zero(nodes), {}, 1),
+               Error);
 }
 
 }  // namespace

@@ -46,10 +46,18 @@ TEST(MakeRig, TakesTheNearestBallWhereAVertexHasNoNode) {
     partly.node_of_vertex[vertex] = -1;
   }
   EXPECT_EQ(largest_difference(make_rig(s.surface, partly, {}, {}).weights, rig.weights), 0);
-  // and not where it has one
-  CurveSkeleton wrong = s.skeleton;
+  // and not where it has one; a lid keeps the bones, beside the tube, out of sight
+  const shapes::Shape lid = shapes::translated(shapes::box({30, 30, 0.2}, 4), {0, 0, 2});
+  const Surface lidded = shapes::together("", {{"", s.surface}, lid}).surface;
+  CurveSkeleton aside = s.skeleton;
+  aside.nodes.col(2).array() += 4;
+  aside.node_of_vertex.conservativeResize(lidded.positions.rows());
+  aside.node_of_vertex.tail(lid.surface.positions.rows()).setZero();
+  CurveSkeleton wrong = aside;
   wrong.node_of_vertex.setZero();
-  EXPECT_GT(largest_difference(make_rig(s.surface, wrong, {}, {}).weights, rig.weights), 0.5F);
+  EXPECT_GT(largest_difference(make_rig(lidded, wrong, {}, {}).weights,
+                               make_rig(lidded, aside, {}, {}).weights),
+            0.5F);
 }
 
 /// The thick bar's surface is nearer to the thin bar's curve than to its own.

@@ -261,7 +261,8 @@ TEST(Options, AreLookedAtByEveryFunctionThatTakesThem) {
                 1, {});
   }));
   EXPECT_TRUE(refuses("JointOptions", [&] { (void)place_joints(axis, {.bend = 0}); }));
-  EXPECT_TRUE(refuses("SkinOptions", [&] { (void)skin_weights(surface, axis, {}, 1, too_many); }));
+  EXPECT_TRUE(
+      refuses("SkinOptions", [&] { (void)skin_weights(surface, axis, {}, {}, 1, too_many); }));
   EXPECT_TRUE(refuses("SkinOptions", [&] { (void)make_rig(surface, axis, {{}, too_many}); }));
   EXPECT_TRUE(refuses("JointOptions", [&] {
     (void)make_rig(surface, axis, {{.bone_length = 0}, {}});

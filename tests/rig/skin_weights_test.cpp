@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -267,6 +268,48 @@ TEST(SkinWeights, OfOneComponentAreOfItsOwnJoints) {
     EXPECT_EQ(all.size(), movers.size());
   }
   EXPECT_EQ(several, 2);
+}
+
+/// Legs side by side, a tenth of a radius apart: the bone of one is nearer to the inner skin of the
+/// other than some of its own.
+TEST(SkinWeights, OfALegAreNotOfTheLegBesideIt) {
+  const double gap = 0.1;
+  const shapes::Curve bow = [=](double t) -> Eigen::Vector3d {
+    const double half = 1 + gap / 2;  // from the middle to an axis
+    const double turn = std::numbers::pi * half;
+    const double way = t * (20 + turn) - 10;  // along the axis from where the bow begins
+    if (way < 0) return {-half, way, 0};
+    if (way > turn) return {half, turn - way, 0};
+    return {-half * std::cos(way / half), half * std::sin(way / half), 0};
+  };
+  const shapes::Shape legs = shapes::tube("", bow, shapes::constant(1), 24);
+  const Rig rig = make_rig(legs.surface, legs.axis, {{.bone_length = 2}, {}}, {});
+  int beside = 0;
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    const Eigen::RowVector3d place = legs.surface.positions.row(vertex);
+    if (place.y() > -5) continue;
+    ++beside;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      EXPECT_GT(rig.joints(it.col(), 0) * place.x(), 0) << vertex;
+    }
+  }
+  EXPECT_GT(beside, 100);
+}
+
+/// The nearer end of a bone tells, not the nearer joint.
+TEST(SkinWeights, FollowTheBonesNotTheNodes) {
+  const shapes::Shape bar =
+      shapes::tube("", shapes::straight(10), shapes::constant(1), 16);  // x from -5 to 5
+  CurveSkeleton axis = bar.axis;
+  axis.node_of_vertex.setZero(bar.surface.positions.rows());
+  const std::vector<Bone> bones{{0, {-5, 0, 0}, {0, 0, 0}}, {1, {0, 0, 0}, {5, 0, 0}}};
+  const Eigen::VectorXi first = Eigen::VectorXi::Zero(axis.nodes.rows());
+  const SkinWeights weights = skin_weights(bar.surface, axis, first, bones, 2);
+  for (Eigen::Index vertex = 0; vertex < weights.rows(); ++vertex) {
+    const double x = bar.surface.positions(vertex, 0);
+    if (std::abs(x) > 1) EXPECT_GT(weights.coeff(vertex, x > 0 ? 1 : 0), 0.85F) << x;
+  }
+  EXPECT_EQ(Eigen::MatrixXf(skin_weights(bar.surface, axis, first, {}, 2)).col(1).norm(), 0);
 }
 
 }  // namespace
