@@ -6,6 +6,7 @@
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include "skeleton/embed/place/mirror.hpp"
 #include "skeleton/embed/place/spacing.hpp"
 #include "skeleton/embed/tuning.hpp"
 #include "skeleton/embed/working_surface.hpp"
@@ -24,7 +25,7 @@ struct Setting {
   Spacing spacing;
   int threads;
   HomologyGuard& guard;
-  std::vector<int> mirror_axes;  ///< of the surface, see `mirror_axes`
+  std::vector<MirrorPlane> mirror_planes;  ///< of the surface
 };
 
 }  // namespace curveskel

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/arc_projection.hpp"
 #include "skeleton/embed/branches/grow_branches.hpp"
+#include "skeleton/embed/branches/mirror_branches.hpp"
 #include "skeleton/embed/branches/prune.hpp"
 #include "skeleton/embed/contain/bottleneck.hpp"
 #include "skeleton/embed/contain/inside.hpp"
@@ -100,6 +101,17 @@ bool grow(SkeletonGraph& graph, const Setting& in) {
   });
 }
 
+bool complete_mirror_image(SkeletonGraph& graph, const Setting& in) {
+  bool any = false;
+  for (const MirrorPlane& plane : in.mirror_planes) {
+    const bool changed = change_inside(graph, in, [&in, &plane](SkeletonGraph& whole) {
+      return mirror_branches(whole, plane.axis, in.working, in.tree, in.partition);
+    });
+    any = any || changed;
+  }
+  return any;
+}
+
 /// The cut divides a body without limbs anyhow: along any diagonal, and into corners.
 bool draw_axis(SkeletonGraph& graph, const Setting& in) {
   if (in.guard.has_handles() || !is_convex(in.working, in.tree, in.tuning.convex_dent)) {
@@ -179,9 +191,10 @@ bool straighten_at_last(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool mirror(SkeletonGraph& graph, const Setting& in) {
-  for (const int axis : in.mirror_axes) {
-    change_inside(graph, in, [&in, axis](SkeletonGraph& changed) {
-      return mirror_arcs(changed, axis, in.tree, in.options.keep_radius);
+  for (const MirrorPlane& plane : in.mirror_planes) {
+    if (!plane.exact) continue;  // the curve is in the middle of what is there
+    change_inside(graph, in, [&in, &plane](SkeletonGraph& changed) {
+      return mirror_arcs(changed, plane.axis, in.tree, in.options.keep_radius);
     });
   }
   return true;
@@ -227,6 +240,7 @@ constexpr std::array settling_branches{
 constexpr std::array finishing{
     EmbedStep{"widen bottlenecks", step::widen_bottlenecks, false, after_rerouting},
     EmbedStep{"grow branches", step::grow, false, after_growth},
+    EmbedStep{"complete the mirror image", step::complete_mirror_image, false, after_growth},
     EmbedStep{"merge junctions", step::merge},  // centred, they may have come together
     EmbedStep{"axis of a convex body", step::draw_axis},
     EmbedStep{"mirror", step::mirror, guarded},

@@ -274,6 +274,32 @@ TEST(RealMeshes, ThatAreTheirOwnMirrorImagesHaveSkeletonsThatAre) {
   }
 }
 
+// A horse had one ear, and a scorpion's hind legs met beside the trunk on one side alone.
+TEST(RealMeshes, ThatAreMirrorImagesHaveAsManyBranchesOnBothSides) {
+  for (const char* name : {"characters/fox-horse.glb", "scorpion-6k.obj"}) {
+    const auto file = real_surface(name);
+    if (!file && !collection_folder()) continue;
+    const Surface surface = repair(read_polygons(file.value(), {}), {}, {}).surface;
+    const CurveSkeleton curve = extract(surface, {}, {}).skeleton;
+    const double middle =
+        0.5 * (surface.positions.col(0).maxCoeff() + surface.positions.col(0).minCoeff());
+    const double aside = 0.01 * bounding_box_diagonal(surface.positions);
+    std::vector<int> degrees(static_cast<std::size_t>(curve.nodes.rows()), 0);
+    for (const auto& edge : curve.edges.rowwise()) {
+      for (const int node : edge) ++degrees[static_cast<std::size_t>(node)];
+    }
+    std::map<int, int> left;  // by degree
+    std::map<int, int> right;
+    for (std::size_t node = 0; node < degrees.size(); ++node) {
+      const double x = curve.nodes(static_cast<Eigen::Index>(node), 0) - middle;
+      if (degrees[node] == 2 || std::abs(x) < aside) continue;
+      ++(x > 0 ? left : right)[degrees[node]];
+    }
+    EXPECT_GT(left[1], 2) << name;
+    EXPECT_EQ(left, right) << name;
+  }
+}
+
 // No branch led to the waist, so one leg turned back to it and left its own rim alone.
 TEST(RealMeshes, CutOffAtWaistAndThighsReachAllThree) {
   PolygonSoup figure = read_polygons(real_surface("humanoid-10k.ply").value(), {});

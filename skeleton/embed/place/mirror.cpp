@@ -226,18 +226,21 @@ class Mirroring {
 
 }  // namespace
 
-std::vector<int> mirror_axes(const Surface& surface, const SurfaceTree& tree, double tolerance) {
-  std::vector<int> axes;
+std::vector<MirrorPlane> mirror_planes(const Surface& surface, const SurfaceTree& tree,
+                                       double tolerance) {
+  constexpr Eigen::Index fewest = 10;  // one in so many vertices may have its image elsewhere
+  const Eigen::Index count = surface.positions.rows();
+  std::vector<MirrorPlane> planes;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto lies_there = [&](const auto& row) {
-      Point image = row.transpose();
+    Eigen::Index elsewhere = 0;
+    for (Eigen::Index v = 0; v < count && elsewhere * fewest <= count; ++v) {
+      Point image = surface.positions.row(v).transpose();
       image[axis] = -image[axis];
-      return tree.nearest(image, tolerance).triangle >= 0;
-    };
-    const auto rows = surface.positions.rowwise();
-    if (std::all_of(rows.begin(), rows.end(), lies_there)) axes.push_back(axis);
+      elsewhere += tree.nearest(image, tolerance).triangle < 0 ? 1 : 0;
+    }
+    if (elsewhere * fewest <= count) planes.push_back({axis, elsewhere == 0});
   }
-  return axes;
+  return planes;
 }
 
 int mirror_arcs(SkeletonGraph& graph, int axis, const SurfaceTree& tree, double keep) {

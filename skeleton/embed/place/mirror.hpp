@@ -9,13 +9,19 @@
 
 namespace curveskel {
 
-/// The axes (0, 1, 2) across whose plane through the origin a surface is its own mirror image: the
-/// image of each vertex lies within `tolerance` of the surface. In canonical form these planes are
-/// normal to the principal axes, in which every mirror plane of a body lies unless two of its
-/// moments are equal. Precondition: `tree` is over the surface. #V queries for each axis that is
-/// found, fewer for the others.
-[[nodiscard]] std::vector<int> mirror_axes(const Surface& surface, const SurfaceTree& tree,
-                                           double tolerance);
+/// Through the origin, normal to an axis.
+struct MirrorPlane {
+  int axis;    ///< 0, 1, 2
+  bool exact;  ///< the image of every vertex lies on the surface
+};
+
+/// The planes across which a surface is its own mirror image: the images of nine in ten vertices
+/// lie within `tolerance` of the surface. In canonical form these planes are normal to the
+/// principal axes, in which every mirror plane of a body lies unless two of its moments are equal.
+/// Precondition: `tree` is over the surface. #V queries for each plane that is found, fewer for the
+/// others.
+[[nodiscard]] std::vector<MirrorPlane> mirror_planes(const Surface& surface,
+                                                     const SurfaceTree& tree, double tolerance);
 
 /// Moves arcs that are each other's mirror images across the plane normal to `axis` to the mean of
 /// the one and the other's image, and onto the plane those that are their own. Arcs are images if

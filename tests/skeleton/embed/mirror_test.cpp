@@ -7,11 +7,13 @@
 #include <cmath>
 #include <vector>
 
+#include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/embed/branches/mirror_branches.hpp"
 #include "skeleton/embed/skeleton_graph.hpp"
 
 namespace curveskel::mirror_laws {
@@ -19,8 +21,13 @@ namespace {
 
 using Axes = std::vector<int>;
 
-Axes axes_of(const Surface& surface) {
-  return mirror_axes(surface, SurfaceTree(surface), bounding_box_diagonal(surface.positions) / 400);
+Axes axes_of(const Surface& surface, bool exactly = true) {
+  Axes axes;
+  for (const MirrorPlane& plane : mirror_planes(surface, SurfaceTree(surface),
+                                                bounding_box_diagonal(surface.positions) / 400)) {
+    if (plane.exact || !exactly) axes.push_back(plane.axis);
+  }
+  return axes;
 }
 
 TEST(MirrorAxes, AreThoseOfABox) {
@@ -35,6 +42,17 @@ TEST(MirrorAxes, AreThoseOfABox) {
     others.erase(others.begin() + axis);
     EXPECT_EQ(axes_of(bulged), others) << axis;
   }
+}
+
+/// A dent in one corner is no reason for one ear less.
+TEST(MirrorAxes, AreNotExactWhereALittleIsElsewhere) {
+  Surface box = shapes::box({1, 0.6, 0.4}, 8).surface;
+  const Eigen::RowVector3d corner = box.positions.colwise().maxCoeff();
+  for (auto row : box.positions.rowwise()) {
+    if ((row - corner).norm() < 0.1) row *= 0.9;
+  }
+  EXPECT_EQ(axes_of(box), Axes{});
+  EXPECT_EQ(axes_of(box, false), (Axes{0, 1, 2}));
 }
 
 TEST(MirrorAxes, AreNoneOfAHelix) {
@@ -121,6 +139,68 @@ TEST(Mirrored, ABoxHasTheAxisThatAPersonWouldDraw) {
       EXPECT_EQ(graph_topology(curve).tips, 2);
     }
   }
+}
+
+/// The tree of a fork in the plane z = 0, one arm along x, two beside the plane y = 0.
+struct Fork {
+  Surface surface;
+  CurveSkeleton curve;
+};
+Fork fork_across_y() {
+  const CurveSkeleton star = shapes::star(3, 0.5, 0.08);
+  const Point stem = star.nodes.row(1);
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(stem, Point::UnitX()).toRotationMatrix();
+  Fork fork{shapes::tube_union("fork", star).surface, star};
+  fork.surface.positions *= turn.transpose();
+  fork.curve.nodes *= turn.transpose();
+  return fork;
+}
+
+/// Each group of one vertex, so that every vertex may go anywhere.
+PartitionGraph in_one_group(const Surface& surface) {
+  PartitionGraph partition;
+  partition.groups = 1;
+  partition.group_of_vertex.setZero(surface.positions.rows());
+  return partition;
+}
+
+int completed(SkeletonGraph& graph, const Surface& surface, int axis) {
+  const SurfaceTree tree(surface);
+  const InscribedBalls balls = inscribed_balls(surface, tree, 1);
+  const WorkingSurface working(surface, balls);
+  return mirror_branches(graph, axis, working, tree, in_one_group(surface));
+}
+
+/// One arm of two is there: the other comes, whatever place its base has on the stem.
+TEST(MirrorBranches, AddTheArmThatIsMissing) {
+  const Fork fork = fork_across_y();
+  for (const double base : {0.0, 0.03}) {
+    SkeletonGraph graph;
+    const Point left = fork.curve.nodes.row(2);
+    graph.nodes = {{Point(base, 0.01, 0), {0}, true, {0, 1}},
+                   {Point(0.45, 0, 0), {0}, true, {0}},
+                   {CurvePoint(Point(0.9 * left)), {0}, true, {1}}};
+    graph.arcs = {{0, 1, {Point(0.2, 0, 0)}, {0}}, {0, 2, {CurvePoint(Point(0.5 * left))}, {0}}};
+    EXPECT_EQ(completed(graph, fork.surface, 1), 1) << base;
+    EXPECT_EQ(graph.living_arcs(), 3);
+    const Point tip = graph.place(3);
+    EXPECT_NEAR(tip.y(), -0.9 * left.y(), 1e-12);
+    EXPECT_EQ(completed(graph, fork.surface, 1), 0) << "it is there now";
+  }
+}
+
+TEST(MirrorBranches, AddNothingOutside) {
+  const Surface tube =
+      shapes::tube("bent", shapes::arc(0.4, 3.0), shapes::constant(0.05), 24).surface;
+  SkeletonGraph graph;
+  const auto on_arc = [](double angle) {
+    return CurvePoint(Point(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0));
+  };
+  graph.nodes = {{on_arc(-0.5), {0}, true, {0}}, {on_arc(0.5), {0}, true, {0}}};
+  graph.arcs.push_back({0, 1, {on_arc(-0.2), on_arc(0.2)}, {0}});
+  EXPECT_EQ(completed(graph, tube, 0), 0);
+  EXPECT_EQ(graph.living_arcs(), 1);
 }
 
 TEST(Mirrored, CurvesOfFiguresAreTheirOwnImages) {

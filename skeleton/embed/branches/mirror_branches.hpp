@@ -1,0 +1,26 @@
+// Bodies that are their own mirror images have each branch on both sides.
+#pragma once
+
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/tree.hpp>
+#include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/embed/working_surface.hpp"
+
+namespace curveskel {
+
+/// Adds the mirror image, across the plane through the origin normal to `axis`, of each leaf arc
+/// that lacks one: the image of its tip lies farther from the graph than half as far as the tip
+/// from the rest of the graph, a face lies between the two (else both are in one limb), and its
+/// points keep half of their inscribed radii there. An image begins at the node whose place the
+/// image of the leaf's base has in its ball, else at the nearest place of an arc, if that is in the
+/// ball. A branch hangs on the triangles: one ear of two alike may be drawn where the other falls
+/// short of a limit. Then a junction of leaves becomes one with the
+/// next where on the other side, in the image of its ball, there is no junction, but a leaf from
+/// the next one's image.
+///
+/// Precondition: the surface is its own mirror image there (`mirror_planes`). O(leaves * points).
+/// Returns the number of changes.
+int mirror_branches(SkeletonGraph& graph, int axis, const WorkingSurface& working,
+                    const SurfaceTree& tree, const PartitionGraph& partition);
+
+}  // namespace curveskel
