@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,76 @@ double life_at(const CurveSkeleton& skeleton, const Eigen::VectorXd& lives,
   return life;
 }
 
+/// "left" or "right" for a role such as "leftIndexProximal", else "".
+std::string_view hand_of(std::string_view role) {
+  constexpr std::array<std::string_view, 5> digits{"Thumb", "Index", "Middle", "Ring", "Little"};
+  for (const std::string_view side : {"left", "right"}) {
+    if (!role.starts_with(side)) continue;
+    const std::string_view rest = role.substr(side.size());
+    const auto begins = [&](std::string_view digit) { return rest.starts_with(digit); };
+    if (std::any_of(digits.begin(), digits.end(), begins)) return role.substr(0, side.size());
+  }
+  return "";
+}
+
+/// The middle one of the lives of a hand's digits is that of all: no hand has fingers without a
+/// thumb.
+void share_in_hands(const Rig& rig, std::vector<double>& lives) {
+  if (rig.roles.empty()) return;
+  std::map<std::string_view, std::vector<double>> of_hands;
+  const auto begins_digit = [&](std::size_t joint) {
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    return !hand_of(rig.roles[joint]).empty() &&
+           (parent < 0 || hand_of(rig.roles[idx(parent)]).empty());
+  };
+  for (std::size_t joint = 0; joint < lives.size(); ++joint) {
+    if (begins_digit(joint)) of_hands[hand_of(rig.roles[joint])].push_back(lives[joint]);
+  }
+  for (auto& [hand, all] : of_hands) std::sort(all.begin(), all.end());
+  std::vector<char> in_digit(lives.size(), 0);
+  for (std::size_t joint = 0; joint < lives.size(); ++joint) {
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    if (begins_digit(joint)) {
+      const std::vector<double>& all = of_hands[hand_of(rig.roles[joint])];
+      lives[joint] = all[all.size() / 2];
+    } else if (parent >= 0 && in_digit[idx(parent)] != 0) {
+      lives[joint] = lives[idx(parent)];
+    } else {
+      continue;
+    }
+    in_digit[joint] = 1;
+  }
+}
+
+/// Of two that are each other's mirror images the longer life is that of both.
+void share_with_twins(const Rig& rig, std::vector<double>& lives) {
+  std::map<std::string_view, std::size_t> number;
+  for (std::size_t joint = 0; joint < lives.size(); ++joint) number[rig.names[joint]] = joint;
+  for (std::size_t joint = 0; joint < lives.size(); ++joint) {
+    if (!rig.names[joint].ends_with(".L")) continue;
+    const std::string twin = rig.names[joint].substr(0, rig.names[joint].size() - 2) + ".R";
+    const auto found = number.find(twin);
+    if (found == number.end()) continue;
+    lives[joint] = lives[found->second] = std::max(lives[joint], lives[found->second]);
+  }
+}
+
+/// By joint; a root lives for ever.
+std::vector<double> lives_of_joints(const Rig& rig, const CurveSkeleton& skeleton) {
+  const Eigen::VectorXd of_edges = edge_lives(skeleton);
+  const double near =
+      1e-6 * (skeleton.nodes.colwise().maxCoeff() - skeleton.nodes.colwise().minCoeff()).norm();
+  std::vector<double> lives(rig.names.size(), lives_for_ever);
+  for (std::size_t joint = 0; joint < lives.size(); ++joint) {
+    const auto row = static_cast<Eigen::Index>(joint);
+    if (rig.parents[row] < 0) continue;
+    lives[joint] = life_at(skeleton, of_edges, rig.joints.row(row), near);
+  }
+  share_with_twins(rig, lives);
+  share_in_hands(rig, lives);
+  return lives;
+}
+
 /// Without these there is no body: what VRM requires of a human, the trunk and head of others.
 bool is_required(const CharacterRig& character, std::size_t joint) {
   if (joint >= character.rig.roles.size()) return false;
@@ -70,17 +141,12 @@ CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& ske
   if (skeleton.lives.size() == 0 || skeleton.edges.rows() == 0 || !(least_life > 0)) {
     return character;
   }
-  const Eigen::VectorXd lives = edge_lives(skeleton);
-  const double near =
-      1e-6 * (skeleton.nodes.colwise().maxCoeff() - skeleton.nodes.colwise().minCoeff()).norm();
+  const std::vector<double> lives = lives_of_joints(rig, skeleton);
   std::vector<char> stays(rig.names.size(), 0);
   for (std::size_t joint = 0; joint < stays.size(); ++joint) {
-    const auto row = static_cast<Eigen::Index>(joint);
-    const int parent = rig.parents[row];
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
     const bool hangs = parent < 0 || stays[idx(parent)] != 0;
-    const bool lives_on =
-        parent < 0 || life_at(skeleton, lives, rig.joints.row(row), near) >= least_life;
-    stays[joint] = (hangs && lives_on) || is_required(character, joint) ? 1 : 0;
+    stays[joint] = (hangs && lives[joint] >= least_life) || is_required(character, joint) ? 1 : 0;
   }
   const std::vector<int> number = numbers_of_kept(rig, stays);
   character.rig = keep_joints(rig, number);

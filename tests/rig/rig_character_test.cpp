@@ -99,6 +99,53 @@ TEST(CharacterLevels, JointsOfACoarserLevelAreTheSameButFewer) {
   EXPECT_EQ(level_of_character(all, skeleton, 0).rig.names, all.rig.names);
 }
 
+/// A rig with a joint at each node of a star whose tips have these lives.
+CharacterRig rig_on_star(const std::vector<double>& lives, const std::vector<std::string>& names,
+                         const std::vector<std::string>& roles, CurveSkeleton& skeleton) {
+  const auto arms = static_cast<int>(lives.size());
+  skeleton = shapes::star(arms, 1, 0.1);
+  skeleton.lives.setZero(arms + 1);
+  CharacterRig character;
+  character.rig.joints = skeleton.nodes;
+  character.rig.parents.setZero(arms + 1);
+  character.rig.parents[0] = -1;
+  character.rig.names = {"hand.L"};
+  character.rig.roles = {"leftHand"};
+  for (int arm = 0; arm < arms; ++arm) {
+    const auto k = static_cast<std::size_t>(arm);
+    skeleton.lives[arm + 1] = lives[k];
+    character.rig.names.push_back(names[k]);
+    character.rig.roles.push_back(roles[k]);
+  }
+  character.rig.weights.resize(1, arms + 1);
+  character.rig.weights.insert(0, 0) = 1;
+  return character;
+}
+
+std::size_t joints_at(const CharacterRig& character, const CurveSkeleton& skeleton, double limit) {
+  return level_of_character(character, skeleton, limit).rig.names.size();
+}
+
+/// The forearm and the longest finger, for ever, are not asked about.
+TEST(CharacterLevels, ThumbAndFingersGoTogether) {
+  CurveSkeleton skeleton;
+  const CharacterRig hand = rig_on_star(
+      {1, 5, 6, 20, 30}, {"thumb.L", "index.L", "middle.L", "arm", "ring.L"},
+      {"leftThumbMetacarpal", "leftIndexProximal", "leftMiddleProximal", "", "leftRingProximal"},
+      skeleton);
+  EXPECT_EQ(joints_at(hand, skeleton, 4), 6U);
+  EXPECT_EQ(joints_at(hand, skeleton, 5.5), 6U);
+  EXPECT_EQ(joints_at(hand, skeleton, 7), 2U);
+}
+
+TEST(CharacterLevels, MirrorImagesGoTogether) {
+  CurveSkeleton skeleton;
+  const CharacterRig head =
+      rig_on_star({1, 3, 20, 30}, {"ear.L", "ear.R", "neck", "snout"}, {"", "", "", ""}, skeleton);
+  EXPECT_EQ(joints_at(head, skeleton, 2), 5U);
+  EXPECT_EQ(joints_at(head, skeleton, 4), 3U);
+}
+
 TEST_F(RigCharacter, EveryVertexMovesAndFollowersHaveNoJoints) {
   const Rig rig = rig_character(shape.surface, repaired, of_all).rig;
   ASSERT_EQ(rig.weights.rows(), shape.surface.positions.rows());
