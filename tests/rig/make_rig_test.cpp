@@ -48,7 +48,9 @@ TEST(MakeRig, TakesTheNearestBallWhereAVertexHasNoNode) {
   EXPECT_EQ(largest_difference(make_rig(s.surface, partly, {}, {}).weights, rig.weights), 0);
   // and not where it has one; a lid keeps the bones, beside the tube, out of sight
   const shapes::Shape lid = shapes::translated(shapes::box({30, 30, 0.2}, 4), {0, 0, 2});
-  const Surface lidded = shapes::together("", {{"", s.surface}, lid}).surface;
+  shapes::Shape tube;
+  tube.surface = s.surface;
+  const Surface lidded = shapes::together("", {tube, lid}).surface;
   CurveSkeleton aside = s.skeleton;
   aside.nodes.col(2).array() += 4;
   aside.node_of_vertex.conservativeResize(lidded.positions.rows());
