@@ -142,7 +142,9 @@ TEST(GivenJoints, MoveABodyThatHasNone) {
   const Rig rig = weights_on_joints(both, curve, tube.given);
   for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
     EXPECT_NEAR(rig.weights.row(v).sum(), 1, 1e-5F);
-    if (both.positions(v, 1) > 2) EXPECT_EQ(rig.weights.coeff(v, 1), 1);
+    if (both.positions(v, 1) > 2) {
+      EXPECT_EQ(rig.weights.coeff(v, 1), 1);
+    }
   }
 }
 

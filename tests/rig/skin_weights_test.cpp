@@ -307,7 +307,8 @@ TEST(SkinWeights, FollowTheBonesNotTheNodes) {
   const SkinWeights weights = skin_weights(bar.surface, axis, first, bones, 2);
   for (Eigen::Index vertex = 0; vertex < weights.rows(); ++vertex) {
     const double x = bar.surface.positions(vertex, 0);
-    if (std::abs(x) > 1) EXPECT_GT(weights.coeff(vertex, x > 0 ? 1 : 0), 0.85F) << x;
+    if (std::abs(x) < 1) continue;
+    EXPECT_GT(weights.coeff(vertex, x > 0 ? 1 : 0), 0.85F) << x;
   }
   EXPECT_EQ(Eigen::MatrixXf(skin_weights(bar.surface, axis, first, {}, 2)).col(1).norm(), 0);
 }
