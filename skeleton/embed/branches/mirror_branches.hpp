@@ -10,13 +10,14 @@ namespace curveskel {
 
 /// Adds the mirror image, across the plane through the origin normal to `axis`, of each leaf arc
 /// that lacks one: the image of its tip lies farther from the graph than half as far as the tip
-/// from the rest of the graph, a face lies between the two (else both are in one limb), and its
-/// points keep half of their inscribed radii there. An image begins at the node whose place the
-/// image of the leaf's base has in its ball, else at the nearest place of an arc, if that is in the
-/// ball. A branch hangs on the triangles: one ear of two alike may be drawn where the other falls
-/// short of a limit. Then a junction of leaves becomes one with the
-/// next where on the other side, in the image of its ball, there is no junction, but a leaf from
-/// the next one's image.
+/// from the rest of the graph, a face lies between the tip and its image (else both are in one
+/// limb), and the image's points keep half of their inscribed radii. An image begins at the node
+/// that has the image of the leaf's base in the base's ball, else at the nearest place of an arc,
+/// if that is in the ball. Why: which branch is drawn hangs on the triangles, and a limit that one
+/// of two ears passes the other may miss.
+///
+/// Then a junction of leaves becomes one with the next where on the other side, in the image of its
+/// ball, there is no junction, but a leaf from the next one's image.
 ///
 /// Precondition: the surface is its own mirror image there (`mirror_planes`). O(leaves * points).
 /// Returns the number of changes.
