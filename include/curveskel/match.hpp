@@ -48,11 +48,10 @@ struct SkeletonMatch {
 /// the distances along the curve to the other tips, and by where they come to lie; branches by the
 /// division of the tips that they make and by how much of their surfaces comes to lie on each
 /// other, those on cycles by the latter alone. Small components move with what they sit on. The way
-/// that leaves the least apart is taken. Where
-/// another fits as well and gives another branch, the pair is ambiguous. Sizes are over the square
-/// roots of the areas. docs/match.md has the method. Throws Error(Fault::input) for a skeleton
-/// without edges, radii or a vertex map, Cancelled on a stop. O(#V log #V), for the tips up to the
-/// fourth power, of at most 16 candidates for each.
+/// that leaves the least apart is taken. Where another fits as well and gives another branch, the
+/// pair is ambiguous. Sizes are over the square roots of the areas. docs/match.md has the method.
+/// Throws Error(Fault::input) for a skeleton without edges, radii or a vertex map, Cancelled on a
+/// stop. O(#V log #V), for the tips up to the fourth power, of at most 16 candidates for each.
 [[nodiscard]] SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b,
                                             const MatchOptions& options = {},
                                             const Monitor& monitor = {});

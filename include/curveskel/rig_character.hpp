@@ -51,8 +51,8 @@ struct CharacterRig {
 /// limit and without those below them, but with all that VRM requires of a human, and with the
 /// trunk and head of others. Mirror images (".L", ".R") have the longer life of the two, the digits
 /// of a hand that of the middle one: they come and go together. What stays has its name and its
-/// place at every limit, and moves what the joints below it moved. `skeleton`, of
-/// which the rig was made, has lives; without them nothing goes. O(weights + joints times #E).
+/// place at every limit, and moves what the joints below it moved. `skeleton`, of which the rig was
+/// made, has lives; without them nothing goes. O(weights + joints times #E).
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
 

@@ -99,7 +99,7 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
   }
   monitor.report("joints", 0);
   Rig rig{given.joints, given.parents, given.names, {}, given.roles, {}};
-  const std::vector<Bone> bones = bones_of_given(surface, given);
+  const std::vector<Bone> bones = bones_of_given(surface, given, options.threads);
   rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
                              joints_of_nodes(skeleton, bones), bones,
                              static_cast<int>(given.joints.rows()), options, monitor);

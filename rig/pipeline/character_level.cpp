@@ -10,17 +10,16 @@
 #include <curveskel/levels.hpp>
 #include <curveskel/rig_character.hpp>
 #include "rig/joints/keep_joints.hpp"
+#include "surface/spatial/segment.hpp"
 
 namespace curveskel {
 namespace {
 
 double distance_to_edge(const CurveSkeleton& skeleton, Eigen::Index edge,
-                        const Eigen::RowVector3d& place) {
-  const Eigen::RowVector3d from = skeleton.nodes.row(skeleton.edges(edge, 0));
-  const Eigen::RowVector3d way = skeleton.nodes.row(skeleton.edges(edge, 1)) - from;
-  const double squared = way.squaredNorm();
-  const double share = squared > 0 ? std::clamp((place - from).dot(way) / squared, 0.0, 1.0) : 0;
-  return (from + share * way - place).norm();
+                        const Eigen::Vector3d& place) {
+  const Eigen::Vector3d from = skeleton.nodes.row(skeleton.edges(edge, 0));
+  const Eigen::Vector3d to = skeleton.nodes.row(skeleton.edges(edge, 1));
+  return (nearest_on_segment(place, from, to) - place).norm();
 }
 
 /// Of the nearest edge; where branches meet, that of the longest life.

@@ -6,14 +6,15 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include "surface/spatial/segment.hpp"
 
 namespace curveskel {
 namespace {
 
 class GivenBones {
  public:
-  GivenBones(const Surface& surface, const Rig& given)
-      : given_(given), tree_(surface), is_leaf_(idx(given.parents.size()), true) {
+  GivenBones(const Surface& surface, const Rig& given, int threads)
+      : given_(given), tree_(surface, threads), is_leaf_(idx(given.parents.size()), true) {
     for (const int parent : given.parents) {
       if (parent >= 0) is_leaf_[idx(parent)] = false;
     }
@@ -80,10 +81,8 @@ class GivenBones {
 }  // namespace
 
 Eigen::RowVector3d nearest_on(const Bone& bone, const Eigen::RowVector3d& point) {
-  const Eigen::RowVector3d way = bone.to - bone.from;
-  const double squared = way.squaredNorm();
-  if (!(squared > 0)) return bone.from;
-  return bone.from + std::clamp((point - bone.from).dot(way) / squared, 0.0, 1.0) * way;
+  return nearest_on_segment(point.transpose(), bone.from.transpose(), bone.to.transpose())
+      .transpose();
 }
 
 std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& joints) {
@@ -97,15 +96,15 @@ std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& join
   for (int joint = 0; joint < joints.parents.size(); ++joint) {
     const int parent = joints.parents[joint];
     if (parent < 0) continue;
-    if (part_of_joint[idx(parent)] < 0) part_of_joint[idx(parent)] = part_of_joint[idx(joint)];
+    if (part_of_joint[idx(joint)] < 0) part_of_joint[idx(joint)] = part_of_joint[idx(parent)];
     bones.push_back({parent, joints.positions.row(parent), joints.positions.row(joint),
                      part_of_joint[idx(parent)]});
   }
   return bones;
 }
 
-std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given) {
-  const GivenBones all(surface, given);
+std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given, int threads) {
+  const GivenBones all(surface, given, threads);
   std::vector<Bone> bones = all.that_hold();
   if (bones.empty()) bones = all.everywhere();
   return bones;

@@ -16,7 +16,8 @@ namespace curveskel {
 [[nodiscard]] Eigen::RowVector3d nearest_on(const Bone& bone, const Eigen::RowVector3d& point);
 
 /// From each joint to each of its children, for the component of the skeleton that the joint is of:
-/// bodies that overlap do not hold each other. O(joints + nodes).
+/// bodies that overlap do not hold each other. A joint that moves no node is of its parent's.
+/// O(joints + nodes).
 [[nodiscard]] std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& joints);
 
 /// Of joints that somebody else has placed, for all components. One that lies outside of the
@@ -26,7 +27,8 @@ namespace curveskel {
 /// on from the one that leads to it, up to the surface; a joint without any other has one of no
 /// length. Where all that holds nothing, all do. Precondition: parents before their children; a
 /// closed surface. O(#F log #F + joints log #F).
-[[nodiscard]] std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given);
+[[nodiscard]] std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given,
+                                               int threads);
 
 /// Of each node the joint of the nearest bone; of bones as near the last. At least one bone.
 /// O(nodes * bones).

@@ -19,6 +19,12 @@ double least_distance(const Surface& surface) {
   return 1e-3 * bounding_box_diagonal(surface.positions);
 }
 
+/// 2 d / (1 + cos a). Straight above a vertex rounding may take 1 + cos a below nothing.
+double counted(double length, double cosine) {
+  constexpr double least = 1e-6;
+  return 2 * length / std::max(1 + cosine, least);
+}
+
 /// That hold one vertex.
 struct Holders {
   std::vector<int> joints;  ///< ascending
@@ -42,8 +48,7 @@ class Sight {
     for (std::size_t k = 0; k < bones.size(); ++k) {
       const Eigen::RowVector3d way = place - nearest_on(bones[k], place);
       const double length = way.norm();
-      // 2 d / (1 + cos a); infinite straight above the vertex
-      distances[k] = length > 0 ? 2 * length * length / (length + way.dot(normal)) : 0;
+      distances[k] = length > 0 ? counted(length, way.dot(normal) / length) : 0;
       least = std::min(least, distances[k]);
     }
     Holders holders{{}, least};
@@ -120,7 +125,8 @@ SkinSources sources_of_bones(const Surface& surface, const CurveSkeleton& skelet
   const double least = least_distance(surface);
   const Sight sight(surface, threads);
   const std::vector<int> curves = connected_components(skeleton.nodes.rows(), skeleton.edges);
-  SkinSources sources = otherwise;
+  SkinSources sources{SkinSources::Shares(otherwise.shares.rows(), otherwise.shares.cols()),
+                      otherwise.distances};
   std::vector<Eigen::Triplet<double>> shares;
   shares.reserve(idx(otherwise.shares.nonZeros()));
   for (const Component& part : parts) {

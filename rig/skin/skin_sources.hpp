@@ -1,5 +1,5 @@
-// Where the heat of skin weights comes from: of each vertex the joints that hold it, and how far
-// from it they are.
+// Sources of the heat of skin weights: of each vertex the joints that hold it, and how far from it
+// they are.
 #pragma once
 
 #include <Eigen/Core>

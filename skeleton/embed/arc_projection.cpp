@@ -65,4 +65,18 @@ std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph,
   return projections;
 }
 
+std::vector<int> groups_on(const std::vector<int>& arcs,
+                           const std::vector<ArcProjection>& projections,
+                           const PartitionGraph& partition) {
+  std::vector<int> groups;
+  groups.reserve(projections.size());
+  for (std::size_t v = 0; v < projections.size(); ++v) {
+    if (std::find(arcs.begin(), arcs.end(), projections[v].arc) == arcs.end()) continue;
+    groups.push_back(partition.group_of_vertex[static_cast<Eigen::Index>(v)]);
+  }
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  return groups;
+}
+
 }  // namespace curveskel

@@ -24,4 +24,9 @@ struct ArcProjection {
                                                          const WorkingSurface& working,
                                                          const PartitionGraph& partition);
 
+/// The groups whose vertices are projected onto one of the arcs, ascending.
+[[nodiscard]] std::vector<int> groups_on(const std::vector<int>& arcs,
+                                         const std::vector<ArcProjection>& projections,
+                                         const PartitionGraph& partition);
+
 }  // namespace curveskel

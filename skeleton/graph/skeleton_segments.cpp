@@ -1,7 +1,8 @@
 #include "skeleton/graph/skeleton_segments.hpp"
 
-#include <algorithm>
 #include <cstddef>
+
+#include "surface/spatial/segment.hpp"
 
 namespace curveskel {
 
@@ -12,10 +13,7 @@ SkeletonSegments::SkeletonSegments(const CurveSkeleton& skeleton) : tree_(collec
 double SkeletonSegments::distance(const Vector3d& p) const {
   return tree_.minimum(p, 0, [&](std::size_t i) {
     const auto& [start, end] = ends_[i];
-    const Vector3d along = end - start;
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp(along.dot(p - start) / squared, 0.0, 1.0) : 0;
-    return (start + t * along - p).norm();
+    return (nearest_on_segment(p, start, end) - p).norm();
   });
 }
 

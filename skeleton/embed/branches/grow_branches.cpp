@@ -182,12 +182,7 @@ class Growth {
       return std::find(around.begin(), around.end(), s) != around.end();
     };
     if (std::any_of(touched_.begin(), touched_.end(), is_around)) return false;
-    std::vector<int> groups;
-    for (std::size_t v = 0; v < projections_.size(); ++v) {
-      if (is_around(projections_[v].arc)) groups.push_back(partition_.group_of_vertex[int(v)]);
-    }
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    std::vector<int> groups = groups_on(around, projections_, partition_);
     if (base < 0) base = graph_.split(projection.arc, projection.segment, projection.place);
     const int tip = graph_.add_leaf(base, apex.tip, std::move(groups));
     grown_[idx(apex.vertex)] = 1;

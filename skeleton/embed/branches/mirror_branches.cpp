@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/arc_projection.hpp"
+#include "surface/spatial/segment.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,11 +26,7 @@ GraphPlace nearest_place(const SkeletonGraph& graph, const Point& point, int but
     if (!graph.arcs[idx(arc)].alive || arc == but) continue;
     const std::vector<Point> line = graph.polyline(graph.arcs[idx(arc)]);
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      const Point way = line[k + 1] - line[k];
-      const double squared = way.squaredNorm();
-      const double share =
-          squared > 0 ? std::clamp((point - line[k]).dot(way) / squared, 0.0, 1.0) : 0;
-      const Point place = line[k] + share * way;
+      const Point place = nearest_on_segment(point, line[k], line[k + 1]);
       const double distance = (place - point).norm();
       if (distance < best.distance) best = {distance, arc, k, place};
     }
@@ -77,8 +74,8 @@ class MirroredBranches {
   int merge_lone_junctions() {
     int merged = 0;
     for (int node = 0; node < static_cast<int>(graph_.nodes.size()); ++node) {
-      if (!graph_.nodes[idx(node)].alive || graph_.degree(node) < 3 || image_of(node) >= 0)
-        continue;
+      const bool is_junction = graph_.nodes[idx(node)].alive && graph_.degree(node) >= 3;
+      if (!is_junction || image_of(node) >= 0) continue;
       const int arc = only_way_on(node);
       if (arc < 0 || !passes_by(node, arc)) continue;
       merge_along(arc, node);
@@ -168,28 +165,16 @@ class MirroredBranches {
     const int from =
         image_node(reflected(graph_.place(base)), graph_.nodes[idx(base)].point.radius(tree_));
     if (from < 0) return false;
-    const int end = graph_.add_leaf(from, reflected(graph_.place(tip)), groups_around(from));
+    const auto projections = project_on_arcs(graph_, working_, partition_);
+    const int end =
+        graph_.add_leaf(from, reflected(graph_.place(tip)),
+                        groups_on(graph_.nodes[idx(from)].arcs, projections, partition_));
     std::vector<CurvePoint> points;
     points.reserve(leaf.points.size());
     for (const CurvePoint& point : leaf.points) points.emplace_back(reflected(point.place()));
     if (tip == leaf.from) std::reverse(points.begin(), points.end());
     graph_.arcs[idx(graph_.nodes[idx(end)].arcs.front())].points = std::move(points);
     return true;
-  }
-
-  /// The groups whose vertices belong to an arc at the node.
-  [[nodiscard]] std::vector<int> groups_around(int node) const {
-    const std::vector<int>& arcs = graph_.nodes[idx(node)].arcs;
-    const std::vector<ArcProjection> projections = project_on_arcs(graph_, working_, partition_);
-    std::vector<int> groups;
-    groups.reserve(projections.size());
-    for (std::size_t v = 0; v < projections.size(); ++v) {
-      if (std::find(arcs.begin(), arcs.end(), projections[v].arc) == arcs.end()) continue;
-      groups.push_back(partition_.group_of_vertex[static_cast<Eigen::Index>(v)]);
-    }
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-    return groups;
   }
 
   SkeletonGraph& graph_;

@@ -19,8 +19,8 @@ namespace curveskel {
 /// Then a junction of leaves becomes one with the next where on the other side, in the image of its
 /// ball, there is no junction, but a leaf from the next one's image.
 ///
-/// Precondition: the surface is its own mirror image there (`mirror_planes`). O(leaves * points).
-/// Returns the number of changes.
+/// Precondition: the surface is its own mirror image there (`mirror_planes`). O(leaves * points),
+/// and #V projections for each image. Returns the number of changes.
 int mirror_branches(SkeletonGraph& graph, int axis, const WorkingSurface& working,
                     const SurfaceTree& tree, const PartitionGraph& partition);
 
