@@ -143,17 +143,17 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
         is_done[idx(row[target])] = 0;
         front.push(least, row[target]);
       };
-      // A wave that comes from here reaches nothing sooner than this.
-      const bool wants_last = distance[row[last]] > reached;
-      const bool wants_next = distance[row[next]] > reached;
-      const Corner& at_last = corners[idx(last)];  // its edge goes from `own` to `next`
-      if (wants_last)
-        offer(last, corners[idx(next)].length,
-              across(at_last.length, at_last.x, at_last.y, reached, distance[row[next]]));
-      const Corner& at_next = corners[idx(next)];  // its edge goes from `last` to `own`
-      if (wants_next)
-        offer(next, corners[idx(last)].length,
-              across(at_next.length, at_next.x, at_next.y, distance[row[last]], reached));
+      // A wave that comes from here reaches nothing sooner than this. It goes on across an edge
+      // once both of the edge's ends are reached: the last of the two asks.
+      const auto pass = [&](int target, int other, float from_start, float from_end) {
+        if (!(distance[row[target]] > reached)) return;
+        const Corner& at = corners[idx(target)];
+        const bool is_reached = is_done[idx(row[other])] != 0;
+        offer(target, corners[idx(other)].length,
+              is_reached ? across(at.length, at.x, at.y, from_start, from_end) : nowhere);
+      };
+      pass(last, next, reached, distance[row[next]]);
+      pass(next, last, distance[row[last]], reached);
     }
   }
   return distance;
