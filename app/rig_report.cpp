@@ -16,9 +16,9 @@ Json to_json(const Eigen::RowVector3d& point) { return {point.x(), point.y(), po
 
 Json roles_of(const RigRecord& record) {
   Json roles = Json::object();
-  for (std::size_t k = 0; k < record.plan.joints.size(); ++k) {
-    const PlannedJoint& joint = record.plan.joints[k];
-    roles[joint.role] = {{"joint", record.rig.names[k]},
+  for (std::size_t k = 0; k < record.character.plan.joints.size(); ++k) {
+    const PlannedJoint& joint = record.character.plan.joints[k];
+    roles[joint.role] = {{"joint", record.character.rig.names[k]},
                          {"number", k},
                          {"position", to_json(joint.position)},
                          {"reason", joint.reason}};
@@ -49,15 +49,18 @@ Json joints_of(const Rig& rig) {
 }
 
 Json checks_of(const RigRecord& record) {
-  const WeightChecks checks = check_weights(record.given, record.rig);
+  const WeightChecks checks =
+      check_weights(record.given, record.character.rig, record.character.follows);
   const auto name_of_joint = [&](int joint) {
-    return record.rig.names[static_cast<std::size_t>(joint)];
+    return record.character.rig.names[static_cast<std::size_t>(joint)];
   };
   Json idle = Json::array();
   for (const int joint : checks.idle) idle.push_back(name_of_joint(joint));
   Json islands = Json::array();
   for (const auto& island : checks.islands) {
-    islands.push_back({{"joint", name_of_joint(island.joint)}, {"vertices", island.vertices}});
+    islands.push_back({{"joint", name_of_joint(island.joint)},
+                       {"vertices", island.vertices},
+                       {"follower", island.follows}});
   }
   Json poses = Json::array();
   for (const auto& pose : checks.poses) {
@@ -76,7 +79,7 @@ Json checks_of(const RigRecord& record) {
 }  // namespace
 
 std::string rig_report_json(const RigRecord& record) {
-  const BodyPlan& plan = record.plan;
+  const BodyPlan& plan = record.character.plan;
   const Json json = {{"program", program_and_version()},
                      {"file", record.file},
                      {"plan", name_of(body_kinds, plan.plan)},
@@ -86,8 +89,8 @@ std::string rig_report_json(const RigRecord& record) {
                      {"front", to_json(plan.axes.row(2))},
                      {"roles", roles_of(record)},
                      {"missing_roles", plan.missing},
-                     {"parts", parts_of(record.parts)},
-                     {"joints", joints_of(record.rig)},
+                     {"parts", parts_of(record.character.parts)},
+                     {"joints", joints_of(record.character.rig)},
                      {"checks", checks_of(record)},
                      {"seconds", record.seconds}};
   return json.dump(2) + "\n";

@@ -3,18 +3,14 @@
 
 #include <string>
 
-#include <curveskel/body_plan.hpp>
-#include <curveskel/rig.hpp>
-#include <curveskel/rig_parts.hpp>
+#include <curveskel/rig_character.hpp>
 #include <curveskel/surface.hpp>
 
 namespace curveskel {
 
 struct RigRecord {
   const Surface& given;  ///< of the file
-  const Rig& rig;        ///< of the file's vertices
-  const RigParts& parts;
-  const BodyPlan& plan;
+  const CharacterRig& character;
   const std::string& file;
   double seconds = 0;
 };

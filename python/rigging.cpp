@@ -117,8 +117,7 @@ void save_rig(const PythonRig& rig, const std::filesystem::path& output, const s
 }
 
 std::string report(const PythonRig& rig) {
-  return rig_report_json({rig.given, rig.character.rig, rig.character.parts, rig.character.plan,
-                          rig.soup.file.filename().string(), 0});
+  return rig_report_json({rig.given, rig.character, rig.soup.file.filename().string(), 0});
 }
 
 /// data, indices, indptr: what scipy.sparse.csr_matrix is made of.

@@ -249,7 +249,7 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments, soup);
   sources.joints = std::move(old_rig);
   PolygonsRig found = rig_polygons(soup, sources, options_of(arguments), monitor);
-  const auto& [rig, parts, plan] = found.character;
+  const BodyPlan& plan = found.character.plan;
   if (found.certificate) {
     const std::string failed = all_failures(*found.certificate, arguments.extract.certificate);
     if (!failed.empty()) session.terminal.warn(failed);
@@ -260,7 +260,7 @@ int run_rig(RigArguments arguments, Session& session) {
     if (arguments.pose == RestPose::input) warn_of_posture(plan, session);
   }
   const Rig written = rig_for_export(
-      rig, plan, given,
+      found.character.rig, plan, given,
       {arguments.pose, arguments.ground_root, !arguments.no_ends, sources.joints.has_value()});
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
@@ -268,7 +268,7 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!arguments.report.empty()) {
     const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
     files.push_back(
-        {arguments.report, rig_report_json({given, rig, parts, plan,
+        {arguments.report, rig_report_json({given, found.character,
                                             arguments.mesh.filename().string(), so_far.count()})});
   }
   write_outputs(files, session);
@@ -278,7 +278,7 @@ int run_rig(RigArguments arguments, Session& session) {
       fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
                   arguments.mesh.filename().string(), soup.positions.rows(), written.joints.rows(),
                   count_tips(written));
-  text += parts_in_words(parts);
+  text += parts_in_words(found.character.parts);
   text += plan_in_words(plan);
   text += old_rig_in_words;
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);

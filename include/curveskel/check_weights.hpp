@@ -17,10 +17,11 @@ struct WeightChecks {
   std::vector<int> idle;                          ///< joints that move nothing
 
   /// Pieces of a joint's vertices (those with a share above .1, connected by faces, vertices in one
-  /// place as one) apart from its largest in the same component of the surface.
+  /// place as one) apart from its heaviest (area times share) in the same component of the surface.
   struct Island {
     int joint = 0;
     Eigen::Index vertices = 0;
+    bool follows = false;  ///< all of it
   };
   std::vector<Island> islands;  ///< by joint
 
@@ -39,8 +40,9 @@ struct WeightChecks {
   Eigen::Index bleeding = 0;
 };
 
-/// Precondition: weights have a row for each vertex. O(#V log #V + weights times the depth of the
-/// hierarchy).
-[[nodiscard]] WeightChecks check_weights(const Surface& surface, const Rig& rig);
+/// `follows` is as in CharacterRig; empty: no vertex does. Precondition: weights have a row for
+/// each vertex. O(#V log #V + weights times the depth of the hierarchy).
+[[nodiscard]] WeightChecks check_weights(const Surface& surface, const Rig& rig,
+                                         const std::vector<bool>& follows = {});
 
 }  // namespace curveskel

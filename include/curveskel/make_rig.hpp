@@ -68,4 +68,7 @@ void require_valid(const RigOptions& options);
                                const CurveSkeleton& skeleton,
                                const Eigen::VectorXi& vertex_of_input, const Surface& given);
 
+/// Of each vertex of the file, true if it follows in `rig_of_given`.
+[[nodiscard]] std::vector<bool> followers_of(const Eigen::VectorXi& vertex_of_input);
+
 }  // namespace curveskel

@@ -2,6 +2,8 @@
 // plan of the body, joints, weights, names.
 #pragma once
 
+#include <vector>
+
 #include <curveskel/body_plan.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/make_rig.hpp>
@@ -25,6 +27,7 @@ struct CharacterRig {
   Rig rig;  ///< by the file's vertices
   RigParts parts;
   BodyPlan plan;
+  std::vector<bool> follows;  ///< of each of the file's vertices, true if it is not of the body
 };
 
 /// The curve of the body alone: what only followers collapsed to is left out, and node_of_vertex is

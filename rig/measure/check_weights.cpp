@@ -3,37 +3,19 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include <curveskel/advanced/union_find.hpp>
+#include "rig/skin/weight_pieces.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-using Edge = std::pair<int, int>;
-
-/// Each once, between vertices as they are welded.
-std::vector<Edge> edges_of(const Surface& surface, const std::vector<int>& place) {
-  std::vector<Edge> edges;
-  for (const auto& t : surface.triangles.rowwise()) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = place[idx(t(k))];
-      const int b = place[idx(t((k + 1) % 3))];
-      if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 /// n x j, by columns: the share of each vertex that turns when the joint does.
 Eigen::SparseMatrix<double> turning_shares(const Rig& rig) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -50,21 +32,19 @@ Eigen::SparseMatrix<double> turning_shares(const Rig& rig) {
   return shares;
 }
 
+std::vector<int> places_of(const Surface& surface) {
+  constexpr double one_place = 1e-6;  // of D
+  return nearby_vertices(surface.positions, std::vector<bool>(idx(surface.positions.rows()), true),
+                         one_place * bounding_box_diagonal(surface.positions));
+}
+
 class WeightChecker {
  public:
-  WeightChecker(const Surface& surface, const Rig& rig) : surface_(surface), rig_(rig) {
-    constexpr double one_place = 1e-6;  // of D
-    place_ = nearby_vertices(surface.positions, std::vector<bool>(idx(rig.weights.rows()), true),
-                             one_place * bounding_box_diagonal(surface.positions));
-    edges_ = edges_of(surface, place_);
-    triangles_at_.resize(place_.size());
+  WeightChecker(const Surface& surface, const Rig& rig, const std::vector<bool>& follows)
+      : surface_(surface), rig_(rig), follows_(follows), welded_(surface, places_of(surface)) {
+    triangles_at_.resize(welded_.place.size());
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
       for (const int v : surface.triangles.row(f)) triangles_at_[idx(v)].push_back(f);
-    }
-    edges_at_.resize(place_.size());
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      edges_at_[idx(edges_[e].first)].push_back(e);
-      edges_at_[idx(edges_[e].second)].push_back(e);
     }
     volume_ = volume(surface);
   }
@@ -100,49 +80,26 @@ class WeightChecker {
   }
 
   void find_islands() {
-    constexpr float least = 0.1F;
-    UnionFind whole(static_cast<std::int64_t>(place_.size()));
-    for (const auto& [a, b] : edges_) whole.unite(a, b);
-    std::vector<std::vector<int>> members(idx(rig_.parents.size()));
-    for (Eigen::Index vertex = 0; vertex < rig_.weights.rows(); ++vertex) {
-      if (place_[idx(vertex)] != vertex) continue;
+    std::vector<std::vector<WeightPieces::Member>> members(idx(rig_.parents.size()));
+    for (int vertex = 0; vertex < static_cast<int>(rig_.weights.rows()); ++vertex) {
+      if (welded_.place[idx(vertex)] != vertex) continue;
       for (SkinWeights::InnerIterator it(rig_.weights, vertex); it; ++it) {
-        if (it.value() > least) members[idx(it.col())].push_back(static_cast<int>(vertex));
+        if (it.value() > 0) members[idx(it.col())].push_back({vertex, it.value()});
       }
     }
-    std::vector<char> is_member(place_.size(), 0);
+    WeightPieces pieces(welded_);
     for (std::size_t joint = 0; joint < members.size(); ++joint) {
-      for (const int v : members[joint]) is_member[idx(v)] = 1;
-      add_islands(static_cast<int>(joint), members[joint], is_member, whole);
-      for (const int v : members[joint]) is_member[idx(v)] = 0;
+      for (const WeightPieces::Piece& piece : pieces.find(members[joint])) {
+        if (!piece.is_island) continue;
+        const auto size = static_cast<Eigen::Index>(piece.places.size());
+        checks_.islands.push_back({static_cast<int>(joint), size, all_follow(piece.places)});
+      }
     }
   }
 
-  void add_islands(int joint, const std::vector<int>& members, const std::vector<char>& is_member,
-                   UnionFind& whole) {
-    std::map<int, int> number;
-    for (const int v : members) number.emplace(v, static_cast<int>(number.size()));
-    UnionFind joined(static_cast<std::int64_t>(number.size()));
-    for (const int v : members) {
-      for (const std::size_t e : edges_at_[idx(v)]) {
-        const auto& [a, b] = edges_[e];
-        if (is_member[idx(a)] != 0 && is_member[idx(b)] != 0) joined.unite(number[a], number[b]);
-      }
-    }
-    std::map<int, std::pair<Eigen::Index, int>> pieces;  // vertices, and one of them
-    for (const auto& [v, k] : number) {
-      auto& [count, one] = pieces[joined.root(k)];
-      ++count;
-      one = v;
-    }
-    std::map<int, std::vector<Eigen::Index>> sizes;  // by component
-    for (const auto& [root, piece] : pieces) {
-      sizes[whole.root(piece.second)].push_back(piece.first);
-    }
-    for (auto& [component, found] : sizes) {
-      std::sort(found.begin(), found.end(), std::greater<>());
-      for (std::size_t k = 1; k < found.size(); ++k) checks_.islands.push_back({joint, found[k]});
-    }
+  [[nodiscard]] bool all_follow(const std::vector<int>& vertices) const {
+    return !follows_.empty() &&
+           std::all_of(vertices.begin(), vertices.end(), [&](int v) { return follows_[idx(v)]; });
   }
 
   [[nodiscard]] int steps_between(int a, int b) const {
@@ -177,7 +134,7 @@ class WeightChecker {
 
   void pose_all() {
     const Eigen::SparseMatrix<double> shares = turning_shares(rig_);
-    share_.assign(place_.size(), 0);
+    share_.assign(welded_.place.size(), 0);
     moved_ = surface_.positions;
     for (int joint = 0; joint < static_cast<int>(shares.cols()); ++joint) {
       std::vector<int> turning;
@@ -220,12 +177,11 @@ class WeightChecker {
     constexpr double bends = 0.01;  // by so much more on one end than on the other
     std::vector<double> ratios;
     for (const int v : turning) {
-      for (const std::size_t e : edges_at_[idx(v)]) {
-        const auto& [a, b] = edges_[e];
-        const bool is_first = v == a || share_[idx(a)] == 0;
-        if (!is_first || std::abs(share_[idx(a)] - share_[idx(b)]) < bends) continue;
-        const double before = (surface_.positions.row(a) - surface_.positions.row(b)).norm();
-        const double after = (moved_.row(a) - moved_.row(b)).norm();
+      for (const int other : welded_.neighbours(v)) {
+        const bool is_first = v < other || share_[idx(other)] == 0;
+        if (!is_first || std::abs(share_[idx(v)] - share_[idx(other)]) < bends) continue;
+        const double before = (surface_.positions.row(v) - surface_.positions.row(other)).norm();
+        const double after = (moved_.row(v) - moved_.row(other)).norm();
         if (before > 0 && after > 0) ratios.push_back(std::max(after / before, before / after));
       }
     }
@@ -259,9 +215,8 @@ class WeightChecker {
 
   const Surface& surface_;
   const Rig& rig_;
-  std::vector<int> place_;  // of each vertex the first in its place
-  std::vector<Edge> edges_;
-  std::vector<std::vector<std::size_t>> edges_at_;
+  const std::vector<bool>& follows_;
+  WeldedSurface welded_;
   std::vector<std::vector<Eigen::Index>> triangles_at_;
   double volume_ = 0;
   std::vector<double> share_;  // of each vertex that turns with the joint that is posed
@@ -271,8 +226,9 @@ class WeightChecker {
 
 }  // namespace
 
-WeightChecks check_weights(const Surface& surface, const Rig& rig) {
-  return WeightChecker(surface, rig).check();
+WeightChecks check_weights(const Surface& surface, const Rig& rig,
+                           const std::vector<bool>& follows) {
+  return WeightChecker(surface, rig, follows).check();
 }
 
 }  // namespace curveskel

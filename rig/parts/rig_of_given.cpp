@@ -26,7 +26,7 @@ struct Follower {
   bool sewn = false;  ///< to the body
 };
 
-std::vector<Follower> followers_of(const Surface& given, const Eigen::VectorXi& vertex_of_input) {
+std::vector<Follower> find_followers(const Surface& given, const Eigen::VectorXi& vertex_of_input) {
   constexpr double one_place = 1e-6;  // of D
   const Eigen::Index count = given.positions.rows();
   UnionFind joined(count);
@@ -176,7 +176,7 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
       rows[idx(v)].emplace_back(static_cast<int>(it.col()), static_cast<double>(it.value()));
     }
   }
-  const std::vector<Follower> followers = followers_of(given, vertex_of_input);
+  const std::vector<Follower> followers = find_followers(given, vertex_of_input);
   if (!followers.empty()) {
     const Following following(rig, surface, skeleton, given);
     for (const Follower& follower : followers) {
@@ -193,6 +193,13 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
   }
   result.weights.makeCompressed();
   return result;
+}
+
+std::vector<bool> followers_of(const Eigen::VectorXi& vertex_of_input) {
+  std::vector<bool> follows;
+  follows.reserve(idx(vertex_of_input.size()));
+  for (const int vertex : vertex_of_input) follows.push_back(vertex < 0);
+  return follows;
 }
 
 }  // namespace curveskel

@@ -71,6 +71,7 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
   result.plan = find_plan(body.surface, dense, wanted);
   const Rig made = make_planned_rig(body.surface, dense, result.plan, options.rig, monitor);
   result.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+  result.follows = followers_of(body.vertex_of_input);
   name_roles(result.rig, result.plan, options.names);
   return result;
 }

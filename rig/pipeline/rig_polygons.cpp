@@ -53,6 +53,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     const Rig made =
         weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
     result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+    result.character.follows = followers_of(body.vertex_of_input);
   } else {
     result.character = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                           skeleton, least_life(options.extract.embed.detail));

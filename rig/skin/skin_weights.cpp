@@ -19,6 +19,7 @@
 #include "base/parallel.hpp"
 #include "contraction/solvers/cholesky_factor.hpp"
 #include "rig/skin/skin_sources.hpp"
+#include "rig/skin/weight_pieces.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
@@ -278,7 +279,8 @@ SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
     sources = sources_of_bones(surface, skeleton, parts, bones, sources, options.threads);
   }
   SkinRun run(surface.positions.rows(), sources, options, monitor);
-  return matrix_of(run.solve(parts), joints, options.least_weight);
+  return without_islands(surface, matrix_of(run.solve(parts), joints, options.least_weight),
+                         idx(options.most_joints));
 }
 
 }  // namespace curveskel
