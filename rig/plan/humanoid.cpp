@@ -50,7 +50,7 @@ class Humanoid {
     }
     if (parts + 1 == count) parts = 0;
     const double crotch = course.points[parts].y();
-    const double above = 0.9 * course.radii[std::min(parts + 8, count - 1)];
+    const double above = 0.5 * course.radii[std::min(parts + 8, count - 1)];
     hip_height_ = std::min(crotch + above, std::max(tree_.nodes[idx(leg_.root)].y(), crotch));
     std::vector<double> aside;
     for (std::size_t k = parts; k < std::min(parts + 60, count); ++k) {
