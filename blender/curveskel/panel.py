@@ -6,7 +6,8 @@ PLANS = [(name, name, meaning) for name, meaning in (
     ("auto", "found from the mesh"), ("none", "joints where the curve bends, no roles"),
     ("humanoid", "upright on one pair of legs, with arms"), ("quadruped", "on two pairs of legs"),
     ("bird", "on one pair of legs, with wings"),
-    ("biped-with-tail", "on one pair of legs, leaning ahead of a tail"))]
+    ("biped-with-tail", "on one pair of legs, leaning ahead of a tail"),
+    ("fish", "a trunk with fins"), ("other", "none of these"))]
 NAMES = [(name, name, meaning) for name, meaning in (
     ("auto", "readable, with .L and .R"), ("rigify", "Rigify's human or wolf"),
     ("vrm", "VRM 1.0"), ("mixamo", "Mixamo"), ("unreal", "Unreal's mannequin"),

@@ -1,6 +1,8 @@
-"""The add-on in Blender without a window: what it makes of the user's own objects. Skipped where
-there is no Blender (Debian package blender)."""
+"""The add-on in Blender: what it makes of the user's own objects without a window, and how its
+buttons behave in one. Skipped where there is no Blender (Debian package blender), the window where
+there is no screen (Debian package xvfb)."""
 
+import ast
 import os
 import pathlib
 import shutil
@@ -201,6 +203,74 @@ job.close()
 assert not leftovers()
 """
 
+# Clicks in a window: a run that Escape ends, then one that comes to its end, with the panel drawn.
+WINDOW = """
+import os, time, traceback
+from curveskel.panel import CURVESKEL_PT_panel
+bpy.context.preferences.view.show_splash = False
+bpy.context.preferences.use_preferences_save = False
+drawn = []
+draw = CURVESKEL_PT_panel.draw
+bpy.utils.unregister_class(CURVESKEL_PT_panel)
+CURVESKEL_PT_panel.bl_category = "Item"  # the tab that is open
+CURVESKEL_PT_panel.draw = lambda self, context: drawn.append(draw(self, context))
+bpy.utils.register_class(CURVESKEL_PT_panel)
+
+def armatures():
+    return [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+
+def press(window, key, x=400, y=400):
+    window.event_simulate(type=key, value="PRESS", x=x, y=y)
+    window.event_simulate(type=key, value="RELEASE", x=x, y=y)
+
+def steps():
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    area.spaces[0].show_region_ui = True
+    body = y_shape()
+    select(body)
+    slow = folder / "slow"
+    slow.write_text("#!/bin/sh\\necho 'contract ...' >&2\\nexec sleep 60\\n")
+    slow.chmod(0o755)
+    preferences = bpy.context.preferences.addons["curveskel"].preferences
+    preferences.program = str(slow)
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        assert bpy.ops.curveskel.rig("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield 1
+    assert leftovers(), "the run goes on"
+    press(window, "ESC")
+    yield 1
+    assert not leftovers() and not armatures(), "Escape ends it and leaves nothing"
+    preferences.program = ""
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        assert bpy.ops.curveskel.rig("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    begin = time.monotonic()
+    while not armatures() and time.monotonic() < begin + 30:
+        yield 0.2
+    yield 0.5
+    assert len(armatures()) == 1 and not leftovers()
+    assert drawn, "the panel was not drawn"
+    bpy.ops.screen.screenshot({"window": window, "area": area, "screen": window.screen},
+                              filepath=str(folder / "window.png"))
+    assert (folder / "window.png").stat().st_size > 1000
+
+running = steps()
+
+def tick():
+    try:
+        return next(running)
+    except StopIteration:
+        os._exit(0)
+    except BaseException:
+        traceback.print_exc()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(1)
+
+bpy.app.timers.register(tick, first_interval=1)
+"""
+
 
 def capped_bar():
     """Half of a bar along x, from 0 to 4, open at 0: rings of eight and a cap."""
@@ -232,7 +302,7 @@ OCTAHEDRON = off_text(
 
 @unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
 class AddOn(unittest.TestCase):
-    def run_in_blender(self, script):
+    def run_in_blender(self, script, before=("--background",), with_screen=()):
         with tempfile.TemporaryDirectory() as place:
             folder = pathlib.Path(place)
             shutil.copy(ZIP, folder / "curveskel.zip")
@@ -247,9 +317,9 @@ class AddOn(unittest.TestCase):
                            "BLENDER_USER_CONFIG": str(folder / "config"),
                            "PATH": f"{PROGRAM.parent}:/usr/local/bin:/usr/bin:/bin"}
             done = subprocess.run(
-                [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
-                 folder / "script.py", "--", folder, SOURCE], capture_output=True, text=True,
-                stdin=subprocess.DEVNULL, env=environment, check=False)
+                [*with_screen, shutil.which("blender"), *before, "--python-exit-code", "1",
+                 "--python", folder / "script.py", "--", folder, SOURCE], capture_output=True,
+                text=True, stdin=subprocess.DEVNULL, env=environment, check=False, timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
 
     def test_rigs_the_users_own_objects(self):
@@ -266,6 +336,28 @@ class AddOn(unittest.TestCase):
 
     def test_failures_are_said_and_leave_nothing(self):
         self.run_in_blender(FAILURES)
+
+    @unittest.skipUnless(shutil.which("xvfb-run"), "needs a screen: install the Debian package xvfb")
+    def test_buttons_run_and_end_in_a_window(self):
+        self.run_in_blender(WINDOW, ("--factory-startup", "--enable-event-simulate"),
+                            ("xvfb-run", "-a", "-s", "-screen 0 1280x800x24"))
+
+
+class Panel(unittest.TestCase):
+    def choices(self, name):
+        """The first words of the lists in panel.py."""
+        tree = ast.parse((SOURCE / "blender" / "curveskel" / "panel.py").read_text())
+        for statement in tree.body:
+            if isinstance(statement, ast.Assign) and statement.targets[0].id == name:
+                return [pair[0] for pair in ast.literal_eval(statement.value.generators[0].iter)]
+        self.fail(name)
+
+    def test_offers_what_the_program_knows(self):
+        for name, option in (("PLANS", "--plan"), ("NAMES", "--names")):
+            said = subprocess.run([PROGRAM, "rig", "in.obj", "-o", "out.json", option, "unheard-of"],
+                                  capture_output=True, text=True, check=False).stderr
+            known = said.split("is none of: ")[1].split("\n")[0].split(", ")
+            self.assertEqual(sorted(self.choices(name)), sorted(known))
 
 
 if __name__ == "__main__":
