@@ -229,10 +229,10 @@ int run_rig(RigArguments arguments, Session& session) {
     require_whole(arguments.vrm);
   }
   for (std::size_t k = 0; k < formats.size() && arguments.pose == RestPose::t; ++k) {
-    if (is_gltf(formats[k]) || formats[k] == RigFormat::usda) continue;
+    if (keeps_the_file(formats[k]) || formats[k] == RigFormat::usda) continue;
     throw UsageError(arguments.outputs[k] +
                      ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, "
-                     "vrm and usda");
+                     "vrm, fbx and usda");
   }
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);

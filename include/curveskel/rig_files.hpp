@@ -14,12 +14,13 @@
 
 namespace curveskel {
 
-enum class RigFormat { glb, gltf, vrm, usda, bvh, json, npz, txt };
+enum class RigFormat { glb, gltf, vrm, fbx, usda, bvh, json, npz, txt };
 
-inline constexpr NameTable<RigFormat, 8> rig_formats{{
+inline constexpr NameTable<RigFormat, 9> rig_formats{{
     {RigFormat::glb, "glb", "glTF 2.0, one binary file"},
     {RigFormat::gltf, "gltf", "glTF 2.0, text with its numbers inside"},
     {RigFormat::vrm, "vrm", "VRM 1.0, of humanoids: glb that says which joint is which"},
+    {RigFormat::fbx, "fbx", "FBX 7.4: the surface, joints, weights, materials, pictures inside"},
     {RigFormat::usda, "usda", "UsdSkel, text: the surface, joints, weights"},
     {RigFormat::bvh, "bvh", "joints alone, at rest, for programs of motion capture"},
     {RigFormat::json, "json", "joints, roles and weights by vertex, for programs"},
@@ -37,9 +38,10 @@ struct VrmMeta {
 /// Throws Error(Fault::usage) that says what is missing.
 void require_whole(const VrmMeta& meta);
 
-/// True for those that `format_rig_into` writes: glb, gltf and vrm.
-[[nodiscard]] constexpr bool is_gltf(RigFormat format) {
-  return format == RigFormat::glb || format == RigFormat::gltf || format == RigFormat::vrm;
+/// True for those that `format_rig_into` writes: glTF, and FBX, which is made from it.
+[[nodiscard]] constexpr bool keeps_the_file(RigFormat format) {
+  return format == RigFormat::glb || format == RigFormat::gltf || format == RigFormat::vrm ||
+         format == RigFormat::fbx;
 }
 
 /// The surface with its joints and weights, for Blender and whatever else reads glTF; give the

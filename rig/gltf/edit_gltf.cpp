@@ -15,6 +15,7 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
 #include "rig/gltf/gltf_decoded.hpp"
 #include "rig/gltf/gltf_document.hpp"
@@ -144,9 +145,12 @@ void sign(GltfDocument& document, const std::string& provenance) {
   }
 }
 
-void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const EditOptions& options) {
+void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const EditOptions& options,
+            const Monitor& monitor) {
   if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
-  edited.bytes = format_gltf(std::move(document), options.format);
+  const bool is_fbx = options.format == RigFormat::fbx;
+  edited.bytes = format_gltf(std::move(document), is_fbx ? RigFormat::glb : options.format);
+  if (is_fbx) edited.bytes = fbx_of_glb(std::move(edited.bytes), options.provenance, monitor);
 }
 
 EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,
@@ -173,7 +177,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   } catch (const std::exception&) {
     refuse_broken(file, std::current_exception());
   }
-  finish(edited, std::move(document), rig, options);
+  finish(edited, std::move(document), rig, options, monitor);
   return edited;
 }
 
@@ -190,7 +194,7 @@ std::optional<EditedFile> dress_obj(const FileBytes& file, const Rig& rig,
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
   add_gltf_rig(made.document, made.parts, rig, options.name);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
-  finish(edited, std::move(made.document), rig, options);
+  finish(edited, std::move(made.document), rig, options, monitor);
   return edited;
 }
 
@@ -216,7 +220,7 @@ void require_editable(const std::filesystem::path& input, OldRig old_rig, const 
 
 std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
                                           const EditOptions& options, const Monitor& monitor) {
-  if (!is_gltf(options.format)) return std::nullopt;
+  if (!keeps_the_file(options.format)) return std::nullopt;
   if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);

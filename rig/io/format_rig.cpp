@@ -1,6 +1,7 @@
 #include <string>
 
 #include <curveskel/rig_files.hpp>
+#include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_writers.hpp"
 
@@ -12,6 +13,9 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
     case RigFormat::vrm:
       require_vrm(rig, vrm);
       return with_vrm(format_gltf_rig(surface, rig, RigFormat::glb, name, provenance), rig, vrm);
+    case RigFormat::fbx:
+      return fbx_of_glb(format_gltf_rig(surface, rig, RigFormat::glb, name, provenance),
+                        provenance);
     case RigFormat::json:
       return format_json_rig(rig, provenance);
     case RigFormat::npz:

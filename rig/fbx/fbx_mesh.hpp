@@ -1,0 +1,55 @@
+// A mesh of a glTF file as FBX has it. Internal to rig/.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rig/fbx/fbx_document.hpp"
+#include "surface/read/file_bytes.hpp"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace curveskel {
+
+/// Rows of numbers, one a vertex.
+using FbxRows = std::vector<double>;
+
+struct FbxMesh {
+  FbxRows places;
+  FbxRows normals;               ///< none where a primitive has none
+  std::vector<FbxRows> maps;     ///< pairs (u, v), v up
+  std::vector<FbxRows> colours;  ///< red, green, blue, opacity
+  struct Shape {
+    std::string name;
+    double weight = 0;
+    FbxRows offsets;
+  };
+  std::vector<Shape> shapes;
+  std::vector<std::int32_t> corners;           ///< three a triangle
+  std::vector<std::int32_t> material_of_face;  ///< one of `materials`
+  std::vector<int> materials;                  ///< of the file; -1 = the file names none
+  /// Of each of the skin's joints the vertices that it moves, and their weights.
+  std::vector<std::vector<std::pair<std::int32_t, double>>> moved;
+
+  [[nodiscard]] bool empty() const { return corners.empty(); }
+};
+
+/// The triangles of all its primitives; vertices that primitives share come once. `joints` is the
+/// number of the skin's. Throws Error(Fault::input) where numbers are wrong.
+[[nodiscard]] FbxMesh read_fbx_mesh(const FileBytes& file, const tinygltf::Model& model, int mesh,
+                                    std::size_t joints);
+
+void move(FbxMesh& mesh, const Eigen::Affine3d& frame);
+
+/// The geometry with its shapes; the weights of shapes connect to it. Returns its number.
+std::int64_t add_fbx_geometry(FbxDocument& document, const std::string& name, FbxMesh mesh);
+
+/// "UVMap", "UVMap.001" and so on.
+[[nodiscard]] std::string fbx_map_name(std::size_t number);
+
+}  // namespace curveskel

@@ -1,0 +1,282 @@
+#include "rig/fbx/fbx_of_glb.hpp"
+
+#include <tiny_gltf.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/fbx/fbx_document.hpp"
+#include "rig/fbx/fbx_materials.hpp"
+#include "rig/fbx/fbx_mesh.hpp"
+#include "surface/read/gltf_file.hpp"
+#include "surface/read/gltf_numbers.hpp"
+#include "surface/read/gltf_scene.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+
+/// Angles in degrees about x, then y, then z, that make this rotation.
+Vector3d angles_of(const Eigen::Matrix3d& turn) {
+  const double sine = std::clamp(-turn(2, 0), -1.0, 1.0);
+  constexpr double upright = 1 - 1e-12;
+  Vector3d angles(0, std::asin(sine), 0);
+  if (std::abs(sine) < upright) {
+    angles.x() = std::atan2(turn(2, 1), turn(2, 2));
+    angles.z() = std::atan2(turn(1, 0), turn(0, 0));
+  } else {
+    angles.z() = std::atan2(-turn(0, 1), turn(1, 1));
+  }
+  return angles * (180 / std::numbers::pi);
+}
+
+struct LocalMove {
+  Vector3d shift;
+  Vector3d angles;
+  Vector3d scale;
+};
+
+/// What shear there is stays out.
+LocalMove local_move(const Affine3d& frame) {
+  LocalMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
+  if (frame.linear().determinant() < 0) move.scale.x() *= -1;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (move.scale[axis] != 0) turn.col(axis) = frame.linear().col(axis) / move.scale[axis];
+  }
+  move.angles = angles_of(Eigen::Quaterniond(turn).normalized().toRotationMatrix());
+  return move;
+}
+
+void write_model(FbxRecords& records, const LocalMove& move) {
+  records.record("Version", 232);
+  records.begin("Properties70");
+  const auto property = [&](const char* name, const Vector3d& value) {
+    records.property(name, name, "", "A", value.x(), value.y(), value.z());
+  };
+  property("Lcl Translation", move.shift);
+  property("Lcl Rotation", move.angles);
+  property("Lcl Scaling", move.scale);
+  constexpr std::int32_t scale_of_parent_turns_too = 1;
+  records.property("InheritType", "enum", "", "", scale_of_parent_turns_too);
+  records.end();
+  records.record("Culling", "CullingOff");
+}
+
+class SceneWriter {
+ public:
+  SceneWriter(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor)
+      : file_(file), model_(model), scene_(read_gltf_scene(file, model, monitor)) {
+    is_joint_.resize(model.nodes.size(), false);
+    for (const tinygltf::Skin& skin : model.skins) {
+      for (const int node : skin.joints) is_joint_[idx(node)] = true;
+    }
+  }
+
+  std::string write(const std::string& provenance) {
+    materials_ = add_fbx_materials(document_, model_);
+    for (const int node : scene_.nodes) add_node(node);
+    for (const int node : scene_.nodes) add_mesh(node);
+    add_bind_pose();
+    return document_.bytes(provenance);
+  }
+
+ private:
+  [[nodiscard]] const tinygltf::Node& node_of(int node) const { return model_.nodes[idx(node)]; }
+
+  [[nodiscard]] Affine3d local(int node) const {
+    const int parent = scene_.parents[idx(node)];
+    const Affine3d& frame = scene_.frames[idx(node)];
+    return parent < 0 ? frame : Affine3d(scene_.frames[idx(parent)].inverse() * frame);
+  }
+
+  /// A node that only holds a mesh which joints move is not needed: that mesh stands alone.
+  [[nodiscard]] bool is_needed(int node) const {
+    const tinygltf::Node& given = node_of(node);
+    return is_joint_[idx(node)] || given.mesh < 0 || given.skin < 0 || !given.children.empty();
+  }
+
+  [[nodiscard]] bool is_plain_mesh(int node) const {
+    return node_of(node).mesh >= 0 && node_of(node).skin < 0 && !is_joint_[idx(node)];
+  }
+
+  void add_node(int node) {
+    if (!is_needed(node)) return;
+    const bool is_joint = is_joint_[idx(node)];
+    const char* kind = is_joint ? "LimbNode" : is_plain_mesh(node) ? "Mesh" : "Null";
+    const std::int64_t number = add_model(node_of(node).name, kind, local(node));
+    model_of_node_[node] = number;
+    const auto parent = model_of_node_.find(scene_.parents[idx(node)]);
+    document_.connect(number, parent == model_of_node_.end() ? FbxDocument::root : parent->second);
+    if (is_plain_mesh(node)) return;
+    const std::int64_t attribute =
+        document_.add("NodeAttribute", node_of(node).name, "NodeAttribute", kind,
+                      [is_joint](FbxRecords& records) {
+                        records.record("TypeFlags", is_joint ? "Skeleton" : "Null");
+                      });
+    document_.connect(attribute, number);
+  }
+
+  std::int64_t add_model(const std::string& name, const char* kind, const Affine3d& frame) {
+    const LocalMove move = local_move(frame);
+    return document_.add("Model", name, "Model", kind,
+                         [move](FbxRecords& records) { write_model(records, move); });
+  }
+
+  void add_mesh(int node) {
+    const tinygltf::Node& given = node_of(node);
+    if (given.mesh < 0) return;
+    const int skin = given.skin;
+    const std::size_t joints =
+        skin < 0 ? 0 : gltf_element(file_, model_.skins, skin, "skin").joints.size();
+    FbxMesh mesh = read_fbx_mesh(file_, model_, given.mesh, joints);
+    if (mesh.empty()) return;
+    const std::string& own = model_.meshes[idx(given.mesh)].name;
+    const std::string name = given.name.empty() ? own : given.name;
+    std::vector<Affine3d> bound;
+    std::int64_t holder = 0;
+    if (skin >= 0) {
+      bound = place_as_bound(skin, mesh);
+      holder = add_model(name, "Mesh", Affine3d::Identity());
+      document_.connect(holder, FbxDocument::root);
+      bind_pose_.emplace_back(holder, Affine3d::Identity());
+    } else if (is_plain_mesh(node)) {
+      holder = model_of_node_.at(node);
+    } else {  // on a joint
+      holder = add_model(name, "Mesh", Affine3d::Identity());
+      document_.connect(holder, model_of_node_.at(node));
+    }
+    for (const int material : mesh.materials) {
+      document_.connect(material < 0 ? plain_material() : materials_[idx(material)], holder);
+    }
+    const auto moved = std::move(mesh.moved);
+    const std::int64_t geometry =
+        add_fbx_geometry(document_, own.empty() ? name : own, std::move(mesh));
+    document_.connect(geometry, holder);
+    if (skin >= 0) add_skin(skin, bound, moved, geometry, name);
+  }
+
+  std::int64_t plain_material() {
+    if (plain_material_ == 0) plain_material_ = add_fbx_plain_material(document_);
+    return plain_material_;
+  }
+
+  /// Where the joints were when the mesh was bound to them, in the scene, into which it is moved.
+  std::vector<Affine3d> place_as_bound(int number, FbxMesh& mesh) const {
+    const tinygltf::Skin& skin = model_.skins[idx(number)];
+    std::vector<Affine3d> from_joint;  // to the mesh
+    from_joint.reserve(skin.joints.size());
+    for (std::size_t k = 0; k < skin.joints.size(); ++k) {
+      from_joint.push_back(inverse_bind(skin, k).inverse());
+    }
+    const Affine3d placed = scene_.frames[idx(skin.joints.front())] * from_joint.front().inverse();
+    move(mesh, placed);
+    for (Affine3d& frame : from_joint) frame = placed * frame;
+    return from_joint;
+  }
+
+  [[nodiscard]] Affine3d inverse_bind(const tinygltf::Skin& skin, std::size_t joint) const {
+    Affine3d frame = Affine3d::Identity();
+    if (skin.inverseBindMatrices < 0) return frame;
+    const GltfNumbers numbers =
+        gltf_numbers(file_, model_, skin.inverseBindMatrices, 16, "inverse bind matrices");
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        frame.matrix()(row, column) = numbers.at(joint, idx(4 * column + row));
+      }
+    }
+    return frame;
+  }
+
+  void add_skin(int number, const std::vector<Affine3d>& bound,
+                const std::vector<std::vector<std::pair<std::int32_t, double>>>& moved,
+                std::int64_t geometry, const std::string& name) {
+    const std::int64_t skin =
+        document_.add("Deformer", name, "Deformer", "Skin", [](FbxRecords& records) {
+          constexpr double accuracy = 50;  // as every program writes it
+          records.record("Version", 101);
+          records.record("Link_DeformAcuracy", accuracy);
+        });
+    document_.connect(skin, geometry);
+    const std::vector<int>& joints = model_.skins[idx(number)].joints;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const auto joint = model_of_node_.find(joints[k]);
+      if (joint == model_of_node_.end()) continue;  // outside the scene
+      const std::int64_t cluster = add_cluster(node_of(joints[k]).name, moved[k], bound[k]);
+      document_.connect(cluster, skin);
+      document_.connect(joint->second, cluster);
+      if (is_bound_.emplace(joint->second, true).second) {
+        bind_pose_.emplace_back(joint->second, bound[k]);
+      }
+    }
+  }
+
+  std::int64_t add_cluster(const std::string& name,
+                           const std::vector<std::pair<std::int32_t, double>>& moved,
+                           const Affine3d& bound) {
+    std::vector<std::int32_t> vertices;
+    std::vector<double> weights;
+    for (const auto& [vertex, weight] : moved) {
+      vertices.push_back(vertex);
+      weights.push_back(weight);
+    }
+    return document_.add("Deformer", name, "SubDeformer", "Cluster",
+                         [vertices, weights, bound](FbxRecords& records) {
+                           records.record("Version", 100);
+                           records.record("UserData", "", "");
+                           if (!vertices.empty()) {
+                             records.record("Indexes", vertices);
+                             records.record("Weights", weights);
+                           }
+                           records.record("Transform", fbx_matrix(bound.inverse()));
+                           records.record("TransformLink", fbx_matrix(bound));
+                         });
+  }
+
+  void add_bind_pose() {
+    if (bind_pose_.empty()) return;
+    const auto pose = bind_pose_;
+    (void)document_.add("Pose", "bind pose", "Pose", "BindPose", [pose](FbxRecords& records) {
+      records.record("Type", "BindPose");
+      records.record("Version", 100);
+      records.record("NbPoseNodes", static_cast<std::int32_t>(pose.size()));
+      for (const auto& [model, frame] : pose) {
+        records.begin("PoseNode");
+        records.record("Node", model);
+        records.record("Matrix", fbx_matrix(frame));
+        records.end();
+      }
+    });
+  }
+
+  const FileBytes& file_;
+  const tinygltf::Model& model_;
+  GltfScene scene_;
+  std::vector<bool> is_joint_;  // by node
+  FbxDocument document_;
+  std::vector<std::int64_t> materials_;
+  std::int64_t plain_material_ = 0;
+  std::map<int, std::int64_t> model_of_node_;
+  std::map<std::int64_t, bool> is_bound_;
+  std::vector<std::pair<std::int64_t, Affine3d>> bind_pose_;
+};
+
+}  // namespace
+
+std::string fbx_of_glb(std::string glb, const std::string& provenance, const Monitor& monitor) {
+  const FileBytes file{"rig.glb", std::move(glb)};
+  const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
+  return SceneWriter(file, model, monitor).write(provenance);
+}
+
+}  // namespace curveskel
