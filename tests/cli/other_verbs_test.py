@@ -314,7 +314,7 @@ class Rig(CommandLineTest):
                      says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
 
     def test_another_extension_is_a_usage_error_that_lists_the_formats(self):
-        for name in ("y.fbx", "y.obj", "y"):
+        for name in ("y.x3d", "y.obj", "y"):
             self.refused(2, "rig", Y, "-o", name, says=["glb", "gltf"], cwd=self.folder)
         self.refused(2, "rig", Y, says=["--output"], cwd=self.folder)
         self.refused(2, "rig", Y, "-o", "y.glb", "--softness", "0", says=["--softness"],
