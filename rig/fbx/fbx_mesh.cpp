@@ -284,7 +284,7 @@ void write_shape(FbxRecords& records, const FbxRows& offsets) {
   for (std::size_t v = 0; v < offsets.size() / 3; ++v) {
     const auto first = offsets.begin() + std::ptrdiff_t(3 * v);
     const bool moves_it = std::any_of(first, first + 3, [](double x) { return x != 0; });
-    if (!moves_it && !(v == 0 && offsets.size() > 0)) continue;  // a shape has one vertex at least
+    if (!moves_it && v > 0) continue;  // a shape has one vertex at least
     vertices.push_back(static_cast<std::int32_t>(v));
     moves.insert(moves.end(), first, first + 3);
   }
@@ -302,17 +302,17 @@ void add_shapes(FbxDocument& document, std::int64_t geometry,
                    [](FbxRecords& records) { records.record("Version", 100); });
   document.connect(all, geometry);
   constexpr double percent = 100;
-  for (std::size_t k = 0; k < mesh->shapes.size(); ++k) {
-    const FbxMesh::Shape& shape = mesh->shapes[k];
-    const std::int64_t channel = document.add(
-        "Deformer", shape.name, "SubDeformer", "BlendShapeChannel", [mesh, k](FbxRecords& records) {
-          records.record("Version", 100);
-          records.record("DeformPercent", percent * mesh->shapes[k].weight);
-          records.record("FullWeights", FbxRows{percent});
-        });
-    const std::int64_t form = document.add(
-        "Geometry", shape.name, "Geometry", "Shape",
-        [mesh, k](FbxRecords& records) { write_shape(records, mesh->shapes[k].offsets); });
+  for (const FbxMesh::Shape& shape : mesh->shapes) {  // stays where it is as long as the mesh
+    const std::int64_t channel =
+        document.add("Deformer", shape.name, "SubDeformer", "BlendShapeChannel",
+                     [mesh, &shape](FbxRecords& records) {
+                       records.record("Version", 100);
+                       records.record("DeformPercent", percent * shape.weight);
+                       records.record("FullWeights", FbxRows{percent});
+                     });
+    const std::int64_t form =
+        document.add("Geometry", shape.name, "Geometry", "Shape",
+                     [mesh, &shape](FbxRecords& records) { write_shape(records, shape.offsets); });
     document.connect(channel, all);
     document.connect(form, channel);
   }

@@ -84,7 +84,8 @@ class WeightChecker {
     for (int vertex = 0; vertex < static_cast<int>(rig_.weights.rows()); ++vertex) {
       if (welded_.place[idx(vertex)] != vertex) continue;
       for (SkinWeights::InnerIterator it(rig_.weights, vertex); it; ++it) {
-        if (it.value() > 0) members[idx(it.col())].push_back({vertex, it.value()});
+        if (it.value() > 0)
+          members[idx(it.col())].push_back({vertex, static_cast<double>(it.value())});
       }
     }
     WeightPieces pieces(welded_);

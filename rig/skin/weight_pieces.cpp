@@ -61,9 +61,9 @@ WeldedSurface::WeldedSurface(const Surface& surface, std::vector<int> place_of)
   for (Eigen::Index v = 0; v < count; ++v) areas[place[idx(v)]] += shares[v];
 }
 
-std::span<const std::int32_t> WeldedSurface::neighbours(int at) const {
-  const std::int64_t begin = neighbours_at.offsets[idx(at)];
-  const std::int64_t end = neighbours_at.offsets[idx(at) + 1];
+std::span<const std::int32_t> WeldedSurface::neighbours(int place_number) const {
+  const std::int64_t begin = neighbours_at.offsets[idx(place_number)];
+  const std::int64_t end = neighbours_at.offsets[idx(place_number) + 1];
   return std::span(neighbours_at.values).subspan(idx(begin), idx(end - begin));
 }
 
@@ -151,10 +151,10 @@ namespace {
 /// A vertex's joints, ascending, and their shares, of sum 1.
 using Row = std::vector<std::pair<int, double>>;
 
-Row largest_shares(Row row, std::size_t most_joints) {
+Row largest_shares(Row row, std::size_t kept) {
   std::stable_sort(row.begin(), row.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
-  row.resize(std::min(row.size(), most_joints));
+  row.resize(std::min(row.size(), kept));
   double sum = 0;
   for (const auto& [joint, share] : row) sum += share;
   for (auto& [joint, share] : row) share /= sum;
@@ -164,11 +164,8 @@ Row largest_shares(Row row, std::size_t most_joints) {
 
 class IslandTaker {
  public:
-  IslandTaker(const Surface& surface, const SkinWeights& weights, std::size_t most_joints)
-      : surface_(surface),
-        most_joints_(most_joints),
-        rows_(idx(weights.rows())),
-        pieces_(surface_) {
+  IslandTaker(const Surface& surface, const SkinWeights& weights, std::size_t kept)
+      : surface_(surface), kept_(kept), rows_(idx(weights.rows())), pieces_(surface_) {
     for (Eigen::Index v = 0; v < weights.rows(); ++v) {
       if (surface_.place[idx(v)] != v) continue;
       for (SkinWeights::InnerIterator it(weights, v); it; ++it) {
@@ -189,14 +186,14 @@ class IslandTaker {
     std::vector<int> bare;
     for (const auto& [place, joints] : taken) {
       Row& row = rows_[idx(place)];
-      std::erase_if(row, [&](const auto& entry) {
-        return std::binary_search(joints.begin(), joints.end(), entry.first);
+      std::erase_if(row, [&lost = joints](const auto& entry) {
+        return std::binary_search(lost.begin(), lost.end(), entry.first);
       });
       changed_.insert(place);
       if (row.empty()) {
         bare.push_back(place);
       } else {
-        row = largest_shares(std::move(row), most_joints_);
+        row = largest_shares(std::move(row), kept_);
       }
     }
     fill(std::move(bare));
@@ -207,7 +204,7 @@ class IslandTaker {
   [[nodiscard]] SkinWeights result(const SkinWeights& weights) const {
     if (changed_.empty()) return weights;
     SkinWeights result(weights.rows(), weights.cols());
-    result.reserve(Eigen::VectorXi::Constant(weights.rows(), static_cast<int>(most_joints_)));
+    result.reserve(Eigen::VectorXi::Constant(weights.rows(), static_cast<int>(kept_)));
     for (Eigen::Index v = 0; v < weights.rows(); ++v) {
       const int place = surface_.place[idx(v)];
       if (changed_.contains(place)) {
@@ -257,11 +254,11 @@ class IslandTaker {
     for (const int next : surface_.neighbours(place)) {
       for (const auto& [joint, share] : rows_[idx(next)]) shares[joint] += share;
     }
-    return largest_shares({shares.begin(), shares.end()}, most_joints_);
+    return largest_shares({shares.begin(), shares.end()}, kept_);
   }
 
   WeldedSurface surface_;
-  std::size_t most_joints_;
+  std::size_t kept_;
   std::vector<Row> rows_;  // by place
   std::set<int> changed_;  // places
   WeightPieces pieces_;
@@ -269,10 +266,9 @@ class IslandTaker {
 
 }  // namespace
 
-SkinWeights without_islands(const Surface& surface, const SkinWeights& weights,
-                            std::size_t most_joints) {
+SkinWeights without_islands(const Surface& surface, const SkinWeights& weights, std::size_t kept) {
   constexpr int most_rounds = 4;
-  IslandTaker taker(surface, weights, most_joints);
+  IslandTaker taker(surface, weights, kept);
   for (int round = 0; round < most_rounds; ++round) {
     if (!taker.take_once()) break;
   }

@@ -20,7 +20,7 @@ struct WeldedSurface {
   /// `place_of` as `place`. O(#F log #F).
   WeldedSurface(const Surface& surface, std::vector<int> place_of);
 
-  [[nodiscard]] std::span<const std::int32_t> neighbours(int place) const;
+  [[nodiscard]] std::span<const std::int32_t> neighbours(int place_number) const;
 
   std::vector<int> place;                  ///< of each vertex the first in its place
   std::vector<std::pair<int, int>> edges;  ///< between places, each once, the lower first
@@ -69,10 +69,10 @@ class WeightPieces {
 };
 
 /// Takes a joint's islands from it: the other joints of the vertices there have all, and a vertex
-/// without others the mean of its neighbours' rows, of which the `most_joints` largest shares stay.
+/// without others the mean of its neighbours' rows, of which the largest `kept` shares stay.
 /// Again, four times at most, as what is left may have islands in turn.
 /// Precondition: a row for each vertex of the surface. O((#V + #F) log #F).
 [[nodiscard]] SkinWeights without_islands(const Surface& surface, const SkinWeights& weights,
-                                          std::size_t most_joints);
+                                          std::size_t kept);
 
 }  // namespace curveskel

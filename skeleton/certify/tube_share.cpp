@@ -34,6 +34,22 @@ struct Pieces {
   }
 };
 
+/// The inscribed radius in the component that the sample's curve is of, which the skeleton knows if
+/// it has radii: where components cross, the nearest face may be another's, inside.
+double radius_of(const MeasuredCurve& curve, std::size_t i) {
+  const double measured = std::max(0.0, curve.radius[i]);
+  const CurveSkeleton& skeleton = curve.skeleton;
+  const CurveSample& sample = curve.samples[i];
+  if (skeleton.radii.size() != skeleton.nodes.rows() || sample.branch < 0) return measured;
+  const std::vector<int>& nodes = curve.branches[idx(sample.branch)].nodes;
+  const int a = nodes[idx(sample.segment)];
+  const int b = nodes[idx(sample.segment) + 1];
+  const double length = (skeleton.nodes.row(b) - skeleton.nodes.row(a)).norm();
+  const double way = (sample.position.transpose() - skeleton.nodes.row(a)).norm();
+  const double share = length > 0 ? std::min(1.0, way / length) : 0;
+  return std::max(measured, (1 - share) * skeleton.radii[a] + share * skeleton.radii[b]);
+}
+
 }  // namespace
 
 double tube_share(const MeasuredCurve& curve, const Surface& surface, const Monitor& monitor) {
@@ -65,7 +81,7 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
         return distance;
       };
       (void)tree.minimum(points[i], 0, distance_to, first);
-      near[i] = least <= tube_factor * std::max(0.0, curve.radius[nearest]) ? 1 : 0;
+      near[i] = least <= tube_factor * radius_of(curve, nearest) ? 1 : 0;
     }
   });
   return static_cast<double>(std::count(near.begin(), near.end(), 1)) /

@@ -1,6 +1,7 @@
 #include "skeleton/lives/geodesic_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -47,13 +48,8 @@ std::vector<int> samples_of(const Surface& surface, int count) {
 
 }  // namespace
 
-GeodesicDistance::GeodesicDistance(const Surface& surface)
-    : surface_(surface),
-      triangles_around_(bucket<std::int32_t>(
-          surface.triangles.size(), surface.positions.rows(),
-          [&](std::int64_t i) { return surface.triangles(i / 3, i % 3); },
-          [](std::int64_t i) { return static_cast<std::int32_t>(i / 3); })),
-      corners_(idx(surface.triangles.rows())) {
+GeodesicDistance::GeodesicDistance(const Surface& surface) {
+  std::vector<std::array<Corner, 3>> corners(idx(surface.triangles.rows()));  // by triangle
   double longest = 0;
   double sum = 0;
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
@@ -68,10 +64,19 @@ GeodesicDistance::GeodesicDistance(const Surface& surface)
       const double y = std::sqrt(std::max(side.squaredNorm() - x * x, 0.0));
       longest = std::max(longest, length);
       sum += length;
-      corners_[idx(f)][idx(k)] = {static_cast<float>(length), static_cast<float>(x),
-                                  static_cast<float>(y)};
+      corners[idx(f)][idx(k)] = {static_cast<float>(length), static_cast<float>(x),
+                                 static_cast<float>(y)};
     }
   }
+  wedges_around_ = bucket<Wedge>(
+      surface.triangles.size(), surface.positions.rows(),
+      [&](std::int64_t i) { return surface.triangles(i / 3, i % 3); },
+      [&](std::int64_t i) {
+        const std::int64_t f = i / 3;
+        const std::int64_t k = i % 3;
+        return Wedge{surface.triangles(f, (k + 1) % 3), surface.triangles(f, (k + 2) % 3),
+                     corners[idx(f)][idx((k + 1) % 3)], corners[idx(f)][idx((k + 2) % 3)]};
+      });
   constexpr double steps_per_edge = 4;
   constexpr double most_steps = 4000;
   const double mean = sum / std::max(1.0, static_cast<double>(surface.triangles.size()));
@@ -84,76 +89,91 @@ GeodesicDistance::GeodesicDistance(const Surface& surface)
 /// Vertices by distance, in steps so short that the order within one hardly matters: no heap.
 class GeodesicDistance::Front {
  public:
-  Front(float step, std::size_t steps) : step_(step), ring_(steps) {}
+  Front(float step, std::size_t steps, std::size_t vertices) : step_(step), first_(steps, none) {
+    entries_.reserve(2 * vertices);
+  }
 
-  void push(float distance, int vertex) {
-    ring_[static_cast<std::size_t>(number(distance)) % ring_.size()].push_back(vertex);
+  void push(float distance, std::int32_t vertex) {
+    std::int32_t& first = first_[idx(number(distance)) % first_.size()];
+    entries_.push_back({vertex, first});
+    first = static_cast<std::int32_t>(entries_.size()) - 1;
     ++count_;
   }
   /// The next vertex that is reached in this step by `distance`, -1 at the end.
-  [[nodiscard]] int pop(const Eigen::VectorXf& distance) {
+  [[nodiscard]] std::int32_t pop(const Eigen::VectorXf& distance) {
     while (count_ > 0) {
-      std::vector<int>& now = ring_[static_cast<std::size_t>(at_) % ring_.size()];
-      if (now.empty()) {
+      std::int32_t& first = first_[idx(at_) % first_.size()];
+      if (first == none) {
         ++at_;
         continue;
       }
-      const int vertex = now.back();
-      now.pop_back();
+      const Entry entry = entries_[idx(first)];
+      first = entry.next;
       --count_;
-      if (number(distance[vertex]) == at_) return vertex;  // else it was reached sooner
+      if (number(distance[entry.vertex]) == at_) return entry.vertex;  // else reached sooner
     }
     return -1;
   }
 
  private:
+  static constexpr std::int32_t none = -1;
+  struct Entry {
+    std::int32_t vertex;
+    std::int32_t next;  // in the same step
+  };
+
   [[nodiscard]] std::int64_t number(float distance) const {
     return static_cast<std::int64_t>(distance / step_);
   }
 
   float step_;
-  std::vector<std::vector<int>> ring_;
+  std::vector<std::int32_t> first_;  // of the entries of each step
+  std::vector<Entry> entries_;
   std::int64_t at_ = 0;
   std::size_t count_ = 0;
 };
 
 Eigen::VectorXf GeodesicDistance::from(int vertex) const {
-  Eigen::VectorXf distance = Eigen::VectorXf::Constant(surface_.positions.rows(), nowhere);
-  std::vector<char> is_done(idx(surface_.positions.rows()), 0);
+  const std::size_t count = wedges_around_.offsets.size() - 1;
+  Eigen::VectorXf distance = Eigen::VectorXf::Constant(static_cast<Eigen::Index>(count), nowhere);
+  std::vector<char> is_done(count, 0);
   const float worth_it = 0.05F * step_;  // of reaching a vertex anew
-  Front front(step_, steps_);
+  Front front(step_, steps_, count);
   distance[vertex] = 0;
   front.push(0, vertex);
-  for (int v = front.pop(distance); v >= 0; v = front.pop(distance)) {
+  const auto offer = [&](std::int32_t target, float found) {
+    if (!(found < distance[target] - worth_it)) return;
+    distance[target] = found;
+    is_done[idx(target)] = 0;
+    front.push(found, target);
+  };
+  for (std::int32_t v = front.pop(distance); v >= 0; v = front.pop(distance)) {
     if (is_done[idx(v)] != 0) continue;
     is_done[idx(v)] = 1;
     const float reached = distance[v];
-    for (std::int64_t i = triangles_around_.offsets[idx(v)];
-         i < triangles_around_.offsets[idx(v) + 1]; ++i) {
-      const std::int32_t f = triangles_around_.values[idx(i)];
-      const auto row = surface_.triangles.row(f);
-      const auto& corners = corners_[idx(f)];
-      const int own = row[0] == v ? 0 : row[1] == v ? 1 : 2;
-      const int next = (own + 1) % 3;
-      const int last = (own + 2) % 3;
-      const auto offer = [&](int target, float along, float found) {
-        const float least = std::min(reached + along, found);
-        if (!(least < distance[row[target]] - worth_it)) return;
-        distance[row[target]] = least;
-        is_done[idx(row[target])] = 0;
-        front.push(least, row[target]);
-      };
+    for (std::int64_t i = wedges_around_.offsets[idx(v)]; i < wedges_around_.offsets[idx(v) + 1];
+         ++i) {
+      const Wedge& wedge = wedges_around_.values[idx(i)];
+      const Corner& at_next = wedge.at_next;
+      const Corner& at_last = wedge.at_last;
       // A wave that comes from here reaches nothing sooner than this. It goes on across an edge
       // once both of the edge's ends are reached: the last of the two asks.
-      const auto pass = [&](int target, int other, float from_start, float from_end) {
-        if (!(distance[row[target]] > reached)) return;
-        const Corner& at = corners[idx(target)];
-        const bool is_reached = is_done[idx(row[other])] != 0;
-        offer(target, corners[idx(other)].length,
-              is_reached ? across(at.length, at.x, at.y, from_start, from_end) : nowhere);
-      };
-      pass(last, next, reached, distance[row[next]]);
-      pass(next, last, distance[row[last]], reached);
+      if (distance[wedge.last] > reached) {
+        float found = reached + at_next.length;
+        if (is_done[idx(wedge.next)] != 0) {
+          found = std::min(
+              found, across(at_last.length, at_last.x, at_last.y, reached, distance[wedge.next]));
+        }
+        offer(wedge.last, found);
+      }
+      if (distance[wedge.next] > reached) {
+        float found = reached + at_last.length;
+        if (is_done[idx(wedge.last)] != 0) {
+          found = std::min(
+              found, across(at_next.length, at_next.x, at_next.y, distance[wedge.last], reached));
+        }
+        offer(wedge.next, found);
+      }
     }
   }
   return distance;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace curveskel {
 /// where that point is not seen through the triangle, along its edges.
 class GeodesicDistance {
  public:
-  explicit GeodesicDistance(const Surface& surface);  ///< kept by reference
+  explicit GeodesicDistance(const Surface& surface);
 
   /// n, in the surface's units; infinite where no way leads. O(n). May be called from several
   /// threads.
@@ -32,11 +31,17 @@ class GeodesicDistance {
     float y;
   };
 
-  const Surface& surface_;
-  Buckets<std::int32_t> triangles_around_;
-  std::vector<std::array<Corner, 3>> corners_;  // by triangle
-  float step_ = 1;                              // of the front
-  std::size_t steps_ = 1;                       // that the front is wide
+  /// A triangle at a vertex, as one reads them in a row: its other corners, each seen from the edge
+  /// between the vertex and the other.
+  struct Wedge {
+    std::int32_t next;
+    std::int32_t last;
+    Corner at_next;
+    Corner at_last;
+  };
+  Buckets<Wedge> wedges_around_;  // by vertex
+  float step_ = 1;                // of the front
+  std::size_t steps_ = 1;         // that the front is wide
 };
 
 /// n, the mean over the surface of the geodesic distance from each vertex: by `samples` vertices

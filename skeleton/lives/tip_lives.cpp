@@ -16,7 +16,7 @@
 namespace curveskel {
 namespace {
 
-constexpr int levels = 32;
+constexpr int level_curves = 32;
 constexpr int first_level = 6;  // nearer to the tip triangles are as wide as the part
 constexpr int least_vertices = 8;
 
@@ -182,8 +182,8 @@ class Lives {
     double area = 0;
     std::int64_t euler = 0;
     int level = first_level;
-    const auto level_at = [&](int k) { return tip.birth - height * k / levels; };
-    while (level <= levels) {
+    const auto level_at = [&](int k) { return tip.birth - height * k / level_curves; };
+    while (level <= level_curves) {
       // All that is connected above the level is in before anything below.
       while (!open.empty() && value_[open.top()] >= level_at(level)) {
         const int v = open.top();

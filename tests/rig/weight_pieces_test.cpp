@@ -54,7 +54,7 @@ SkinWeights with_end(const HalvedBar& bar, double x, const std::vector<float>& s
   return weights;
 }
 
-double difference(const SkinWeights& a, const SkinWeights& b) { return (a - b).norm(); }
+float difference(const SkinWeights& a, const SkinWeights& b) { return (a - b).norm(); }
 
 TEST(WeightPieces, AreOneForEachJointOfARig) {
   for (const RigSubject& subject : rig_subjects()) {

@@ -294,6 +294,17 @@ TEST(Certificate, PlatesDiscsAndBoxesOfSheetsAreNotMadeOfTubes) {
       0.1);
 }
 
+// A rod within a tube, beside its curve: the tube is as wide as before.
+TEST(Certificate, ATubeIsOneWhateverCrossesIt) {
+  const Shape tube = shapes::tube("tube", shapes::straight(1), shapes::constant(0.2), 16);
+  const Shape rod = shapes::tube("rod", shapes::straight(1.2), shapes::constant(0.02), 16);
+  const Shape both = shapes::together("both", {tube, shapes::translated(rod, {0, 0.06, 0})});
+  CurveSkeleton axis = chain({{-0.4, 0, 0}, {0.4, 0, 0}});
+  EXPECT_LT(certify(both, axis).tube_share, 0.2) << "measured alone";
+  axis.radii.setConstant(2, 0.2);
+  EXPECT_GT(certify(both, axis).tube_share, 0.9);
+}
+
 // Area counts, not how finely it is divided; and a figure's size does not.
 TEST(Certificate, TheShareMadeOfTubesIsThatOfTheShape) {
   for (const int cells : {1, 3, 24}) {
