@@ -38,6 +38,17 @@ Json parts_of(const RigParts& parts) {
   return list;
 }
 
+Json other_figures_of(const CharacterRig& character) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
+    const BodyPlan& plan = character.other_plans[k];
+    list.push_back({{"names_begin_with", "figure" + std::to_string(k + 2) + "_"},
+                    {"plan", name_of(body_kinds, plan.plan)},
+                    {"plan_reason", plan.reason}});
+  }
+  return list;
+}
+
 Json joints_of(const Rig& rig) {
   Json list = Json::array();
   for (Eigen::Index j = 0; j < rig.joints.rows(); ++j) {
@@ -89,6 +100,7 @@ std::string rig_report_json(const RigRecord& record) {
                      {"front", to_json(plan.axes.row(2))},
                      {"roles", roles_of(record)},
                      {"missing_roles", plan.missing},
+                     {"other_figures", other_figures_of(record.character)},
                      {"parts", parts_of(record.character.parts)},
                      {"joints", joints_of(record.character.rig)},
                      {"checks", checks_of(record)},

@@ -280,6 +280,9 @@ int run_rig(RigArguments arguments, Session& session) {
                   count_tips(written));
   text += parts_in_words(found.character.parts);
   text += plan_in_words(plan);
+  for (std::size_t k = 0; k < found.character.other_plans.size(); ++k) {
+    text += fmt::format("figure {}, {}", k + 2, plan_in_words(found.character.other_plans[k]));
+  }
   text += old_rig_in_words;
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
   session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));

@@ -26,7 +26,8 @@ struct CharacterOptions {
 struct CharacterRig {
   Rig rig;  ///< by the file's vertices
   RigParts parts;
-  BodyPlan plan;
+  BodyPlan plan;                      ///< of the first figure
+  std::vector<BodyPlan> other_plans;  ///< of a scene's other figures, the second first
   std::vector<bool> follows;  ///< of each of the file's vertices, true if it is not of the body
 };
 
@@ -35,9 +36,11 @@ struct CharacterRig {
 /// of which `parts` are. O(#V + #N).
 [[nodiscard]] CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts);
 
-/// `find_plan`, `make_planned_rig`, `rig_of_given`, `name_roles`. `body` is what `body_of` leaves
-/// of a repaired surface, the skeleton the body's, `given` the file's surface in triangles. The
-/// result's `parts` are empty.
+/// `find_plan`, `make_planned_rig`, `rig_of_given`, `name_roles`; where two or more bodies stand
+/// clear of one another and each is built to a plan, for each of them, side by side: the joints of
+/// the first come first, those of the k-th are named "figure<k>_..." and have no roles. `body` is
+/// what `body_of` leaves of a repaired surface, the skeleton the body's, `given` the file's surface
+/// in triangles. The result's `parts` are empty.
 [[nodiscard]] CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                                     const CurveSkeleton& skeleton,
                                     const CharacterOptions& options = {},

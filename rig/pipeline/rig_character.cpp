@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
 namespace {
@@ -61,18 +62,38 @@ CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& pa
   return body;
 }
 
+namespace {
+
+/// With names; the joints of the plan first.
+RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor& monitor) {
+  RiggedBody made{std::move(figure.body), std::move(figure.skeleton), {}};
+  made.rig = make_planned_rig(made.body.surface, made.skeleton, figure.plan, options.rig, monitor);
+  name_roles(made.rig, figure.plan, options.names);
+  return made;
+}
+
+}  // namespace
+
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                       const CurveSkeleton& skeleton, const CharacterOptions& options,
                       const Monitor& monitor) {
   const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
+  std::vector<Figure> figures = find_figures(body, dense, wanted);
+  if (figures.empty()) figures.push_back({body, dense, find_plan(body.surface, dense, wanted)});
   CharacterRig result;
-  result.plan = find_plan(body.surface, dense, wanted);
-  const Rig made = make_planned_rig(body.surface, dense, result.plan, options.rig, monitor);
-  result.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
-  result.follows = followers_of(body.vertex_of_input);
-  name_roles(result.rig, result.plan, options.names);
+  result.plan = figures.front().plan;
+  std::vector<RiggedBody> made;
+  made.reserve(figures.size());
+  for (Figure& figure : figures) {
+    if (!made.empty()) result.other_plans.push_back(figure.plan);
+    made.push_back(rigged(std::move(figure), options, monitor));
+  }
+  const RiggedBody all = side_by_side(std::move(made));
+  result.rig =
+      rig_of_given(all.rig, all.body.surface, all.skeleton, all.body.vertex_of_input, given);
+  result.follows = followers_of(all.body.vertex_of_input);
   return result;
 }
 

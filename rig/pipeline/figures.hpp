@@ -1,0 +1,42 @@
+// The figures of a scene, each with a plan of its own. Internal to rig/.
+#pragma once
+
+#include <vector>
+
+#include <curveskel/body_plan.hpp>
+#include <curveskel/curve_skeleton.hpp>
+#include <curveskel/make_rig.hpp>
+#include <curveskel/repair.hpp>
+#include <curveskel/rig.hpp>
+#include <curveskel/role_names.hpp>
+
+namespace curveskel {
+
+/// One figure as if it were alone in the file.
+struct Figure {
+  RepairedSurface body;
+  CurveSkeleton skeleton;
+  BodyPlan plan;
+};
+
+/// The bodies that stand clear of one another (their boxes do not meet) and are each built to a
+/// plan: two or more, the largest first, or none. All else that is not a figure goes with the one
+/// whose box is nearest. `skeleton` has node_of_vertex, by the body's vertices; without it there
+/// are none. O((#V + #N) times the number of groups with four tips or more, and the square of the
+/// number of components).
+[[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
+                                               const CurveSkeleton& skeleton,
+                                               const PlanOptions& options);
+
+/// A rig, and the surface and skeleton that it is of.
+struct RiggedBody {
+  RepairedSurface body;
+  CurveSkeleton skeleton;
+  Rig rig;
+};
+
+/// All figures side by side: the joints of the first keep names and roles, those of the k-th are
+/// named "figure<k>_..." and have no roles, as programs expect one of each.
+[[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures);
+
+}  // namespace curveskel
