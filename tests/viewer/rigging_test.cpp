@@ -194,7 +194,7 @@ TEST_F(Rigging, IsSavedAndMadeFirstIfNeedBe) {
     EXPECT_EQ(read_polygons(file, {}).positions.rows(),
               bench.scene->document.surface.positions.rows());
   }
-  bench.save(folder.path() / "wrong.fbx");
+  bench.save(folder.path() / "wrong.x3d");
   EXPECT_NE(last_said().find("for a rig, glb, gltf"), std::string::npos) << last_said();
 }
 
