@@ -155,9 +155,24 @@ OldRig old_rig_in(const RigArguments& arguments) {
   return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
 }
 
+/// Of files whose look is read from glTF and OBJ alone.
+void warn_of_looks(const RigArguments& arguments, Session& session) {
+  fs::path name = arguments.mesh;
+  if (name.extension() == ".gz") name = name.stem();
+  for (const char* extension : {".fbx", ".dae", ".3mf", ".vtp", ".vtk"}) {
+    if (name.extension() != extension) continue;
+    session.terminal.warn(arguments.mesh.filename().string() +
+                          ": materials, texture coordinates and an old rig are not taken from "
+                          "such a file; to keep them export it as glTF");
+  }
+}
+
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
-  if (!arguments.bare) require_editable(arguments.mesh, old_rig_in(arguments), monitor);
+  if (!arguments.bare) {
+    require_editable(arguments.mesh, old_rig_in(arguments), monitor);
+    warn_of_looks(arguments, session);
+  }
   const bool as_bound = !arguments.bare && !arguments.keep_rig;
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
   if (as_bound && soup.posed) {

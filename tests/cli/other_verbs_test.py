@@ -313,6 +313,13 @@ class Rig(CommandLineTest):
         self.refused(3, "rig", Y, "-o", "y.glb", "--root", "999999",
                      says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
 
+    def test_a_file_whose_look_is_not_read_is_said_to_lose_it(self):
+        self.run_ok("rig", Y, "-o", "y.fbx", cwd=self.folder)
+        said = self.run_ok("rig", "y.fbx", "-o", "z.fbx", cwd=self.folder).err
+        self.assertIn("are not taken from such a file", said)
+        quiet = self.run_ok("rig", "y.fbx", "-o", "z.fbx", "--bare", cwd=self.folder).err
+        self.assertNotIn("are not taken from such a file", quiet)
+
     def test_another_extension_is_a_usage_error_that_lists_the_formats(self):
         for name in ("y.x3d", "y.obj", "y"):
             self.refused(2, "rig", Y, "-o", name, says=["glb", "gltf"], cwd=self.folder)
