@@ -5,7 +5,7 @@
 namespace curveskel {
 namespace {
 
-// What the format's own programs write of a file without a date: the marks at its end belong to it.
+// As the format's own programs have it in a file without a date; its marks at the end go with it.
 constexpr std::string_view file_number(
     "\x28\xb3\x2a\xeb\xb6\x24\xcc\xc2\xbf\xc8\xb0\x2a\xa9\x2b\xfc\xf1", 16);
 constexpr const char* no_date = "1970-01-01 10:00:00:000";

@@ -46,7 +46,7 @@ struct LocalMove {
   Vector3d scale;
 };
 
-/// What shear there is stays out.
+/// Without the shear, if there is any.
 LocalMove local_move(const Affine3d& frame) {
   LocalMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
   if (frame.linear().determinant() < 0) move.scale.x() *= -1;
@@ -171,7 +171,7 @@ class SceneWriter {
     return plain_material_;
   }
 
-  /// Where the joints were when the mesh was bound to them, in the scene, into which it is moved.
+  /// The joints' frames when the mesh was bound to them, in the scene, into which it is moved.
   std::vector<Affine3d> place_as_bound(int number, FbxMesh& mesh) const {
     const tinygltf::Skin& skin = model_.skins[idx(number)];
     std::vector<Affine3d> from_joint;  // to the mesh

@@ -70,7 +70,7 @@ std::vector<int> tips_of(const CurveSkeleton& skeleton, const Eigen::VectorXi& g
 
 bool is_planned(const BodyPlan& plan) { return !plan.joints.empty(); }
 
-/// What is no figure goes with the nearest.
+/// The groups that are no figures go with the nearest one.
 void join_to_nearest(std::vector<int>& group, const Boxes& boxes, const std::vector<int>& figures) {
   std::vector<int> nearest(boxes.size());
   for (std::size_t k = 0; k < boxes.size(); ++k) {

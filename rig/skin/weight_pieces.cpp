@@ -1,13 +1,14 @@
 #include "rig/skin/weight_pieces.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/union_find.hpp>
 
 namespace curveskel {
@@ -57,8 +58,14 @@ WeldedSurface::WeldedSurface(const Surface& surface, std::vector<int> place_of)
   for (const auto& [a, b] : edges) joined.unite(a, b);
   for (int v = 0; v < static_cast<int>(count); ++v) joined.unite(v, place[idx(v)]);
   component = joined.numbers();
-  const Eigen::VectorXd shares = vertex_areas(surface);
-  for (Eigen::Index v = 0; v < count; ++v) areas[place[idx(v)]] += shares[v];
+  for (const auto& t : surface.triangles.rowwise()) {
+    const Eigen::Vector3d a = surface.positions.row(t(0));
+    const Eigen::Vector3d u = surface.positions.row(t(1)).transpose() - a;
+    const Eigen::Vector3d v = surface.positions.row(t(2)).transpose() - a;
+    const double third = u.cross(v).norm() / 6;
+    if (!std::isfinite(third)) continue;
+    for (const int corner : t) areas[place[idx(corner)]] += third;
+  }
 }
 
 std::span<const std::int32_t> WeldedSurface::neighbours(int place_number) const {

@@ -1,4 +1,4 @@
-// Where on a surface a joint's weights lie, piece by piece. Internal to rig/.
+// The pieces of a surface in which a joint's weights lie. Internal to rig/.
 #pragma once
 
 #include <Eigen/Core>

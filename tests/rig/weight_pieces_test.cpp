@@ -88,7 +88,7 @@ TEST(WeightPieces, FillAnIslandThatNothingElseMovesFromAround) {
   EXPECT_LT(difference(weights, bar.weights), 1e-5);
 }
 
-/// What little a joint has round an island goes with it, so that no edge is torn there.
+/// The little that a joint has round an island goes with it, so that no edge is torn there.
 TEST(WeightPieces, TakeTheSlopesOfAnIslandToo) {
   const HalvedBar bar = halved_bar();
   SkinWeights with_island = with_end(bar, 4, {0.05F, 0.95F, 0});
