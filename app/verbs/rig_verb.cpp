@@ -338,7 +338,7 @@ Verb add_rig(CLI::App& program) {
   parser
       ->add_option(
           "--joints", arguments->joints,
-          "make no joints, but weights for these: glTF with a skin, .json of this program, "
+          "make no joints, but weights for these: glTF with a skin, FBX, .json of this program, "
           "RigNet's .txt; in the surface's coordinates")
       ->type_name("FILE")
       ->excludes(keep);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,7 +12,10 @@
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
 #include "rig/io/rig_formats.hpp"
+#include "surface/read/fbx_scene.hpp"
+#include "surface/read/fbx_tree.hpp"
 #include "surface/read/file_bytes.hpp"
+#include "surface/read/formats.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,7 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* joints_remedy =
-    "give a glTF file with a skin, the .json or .txt that `curveskel rig` writes, or RigNet's .txt";
+    "give a glTF file with a skin, an FBX file with limbs, the .json or .txt that `curveskel rig` "
+    "writes, or RigNet's .txt";
 
 struct GivenJoint {
   std::string name;
@@ -153,6 +158,42 @@ Rig joints_of_text(const FileBytes& file) {
   return rig_of(joints, file);
 }
 
+bool is_joint(const FbxRecord& model) {
+  const std::string_view kind = model.text(2);
+  return kind == "LimbNode" || kind == "Limb" || kind == "Root";
+}
+
+/// "hips" of "hips", a mark and "Model", or of "Model::hips", as text has it.
+std::string plain_name(std::string_view name) {
+  constexpr std::string_view before = "Model::";
+  if (name.starts_with(before)) name.remove_prefix(before.size());
+  return std::string(name.substr(0, name.find('\0')));
+}
+
+/// The limbs of the file where its nodes rest.
+Rig joints_of_fbx(const FileBytes& file) {
+  const FbxRecord root = parse_fbx(file);
+  const FbxScene scene(file, root);
+  std::vector<GivenJoint> joints;
+  std::map<const FbxRecord*, int> number;
+  std::vector<const FbxRecord*> models;
+  for (const FbxRecord* model : scene.all("Model")) {
+    if (!is_joint(*model)) continue;
+    number.emplace(model, static_cast<int>(models.size()));
+    models.push_back(model);
+  }
+  for (const FbxRecord* model : models) {
+    GivenJoint joint;
+    joint.name = plain_name(model->text(1));
+    joint.position = scene.frame(*model).translation().transpose();
+    const FbxRecord* above = scene.parent(*model);
+    while (above != nullptr && !number.contains(above)) above = scene.parent(*above);
+    if (above != nullptr) joint.parent = number.at(above);
+    joints.push_back(std::move(joint));
+  }
+  return rig_of(joints, file);
+}
+
 }  // namespace
 
 Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
@@ -160,6 +201,8 @@ Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
   const std::size_t first = file.content.find_first_not_of(" \t\r\n");
   const bool is_text = first != std::string::npos && file.content[first] == '{';
   if (is_text && !says_gltf(file.content)) return joints_of_json(file);
+  const bool is_fbx = is_binary_fbx(file) || surface_format_of(file) == SurfaceFormat::fbx;
+  if (is_fbx) return joints_of_fbx(file);
   if (!is_text && !file.content.starts_with("glTF")) return joints_of_text(file);
   std::optional<Rig> rig = read_gltf_rig(file, monitor);
   if (!rig) file.fail("no skin", "joints", joints_remedy);

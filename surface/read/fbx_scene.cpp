@@ -95,6 +95,11 @@ void FbxScene::place_models() {
   }
 }
 
+const FbxRecord* FbxScene::parent(const FbxRecord& model) const {
+  const auto found = parent_of_.find(&model);
+  return found == parent_of_.end() ? nullptr : found->second;
+}
+
 std::vector<const FbxRecord*> FbxScene::all(std::string_view kind) const {
   std::vector<const FbxRecord*> result;
   for (const FbxRecord& object : objects_->children) {

@@ -23,6 +23,9 @@ class FbxScene {
   [[nodiscard]] std::vector<const FbxRecord*> below(const FbxRecord& object, std::string_view kind,
                                                     std::string_view subclass = {}) const;
 
+  /// The model that a model hangs from, or nullptr.
+  [[nodiscard]] const FbxRecord* parent(const FbxRecord& model) const;
+
   /// From a model's coordinates to the world's, as the model's own numbers place it.
   [[nodiscard]] const Eigen::Affine3d& frame(const FbxRecord& model) const {
     return frame_of_.at(&model);

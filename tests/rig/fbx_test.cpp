@@ -10,12 +10,15 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/make_rig.hpp>
+#include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/fbx/fbx_records.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::fbx_laws {
@@ -206,6 +209,33 @@ TEST(Fbx, HasJointsWhereTheyAreAndAllTheirWeights) {
                 1e-5 * size);
     }
     EXPECT_LT((weights - written.rig.weights).norm(), 1e-4);
+  }
+}
+
+TEST(Fbx, GivesItsJointsBack) {
+  const OwnFolder folder;
+  for (const RigSubject& subject : rig_subjects()) {
+    SCOPED_TRACE(subject.name);
+    const Written written(subject);
+    write_file(folder.path() / "rig.fbx", written.file.content);
+    const Rig found = read_joints(folder.path() / "rig.fbx", {});
+    ASSERT_EQ(found.joints.rows(), written.rig.joints.rows());
+    const double size = subject.surface.positions.cwiseAbs().maxCoeff();
+    std::map<std::string, Eigen::Index> joint_of;
+    for (std::size_t k = 0; k < written.rig.names.size(); ++k) {
+      joint_of[written.rig.names[k]] = static_cast<Eigen::Index>(k);
+    }
+    for (std::size_t k = 0; k < found.names.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      const Eigen::Index joint = joint_of.at(found.names[k]);
+      EXPECT_LT((found.joints.row(row) - written.rig.joints.row(joint)).norm(), 1e-5 * size);
+      const int parent = found.parents[row];
+      const int wanted = written.rig.parents[joint];
+      ASSERT_EQ(parent < 0, wanted < 0);
+      if (parent >= 0) {
+        EXPECT_EQ(found.names[idx(parent)], written.rig.names[idx(wanted)]);
+      }
+    }
   }
 }
 
