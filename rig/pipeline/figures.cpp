@@ -127,7 +127,7 @@ void append(Rig& all, const Rig& more) {
   insert(all.weights, 0, 0);
   insert(more.weights, vertices, joints);
   weights.makeCompressed();
-  all.weights = std::move(weights);
+  all.weights.swap(weights);
   append_rows(all.joints, more.joints);
   append_rows(all.parents, shifted(more.parents, joints));
   all.names.insert(all.names.end(), more.names.begin(), more.names.end());
