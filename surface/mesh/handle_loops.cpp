@@ -10,6 +10,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/error.hpp>
+#include "surface/mesh/silence_openmesh.hpp"
 
 namespace curveskel {
 namespace {
@@ -29,7 +30,7 @@ using LoopFace = OpenMesh::FaceHandle;
 /// Edges are numbered in the order in which the faces' corners reach them, and the first half-edge
 /// of each is that of the face that came first.
 LoopMesh loop_mesh(const Surface& surface) {
-  omerr().disable();
+  silence_openmesh();
   LoopMesh mesh;
   const auto vertices = idx(surface.positions.rows());
   const auto faces = idx(surface.triangles.rows());

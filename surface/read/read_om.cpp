@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "surface/mesh/silence_openmesh.hpp"
 #include "surface/read/formats.hpp"
 
 namespace curveskel {
@@ -330,7 +331,7 @@ PolygonSoup read_om(const FileBytes& file, const Monitor& monitor) {
   {
     static std::mutex one_at_a_time;  // OpenMesh's reader keeps its state in a singleton
     const std::lock_guard guard(one_at_a_time);
-    omerr().disable();
+    silence_openmesh();
     OpenMesh::IO::Options options;
     if (!OpenMesh::IO::OMReader().read(geometry, read, options) ||
         read.n_vertices() != chunks.vertices() || read.n_faces() != chunks.faces()) {

@@ -6,13 +6,12 @@
 #include <sstream>
 
 #include <curveskel/error.hpp>
+#include "surface/mesh/silence_openmesh.hpp"
 
 namespace curveskel {
 
 std::string format_om(const Surface& surface) {
-  omerr().disable();
-  omout().disable();
-  omlog().disable();
+  silence_openmesh();
   OpenMesh::TriMesh mesh;
   const auto vertices = static_cast<std::size_t>(surface.positions.rows());
   const auto faces = static_cast<std::size_t>(surface.triangles.rows());
