@@ -10,7 +10,6 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include "rig/skin/weight_pieces.hpp"
-#include "surface/repair/weld.hpp"
 
 namespace curveskel {
 namespace {
@@ -32,16 +31,10 @@ Eigen::SparseMatrix<double> turning_shares(const Rig& rig) {
   return shares;
 }
 
-std::vector<int> places_of(const Surface& surface) {
-  constexpr double one_place = 1e-6;  // of D
-  return nearby_vertices(surface.positions, std::vector<bool>(idx(surface.positions.rows()), true),
-                         one_place * bounding_box_diagonal(surface.positions));
-}
-
 class WeightChecker {
  public:
   WeightChecker(const Surface& surface, const Rig& rig, const std::vector<bool>& follows)
-      : surface_(surface), rig_(rig), follows_(follows), welded_(surface, places_of(surface)) {
+      : surface_(surface), rig_(rig), follows_(follows), welded_(surface, welded_places(surface)) {
     triangles_at_.resize(welded_.place.size());
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
       for (const int v : surface.triangles.row(f)) triangles_at_[idx(v)].push_back(f);

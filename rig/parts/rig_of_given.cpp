@@ -7,11 +7,10 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/make_rig.hpp>
-#include "surface/repair/weld.hpp"
+#include "rig/skin/weight_pieces.hpp"
 
 namespace curveskel {
 namespace {
@@ -27,14 +26,12 @@ struct Follower {
 };
 
 std::vector<Follower> find_followers(const Surface& given, const Eigen::VectorXi& vertex_of_input) {
-  constexpr double one_place = 1e-6;  // of D
   const Eigen::Index count = given.positions.rows();
   UnionFind joined(count);
   for (const auto& t : given.triangles.rowwise()) {
     for (int k = 1; k < 3; ++k) joined.unite(t(0), t(k));
   }
-  const auto place = nearby_vertices(given.positions, std::vector<bool>(idx(count), true),
-                                     one_place * bounding_box_diagonal(given.positions));
+  const std::vector<int> place = welded_places(given);
   std::vector<char> sewn(idx(count), 0);
   for (int v = 0; v < static_cast<int>(count); ++v) {
     const int other = place[idx(v)];
@@ -55,21 +52,6 @@ std::vector<Follower> find_followers(const Surface& given, const Eigen::VectorXi
   return followers;
 }
 
-using Row = std::vector<std::pair<int, double>>;  // joint, share; joints ascending
-
-/// The largest shares, of sum 1.
-Row normalised(const std::map<int, double>& shares) {
-  Row row(shares.begin(), shares.end());
-  std::stable_sort(row.begin(), row.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  row.resize(std::min(row.size(), most_joints));
-  double sum = 0;
-  for (const auto& [joint, share] : row) sum += share;
-  for (auto& [joint, share] : row) share /= sum;
-  std::sort(row.begin(), row.end());
-  return row;
-}
-
 class Following {
  public:
   Following(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
@@ -85,7 +67,7 @@ class Following {
       contacts.push_back(tree_.nearest(given_.positions.row(v).transpose()));
     }
     if (moves_as_one(follower, contacts)) {
-      const Row row = mean_row(nearest_of(contacts));
+      const WeightRow row = mean_row(nearest_of(contacts));
       for (const int v : follower.vertices) set(v, row);
       return;
     }
@@ -127,7 +109,7 @@ class Following {
     return contacts;
   }
 
-  [[nodiscard]] Row mean_row(const std::vector<SurfaceTree::Nearest>& contacts) const {
+  [[nodiscard]] WeightRow mean_row(const std::vector<SurfaceTree::Nearest>& contacts) const {
     std::map<int, double> shares;
     for (const SurfaceTree::Nearest& contact : contacts) {
       const std::array<double, 3> at = barycentric(contact);
@@ -139,7 +121,7 @@ class Following {
         }
       }
     }
-    return normalised(shares);
+    return largest_shares({shares.begin(), shares.end()}, most_joints);
   }
 
   [[nodiscard]] std::array<double, 3> barycentric(const SurfaceTree::Nearest& contact) const {
@@ -169,7 +151,7 @@ class Following {
 Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
                  const Eigen::VectorXi& vertex_of_input, const Surface& given) {
   const Eigen::Index count = given.positions.rows();
-  std::vector<Row> rows(idx(count));
+  std::vector<WeightRow> rows(idx(count));
   for (Eigen::Index v = 0; v < count; ++v) {
     if (vertex_of_input[v] < 0) continue;
     for (SkinWeights::InnerIterator it(rig.weights, vertex_of_input[v]); it; ++it) {
@@ -180,7 +162,7 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
   if (!followers.empty()) {
     const Following following(rig, surface, skeleton, given);
     for (const Follower& follower : followers) {
-      following.follow(follower, [&](int v, const Row& row) { rows[idx(v)] = row; });
+      following.follow(follower, [&](int v, const WeightRow& row) { rows[idx(v)] = row; });
     }
   }
   Rig result{rig.joints, rig.parents, rig.names, SkinWeights(count, rig.weights.cols()),

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/repair/weld.hpp"
 
 namespace curveskel {
 namespace {
@@ -38,6 +40,23 @@ std::vector<std::pair<int, int>> edges_of(const Surface& surface, const std::vec
 }
 
 }  // namespace
+
+std::vector<int> welded_places(const Surface& surface) {
+  constexpr double one_place = 1e-6;  // of D
+  return nearby_vertices(surface.positions, std::vector<bool>(idx(surface.positions.rows()), true),
+                         one_place * bounding_box_diagonal(surface.positions));
+}
+
+WeightRow largest_shares(WeightRow row, std::size_t kept) {
+  std::stable_sort(row.begin(), row.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  row.resize(std::min(row.size(), kept));
+  double sum = 0;
+  for (const auto& [joint, share] : row) sum += share;
+  for (auto& [joint, share] : row) share /= sum;
+  std::sort(row.begin(), row.end());
+  return row;
+}
 
 WeldedSurface::WeldedSurface(const Surface& surface)
     : WeldedSurface(surface, own_places(surface.positions.rows())) {}
@@ -155,20 +174,6 @@ void WeightPieces::grow(std::vector<Piece>& pieces) {
 
 namespace {
 
-/// A vertex's joints, ascending, and their shares, of sum 1.
-using Row = std::vector<std::pair<int, double>>;
-
-Row largest_shares(Row row, std::size_t kept) {
-  std::stable_sort(row.begin(), row.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  row.resize(std::min(row.size(), kept));
-  double sum = 0;
-  for (const auto& [joint, share] : row) sum += share;
-  for (auto& [joint, share] : row) share /= sum;
-  std::sort(row.begin(), row.end());
-  return row;
-}
-
 class IslandTaker {
  public:
   IslandTaker(const Surface& surface, const SkinWeights& weights, std::size_t kept)
@@ -192,7 +197,7 @@ class IslandTaker {
     }
     std::vector<int> bare;
     for (const auto& [place, joints] : taken) {
-      Row& row = rows_[idx(place)];
+      WeightRow& row = rows_[idx(place)];
       std::erase_if(row, [&lost = joints](const auto& entry) {
         return std::binary_search(lost.begin(), lost.end(), entry.first);
       });
@@ -240,10 +245,10 @@ class IslandTaker {
   /// Ring by ring, from those that have rows.
   void fill(std::vector<int> bare) {
     while (!bare.empty()) {
-      std::vector<std::pair<int, Row>> filled;
+      std::vector<std::pair<int, WeightRow>> filled;
       std::vector<int> left;
       for (const int place : bare) {
-        Row row = mean_of_neighbours(place);
+        WeightRow row = mean_of_neighbours(place);
         if (row.empty()) {
           left.push_back(place);
         } else {
@@ -256,7 +261,7 @@ class IslandTaker {
     }
   }
 
-  [[nodiscard]] Row mean_of_neighbours(int place) const {
+  [[nodiscard]] WeightRow mean_of_neighbours(int place) const {
     std::map<int, double> shares;
     for (const int next : surface_.neighbours(place)) {
       for (const auto& [joint, share] : rows_[idx(next)]) shares[joint] += share;
@@ -266,8 +271,8 @@ class IslandTaker {
 
   WeldedSurface surface_;
   std::size_t kept_;
-  std::vector<Row> rows_;  // by place
-  std::set<int> changed_;  // places
+  std::vector<WeightRow> rows_;  // by place
+  std::set<int> changed_;        // places
   WeightPieces pieces_;
 };
 

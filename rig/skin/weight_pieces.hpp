@@ -13,6 +13,15 @@
 
 namespace curveskel {
 
+/// A vertex's joints, ascending, and their shares, of sum 1.
+using WeightRow = std::vector<std::pair<int, double>>;
+
+/// The largest `kept` of these shares, of sum 1, joints ascending.
+[[nodiscard]] WeightRow largest_shares(WeightRow row, std::size_t kept);
+
+/// Of each vertex the first in its place: 1e-6 of D is no distance. O(#V) unless many coincide.
+[[nodiscard]] std::vector<int> welded_places(const Surface& surface);
+
 /// A surface as weights see it: vertices in one place are one, the first of them.
 struct WeldedSurface {
   /// Each vertex in a place of its own. O(#F log #F).

@@ -128,6 +128,19 @@ def rigged_files():
     return files
 
 
+def result_of(script, folder):
+    """What Blender writes into result.json."""
+    (folder / "script.py").write_text(script)
+    environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
+    done = subprocess.run(
+        [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
+         folder / "script.py", "--", folder], capture_output=True, text=True,
+        stdin=subprocess.DEVNULL, env=environment, check=False)
+    if done.returncode != 0:
+        raise AssertionError(done.stdout[-2000:] + done.stderr[-2000:])
+    return json.loads((folder / "result.json").read_text())
+
+
 @unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
 class RigFiles(unittest.TestCase):
     def test_all_is_there_rests_where_it_was_and_moves_as_we_say(self):
@@ -139,14 +152,7 @@ class RigFiles(unittest.TestCase):
                 shutil.copy(file, folder / f"{number}.before{file.suffix}")
                 subprocess.run([PROGRAM, "rig", file, "-o", folder / f"{number}.after.glb", "-q"],
                                check=True, stderr=subprocess.DEVNULL)
-            (folder / "script.py").write_text(LOOK)
-            environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
-            done = subprocess.run(
-                [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
-                 folder / "script.py", "--", folder], capture_output=True, text=True,
-                stdin=subprocess.DEVNULL, env=environment, check=False)
-            self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
-            found = json.loads((folder / "result.json").read_text())
+            found = result_of(LOOK, folder)
         for number, file in enumerate(files):
             with self.subTest(file.name):
                 result = found[f"{number}.before{file.suffix}"]
@@ -262,14 +268,7 @@ class Fbx(unittest.TestCase):
                 subprocess.run([PROGRAM, "rig", source, "-o", f"{name}.glb", "-o", f"{name}.fbx",
                                 "-q"], check=True, stderr=subprocess.DEVNULL)
                 self.read_by_assimp(f"{name}.fbx", f"{name}.glb")
-            (folder / "look.py").write_text(FBX)
-            environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
-            done = subprocess.run(
-                [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
-                 folder / "look.py", "--", folder], capture_output=True, text=True,
-                stdin=subprocess.DEVNULL, env=environment, check=False)
-            self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
-            found = json.loads((folder / "result.json").read_text())
+            found = result_of(FBX, folder)
         self.assertTrue(found)
         for name, result in found.items():
             with self.subTest(name):

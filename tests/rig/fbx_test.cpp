@@ -130,10 +130,14 @@ TEST(Fbx, RecordsAreReadAsTheyWereWritten) {
 struct Written {
   Rig rig;
   FileBytes file;
+  FbxRecord root;  // views of the file
+  FbxScene scene;
 
   explicit Written(const RigSubject& subject)
       : rig(make_rig(subject.surface, subject.skeleton, {}, {})),
-        file{"rig.fbx", format_rig(subject.surface, rig, RigFormat::fbx, subject.name, "test")} {}
+        file{"rig.fbx", format_rig(subject.surface, rig, RigFormat::fbx, subject.name, "test")},
+        root(parse_fbx(file)),
+        scene(file, root) {}
 };
 
 const FbxRecord& only(const std::vector<const FbxRecord*>& found) {
@@ -150,8 +154,7 @@ TEST(Fbx, HasTheSurface) {
   for (const RigSubject& subject : rig_subjects()) {
     SCOPED_TRACE(subject.name);
     const Written written(subject);
-    const FbxRecord root = parse_fbx(written.file);
-    const FbxScene scene(written.file, root);
+    const FbxScene& scene = written.scene;
     const FbxRecord& geometry = only(scene.all("Geometry"));
     const std::vector<double> places = numbers_in(written.file, geometry, "Vertices");
     ASSERT_EQ(places.size(), idx(subject.surface.positions.size()));
@@ -177,8 +180,7 @@ TEST(Fbx, HasJointsWhereTheyAreAndAllTheirWeights) {
   for (const RigSubject& subject : rig_subjects()) {
     SCOPED_TRACE(subject.name);
     const Written written(subject);
-    const FbxRecord root = parse_fbx(written.file);
-    const FbxScene scene(written.file, root);
+    const FbxScene& scene = written.scene;
     const double size = subject.surface.positions.cwiseAbs().maxCoeff();
     std::map<std::string, int> joint_of;
     for (std::size_t k = 0; k < written.rig.names.size(); ++k) {

@@ -1,0 +1,105 @@
+// Laws of scenes: each figure in one is rigged as if it were alone.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/repair.hpp>
+#include <curveskel/rig_character.hpp>
+#include "tests/rig/plan_subjects.hpp"
+
+namespace curveskel::figure_laws {
+namespace {
+
+using Eigen::RowVector3d;
+
+/// These subjects, each moved along x.
+RigSubject scene(const std::vector<std::pair<RigSubject, double>>& subjects) {
+  RigSubject all{"scene", {}, {}};
+  for (const auto& [subject, x] : subjects) {
+    const Eigen::Index vertices = all.surface.positions.rows();
+    const Eigen::Index faces = all.surface.triangles.rows();
+    const Eigen::Index nodes = all.skeleton.nodes.rows();
+    const Eigen::Index edges = all.skeleton.edges.rows();
+    const auto extend = [](auto& rows, const auto& more) {
+      rows.conservativeResize(rows.rows() + more.rows(), more.cols());
+      rows.bottomRows(more.rows()) = more;
+    };
+    extend(all.surface.positions, subject.surface.positions);
+    extend(all.surface.triangles, subject.surface.triangles);
+    extend(all.skeleton.nodes, subject.skeleton.nodes);
+    extend(all.skeleton.edges, subject.skeleton.edges);
+    extend(all.skeleton.radii, subject.skeleton.radii);
+    extend(all.skeleton.node_of_vertex, subject.skeleton.node_of_vertex);
+    for (Eigen::Index v = vertices; v < all.surface.positions.rows(); ++v) {
+      all.surface.positions(v, 0) += x;
+      all.skeleton.node_of_vertex[v] += static_cast<int>(nodes);
+    }
+    for (Eigen::Index k = nodes; k < all.skeleton.nodes.rows(); ++k) all.skeleton.nodes(k, 0) += x;
+    for (Eigen::Index f = faces; f < all.surface.triangles.rows(); ++f) {
+      all.surface.triangles.row(f).array() += static_cast<int>(vertices);
+    }
+    for (Eigen::Index e = edges; e < all.skeleton.edges.rows(); ++e) {
+      all.skeleton.edges.row(e).array() += static_cast<int>(nodes);
+    }
+  }
+  return all;
+}
+
+CharacterRig rig_of(const RigSubject& subject) {
+  RepairedSurface body;
+  body.surface = subject.surface;
+  body.vertex_of_input = Eigen::VectorXi::LinSpaced(
+      subject.surface.positions.rows(), 0, static_cast<int>(subject.surface.positions.rows()) - 1);
+  return rig_body(subject.surface, body, subject.skeleton);
+}
+
+/// Each figure of a scene is rigged as if it were alone.
+TEST(Figures, OfASceneAreRiggedEachByItsPlan) {
+  constexpr double aside = 16;
+  const CharacterRig one = rig_of(human());
+  const CharacterRig other = rig_of(beast(1));
+  const CharacterRig both = rig_of(scene({{beast(1), aside}, {human(), 0}}));
+  EXPECT_EQ(both.plan.plan, BodyKind::humanoid);
+  ASSERT_EQ(both.other_plans.size(), 1U);
+  EXPECT_EQ(both.other_plans[0].plan, BodyKind::quadruped);
+  const std::size_t first = one.rig.names.size();
+  ASSERT_EQ(both.rig.names.size(), first + other.rig.names.size());
+  const Eigen::Index beast_vertices = other.rig.weights.rows();
+  for (std::size_t k = 0; k < both.rig.names.size(); ++k) {
+    const bool is_one = k < first;
+    const Rig& alone = is_one ? one.rig : other.rig;
+    const std::size_t same = is_one ? k : k - first;
+    EXPECT_EQ(both.rig.names[k], (is_one ? "" : "figure2_") + alone.names[same]);
+    EXPECT_EQ(both.rig.roles[k], is_one ? alone.roles[same] : "");
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto alone_row = static_cast<Eigen::Index>(same);
+    const int parent = alone.parents[alone_row];
+    EXPECT_EQ(both.rig.parents[row], parent < 0 || is_one ? parent : parent + int(first));
+    const RowVector3d shift(is_one ? 0 : aside, 0, 0);
+    EXPECT_LT((both.rig.joints.row(row) - alone.joints.row(alone_row) - shift).norm(), 1e-9);
+  }
+  for (Eigen::Index v = 0; v < both.rig.weights.rows(); ++v) {
+    const bool is_one = v >= beast_vertices;
+    const Rig& alone = is_one ? one.rig : other.rig;
+    for (SkinWeights::InnerIterator it(both.rig.weights, v); it; ++it) {
+      const Eigen::Index joint = is_one ? it.col() : it.col() - static_cast<Eigen::Index>(first);
+      ASSERT_GE(joint, 0);
+      ASSERT_NEAR(it.value(), alone.weights.coeff(is_one ? v - beast_vertices : v, joint), 1e-5F);
+    }
+  }
+}
+
+TEST(Figures, AreNotMadeOfThings) {
+  const CharacterRig with_tree = rig_of(scene({{human(), 0}, {tree(), 30}}));
+  EXPECT_TRUE(with_tree.other_plans.empty());
+  const CharacterRig three = rig_of(scene({{human(), 0}, {tree(), 30}, {human(), 60}}));
+  EXPECT_EQ(three.other_plans.size(), 1U);
+  for (Eigen::Index v = 0; v < three.rig.weights.rows(); ++v) {
+    ASSERT_NEAR(three.rig.weights.row(v).sum(), 1, 1e-5F) << "something moves the tree, too";
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::figure_laws

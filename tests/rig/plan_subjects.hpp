@@ -1,0 +1,159 @@
+// Bodies that have a plan, and things that have none, as tubes about the curves that they are made
+// from.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/make_rig.hpp>
+#include "meshes/shapes.hpp"
+#include "tests/rig/rig_subjects.hpp"
+
+namespace curveskel {
+
+/// Places joined by edges; the left half also stands for the right one.
+struct Figure {
+  std::vector<Eigen::RowVector3d> places;
+  std::vector<double> radii;
+  std::vector<std::pair<int, int>> edges;
+
+  int add(const Eigen::RowVector3d& place, double radius, int from = -1) {
+    places.push_back(place);
+    radii.push_back(radius);
+    const int number = static_cast<int>(places.size()) - 1;
+    if (from >= 0) edges.emplace_back(from, number);
+    return number;
+  }
+  /// A limb of both sides through these places, from a place in the middle.
+  void add_pair(int from, const std::vector<Eigen::RowVector3d>& limb, double radius) {
+    for (const double side : {1.0, -1.0}) {
+      int above = from;
+      for (const Eigen::RowVector3d& place : limb) {
+        above = add({side * place.x(), place.y(), place.z()}, radius, above);
+      }
+    }
+  }
+};
+
+inline RigSubject subject_of(const std::string& name, const Figure& figure,
+                             double resolution = 2.5) {
+  CurveSkeleton graph;
+  const auto count = static_cast<Eigen::Index>(figure.places.size());
+  graph.nodes.resize(count, 3);
+  graph.radii.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    graph.nodes.row(k) = figure.places[idx(k)];
+    graph.radii[k] = figure.radii[idx(k)];
+  }
+  graph.edges.resize(static_cast<Eigen::Index>(figure.edges.size()), 2);
+  for (std::size_t e = 0; e < figure.edges.size(); ++e) {
+    graph.edges.row(static_cast<Eigen::Index>(e)) << figure.edges[e].first, figure.edges[e].second;
+  }
+  shapes::Shape shape = shapes::tube_union(name, graph, {0.25, resolution});
+  graph.node_of_vertex.setConstant(shape.surface.positions.rows(), -1);
+  RigSubject subject{name, std::move(shape.surface), std::move(graph)};
+  subject.skeleton = dense_skeleton(subject.surface, subject.skeleton);
+  for (Eigen::Index v = 0; v < subject.surface.positions.rows(); ++v) {
+    Eigen::Index node = 0;
+    (subject.skeleton.nodes.rowwise() - subject.surface.positions.row(v))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&node);
+    subject.skeleton.node_of_vertex[v] = static_cast<int>(node);
+  }
+  return subject;
+}
+
+/// 20 high, looks along z, arms held out.
+inline RigSubject human() {
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
+  figure.add({0, 18.6, 0}, 1.3, neck);
+  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
+  return subject_of("human", figure);
+}
+
+/// The same with a thumb and `fingers` on each hand, the last of which may end in two tips.
+inline RigSubject human_with_hands(int fingers, bool is_forked = false) {
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
+  figure.add({0, 18.6, 0}, 1.3, neck);
+  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  for (const double side : {1.0, -1.0}) {
+    int arm = chest;
+    for (const double x : {2.2, 5.0, 7.0}) arm = figure.add({side * x, 15, 0}, 0.5, arm);
+    const int thumb = figure.add({side * 8.2, 14.8, 1.2}, 0.22, arm);
+    figure.add({side * 8.9, 14.7, 1.8}, 0.2, thumb);
+    const int palm = figure.add({side * 8.4, 15, 0}, 0.4, arm);
+    for (int finger = 0; finger < fingers; ++finger) {
+      const double z = 0.9 - 1.8 * finger / std::max(fingers - 1, 1);
+      const int knuckle = figure.add({side * 9.0, 15, z}, 0.2, palm);
+      const double reach = 10.6 - 0.5 * std::abs(finger - 1);
+      const int tip = figure.add({side * reach, 15, 1.1 * z}, 0.18, knuckle);
+      if (!is_forked || finger + 1 < fingers) continue;
+      figure.add({side * (reach + 0.15), 15.25, 1.1 * z}, 0.12, tip);
+      figure.add({side * (reach + 0.15), 14.75, 1.1 * z}, 0.12, tip);
+    }
+  }
+  return subject_of("hands", figure, 1.7);  // thin fingers, so many vertices
+}
+
+/// 20 long, its head at +z or -z.
+inline RigSubject beast(double front) {
+  Figure figure;
+  const int rump = figure.add({0, 8, -6 * front}, 1.4);
+  const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
+  const int neck = figure.add({0, 10.5, 8 * front}, 0.8, withers);
+  figure.add({0, 11, 10.5 * front}, 1, neck);
+  figure.add({0, 7, -11 * front}, 0.5, rump);
+  figure.add_pair(rump, {{1.5, 6, -6.5 * front}, {1.5, 3, -7.5 * front}, {1.5, 0.5, -7 * front}},
+                  0.5);
+  figure.add_pair(withers, {{1.5, 6, 5 * front}, {1.5, 3, 5 * front}, {1.5, 0.5, 5 * front}}, 0.5);
+  return subject_of("beast", figure);
+}
+
+/// Six branches round a trunk, none of them down to the ground.
+inline RigSubject tree() {
+  Figure figure;
+  int below = figure.add({0, 0.8, 0}, 0.8);
+  for (const double height : {6.0, 9.0, 12.0}) {
+    const int fork = figure.add({0.2, height, 0.1}, 0.8, below);
+    figure.add({4, height + 3, 1.5}, 0.5, fork);
+    figure.add({-3.4, height + 2.1, -2.2}, 0.5, fork);
+    below = fork;
+  }
+  return subject_of("tree", figure);
+}
+
+/// 20 long, thick before the middle, with two pairs of fins and one on the back, its nose at +z or
+/// -z; clear of the ground.
+inline RigSubject fish(double front) {
+  Figure figure;
+  const int thick = figure.add({0, 6, 3 * front}, 2);
+  figure.add({0, 6, 8 * front}, 1, figure.add({0, 6, 6 * front}, 1.5, thick));
+  const int back = figure.add({0, 6, 0.5 * front}, 1.8, thick);
+  const int slim = figure.add({0, 6, -5 * front}, 0.9, back);
+  const int tail = figure.add({0, 6, -9 * front}, 0.5, slim);
+  figure.add_pair(tail, {{2, 6, -11 * front}}, 0.3);
+  figure.add_pair(thick, {{2.5, 5, 2 * front}, {5, 4, 0.5 * front}}, 0.35);
+  figure.add({0, 10, -2 * front}, 0.35, figure.add({0, 8.2, -0.5 * front}, 0.4, back));
+  return subject_of("fish", figure, 2);
+}
+
+inline RigSubject snake() {
+  Figure figure;
+  int before = figure.add({-10, 1, 0}, 0.8);
+  for (int k = 1; k <= 10; ++k) before = figure.add({2.0 * k - 10, 1, std::sin(k)}, 0.8, before);
+  return subject_of("snake", figure);
+}
+
+}  // namespace curveskel
