@@ -207,8 +207,13 @@ TEST(FairRings, AnyValenceWillDoByEveryMethodAndLocalSolver) {
   }
 }
 
-TEST(FairRings, TransferringGivesTheSameBytes) {
-  SKIP_WITHOUT_DEVICE();
+bool shares_with_opengl() {
+  const std::vector<Device> found = devices();
+  return std::any_of(found.begin(), found.end(), [](const Device& d) { return d.gl_sharing; });
+}
+
+/// The positions after each way of keeping them on the device, beside those that stay there.
+void expect_the_bytes_of_resident_positions(FairMethod method) {
   const Shape shape = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 5);
   for (const int rings : {1, 2}) {
     for (const LocalSolver solver : {LocalSolver::closed, LocalSolver::qr}) {
@@ -216,18 +221,25 @@ TEST(FairRings, TransferringGivesTheSameBytes) {
         FairOptions options = with_rings(FairMethod::opencl, rings, 5, double_precision);
         options.local_solver = solver;
         const Surface resident = fair(shape.surface, options, {});
-        options.method = FairMethod::opencl_transfer;
+        options.method = method;
         EXPECT_EQ(fair(shape.surface, options, {}).positions, resident.positions) << rings;
       }
     }
   }
 }
 
+TEST(FairRings, TransferringGivesTheSameBytes) {
+  SKIP_WITHOUT_DEVICE();
+  expect_the_bytes_of_resident_positions(FairMethod::opencl_transfer);
+}
+
+TEST(FairRings, SharingWithOpenGLGivesTheSameBytes) {
+  if (!shares_with_opengl()) GTEST_SKIP() << "no device here shares with OpenGL";
+  expect_the_bytes_of_resident_positions(FairMethod::opencl_interop);
+}
+
 TEST(FairRings, InteropIsRefusedWithWhatIsMissingAndWhatWorks) {
-  const std::vector<Device> found = devices();
-  if (std::any_of(found.begin(), found.end(), [](const Device& d) { return d.gl_sharing; })) {
-    GTEST_SKIP() << "a device here shares with OpenGL";
-  }
+  if (shares_with_opengl()) GTEST_SKIP() << "a device here shares with OpenGL";
   try {
     (void)fair(shapes::torus(2, 0.6, 12).surface, with(FairMethod::opencl_interop, 1), {});
     FAIL() << "it ran";

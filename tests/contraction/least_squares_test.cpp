@@ -325,9 +325,15 @@ System filled_down_to(int rows, int columns, int depth) {
   return system;
 }
 
-TEST(VclLsm, TakesAnyShapeAndLeavesOutZerosOnly) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
-  LeastSquares solver(Solver::vcl_lsm);
+class EveryDeviceQr : public testing::TestWithParam<Solver> {
+ protected:
+  void SetUp() override {
+    if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+  }
+};
+
+TEST_P(EveryDeviceQr, TakesAnyShapeAndLeavesOutZerosOnly) {
+  LeastSquares solver(GetParam());
   for (const int columns : {1, 29, 31, 32, 33, 64, 95, 100}) {  // panels have 32
     for (const int more_rows : {0, 1, 32, columns + 5}) {
       for (const int depth : {0, 1, 40, 1000}) {
@@ -342,18 +348,20 @@ TEST(VclLsm, TakesAnyShapeAndLeavesOutZerosOnly) {
   }
 }
 
-TEST(VclLsm, StopsWhenAsked) {
-  if (!has_device()) GTEST_SKIP() << "no OpenCL device with double precision on this machine";
+TEST_P(EveryDeviceQr, StopsWhenAsked) {
   const System system = filled_down_to(100, 90, 10);
   std::stop_source source;
   Monitor monitor;
   monitor.stop = source.get_token();
-  LeastSquares solver(Solver::vcl_lsm);
+  LeastSquares solver(GetParam());
   const Solution before = solver.solve(system.a, system.b, monitor);
   source.request_stop();
   EXPECT_THROW((void)solver.solve(system.a, system.b, monitor), Cancelled);
   EXPECT_EQ(solver.solve(system.a, system.b).x, before.x);  // of use afterwards
 }
+
+INSTANTIATE_TEST_SUITE_P(LeastSquares, EveryDeviceQr,
+                         testing::Values(Solver::vcl_qr, Solver::vcl_lsm), test_name);
 
 TEST(HouseholderPanel, ReflectsWhatStandsBesideIt) {
   for (const int pivots : {0, 1, 5, 8}) {

@@ -1,5 +1,4 @@
 // The part of a blocked Householder QR that is too narrow for a device: one panel of columns.
-// Clean C++17, as ViennaCL's side of it includes this.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -66,6 +67,13 @@ Positions solve_upper(const std::string& solver, const Eigen::Ref<const Eigen::M
   return r.triangularView<Eigen::Upper>().solve(y);
 }
 
+/// Called between panels: ends the work once that was asked for.
+std::function<void()> heeding(const Monitor& monitor) {
+  return [&monitor] {
+    if (monitor.stop.stop_requested()) throw Cancelled();
+  };
+}
+
 /// Method 3: R and Y = Q^T B come from one reduction of [A B]; Q is never formed.
 class VclLsm final : public LeastSquaresBackend {
  public:
@@ -75,11 +83,8 @@ class VclLsm final : public LeastSquaresBackend {
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
       for (Eigen::Index k = 0; k < 3; ++k) stacked(idx(i), idx(a.cols() + k)) = b(i, k);
     }
-    const auto heed_stop = [&] {
-      if (monitor.stop.stop_requested()) throw Cancelled();
-    };
-    const vcl::Matrix reduced =
-        on_device("vcl-lsm", [&] { return vcl::reduced(stacked, idx(a.cols()), heed_stop); });
+    const vcl::Matrix reduced = on_device(
+        "vcl-lsm", [&] { return vcl::reduced(stacked, idx(a.cols()), heeding(monitor)); });
     const ColumnMajor all(reduced.entries.data(), a.cols(), a.cols() + 3);
     Solution solution;
     solution.x = solve_upper("vcl-lsm", all.leftCols(a.cols()), all.rightCols(3), a.rows());
@@ -92,17 +97,17 @@ class VclLsm final : public LeastSquaresBackend {
   }
 };
 
-/// Method 2: Q and R are brought to the host, where R X = Q^T B is solved.
+/// Method 2: Q and R are formed on the device and brought to the host, where R X = Q^T B is solved.
 class VclQr final : public LeastSquaresBackend {
  public:
-  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
-    require_memory("vcl-qr", a, 8);  // Q alone is #rows x #rows, twice
-    const vcl::Factors factors = on_device("vcl-qr", [&] { return vcl::factorised(dense(a, 0)); });
-    const ColumnMajor q(factors.q.entries.data(), a.rows(), a.rows());
-    const ColumnMajor r(factors.r.entries.data(), a.rows(), a.cols());
-    const Eigen::MatrixXd y = q.leftCols(a.cols()).transpose() * b;
+  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& monitor) override {
+    require_memory("vcl-qr", a, 6);  // as built, v and w of all panels; Q thrice, or R
+    const vcl::Factors factors =
+        on_device("vcl-qr", [&] { return vcl::factorised(dense(a, 0), heeding(monitor)); });
+    const ColumnMajor q(factors.q.entries.data(), a.rows(), a.cols());
+    const ColumnMajor r(factors.r.entries.data(), a.cols(), a.cols());
     Solution solution;
-    solution.x = solve_upper("vcl-qr", r.topRows(a.cols()), y, a.rows());
+    solution.x = solve_upper("vcl-qr", r, q.transpose() * b, a.rows());
     return solution;
   }
 

@@ -4,21 +4,15 @@
 
 #define VIENNACL_WITH_OPENCL
 #include <algorithm>
-#include <boost/numeric/ublas/matrix.hpp>
+#include <utility>
 #include <viennacl/backend/memory.hpp>
 #include <viennacl/linalg/prod.hpp>
-#include <viennacl/linalg/qr.hpp>
 #include <viennacl/matrix.hpp>
 #include <viennacl/ocl/backend.hpp>
 
 namespace curveskel::vcl {
 namespace {
 
-// Row-major ones come out wrong past the first block of columns (ViennaCL 1.7.1).
-using DeviceMatrix = viennacl::matrix<double, viennacl::column_major>;
-using HostMatrix = boost::numeric::ublas::matrix<double>;
-
-constexpr std::size_t block_columns = 16;
 /// Columns that the host eliminates at a time, and a multiple of the rows and columns that a
 /// product takes at a time; ViennaCL's kernel for what is left over is slow.
 constexpr std::size_t tile = 32;
@@ -51,14 +45,6 @@ std::vector<double> padded(const Matrix& a, std::size_t rows, std::size_t column
   return entries;
 }
 
-Matrix from_host(const HostMatrix& a) {
-  Matrix result{a.size1(), a.size2(), std::vector<double>(a.size1() * a.size2())};
-  for (std::size_t j = 0; j < result.columns; ++j) {
-    for (std::size_t i = 0; i < result.rows; ++i) result(i, j) = a(i, j);
-  }
-  return result;
-}
-
 /// Column-major memory of the device, seen as matrices of any shape.
 class DeviceMemory {
  public:
@@ -84,7 +70,27 @@ class DeviceMemory {
   viennacl::backend::mem_handle handle_;
 };
 
-/// Applies the reflections of a panel to columns beside it.
+/// The product of the reflections of one panel, I - v w, for the rows from `first` on.
+struct Reflections {
+  std::size_t first = 0;
+  std::vector<double> v;  ///< height x tile
+  std::vector<double> w;  ///< tile x height
+};
+
+/// The other way round: the transpose.
+Reflections transposed(const Reflections& of) {
+  const std::size_t height = of.v.size() / tile;
+  Reflections result{of.first, std::vector<double>(of.v.size()), std::vector<double>(of.v.size())};
+  for (std::size_t i = 0; i < height; ++i) {
+    for (std::size_t k = 0; k < tile; ++k) {
+      result.v[i + k * height] = of.w[k + i * tile];
+      result.w[k + i * tile] = of.v[i + k * height];
+    }
+  }
+  return result;
+}
+
+/// Applies reflections to columns on the device.
 class DeviceReflections {
  public:
   /// Of at most this many rows, to at most this many columns. A product adds 0 times what was
@@ -94,17 +100,18 @@ class DeviceReflections {
         w_(std::vector<double>(rows * tile)),
         products_(std::vector<double>(columns * tile)) {}
 
-  /// rest -= v (w rest); v is #rows x tile, w tile x #rows.
-  void apply(const std::vector<double>& v, const std::vector<double>& w,
-             viennacl::matrix_base<double>& rest) {
-    const std::size_t height = rest.size1();
-    v_.write(v);
-    w_.write(w);
-    const auto v_block = v_.block(height, 0, height, 0, tile);
-    const auto w_block = w_.block(tile, 0, tile, 0, height);
-    auto products = products_.block(tile, 0, tile, 0, rest.size2());
-    products = viennacl::linalg::prod(w_block, rest);
-    rest -= viennacl::linalg::prod(v_block, products);
+  /// The columns from `column` on of `matrix` (#rows x #columns) become those times I - v w.
+  void apply(const Reflections& to_apply, DeviceMemory& matrix, std::size_t rows,
+             std::size_t column, std::size_t columns) {
+    const std::size_t height = to_apply.v.size() / tile;
+    v_.write(to_apply.v);
+    w_.write(to_apply.w);
+    const auto v = v_.block(height, 0, height, 0, tile);
+    const auto w = w_.block(tile, 0, tile, 0, height);
+    auto changed = matrix.block(rows, to_apply.first, height, column, columns - column);
+    auto products = products_.block(tile, 0, tile, 0, columns - column);
+    products = viennacl::linalg::prod(w, changed);
+    changed -= viennacl::linalg::prod(v, products);
   }
 
  private:
@@ -125,6 +132,64 @@ std::vector<std::size_t> depths(const Matrix& a) {
   return depth;
 }
 
+/// `reduced`, with each panel's reflections handed to `keep`.
+Matrix reduce(const Matrix& a, std::size_t eliminated, const std::function<void()>& before_panel,
+              const std::function<void(const Reflections&)>& keep) {
+  const std::size_t rows = whole_tiles(a.rows);
+  const std::size_t columns = whole_tiles(a.columns);
+  const std::vector<std::size_t> depth = depths(a);
+  DeviceMemory matrix(padded(a, rows, columns));
+  DeviceReflections on_device(rows, columns);
+  Matrix result{eliminated, a.columns, std::vector<double>(eliminated * a.columns)};
+  std::vector<double> panel(rows * tile);
+  Reflections reflections;
+  for (std::size_t first = 0; first < a.columns; first += tile) {
+    before_panel();
+    matrix.read(first * rows, panel);
+    const std::size_t end = std::min(first + tile, eliminated);
+    if (first < end) {
+      const std::size_t height = whole_tiles(std::max(depth[end - 1], end)) - first;
+      reflections.first = first;
+      reflections.v.resize(height * tile);
+      reflections.w.resize(height * tile);
+      eliminate({panel.data() + first, height, tile, rows}, end - first,
+                {reflections.v.data(), height, tile, height},
+                {reflections.w.data(), tile, height, tile});
+      if (first + tile < columns) {
+        on_device.apply(reflections, matrix, rows, first + tile, columns);
+      }
+      keep(reflections);
+    }
+    for (std::size_t j = first; j < std::min(first + tile, a.columns); ++j) {
+      const double* column = panel.data() + (j - first) * rows;
+      std::copy_n(column, std::min(j + 1, eliminated), &result(0, j));
+    }
+  }
+  return result;
+}
+
+/// The reflections, last panel first, of the first columns of the identity. Columns before a panel
+/// have nothing in its rows yet.
+Matrix first_columns_of_q(const std::vector<Reflections>& panels, std::size_t q_rows,
+                          std::size_t q_columns, const std::function<void()>& before_panel) {
+  const std::size_t rows = whole_tiles(q_rows);
+  const std::size_t columns = whole_tiles(q_columns);
+  std::vector<double> entries(rows * columns, 0);
+  for (std::size_t j = 0; j < q_columns; ++j) entries[j + j * rows] = 1;
+  DeviceMemory matrix(entries);
+  DeviceReflections on_device(rows, columns);
+  for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
+    before_panel();
+    on_device.apply(transposed(*panel), matrix, rows, panel->first, columns);
+  }
+  matrix.read(0, entries);
+  Matrix q{q_rows, q_columns, std::vector<double>(q_rows * q_columns)};
+  for (std::size_t j = 0; j < q_columns; ++j) {
+    std::copy_n(&entries[j * rows], q_rows, &q.entries[j * q_rows]);
+  }
+  return q;
+}
+
 }  // namespace
 
 void use(void* context, void* device, void* queue) {
@@ -140,48 +205,14 @@ void use(void* context, void* device, void* queue) {
 }
 
 Matrix reduced(const Matrix& a, std::size_t eliminated, const std::function<void()>& before_panel) {
-  const std::size_t rows = whole_tiles(a.rows);
-  const std::size_t columns = whole_tiles(a.columns);
-  const std::vector<std::size_t> depth = depths(a);
-  DeviceMemory matrix(padded(a, rows, columns));
-  DeviceReflections reflections(rows, columns);
-  Matrix result{eliminated, a.columns, std::vector<double>(eliminated * a.columns)};
-  std::vector<double> panel(rows * tile), v, w;
-  for (std::size_t first = 0; first < a.columns; first += tile) {
-    before_panel();
-    matrix.read(first * rows, panel);
-    const std::size_t end = std::min(first + tile, eliminated);
-    if (first < end) {
-      const std::size_t height = whole_tiles(std::max(depth[end - 1], end)) - first;
-      v.resize(height * tile);
-      w.resize(height * tile);
-      eliminate({panel.data() + first, height, tile, rows}, end - first,
-                {v.data(), height, tile, height}, {w.data(), tile, height, tile});
-      const std::size_t next = first + tile;
-      if (next < columns) {
-        auto rest = matrix.block(rows, first, height, next, columns - next);
-        reflections.apply(v, w, rest);
-      }
-    }
-    for (std::size_t j = first; j < std::min(first + tile, a.columns); ++j) {
-      const double* column = panel.data() + (j - first) * rows;
-      std::copy_n(column, std::min(j + 1, eliminated), &result(0, j));
-    }
-  }
-  return result;
+  return reduce(a, eliminated, before_panel, [](const Reflections& /*panel*/) {});
 }
 
-Factors factorised(const Matrix& a) {
-  DeviceMatrix on_device(a.rows, a.columns);
-  std::vector<double> entries = padded(a, on_device.internal_size1(), on_device.internal_size2());
-  viennacl::fast_copy(entries.data(), entries.data() + entries.size(), on_device);
-  const std::vector<double> betas = viennacl::linalg::inplace_qr(on_device, block_columns);
-  HostMatrix reflections(a.rows, a.columns);
-  viennacl::copy(on_device, reflections);
-  HostMatrix q(a.rows, a.rows);
-  HostMatrix r(a.rows, a.columns);
-  viennacl::linalg::recoverQ(reflections, betas, q, r);
-  return {from_host(q), from_host(r)};
+Factors factorised(const Matrix& a, const std::function<void()>& before_panel) {
+  std::vector<Reflections> panels;
+  const auto keep = [&](const Reflections& panel) { panels.push_back(panel); };
+  Matrix r = reduce(a, a.columns, before_panel, keep);
+  return {first_columns_of_q(panels, a.rows, a.columns, before_panel), std::move(r)};
 }
 
 }  // namespace curveskel::vcl

@@ -1,5 +1,6 @@
-// The part of ViennaCL that is used here (K. Rupp et al., SIAM J. Sci. Comput. 38, 2016). Its QR
-// does not compile as C++20, so this header is clean C++17 and its .cpp file is compiled as such.
+// Blocked Householder QR whose products run on a device by ViennaCL (K. Rupp et al., SIAM J. Sci.
+// Comput. 38, 2016). ViennaCL's own QR takes the same panels, but works on them and forms Q entry by
+// entry on the host, and its row-major matrices come out wrong past the first panel (1.7.1).
 #pragma once
 
 #include <cstddef>
@@ -31,10 +32,12 @@ struct Matrix {
                              const std::function<void()>& before_panel);
 
 struct Factors {
-  Matrix q;  ///< rows x rows
-  Matrix r;  ///< rows x columns
+  Matrix q;  ///< rows x columns: the first columns of Q, orthonormal
+  Matrix r;  ///< columns x columns, upper triangular
 };
-/// Householder QR on the device with Q formed, on the host, from the reflections.
-[[nodiscard]] Factors factorised(const Matrix& a);
+/// The same Householder QR of all columns, rows >= columns, with those columns of Q formed that A =
+/// Q R needs: the reflections of all panels, kept on the host, go backwards over the identity on
+/// the device. As much work again as R.
+[[nodiscard]] Factors factorised(const Matrix& a, const std::function<void()>& before_panel);
 
 }  // namespace curveskel::vcl
