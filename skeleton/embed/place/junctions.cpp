@@ -3,11 +3,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
+namespace {
+
+/// The edge between two such points is inside.
+bool overlap(const CurvePoint& junction, const CurvePoint& other, const SurfaceTree& tree) {
+  return (other.place() - junction.place()).norm() <=
+         std::max(0.0, junction.radius(tree)) + other.radius(tree);
+}
+
+/// How many of the first `most` points lie in this share of the junction's ball, one after another.
+std::size_t points_within(double share, const CurvePoint& junction,
+                          const std::vector<CurvePoint>& points, std::size_t most,
+                          const SurfaceTree& tree) {
+  const double reach = share * std::max(0.0, junction.radius(tree));
+  std::size_t within = 0;
+  while (within < most && (points[within].place() - junction.place()).norm() < reach) ++within;
+  return within;
+}
+
+}  // namespace
 
 void centre_junctions(SkeletonGraph& graph, const SurfaceTree& tree) {
   constexpr int steps = 30;
@@ -58,25 +78,20 @@ void merge_junctions(SkeletonGraph& graph, const SurfaceTree& tree, HomologyGuar
 
 void straighten_at_junctions(SkeletonGraph& graph, const SurfaceTree& tree, double share,
                              bool covered) {
-  const auto overlaps = [&](const Point& junction, double radius, const CurvePoint& p) {
-    return (p.place() - junction).norm() <= radius + p.radius(tree);
-  };
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
-    const std::size_t least = arc.from == arc.to ? 2 : covered ? 1 : 0;
-    auto& points = arc.points;
-    for (const int node : {arc.from, arc.to}) {
-      if (graph.degree(node) >= 3) {
-        const Point& junction = graph.place(node);
-        const double radius = std::max(0.0, graph.nodes[idx(node)].point.radius(tree));
-        const std::size_t most = points.size() - std::min(least, points.size());
-        std::size_t within = 0;
-        while (within < most && (points[within].place() - junction).norm() < share * radius) {
-          ++within;
-        }
-        if (covered) {
-          while (within > 0 && !overlaps(junction, radius, points[within])) --within;
-        }
+    std::vector<CurvePoint>& points = arc.points;
+    for (const auto& [near, far] : {std::pair(arc.from, arc.to), std::pair(arc.to, arc.from)}) {
+      const CurvePoint& junction = graph.nodes[idx(near)].point;
+      const CurvePoint& end = graph.nodes[idx(far)].point;
+      const bool all_may_go = !covered || overlap(junction, end, tree);
+      const std::size_t least = near == far ? 2 : all_may_go ? 0 : 1;
+      if (graph.degree(near) >= 3 && points.size() > least) {
+        std::size_t within = points_within(share, junction, points, points.size() - least, tree);
+        const auto next = [&](std::size_t k) -> const CurvePoint& {
+          return k < points.size() ? points[k] : end;
+        };
+        while (covered && within > 0 && !overlap(junction, next(within), tree)) --within;
         points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(within));
       }
       std::reverse(points.begin(), points.end());  // twice in all

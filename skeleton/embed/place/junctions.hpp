@@ -17,7 +17,8 @@ void merge_junctions(SkeletonGraph& graph, const SurfaceTree& tree, HomologyGuar
                      double factor);
 
 /// Drops the points of each arc that lie within `share` of the ball of its junction, so that it
-/// leaves straight. Where the arc is `covered` by balls that overlap, it stays so.
+/// leaves straight; all of them where the balls of both ends reach so far. Where the arc is
+/// `covered` by balls that overlap, it stays so.
 void straighten_at_junctions(SkeletonGraph& graph, const SurfaceTree& tree, double share,
                              bool covered);
 
