@@ -1,6 +1,6 @@
 // Blocked Householder QR whose products run on a device by ViennaCL (K. Rupp et al., SIAM J. Sci.
-// Comput. 38, 2016). ViennaCL's own QR takes the same panels, but works on them and forms Q entry by
-// entry on the host, and its row-major matrices come out wrong past the first panel (1.7.1).
+// Comput. 38, 2016). ViennaCL's own QR takes the same panels, but works on them and forms Q entry
+// by entry on the host, and its row-major matrices come out wrong past the first panel (1.7.1).
 #pragma once
 
 #include <cstddef>
