@@ -33,6 +33,19 @@ double longest_side(const Positions& nodes) {
   return (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff();
 }
 
+/// Of the bones between planned joints, the one in the middle; 0 where there are none.
+double usual_planned_bone(const std::vector<PlannedJoint>& planned) {
+  std::vector<double> lengths;
+  for (const PlannedJoint& joint : planned) {
+    if (joint.parent < 0) continue;
+    lengths.push_back((joint.position - planned[idx(joint.parent)].position).norm());
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
 class JointPlacer {
  public:
   JointPlacer(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
@@ -43,7 +56,9 @@ class JointPlacer {
         tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node)),
         radii_(usable_radii(skeleton)),
         least_length_(options.least_bone * longest_side(skeleton.nodes)),
-        least_radius_(options.straight_bone * longest_side(skeleton.nodes) / options.bone_length) {
+        least_radius_(std::max(options.straight_bone * longest_side(skeleton.nodes),
+                               usual_planned_bone(planned)) /
+                      options.bone_length) {
     joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
     above_ = tree_.parent;
     for (std::size_t k = 0; k < tree_.roots.size(); ++k)

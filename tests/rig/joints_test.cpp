@@ -229,6 +229,32 @@ TEST(Joints, HangFromTheNodeThatIsWanted) {
   }
 }
 
+/// A trunk of planned bones, each of this length, and a thin, straight spike on its second joint.
+Joints with_a_spike(double bone, double spike) {
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(5, 3);
+  skeleton.nodes << 0, 0, 0, bone, 0, 0, 2 * bone, 0, 0, 3 * bone, 0, 0, bone, spike, 0;
+  skeleton.edges.resize(4, 2);
+  skeleton.edges << 0, 1, 1, 2, 2, 3, 1, 4;
+  skeleton.radii.resize(5);
+  skeleton.radii << bone / 4, bone / 4, bone / 4, bone / 4, bone / 100;
+  std::vector<PlannedJoint> planned;
+  for (int k = 0; k < 4; ++k) {
+    planned.push_back({"spine." + std::to_string(k), k - 1, k, skeleton.nodes.row(k), "", false});
+  }
+  return place_planned_joints(skeleton, planned);
+}
+
+// A Stegosaurus had four bones in each of its plates.
+TEST(PlannedJoints, ASpikeHasBonesAboutAsLongAsThePlans) {
+  for (const double bone : {0.1, 1.0, 10.0}) {
+    for (const double bones : {0.5, 1.0, 2.0, 3.0}) {
+      const Joints joints = with_a_spike(bone, bones * bone);
+      EXPECT_LE(joints.positions.rows() - 4, 1 + std::ceil(bones)) << bone << ", " << bones;
+    }
+  }
+}
+
 std::string refusal_of(const CurveSkeleton& skeleton, int root, Fault fault = Fault::input) {
   try {
     (void)place_joints(skeleton, {.root = root});

@@ -52,7 +52,8 @@ struct Joints {
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
 
 /// The same with the planned joints first, under the names of their roles, from the first of them
-/// as the root; what lies between them on the curve has no others. Beyond hands joints may lie half
+/// as the root; what lies between them on the curve has no others. Straight bones elsewhere are not
+/// much shorter than the median of those between planned joints. Beyond hands joints may lie half
 /// as near to each other as elsewhere.
 [[nodiscard]] Joints place_planned_joints(const CurveSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& planned,
