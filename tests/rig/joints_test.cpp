@@ -239,6 +239,7 @@ Joints with_a_spike(double bone, double spike) {
   skeleton.radii.resize(5);
   skeleton.radii << bone / 4, bone / 4, bone / 4, bone / 4, bone / 100;
   std::vector<PlannedJoint> planned;
+  planned.reserve(4);
   for (int k = 0; k < 4; ++k) {
     planned.push_back({"spine." + std::to_string(k), k - 1, k, skeleton.nodes.row(k), "", false});
   }
