@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "base/median.hpp"
 #include "base/option_ranges.hpp"
 #include "rig/joints/rooted_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -40,10 +41,7 @@ double usual_planned_bone(const std::vector<PlannedJoint>& planned) {
     if (joint.parent < 0) continue;
     lengths.push_back((joint.position - planned[idx(joint.parent)].position).norm());
   }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return lengths.empty() ? 0 : median_of(std::move(lengths));
 }
 
 class JointPlacer {

@@ -9,6 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/topology.hpp>
+#include "base/median.hpp"
 #include "base/option_ranges.hpp"
 #include "rig/parts/body.hpp"
 #include "surface/repair/select_components.hpp"
@@ -110,9 +111,8 @@ class PartFinder {
     for (std::size_t i = 0; i < std::min(tenth, contacts.size()); ++i) {
       radii.push_back(body_.thickness_at(contacts[i]));
     }
-    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
     const double thickness =
-        std::max({radii[radii.size() / 2], body_.thickness_within(probe, 0.5 * probe.diagonal()),
+        std::max({median_of(radii), body_.thickness_within(probe, 0.5 * probe.diagonal()),
                   1e-12 * diagonal_});
     part.host = contacts.front().component;
     part.reach = contacts[contacts.size() * 98 / 100].distance / thickness;

@@ -4,18 +4,13 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
 #include "rig/plan/roles.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Arm {
  public:

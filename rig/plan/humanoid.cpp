@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
 #include "rig/plan/roles.hpp"
 
 namespace curveskel {
@@ -56,13 +57,12 @@ class Humanoid {
     for (std::size_t k = parts; k < std::min(parts + 60, count); ++k) {
       aside.push_back(std::abs(course.points[k].x() - tree_.middle));
     }
-    std::nth_element(aside.begin(), aside.begin() + std::ptrdiff_t(aside.size() / 2), aside.end());
     const auto down_to = [&](double y) {
       std::size_t k = parts;
       while (k + 1 < count && course.points[k].y() > y) ++k;
       return course.points[k];
     };
-    hip_ = {tree_.middle + aside[aside.size() / 2], hip_height_, down_to(hip_height_).z()};
+    hip_ = {tree_.middle + median_of(aside), hip_height_, down_to(hip_height_).z()};
     const auto at_share = [&](double share) {
       return down_to(tree_.ground + share * (hip_height_ - tree_.ground));
     };

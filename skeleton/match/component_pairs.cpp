@@ -6,6 +6,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/least_pairs.hpp"
+#include "base/median.hpp"
 
 namespace curveskel {
 namespace {
@@ -74,10 +75,7 @@ Points shifts_of(const Centroids& centroids, const std::vector<int>& pairs) {
       for (const auto& [distance, k] : near) {
         values.push_back(centroids.of_b(axis, pairs[idx(k)]) - centroids.moved(axis, k));
       }
-      std::nth_element(values.begin(),
-                       values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                       values.end());
-      shifts(axis, i) = values[values.size() / 2];
+      shifts(axis, i) = median_of(std::move(values));
     }
   }
   return shifts;

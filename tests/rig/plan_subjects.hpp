@@ -68,14 +68,20 @@ inline RigSubject subject_of(const std::string& name, const Figure& figure,
   return subject;
 }
 
-/// 20 high, looks along z, arms held out.
-inline RigSubject human() {
-  Figure figure;
+/// Legs, trunk and head, 20 high, looking along z. Returns the chest.
+inline int add_body_without_arms(Figure& figure) {
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
   const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
   figure.add({0, 18.6, 0}, 1.3, neck);
   figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  return chest;
+}
+
+/// 20 high, looks along z, arms held out.
+inline RigSubject human() {
+  Figure figure;
+  const int chest = add_body_without_arms(figure);
   figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
   return subject_of("human", figure);
 }
@@ -83,11 +89,7 @@ inline RigSubject human() {
 /// The same with a thumb and `fingers` on each hand, the last of which may end in two tips.
 inline RigSubject human_with_hands(int fingers, bool is_forked = false) {
   Figure figure;
-  const int hips = figure.add({0, 10, 0}, 1.4);
-  const int chest = figure.add({0, 15, 0}, 1.5, hips);
-  const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
-  figure.add({0, 18.6, 0}, 1.3, neck);
-  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+  const int chest = add_body_without_arms(figure);
   for (const double side : {1.0, -1.0}) {
     int arm = chest;
     for (const double x : {2.2, 5.0, 7.0}) arm = figure.add({side * x, 15, 0}, 0.5, arm);

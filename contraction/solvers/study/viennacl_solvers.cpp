@@ -101,7 +101,7 @@ class VclLsm final : public LeastSquaresBackend {
 class VclQr final : public LeastSquaresBackend {
  public:
   Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& monitor) override {
-    require_memory("vcl-qr", a, 6);  // as built, v and w of all panels; Q thrice, or R
+    require_memory("vcl-qr", a, 6);  // as built, v and w (which shorten) 1.5, R half, Q thrice
     const vcl::Factors factors =
         on_device("vcl-qr", [&] { return vcl::factorised(dense(a, 0), heeding(monitor)); });
     const ColumnMajor q(factors.q.entries.data(), a.rows(), a.cols());

@@ -100,7 +100,7 @@ class DeviceReflections {
         w_(std::vector<double>(rows * tile)),
         products_(std::vector<double>(columns * tile)) {}
 
-  /// The columns from `column` on of `matrix` (#rows x #columns) become those times I - v w.
+  /// I - v w, times the columns from `column` on of `matrix` (#rows x #columns), takes their place.
   void apply(const Reflections& to_apply, DeviceMemory& matrix, std::size_t rows,
              std::size_t column, std::size_t columns) {
     const std::size_t height = to_apply.v.size() / tile;
