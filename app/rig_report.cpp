@@ -102,6 +102,7 @@ std::string rig_report_json(const RigRecord& record) {
                      {"missing_roles", plan.missing},
                      {"other_figures", other_figures_of(record.character)},
                      {"parts", parts_of(record.character.parts)},
+                     {"joints_left_out", record.character.joints_left_out},
                      {"joints", joints_of(record.character.rig)},
                      {"checks", checks_of(record)},
                      {"seconds", record.seconds}};

@@ -55,6 +55,7 @@ RigSettings settings_of(const py::dict& options) {
   setters["follow"] = sets(character.parts.follow);
   setters["front"] = sets(character.plan.front, "front", directions);
   setters["ground_root"] = sets(settings.form.ground_root);
+  setters["joint_budget"] = sets(character.joint_budget);
   setters["names"] = sets(character.names, "names", name_styles);
   setters["plan"] = sets(character.plan.plan, "plan", body_kinds);
   setters["pose"] = sets(settings.form.pose, "pose", rest_poses);

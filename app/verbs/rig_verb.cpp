@@ -58,6 +58,7 @@ struct RigArguments {
   PartOptions parts;
   PlanOptions plan;
   NameStyle names = NameStyle::automatic;
+  int joint_budget = CharacterOptions{}.joint_budget;
   std::string report;  ///< empty = none
 };
 
@@ -231,7 +232,8 @@ RigPolygonsOptions options_of(const RigArguments& arguments) {
   options.extract = arguments.extract;
   options.extract.fairing = arguments.fair_iterations > 0;
   options.extract.fair.iterations = arguments.fair_iterations;
-  options.character = {arguments.rig, arguments.parts, arguments.plan, arguments.names};
+  options.character = {arguments.rig, arguments.parts, arguments.plan, arguments.names,
+                       arguments.joint_budget};
   options.threads = arguments.threads;
   return options;
 }
@@ -293,6 +295,10 @@ int run_rig(RigArguments arguments, Session& session) {
       fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
                   arguments.mesh.filename().string(), soup.positions.rows(), written.joints.rows(),
                   count_tips(written));
+  if (found.character.joints_left_out > 0) {
+    text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",
+                        found.character.joints_left_out);
+  }
   text += parts_in_words(found.character.parts);
   text += plan_in_words(plan);
   for (std::size_t k = 0; k < found.character.other_plans.size(); ++k) {
@@ -376,6 +382,9 @@ Verb add_rig(CLI::App& program) {
              "without a plan; -1 = chosen");
   add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
              "of straight limbs, in their radius: smaller gives more joints");
+  add_number(
+      *parser, "--joint-budget", arguments->joint_budget, 0, 1000000,
+      "of a figure, at most: joints that move the least of the surface are left out; 0 = all");
   add_number(
       *parser, "--follow", arguments->parts.follow, 0.0, 100.0,
       "parts that reach out of the body no farther than this, in its thickness there, follow "

@@ -21,6 +21,7 @@ struct CharacterOptions {
   PartOptions parts;
   PlanOptions plan;
   NameStyle names = NameStyle::automatic;
+  int joint_budget = 100;  ///< of a figure, at most, see `within_budget`; 0 = any number
 };
 
 struct CharacterRig {
@@ -29,6 +30,7 @@ struct CharacterRig {
   BodyPlan plan;                      ///< of the first figure
   std::vector<BodyPlan> other_plans;  ///< of a scene's other figures, the second first
   std::vector<bool> follows;  ///< of each of the file's vertices, true if it is not of the body
+  int joints_left_out = 0;    ///< by the budget
 };
 
 /// The curve of the body alone: what only followers collapsed to is left out, and node_of_vertex is
@@ -46,8 +48,8 @@ struct CharacterRig {
                                     const CharacterOptions& options = {},
                                     const Monitor& monitor = {});
 
-/// The same from the skeleton of the whole repaired surface, after `find_parts`. A skeleton without
-/// node_of_vertex does not say what its curves are of: then no part follows.
+/// The same from the skeleton of the whole repaired surface, after `find_parts`, within the budget.
+/// A skeleton without node_of_vertex does not say what its curves are of: then no part follows.
 [[nodiscard]] CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
                                          const CurveSkeleton& skeleton,
                                          const CharacterOptions& options = {},
@@ -61,5 +63,13 @@ struct CharacterRig {
 /// made, has lives; without them nothing goes. O(weights + joints times #E).
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
+
+/// The character with at most so many joints for each of its figures: from the tips inward those go
+/// first that move the least of the surface `given`, of equals the one with the shorter bone;
+/// joints without a role before those with one, mirror images (".L", ".R") together. What VRM
+/// requires of a human stays, and so do roots and the trunk, neck and head of others. What stays
+/// moves what the joints below it moved. 0 = all stay. Throws Error(Fault::usage) below 0.
+/// O(weights + joints log joints).
+[[nodiscard]] CharacterRig within_budget(CharacterRig character, const Surface& given, int joints);
 
 }  // namespace curveskel

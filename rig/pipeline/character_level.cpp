@@ -9,7 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/rig_character.hpp>
-#include "rig/joints/keep_joints.hpp"
+#include "rig/pipeline/kept_joints.hpp"
 #include "surface/spatial/segment.hpp"
 
 namespace curveskel {
@@ -107,31 +107,6 @@ std::vector<double> lives_of_joints(const Rig& rig, const CurveSkeleton& skeleto
   return lives;
 }
 
-/// Without these there is no body: what VRM requires of a human, the trunk and head of others.
-bool is_required(const CharacterRig& character, std::size_t joint) {
-  if (joint >= character.rig.roles.size()) return false;
-  const std::string& role = character.rig.roles[joint];
-  if (character.plan.plan == BodyKind::humanoid) {
-    return std::find(required_human_roles.begin(), required_human_roles.end(), role) !=
-           required_human_roles.end();
-  }
-  const std::array<std::string_view, 3> trunk{"spine", "neck", "head"};
-  return std::any_of(trunk.begin(), trunk.end(),
-                     [&](std::string_view word) { return role.starts_with(word); });
-}
-
-/// The planned joints are the first of the rig.
-void keep_planned(BodyPlan& plan, const std::vector<int>& number) {
-  std::vector<PlannedJoint> kept;
-  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
-    if (number[k] < 0) continue;
-    kept.push_back(std::move(plan.joints[k]));
-    int& parent = kept.back().parent;
-    if (parent >= 0) parent = number[idx(parent)];
-  }
-  plan.joints = std::move(kept);
-}
-
 }  // namespace
 
 CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
@@ -147,10 +122,7 @@ CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& ske
     const bool hangs = parent < 0 || stays[idx(parent)] != 0;
     stays[joint] = (hangs && lives[joint] >= least_life) || is_required(character, joint) ? 1 : 0;
   }
-  const std::vector<int> number = numbers_of_kept(rig, stays);
-  character.rig = keep_joints(rig, number);
-  keep_planned(character.plan, number);
-  return character;
+  return with_joints(std::move(character), std::move(stays));
 }
 
 }  // namespace curveskel

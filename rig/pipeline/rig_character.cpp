@@ -107,6 +107,7 @@ CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired
                             ? rig_body(given, repaired, skeleton, options, monitor)
                             : rig_body(given, body_of(repaired, parts),
                                        skeleton_of_body(skeleton, parts), options, monitor);
+  result = within_budget(std::move(result), given, options.joint_budget);
   result.parts = std::move(parts);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include <curveskel/error.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/repair.hpp>
 #include "meshes/shapes.hpp"
@@ -65,6 +66,28 @@ Shape limbs() {
   return shapes::tube_union("limbs", graph);
 }
 
+/// All that stays has its name, its place and a parent that stays; every vertex moves.
+void expect_same_but_fewer(const Rig& few, const Rig& all) {
+  const auto place_of = [](const std::string& name, const Rig& rig) {
+    return std::find(rig.names.begin(), rig.names.end(), name) - rig.names.begin();
+  };
+  const auto parent_of = [](Eigen::Index joint, const Rig& rig) {
+    const int parent = rig.parents[joint];
+    return parent < 0 ? std::string() : rig.names[static_cast<std::size_t>(parent)];
+  };
+  for (std::size_t joint = 0; joint < few.names.size(); ++joint) {
+    const auto row = static_cast<Eigen::Index>(joint);
+    const Eigen::Index same = place_of(few.names[joint], all);
+    ASSERT_LT(same, all.joints.rows());
+    EXPECT_EQ(few.joints.row(row), all.joints.row(same));
+    ASSERT_LT(few.parents[row], row);
+    EXPECT_EQ(parent_of(row, few), parent_of(same, all));
+  }
+  for (Eigen::Index vertex = 0; vertex < few.weights.rows(); ++vertex) {
+    ASSERT_NEAR(few.weights.row(vertex).sum(), 1, 1e-5);
+  }
+}
+
 TEST(CharacterLevels, JointsOfACoarserLevelAreTheSameButFewer) {
   const Shape shape = limbs();
   const RepairedSurface repaired = repair(soup_of(shape.surface));
@@ -77,26 +100,44 @@ TEST(CharacterLevels, JointsOfACoarserLevelAreTheSameButFewer) {
     const CharacterRig level = level_of_character(all, skeleton, limit);
     ASSERT_LE(level.rig.names.size(), before);
     before = level.rig.names.size();
-    for (std::size_t joint = 0; joint < level.rig.names.size(); ++joint) {
-      const auto found =
-          std::find(all.rig.names.begin(), all.rig.names.end(), level.rig.names[joint]);
-      ASSERT_NE(found, all.rig.names.end());
-      const Eigen::Index same = found - all.rig.names.begin();
-      const auto row = static_cast<Eigen::Index>(joint);
-      EXPECT_EQ(level.rig.joints.row(row), all.rig.joints.row(same));
-      const int parent = level.rig.parents[row];
-      ASSERT_LT(parent, row);
-      EXPECT_EQ(parent < 0 ? "" : level.rig.names[static_cast<std::size_t>(parent)],
-                all.rig.parents[same] < 0
-                    ? ""
-                    : all.rig.names[static_cast<std::size_t>(all.rig.parents[same])]);
-    }
-    for (Eigen::Index vertex = 0; vertex < level.rig.weights.rows(); ++vertex) {
-      ASSERT_NEAR(level.rig.weights.row(vertex).sum(), 1, 1e-5);
-    }
+    expect_same_but_fewer(level.rig, all.rig);
   }
   EXPECT_LT(before, all.rig.names.size());
   EXPECT_EQ(level_of_character(all, skeleton, 0).rig.names, all.rig.names);
+}
+
+int count_idle(const Rig& rig) {
+  const Eigen::RowVectorXf moved =
+      Eigen::RowVectorXf::Ones(rig.weights.rows()) * Eigen::MatrixXf(rig.weights);
+  return static_cast<int>((moved.array() == 0).count());
+}
+
+TEST(JointBudget, LeavesTheSameJointsButFewerAndWhatMovesNothingGoesFirst) {
+  const Shape shape = limbs();
+  const RepairedSurface repaired = repair(soup_of(shape.surface));
+  const CurveSkeleton skeleton =
+      extract_repaired(repaired, RepairOptions{}, ExtractOptions{}).extraction.skeleton;
+  CharacterOptions options;
+  options.plan.plan = BodyKind::none;
+  const CharacterRig all = rig_character(shape.surface, repaired, skeleton, options);
+  const auto count = static_cast<int>(all.rig.joints.rows());
+  const int idle = count_idle(all.rig);
+  ASSERT_GT(idle, 2);
+  ASSERT_GT(count, idle + 4);
+  for (int budget = count + 1; budget > 0; --budget) {
+    SCOPED_TRACE(budget);
+    const CharacterRig few = within_budget(all, shape.surface, budget);
+    // Of two that go together both go.
+    EXPECT_LE(few.rig.joints.rows(), budget);
+    EXPECT_GE(few.rig.joints.rows(), std::min(budget - 1, count));
+    EXPECT_EQ(few.joints_left_out, count - few.rig.joints.rows());
+    EXPECT_EQ(count_idle(few.rig), std::max(0, idle - few.joints_left_out));
+    expect_same_but_fewer(few.rig, all.rig);
+  }
+  EXPECT_EQ(within_budget(all, shape.surface, 0).rig.names, all.rig.names);
+  options.joint_budget = count - 1;
+  EXPECT_EQ(rig_character(shape.surface, repaired, skeleton, options).rig.names,
+            within_budget(all, shape.surface, count - 1).rig.names);
 }
 
 /// A rig with a joint at each node of a star whose tips have these lives.
@@ -145,6 +186,21 @@ TEST(CharacterLevels, MirrorImagesGoTogether) {
   EXPECT_EQ(joints_at(head, skeleton, 2), 5U);
   EXPECT_EQ(joints_at(head, skeleton, 4), 3U);
 }
+
+TEST(JointBudget, MirrorImagesGoTogetherAndThoseWithRolesLast) {
+  CurveSkeleton skeleton;
+  const CharacterRig head = rig_on_star({1, 3, 20, 30}, {"eye.L", "eye.R", "ear", "snout"},
+                                        {"leftEye", "rightEye", "", ""}, skeleton);
+  Surface point;
+  point.positions.setZero(1, 3);
+  const auto left = [&](int budget) { return within_budget(head, point, budget).rig.names.size(); };
+  EXPECT_EQ(left(4), 4U);
+  EXPECT_EQ(left(3), 3U);
+  EXPECT_EQ(left(2), 1U);
+  EXPECT_EQ(within_budget(head, point, 3).rig.names[1], "eye.L");  // the ear and the snout went
+}
+
+TEST(JointBudget, NoFewerThanNone) { EXPECT_THROW((void)within_budget({}, {}, -1), Error); }
 
 TEST_F(RigCharacter, EveryVertexMovesAndFollowersHaveNoJoints) {
   const Rig rig = rig_character(shape.surface, repaired, of_all).rig;

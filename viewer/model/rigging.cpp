@@ -34,6 +34,9 @@ Moment moment_of(std::shared_ptr<const CharacterRig> character) {
 
 std::string words_of(const CharacterRig& character) {
   std::string words = fmt::format("{} joints", character.rig.joints.rows());
+  if (character.joints_left_out > 0) {
+    words += fmt::format(", {} more left out", character.joints_left_out);
+  }
   if (character.plan.plan != BodyKind::none) {
     words +=
         fmt::format(", {} ({})", name_of(body_kinds, character.plan.plan), character.plan.reason);

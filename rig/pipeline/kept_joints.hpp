@@ -1,0 +1,19 @@
+// A character with some of its joints.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <curveskel/rig_character.hpp>
+
+namespace curveskel {
+
+/// Without these there is no body: what VRM requires of a human, the trunk, neck and head of
+/// others.
+[[nodiscard]] bool is_required(const CharacterRig& character, std::size_t joint);
+
+/// Those that stay and their ancestors, in the plan, too. Precondition: the planned joints are the
+/// first of the rig; roots stay.
+[[nodiscard]] CharacterRig with_joints(CharacterRig character, std::vector<char> stays);
+
+}  // namespace curveskel
