@@ -17,11 +17,11 @@
 #include <curveskel/rig_files.hpp>
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
+#include "rig/gltf/dressed_document.hpp"
+#include "rig/gltf/dressed_file.hpp"
 #include "rig/gltf/gltf_decoded.hpp"
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/gltf_weights.hpp"
-#include "rig/gltf/obj_document.hpp"
-#include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/remove_gltf_rig.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/gltf/vrm.hpp"
@@ -182,13 +182,14 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
 }
 
 /// Nothing: the file has no more than a bare rig has.
-std::optional<EditedFile> dress_obj(const FileBytes& file, const Rig& rig,
-                                    const EditOptions& options, const Monitor& monitor) {
-  const ObjFile obj = read_obj_file(file, monitor);
-  if (!obj.has_looks()) return std::nullopt;
-  require_rows(static_cast<Eigen::Index>(obj.places.size() / 3), rig, file);
+std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
+                                const Monitor& monitor) {
   EditedFile edited;
-  ObjDocument made = obj_document(obj, file, file.path.stem().string(), edited.notes, monitor);
+  const auto dressed = read_dressed_file(file, edited.notes, monitor);
+  if (!dressed) return std::nullopt;
+  require_rows(static_cast<Eigen::Index>(dressed->mesh.places.size() / 3), rig, file);
+  DressedDocument made = dressed_document(dressed->mesh, dressed->materials, file,
+                                          file.path.stem().string(), edited.notes, monitor);
   const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
@@ -227,8 +228,7 @@ std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, co
   if (format == SurfaceFormat::glb || format == SurfaceFormat::gltf) {
     return edit_gltf(file, rig, options, monitor);
   }
-  if (format == SurfaceFormat::obj) return dress_obj(file, rig, options, monitor);
-  return std::nullopt;
+  return dress(file, rig, options, monitor);
 }
 
 }  // namespace curveskel

@@ -17,30 +17,30 @@ std::int32_t index_from_zero(std::int64_t number, std::size_t so_far) {
 }
 
 /// v, v/vt, v//vn or v/vt/vn.
-ObjCorner read_corner(TextCursor& text, const ObjFile& obj) {
-  ObjCorner corner;
-  corner.place = index_from_zero(text.integer("a vertex index"), obj.places.size() / 3);
+DressedCorner read_corner(TextCursor& text, const DressedMesh& mesh) {
+  DressedCorner corner;
+  corner.place = index_from_zero(text.integer("a vertex index"), mesh.places.size() / 3);
   const auto is_number = [&] {
     return text.peek() == '-' || (text.peek() >= '0' && text.peek() <= '9');
   };
   if (text.peek() != '/') return corner;
   text.skip(1);
   if (is_number()) {
-    corner.texture = index_from_zero(text.integer("an index"), obj.textures.size());
+    corner.texture = index_from_zero(text.integer("an index"), mesh.textures.size());
   }
   if (text.peek() != '/') return corner;
   text.skip(1);
-  if (is_number()) corner.normal = index_from_zero(text.integer("an index"), obj.normals.size());
+  if (is_number()) corner.normal = index_from_zero(text.integer("an index"), mesh.normals.size());
   return corner;
 }
 
-void read_face(TextCursor& text, ObjFile& obj, int material) {
+void read_face(TextCursor& text, DressedMesh& mesh, int material) {
   for (text.skip_blanks(); !text.at_line_end() && text.peek() != '#'; text.skip_blanks()) {
-    obj.corners.push_back(read_corner(text, obj));
+    mesh.corners.push_back(read_corner(text, mesh));
     text.word();
   }
-  obj.offsets.push_back(static_cast<std::int64_t>(obj.corners.size()));
-  obj.material_of_face.push_back(material);
+  mesh.offsets.push_back(static_cast<std::int64_t>(mesh.corners.size()));
+  mesh.material_of_face.push_back(material);
 }
 
 /// The rest of the line, blanks within it kept: names may have them.
@@ -75,21 +75,22 @@ int number_of(std::vector<std::string>& names, const std::string& name) {
 
 ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
   ObjFile obj;
+  DressedMesh& mesh = obj.mesh;
   int material = -1;
   TextCursor text(file);
   for (std::int64_t row = 0; !text.done(); ++row) {
     if (row % rows_per_report == 0) monitor.report("write", text.fraction());
     text.skip_blanks();
     if (text.accept("v")) {
-      text.read_vertex(obj.places);
+      text.read_vertex(mesh.places);
     } else if (text.accept("vt")) {
-      obj.textures.push_back(read_numbers<2>(text));
+      mesh.textures.push_back(read_numbers<2>(text));
     } else if (text.accept("vn")) {
-      obj.normals.push_back(read_numbers<3>(text));
+      mesh.normals.push_back(read_numbers<3>(text));
     } else if (text.accept("f")) {
-      read_face(text, obj, material);
+      read_face(text, mesh, material);
     } else if (text.accept("usemtl")) {
-      material = number_of(obj.materials, rest_of_line(text));
+      material = number_of(mesh.materials, rest_of_line(text));
     } else if (text.accept("mtllib")) {
       obj.libraries.push_back(rest_of_line(text));
     } else if (text.peek() == '#') {
@@ -98,14 +99,14 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     }
     text.skip_continued_line();
   }
-  for (ObjCorner& corner : obj.corners) {
-    if (corner.place < 0 || idx(corner.place) >= obj.places.size() / 3) {
+  for (DressedCorner& corner : mesh.corners) {
+    if (corner.place < 0 || idx(corner.place) >= mesh.places.size() / 3) {
       file.fail("a vertex index that is not there",
-                "one of the " + std::to_string(obj.places.size() / 3) + " vertices",
+                "one of the " + std::to_string(mesh.places.size() / 3) + " vertices",
                 "export the file again");
     }
-    if (corner.texture >= static_cast<std::int64_t>(obj.textures.size())) corner.texture = -1;
-    if (corner.normal >= static_cast<std::int64_t>(obj.normals.size())) corner.normal = -1;
+    if (corner.texture >= static_cast<std::int64_t>(mesh.textures.size())) corner.texture = -1;
+    if (corner.normal >= static_cast<std::int64_t>(mesh.normals.size())) corner.normal = -1;
   }
   return obj;
 }

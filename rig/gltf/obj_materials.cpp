@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "rig/gltf/gltf_pictures.hpp"
-#include "rig/gltf/skin_numbers.hpp"
 
 namespace curveskel {
 namespace {
@@ -115,109 +114,47 @@ std::vector<fs::path> library_files(const fs::path& folder, const std::string& n
   return files;
 }
 
-/// Pictures of a document, each once.
-class Pictures {
- public:
-  Pictures(GltfDocument& document, std::vector<std::string>& notes, const Monitor& monitor)
-      : document_(document), notes_(notes), monitor_(monitor) {}
-
-  /// Its texture; nothing where it cannot be had.
-  std::optional<std::size_t> texture(const MtlPicture& picture) {
-    const fs::path path = found(picture);
-    const auto [entry, is_new] = textures_.try_emplace(path);
-    if (is_new) entry->second = add(path, picture.name);
-    return entry->second;
-  }
-
- private:
-  /// As named, else beside the library, as paths of another machine lead nowhere.
-  [[nodiscard]] static fs::path found(const MtlPicture& picture) {
-    std::error_code ignored;
-    const fs::path path = picture.folder / picture.name;
-    return fs::is_regular_file(path, ignored) ? path
-                                              : picture.folder / fs::path(picture.name).filename();
-  }
-
-  std::optional<std::size_t> add(const fs::path& path, const std::string& name) {
-    std::error_code ignored;
-    const bool is_there = fs::is_regular_file(path, ignored);
-    const std::string bytes = is_there ? read_file(path, monitor_).content : "";
-    const auto type = picture_type(bytes);
-    if (type != "image/png" && type != "image/jpeg") {
-      notes_.push_back(
-          "the picture " + in_quotes(name) +
-          (is_there ? " is no PNG or JPEG, the kinds that glTF has; convert it" : " is missing"));
-      return std::nullopt;
-    }
-    const std::size_t view = add_view(document_, bytes);
-    OrderedJson& images = array_in(document_.json, "images");
-    images.push_back(
-        {{"name", as_utf8(path.stem().string())}, {"mimeType", *type}, {"bufferView", view}});
-    OrderedJson& textures = array_in(document_.json, "textures");
-    textures.push_back({{"source", images.size() - 1}});
-    return textures.size() - 1;
-  }
-
-  GltfDocument& document_;
-  std::vector<std::string>& notes_;
-  const Monitor& monitor_;
-  std::map<fs::path, std::optional<std::size_t>> textures_;
-};
+/// As named, else beside the library, as paths of another machine lead nowhere.
+DressedPicture found(const MtlPicture& picture) {
+  std::error_code ignored;
+  const fs::path path = picture.folder / picture.name;
+  const bool is_there = fs::is_regular_file(path, ignored);
+  return {is_there ? path : picture.folder / fs::path(picture.name).filename(), picture.name, {}};
+}
 
 double roughness_of(const MtlMaterial& material) {
   constexpr double shiniest = 1000;  // of Ns
-  if (material.roughness) return std::clamp(*material.roughness, 0.0, 1.0);
+  if (material.roughness) return *material.roughness;
   const double shine = std::clamp(material.shininess.value_or(0) / shiniest, 0.0, 1.0);
   return 1 - std::sqrt(shine);
 }
 
-/// A texture is lit in full where the material says no colour, or black, as many programs write.
-void add_emission(OrderedJson& result, const std::optional<std::array<double, 3>>& colour,
-                  const std::optional<OrderedJson>& texture) {
-  constexpr std::array<double, 3> black{0, 0, 0};
-  const bool is_lit = colour && *colour != black;
-  if (texture) result["emissiveTexture"] = *texture;
-  if (!texture && !is_lit) return;
-  for (const double part : is_lit ? *colour : std::array<double, 3>{1, 1, 1}) {
-    result["emissiveFactor"].push_back(std::clamp(part, 0.0, 1.0));
-  }
-}
-
-OrderedJson gltf_material(const std::string& name, const MtlMaterial& material,
-                          Pictures& pictures) {
-  OrderedJson result{{"name", as_utf8(name)}};
-  const auto texture = [&](const char* key) -> std::optional<OrderedJson> {
-    const auto picture = material.pictures.find(key);
-    if (picture == material.pictures.end()) return std::nullopt;
-    const auto index = pictures.texture(picture->second);
-    if (!index) return std::nullopt;
-    OrderedJson reference = OrderedJson::object();
-    reference["index"] = *index;
-    return reference;
+MaterialLook look_of(const MtlMaterial& material) {
+  MaterialLook look;
+  look.colour = material.colour;
+  look.emission = material.emission;
+  look.opacity = material.opacity;
+  look.roughness = roughness_of(material);
+  look.metalness = material.metalness.value_or(0);
+  const auto picture = [&](const char* key) -> std::optional<DressedPicture> {
+    const auto named = material.pictures.find(key);
+    if (named == material.pictures.end()) return std::nullopt;
+    return found(named->second);
   };
-  OrderedJson& look = result["pbrMetallicRoughness"];
-  const auto base = texture("map_kd");
-  std::array<double, 3> colour = material.colour.value_or(std::array<double, 3>{1, 1, 1});
-  if (base) colour = {1, 1, 1};  // the texture is the colour
-  const double opacity = std::clamp(material.opacity, 0.0, 1.0);
-  look["baseColorFactor"] = {std::clamp(colour[0], 0.0, 1.0), std::clamp(colour[1], 0.0, 1.0),
-                             std::clamp(colour[2], 0.0, 1.0), opacity};
-  if (base) look["baseColorTexture"] = *base;
-  look["metallicFactor"] = std::clamp(material.metalness.value_or(0), 0.0, 1.0);
-  look["roughnessFactor"] = roughness_of(material);
-  if (const auto normals = texture("norm")) result["normalTexture"] = *normals;
-  add_emission(result, material.emission, texture("map_ke"));
+  look.base = picture("map_kd");
+  look.normals = picture("norm");
+  look.light = picture("map_ke");
   const auto cutout = material.pictures.find("map_d");
-  const bool has_alpha = base && cutout != material.pictures.end() &&
-                         cutout->second.name == material.pictures.at("map_kd").name;
-  if (opacity < 1 || has_alpha) result["alphaMode"] = "BLEND";
-  return result;
+  look.base_has_alpha =
+      look.base && cutout != material.pictures.end() && cutout->second.name == look.base->name;
+  return look;
 }
 
 }  // namespace
 
-void add_obj_materials(GltfDocument& document, const ObjFile& obj, const FileBytes& file,
-                       std::vector<std::string>& notes, const Monitor& monitor) {
+std::vector<DressedMaterial> read_obj_materials(const ObjFile& obj, const FileBytes& file,
+                                                std::vector<std::string>& notes,
+                                                const Monitor& monitor) {
   MtlLibrary library;
   for (const std::string& named : obj.libraries) {
     for (const fs::path& path : library_files(file.path.parent_path(), named)) {
@@ -229,16 +166,16 @@ void add_obj_materials(GltfDocument& document, const ObjFile& obj, const FileByt
       }
     }
   }
-  Pictures pictures(document, notes, monitor);
-  for (const std::string& name : obj.materials) {
-    const auto found = library.find(name);
-    if (found == library.end() && !library.empty()) {
+  std::vector<DressedMaterial> materials;
+  for (const std::string& name : obj.mesh.materials) {
+    const auto known = library.find(name);
+    if (known == library.end() && !library.empty()) {
       notes.push_back("the material " + in_quotes(name) + " is in no library");
     }
-    OrderedJson material = found == library.end() ? OrderedJson{{"name", as_utf8(name)}}
-                                                  : gltf_material(name, found->second, pictures);
-    array_in(document.json, "materials").push_back(std::move(material));
+    materials.push_back({name, {}});
+    if (known != library.end()) materials.back().look = look_of(known->second);
   }
+  return materials;
 }
 
 }  // namespace curveskel

@@ -13,9 +13,9 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/rig_files.hpp>
 #include "base/base64.hpp"
+#include "rig/gltf/dressed_document.hpp"
+#include "rig/gltf/dressed_file.hpp"
 #include "rig/gltf/gltf_document.hpp"
-#include "rig/gltf/obj_document.hpp"
-#include "rig/gltf/obj_file.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/gltf_numbers.hpp"
@@ -263,10 +263,10 @@ std::optional<SurfaceMaterials> read_materials(const std::filesystem::path& path
     const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
     return materials_in(file, read_gltf_document(file, model, notes, monitor), model, monitor);
   }
-  if (format != SurfaceFormat::obj) return std::nullopt;
-  const ObjFile obj = read_obj_file(file, monitor);
-  if (obj.materials.empty()) return std::nullopt;
-  ObjDocument made = obj_document(obj, file, "surface", notes, monitor);
+  const auto dressed = read_dressed_file(file, notes, monitor);
+  if (!dressed || dressed->materials.empty()) return std::nullopt;
+  DressedDocument made =
+      dressed_document(dressed->mesh, dressed->materials, file, "surface", notes, monitor);
   FileBytes inside{file.path, format_gltf(made.document, RigFormat::glb)};
   const tinygltf::Model model = parse_gltf(inside, monitor, GltfAttributes::all);
   auto materials = materials_in(inside, made.document, model, monitor);

@@ -1,4 +1,4 @@
-#include "rig/gltf/obj_document.hpp"
+#include "rig/gltf/dressed_document.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,8 +6,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/clean.hpp>
+#include "rig/gltf/dressed_materials.hpp"
 #include "rig/gltf/number_bytes.hpp"
-#include "rig/gltf/obj_materials.hpp"
 #include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "surface/mesh/single_precision.hpp"
@@ -18,9 +18,9 @@ namespace curveskel {
 namespace {
 
 /// Vertices, each with one texture coordinate and one normal.
-struct SplitObj {
-  PolygonSoup soup;                 ///< without faces
-  std::vector<ObjCorner> vertices;  ///< the first corner there of the file's; then the copies
+struct SplitMesh {
+  PolygonSoup soup;                     ///< without faces
+  std::vector<DressedCorner> vertices;  ///< the first corner there of the file's; then the copies
   std::vector<std::vector<std::int32_t>> corners;  ///< by material, the last: of none
   std::vector<std::vector<std::int64_t>> offsets;  ///< likewise
 };
@@ -30,13 +30,13 @@ class Splitting {
  public:
   explicit Splitting(std::size_t vertices) : split_(vertices), named_(vertices, false) {}
 
-  std::int32_t vertex_of(const ObjCorner& corner) {
+  std::int32_t vertex_of(const DressedCorner& corner) {
     const auto own = idx(corner.place);
     if (!named_[own]) {
       named_[own] = true;
       split_[own] = corner;
     }
-    const auto is_same = [&](const ObjCorner& other) {
+    const auto is_same = [&](const DressedCorner& other) {
       return other.texture == corner.texture && other.normal == corner.normal;
     };
     if (is_same(split_[own])) return corner.place;
@@ -46,32 +46,32 @@ class Splitting {
     return copy->second;
   }
 
-  std::vector<ObjCorner> take() {
+  std::vector<DressedCorner> take() {
     for (std::size_t v = 0; v < named_.size(); ++v) split_[v].place = static_cast<std::int32_t>(v);
     return std::move(split_);
   }
 
  private:
-  std::vector<ObjCorner> split_;
+  std::vector<DressedCorner> split_;
   std::vector<bool> named_;
   std::map<std::array<std::int32_t, 3>, std::int32_t> copies_;
 };
 
-SplitObj split(const ObjFile& obj, const FileBytes& file) {
-  SplitObj result;
-  const std::size_t materials = obj.materials.size();
+SplitMesh split(const DressedMesh& mesh, const FileBytes& file) {
+  SplitMesh result;
+  const std::size_t materials = mesh.materials.size();
   result.corners.resize(materials + 1);
   result.offsets.resize(materials + 1, {0});
-  Splitting splitting(obj.places.size() / 3);
-  const auto is_placed = [&](const ObjCorner& corner) {
-    const double* place = obj.places.data() + 3 * idx(corner.place);
+  Splitting splitting(mesh.places.size() / 3);
+  const auto is_placed = [&](const DressedCorner& corner) {
+    const double* place = mesh.places.data() + 3 * idx(corner.place);
     return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
   };
-  for (std::size_t face = 0; face < obj.material_of_face.size(); ++face) {
-    const auto begin = obj.corners.begin() + obj.offsets[face];
-    const auto end = obj.corners.begin() + obj.offsets[face + 1];
+  for (std::size_t face = 0; face < mesh.material_of_face.size(); ++face) {
+    const auto begin = mesh.corners.begin() + mesh.offsets[face];
+    const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
     if (!std::all_of(begin, end, is_placed)) continue;
-    const int material = obj.material_of_face[face];
+    const int material = mesh.material_of_face[face];
     const std::size_t group = material < 0 ? materials : idx(material);
     for (auto corner = begin; corner != end; ++corner) {
       result.corners[group].push_back(splitting.vertex_of(*corner));
@@ -80,8 +80,8 @@ SplitObj split(const ObjFile& obj, const FileBytes& file) {
   }
   result.vertices = splitting.take();
   std::vector<double> coordinates;
-  for (const ObjCorner& vertex : result.vertices) {
-    const double* place = obj.places.data() + 3 * idx(vertex.place);
+  for (const DressedCorner& vertex : result.vertices) {
+    const double* place = mesh.places.data() + 3 * idx(vertex.place);
     coordinates.insert(coordinates.end(), place, place + 3);
   }
   result.soup.positions = positions_from(coordinates);
@@ -106,14 +106,14 @@ std::size_t add_places(GltfDocument& document, const Positions& positions) {
   return accessor;
 }
 
-std::size_t add_normals(GltfDocument& document, const ObjFile& obj, const SplitObj& split,
+std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
                         const Positions& computed) {
   std::string rows;
   for (std::size_t v = 0; v < split.vertices.size(); ++v) {
     Eigen::RowVector3d normal = computed.row(static_cast<Eigen::Index>(v));
     const std::int32_t given = split.vertices[v].normal;
     if (given >= 0) {
-      const auto& said = obj.normals[idx(given)];
+      const auto& said = mesh.normals[idx(given)];
       const Eigen::RowVector3d direction =
           Eigen::RowVector3f(said[0], said[1], said[2]).cast<double>();
       if (direction.allFinite() && direction.norm() > 0) normal = direction.normalized();
@@ -124,19 +124,19 @@ std::size_t add_normals(GltfDocument& document, const ObjFile& obj, const SplitO
 }
 
 /// Rows count from the picture's upper edge, as glTF wants them.
-std::size_t add_textures(GltfDocument& document, const ObjFile& obj, const SplitObj& split) {
+std::size_t add_textures(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
   std::string rows;
-  for (const ObjCorner& vertex : split.vertices) {
+  for (const DressedCorner& vertex : split.vertices) {
     const bool is_known = vertex.texture >= 0;
     const std::array<float, 2> at =
-        is_known ? obj.textures[idx(vertex.texture)] : std::array<float, 2>{0, 1};
+        is_known ? mesh.textures[idx(vertex.texture)] : std::array<float, 2>{0, 1};
     put_number(rows, std::isfinite(at[0]) ? at[0] : 0);
     put_number(rows, std::isfinite(at[1]) ? 1 - at[1] : 0);
   }
   return add_accessor(document, rows, "VEC2", gltf_float, split.vertices.size(), gltf_vertices);
 }
 
-Triangles triangles_of(const SplitObj& split, std::size_t group) {
+Triangles triangles_of(const SplitMesh& split, std::size_t group) {
   PolygonSoup soup;
   soup.positions = split.soup.positions;
   soup.corners = split.corners[group];
@@ -152,7 +152,7 @@ std::size_t add_triangles(GltfDocument& document, const Triangles& triangles) {
   return add_accessor(document, rows, "SCALAR", gltf_uint32, idx(triangles.size()), gltf_indices);
 }
 
-Positions normals_of(const SplitObj& split, const std::vector<Triangles>& groups) {
+Positions normals_of(const SplitMesh& split, const std::vector<Triangles>& groups) {
   Surface whole{split.soup.positions, {}};
   for (const Triangles& triangles : groups) {
     whole.triangles.conservativeResize(whole.triangles.rows() + triangles.rows(), 3);
@@ -163,12 +163,14 @@ Positions normals_of(const SplitObj& split, const std::vector<Triangles>& groups
 
 }  // namespace
 
-ObjDocument obj_document(const ObjFile& obj, const FileBytes& file, const std::string& name,
-                         std::vector<std::string>& notes, const Monitor& monitor) {
-  const SplitObj split = curveskel::split(obj, file);
+DressedDocument dressed_document(const DressedMesh& mesh,
+                                 const std::vector<DressedMaterial>& materials,
+                                 const FileBytes& file, const std::string& name,
+                                 std::vector<std::string>& notes, const Monitor& monitor) {
+  const SplitMesh split = curveskel::split(mesh, file);
   require_single_precision(split.soup.positions, "glTF");
-  ObjDocument made;
-  for (const ObjCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
+  DressedDocument made;
+  for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
   GltfDocument& document = made.document;
   const std::string title = as_utf8(name);
   document.json = {{"asset", {{"version", "2.0"}}},
@@ -177,19 +179,19 @@ ObjDocument obj_document(const ObjFile& obj, const FileBytes& file, const std::s
                    {"nodes", OrderedJson::array({{{"name", title}, {"mesh", 0}}})},
                    {"meshes", OrderedJson::array({{{"name", title}}})},
                    {"buffers", OrderedJson::array({OrderedJson::object()})}};
-  add_obj_materials(document, obj, file, notes, monitor);
+  add_materials(document, materials, notes, monitor);
   std::vector<Triangles> groups;
   for (std::size_t group = 0; group < split.corners.size(); ++group) {
     groups.push_back(triangles_of(split, group));
   }
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
-  attributes["NORMAL"] = add_normals(document, obj, split, normals_of(split, groups));
-  if (!obj.textures.empty()) attributes["TEXCOORD_0"] = add_textures(document, obj, split);
+  attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
+  if (!mesh.textures.empty()) attributes["TEXCOORD_0"] = add_textures(document, mesh, split);
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (groups[group].rows() == 0) continue;
     OrderedJson primitive{{"attributes", attributes},
                           {"indices", add_triangles(document, groups[group])}};
-    if (group < obj.materials.size()) primitive["material"] = group;
+    if (group < mesh.materials.size()) primitive["material"] = group;
     OrderedJson& primitives = array_in(document.json["meshes"][0], "primitives");
     made.parts.push_back({0, 0, static_cast<int>(primitives.size()), true, 0,
                           split.soup.positions.rows(), Eigen::Affine3d::Identity()});

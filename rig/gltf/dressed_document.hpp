@@ -1,0 +1,32 @@
+// A mesh with its materials and pictures as a glTF file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <curveskel/monitor.hpp>
+#include "rig/gltf/dressed_mesh.hpp"
+#include "rig/gltf/gltf_document.hpp"
+#include "surface/read/file_bytes.hpp"
+#include "surface/read/gltf_scene.hpp"
+
+namespace curveskel {
+
+struct DressedDocument {
+  GltfDocument document;
+  std::vector<GltfPart> parts;
+  std::vector<int> row_of_vertex;  ///< of each vertex written the vertex of the file
+};
+
+/// One mesh with a primitive for each material, in their order; all share the vertices: first those
+/// of the file, in its order, then copies for corners that meet in a vertex with other texture
+/// coordinates or normals. Corners without a normal get that of `normals_across_seams`. Faces are
+/// triangulated; one with a vertex that has no place is left out. Throws Error(Fault::output) where
+/// single precision does not do.
+[[nodiscard]] DressedDocument dressed_document(const DressedMesh& mesh,
+                                               const std::vector<DressedMaterial>& materials,
+                                               const FileBytes& file, const std::string& name,
+                                               std::vector<std::string>& notes,
+                                               const Monitor& monitor);
+
+}  // namespace curveskel

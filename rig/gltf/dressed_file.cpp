@@ -1,0 +1,20 @@
+#include "rig/gltf/dressed_file.hpp"
+
+#include <utility>
+
+#include "rig/gltf/obj_file.hpp"
+#include "rig/gltf/obj_materials.hpp"
+#include "surface/read/formats.hpp"
+
+namespace curveskel {
+
+std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<std::string>& notes,
+                                             const Monitor& monitor) {
+  if (surface_format_of(file) != SurfaceFormat::obj) return std::nullopt;
+  ObjFile obj = read_obj_file(file, monitor);
+  if (!obj.mesh.has_looks()) return std::nullopt;
+  std::vector<DressedMaterial> materials = read_obj_materials(obj, file, notes, monitor);
+  return DressedFile{std::move(obj.mesh), std::move(materials)};
+}
+
+}  // namespace curveskel

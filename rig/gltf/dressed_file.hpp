@@ -1,0 +1,25 @@
+// Files other than glTF whose look is known.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <curveskel/monitor.hpp>
+#include "rig/gltf/dressed_mesh.hpp"
+#include "surface/read/file_bytes.hpp"
+
+namespace curveskel {
+
+struct DressedFile {
+  DressedMesh mesh;  ///< vertices and faces as `read_polygons` gives them
+  std::vector<DressedMaterial> materials;
+};
+
+/// Of OBJ and FBX; nothing where the file has no look, or is of another format. `notes` has a line
+/// for each thing that is left out. Throws Error(Fault::input) as `read_polygons`.
+[[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file,
+                                                           std::vector<std::string>& notes,
+                                                           const Monitor& monitor);
+
+}  // namespace curveskel

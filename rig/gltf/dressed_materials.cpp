@@ -1,0 +1,115 @@
+#include "rig/gltf/dressed_materials.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "rig/gltf/gltf_pictures.hpp"
+#include "rig/gltf/skin_numbers.hpp"
+#include "surface/read/file_bytes.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pictures of a document, each once.
+class Pictures {
+ public:
+  Pictures(GltfDocument& document, std::vector<std::string>& notes, const Monitor& monitor)
+      : document_(document), notes_(notes), monitor_(monitor) {}
+
+  /// Its texture; nothing where it cannot be had.
+  std::optional<std::size_t> texture(const DressedPicture& picture) {
+    const auto [entry, is_new] = textures_.try_emplace(picture.path);
+    if (is_new) entry->second = add(picture);
+    return entry->second;
+  }
+
+ private:
+  std::optional<std::size_t> add(const DressedPicture& picture) {
+    std::error_code ignored;
+    const bool is_within = !picture.bytes.empty();
+    const bool is_there = is_within || fs::is_regular_file(picture.path, ignored);
+    const std::string bytes = is_within  ? picture.bytes
+                              : is_there ? read_file(picture.path, monitor_).content
+                                         : "";
+    const auto type = picture_type(bytes);
+    if (type != "image/png" && type != "image/jpeg") {
+      notes_.push_back(
+          "the picture " + in_quotes(picture.name) +
+          (is_there ? " is no PNG or JPEG, the kinds that glTF has; convert it" : " is missing"));
+      return std::nullopt;
+    }
+    const std::size_t view = add_view(document_, bytes);
+    OrderedJson& images = array_in(document_.json, "images");
+    images.push_back({{"name", as_utf8(picture.path.stem().string())},
+                      {"mimeType", *type},
+                      {"bufferView", view}});
+    OrderedJson& textures = array_in(document_.json, "textures");
+    textures.push_back({{"source", images.size() - 1}});
+    return textures.size() - 1;
+  }
+
+  GltfDocument& document_;
+  std::vector<std::string>& notes_;
+  const Monitor& monitor_;
+  std::map<fs::path, std::optional<std::size_t>> textures_;
+};
+
+/// A texture is lit in full where the material says no colour, or black, as many programs write.
+void add_emission(OrderedJson& result, const std::optional<std::array<double, 3>>& colour,
+                  const std::optional<OrderedJson>& texture) {
+  constexpr std::array<double, 3> black{0, 0, 0};
+  const bool is_lit = colour && *colour != black;
+  if (texture) result["emissiveTexture"] = *texture;
+  if (!texture && !is_lit) return;
+  for (const double part : is_lit ? *colour : std::array<double, 3>{1, 1, 1}) {
+    result["emissiveFactor"].push_back(std::clamp(part, 0.0, 1.0));
+  }
+}
+
+OrderedJson gltf_material(const std::string& name, const MaterialLook& given, Pictures& pictures) {
+  OrderedJson result{{"name", as_utf8(name)}};
+  const auto texture =
+      [&](const std::optional<DressedPicture>& picture) -> std::optional<OrderedJson> {
+    if (!picture) return std::nullopt;
+    const auto index = pictures.texture(*picture);
+    if (!index) return std::nullopt;
+    OrderedJson reference = OrderedJson::object();
+    reference["index"] = *index;
+    return reference;
+  };
+  OrderedJson& look = result["pbrMetallicRoughness"];
+  const auto base = texture(given.base);
+  std::array<double, 3> colour = given.colour.value_or(std::array<double, 3>{1, 1, 1});
+  if (base) colour = {1, 1, 1};  // the texture is the colour
+  const double opacity = std::clamp(given.opacity, 0.0, 1.0);
+  look["baseColorFactor"] = {std::clamp(colour[0], 0.0, 1.0), std::clamp(colour[1], 0.0, 1.0),
+                             std::clamp(colour[2], 0.0, 1.0), opacity};
+  if (base) look["baseColorTexture"] = *base;
+  look["metallicFactor"] = std::clamp(given.metalness, 0.0, 1.0);
+  look["roughnessFactor"] = std::clamp(given.roughness, 0.0, 1.0);
+  if (const auto normals = texture(given.normals)) result["normalTexture"] = *normals;
+  add_emission(result, given.emission, texture(given.light));
+  if (opacity < 1 || (base && given.base_has_alpha)) result["alphaMode"] = "BLEND";
+  return result;
+}
+
+}  // namespace
+
+void add_materials(GltfDocument& document, const std::vector<DressedMaterial>& materials,
+                   std::vector<std::string>& notes, const Monitor& monitor) {
+  Pictures pictures(document, notes, monitor);
+  for (const DressedMaterial& material : materials) {
+    OrderedJson made = material.look ? gltf_material(material.name, *material.look, pictures)
+                                     : OrderedJson{{"name", as_utf8(material.name)}};
+    array_in(document.json, "materials").push_back(std::move(made));
+  }
+}
+
+}  // namespace curveskel

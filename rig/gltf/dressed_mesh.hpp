@@ -1,0 +1,62 @@
+// A mesh with all that a corner of a face may name in a file: texture coordinates, normals,
+// materials.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace curveskel {
+
+/// Indices from 0; -1 = none.
+struct DressedCorner {
+  std::int32_t place = -1;
+  std::int32_t texture = -1;
+  std::int32_t normal = -1;
+};
+
+/// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
+struct DressedMesh {
+  std::vector<double> places;                  ///< x y z x y z ...
+  std::vector<std::array<float, 2>> textures;  ///< rows count from the picture's lower edge
+  std::vector<std::array<float, 3>> normals;
+  std::vector<DressedCorner> corners;
+  std::vector<std::int64_t> offsets{0};
+  std::vector<int> material_of_face;   ///< -1 = none
+  std::vector<std::string> materials;  ///< their names
+
+  /// Something that a bare rig would lose.
+  [[nodiscard]] bool has_looks() const {
+    return !textures.empty() || !normals.empty() || !materials.empty();
+  }
+};
+
+/// A picture that a file has within it, or names.
+struct DressedPicture {
+  std::filesystem::path path;  ///< under which it is known, and sought if there are no bytes
+  std::string name;            ///< as the file has it
+  std::string bytes;           ///< of PNG or JPEG
+};
+
+/// Numbers are of 0..1, those beyond are taken as the nearest.
+struct MaterialLook {
+  std::optional<std::array<double, 3>> colour;
+  std::optional<std::array<double, 3>> emission;
+  double opacity = 1;
+  double roughness = 1;
+  double metalness = 0;
+  std::optional<DressedPicture> base;  ///< in place of the colour
+  std::optional<DressedPicture> normals;
+  std::optional<DressedPicture> light;
+  bool base_has_alpha = false;  ///< one sees through where the picture says so
+};
+
+struct DressedMaterial {
+  std::string name;
+  std::optional<MaterialLook> look;  ///< nothing: the name is all that is known
+};
+
+}  // namespace curveskel
