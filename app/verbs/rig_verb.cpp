@@ -156,11 +156,11 @@ OldRig old_rig_in(const RigArguments& arguments) {
   return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
 }
 
-/// Of files whose look is read from glTF and OBJ alone.
+/// Of formats whose look is not read.
 void warn_of_looks(const RigArguments& arguments, Session& session) {
   fs::path name = arguments.mesh;
   if (name.extension() == ".gz") name = name.stem();
-  for (const char* extension : {".fbx", ".dae", ".3mf", ".vtp", ".vtk"}) {
+  for (const char* extension : {".dae", ".3mf", ".vtp", ".vtk"}) {
     if (name.extension() != extension) continue;
     session.terminal.warn(arguments.mesh.filename().string() +
                           ": materials, texture coordinates and an old rig are not taken from "

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "rig/fbx/fbx_looks.hpp"
 #include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/obj_materials.hpp"
 #include "surface/read/formats.hpp"
@@ -10,7 +11,9 @@ namespace curveskel {
 
 std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<std::string>& notes,
                                              const Monitor& monitor) {
-  if (surface_format_of(file) != SurfaceFormat::obj) return std::nullopt;
+  const auto format = surface_format_of(file);
+  if (format == SurfaceFormat::fbx) return read_fbx_looks(file, notes, monitor);
+  if (format != SurfaceFormat::obj) return std::nullopt;
   ObjFile obj = read_obj_file(file, monitor);
   if (!obj.mesh.has_looks()) return std::nullopt;
   std::vector<DressedMaterial> materials = read_obj_materials(obj, file, notes, monitor);

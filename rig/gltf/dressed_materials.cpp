@@ -50,8 +50,10 @@ class Pictures {
     images.push_back({{"name", as_utf8(picture.path.stem().string())},
                       {"mimeType", *type},
                       {"bufferView", view}});
+    const std::size_t source = images.size() - 1;
+    // A new list moves those that are there.
     OrderedJson& textures = array_in(document_.json, "textures");
-    textures.push_back({{"source", images.size() - 1}});
+    textures.push_back({{"source", source}});
     return textures.size() - 1;
   }
 
@@ -97,6 +99,7 @@ OrderedJson gltf_material(const std::string& name, const MaterialLook& given, Pi
   if (const auto normals = texture(given.normals)) result["normalTexture"] = *normals;
   add_emission(result, given.emission, texture(given.light));
   if (opacity < 1 || (base && given.base_has_alpha)) result["alphaMode"] = "BLEND";
+  if (given.two_sided) result["doubleSided"] = true;
   return result;
 }
 

@@ -52,6 +52,7 @@ struct MaterialLook {
   std::optional<DressedPicture> normals;
   std::optional<DressedPicture> light;
   bool base_has_alpha = false;  ///< one sees through where the picture says so
+  bool two_sided = false;       ///< seen from behind, too
 };
 
 struct DressedMaterial {

@@ -44,8 +44,11 @@ struct Posture {
   double back = 0;  // of the size, that the trunk reaches behind the legs
 };
 
+/// Up to the arms; where these begin in the ball of the hips, in which the curve may have one
+/// junction or two, up to its top.
 Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms) {
-  const Vector3d hips = tree.nodes[idx(limbs.pairs[idx(leg)].root)];
+  const int root = limbs.pairs[idx(leg)].root;
+  const Vector3d hips = tree.nodes[idx(root)];
   Vector3d top = hips;
   double rearmost = hips.z();
   for (const int node : limbs.trunk) {
@@ -53,7 +56,10 @@ Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms)
     if (p.y() > top.y()) top = p;
     rearmost = std::min(rearmost, p.z());
   }
-  if (arms >= 0) top = tree.nodes[idx(limbs.pairs[idx(arms)].root)];
+  if (arms >= 0) {
+    const Vector3d& chest = tree.nodes[idx(limbs.pairs[idx(arms)].root)];
+    if ((chest - hips).norm() > tree.radii[idx(root)]) top = chest;
+  }
   const Vector3d trunk = top - hips;
   const double length = std::max(trunk.norm(), 1e-9 * tree.size);
   return {std::acos(std::clamp(trunk.y() / length, -1.0, 1.0)) * 180 / std::numbers::pi,

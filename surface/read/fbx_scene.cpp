@@ -28,16 +28,6 @@ Eigen::Affine3d affine(const Eigen::Matrix3d& linear) {
   return result;
 }
 
-/// "P: "Lcl Scaling", "Lcl Scaling", "", "A", 1, 1, 1" among an object's properties.
-const FbxRecord* property_in(const FbxRecord* owner, std::string_view name) {
-  const FbxRecord* properties = owner == nullptr ? nullptr : owner->child("Properties70");
-  if (properties == nullptr) return nullptr;
-  for (const FbxRecord& record : properties->children) {
-    if (record.text(0) == name) return &record;
-  }
-  return nullptr;
-}
-
 const FbxRecord* defaults_of_models(const FbxRecord& root) {
   const FbxRecord* definitions = root.child("Definitions");
   if (definitions == nullptr) return nullptr;
@@ -47,9 +37,16 @@ const FbxRecord* defaults_of_models(const FbxRecord& root) {
   return nullptr;
 }
 
-constexpr std::size_t first_property_value = 4;  // of a property, behind name, two types and flags
-
 }  // namespace
+
+const FbxRecord* fbx_property(const FbxRecord* owner, std::string_view name) {
+  const FbxRecord* properties = owner == nullptr ? nullptr : owner->child("Properties70");
+  if (properties == nullptr) return nullptr;
+  for (const FbxRecord& record : properties->children) {
+    if (record.text(0) == name) return &record;
+  }
+  return nullptr;
+}
 
 FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
     : file_(file), objects_(root.child("Objects")), defaults_(defaults_of_models(root)) {
@@ -61,10 +58,15 @@ FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
 
 void FbxScene::connect(const FbxRecord& connections) {
   for (const FbxRecord& one : connections.children) {
-    if (one.text(0) != "OO") continue;  // others join properties
+    const bool is_of_property = one.text(0) == "OP";
+    if (one.text(0) != "OO" && !is_of_property) continue;
     const auto child = by_id_.find(one.integer(1, -1));
     const auto parent = by_id_.find(one.integer(2, -1));
     if (child == by_id_.end() || parent == by_id_.end()) continue;  // the root of all, or of others
+    if (is_of_property) {
+      at_property_[parent->second].push_back({one.text(3), child->second});
+      continue;
+    }
     below_[parent->second].push_back(child->second);
     if (child->second->name == "Model" && parent->second->name == "Model") {
       parent_of_.emplace(child->second, parent->second);
@@ -121,9 +123,19 @@ std::vector<const FbxRecord*> FbxScene::below(const FbxRecord& object, std::stri
   return result;
 }
 
+const FbxRecord* FbxScene::at_property(const FbxRecord& object, std::string_view property,
+                                       std::string_view kind) const {
+  const auto found = at_property_.find(&object);
+  if (found == at_property_.end()) return nullptr;
+  for (const AtProperty& one : found->second) {
+    if (one.property == property && one.object->name == kind) return one.object;
+  }
+  return nullptr;
+}
+
 const FbxRecord* FbxScene::property(const FbxRecord& model, std::string_view name) const {
-  const FbxRecord* own = property_in(&model, name);
-  return own != nullptr ? own : property_in(defaults_, name);
+  const FbxRecord* own = fbx_property(&model, name);
+  return own != nullptr ? own : fbx_property(defaults_, name);
 }
 
 Eigen::Vector3d FbxScene::vector(const FbxRecord& model, std::string_view name,

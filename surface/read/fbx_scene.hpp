@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <unordered_map>
@@ -10,6 +11,12 @@
 #include "surface/read/fbx_tree.hpp"
 
 namespace curveskel {
+
+/// "P: "Lcl Scaling", "Lcl Scaling", "", "A", 1, 1, 1" among an object's properties, or nullptr.
+[[nodiscard]] const FbxRecord* fbx_property(const FbxRecord* owner, std::string_view name);
+
+/// Of a property's values, which stand behind name, two types and flags, the first.
+inline constexpr std::size_t first_property_value = 4;
 
 class FbxScene {
  public:
@@ -22,6 +29,10 @@ class FbxScene {
   /// Those of a kind and a subclass ("Deformer", "Skin") that are connected below `object`.
   [[nodiscard]] std::vector<const FbxRecord*> below(const FbxRecord& object, std::string_view kind,
                                                     std::string_view subclass = {}) const;
+
+  /// The first of a kind that is connected with a property of `object`, or nullptr.
+  [[nodiscard]] const FbxRecord* at_property(const FbxRecord& object, std::string_view property,
+                                             std::string_view kind) const;
 
   /// The model that a model hangs from, or nullptr.
   [[nodiscard]] const FbxRecord* parent(const FbxRecord& model) const;
@@ -49,6 +60,11 @@ class FbxScene {
   const FbxRecord* defaults_ = nullptr;  // of models, or nullptr
   std::unordered_map<std::int64_t, const FbxRecord*> by_id_;
   std::unordered_map<const FbxRecord*, std::vector<const FbxRecord*>> below_;
+  struct AtProperty {
+    std::string_view property;
+    const FbxRecord* object;
+  };
+  std::unordered_map<const FbxRecord*, std::vector<AtProperty>> at_property_;
   std::unordered_map<const FbxRecord*, const FbxRecord*> parent_of_;  // of models
   std::unordered_map<const FbxRecord*, Eigen::Affine3d> frame_of_;
 };

@@ -30,7 +30,8 @@ Positions moved(const Positions& given, const Eigen::Affine3d& frame, const Mesh
   return result;
 }
 
-/// True if the mesh as shown is a mirror image, for most of its weight.
+}  // namespace
+
 bool is_mirrored(const Eigen::Affine3d& frame, const MeshSkin& skin) {
   if (skin.weights.empty()) return frame.linear().determinant() < 0;
   std::vector<double> signs;
@@ -41,8 +42,6 @@ bool is_mirrored(const Eigen::Affine3d& frame, const MeshSkin& skin) {
   for (const SkinWeight& one : skin.weights) sum += one.weight * signs[one.joint];
   return sum < 0;
 }
-
-}  // namespace
 
 /// A small file may show a mesh any number of times, so memory is asked for before it is taken.
 void PlacedMeshes::require_room(const PolygonSoup& mesh) {

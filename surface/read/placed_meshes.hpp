@@ -23,6 +23,10 @@ struct MeshSkin {
   std::vector<SkinWeight> weights;      ///< in any order; of a vertex they need not sum to 1
 };
 
+/// True if the mesh as shown is a mirror image, for most of its weight: then its polygons' corners
+/// are reversed.
+[[nodiscard]] bool is_mirrored(const Eigen::Affine3d& frame, const MeshSkin& skin);
+
 class PlacedMeshes {
  public:
   PlacedMeshes(const FileBytes& file, const Monitor& monitor) : file_(file), monitor_(monitor) {

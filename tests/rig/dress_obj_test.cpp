@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@
 #include <curveskel/read_materials.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/encodings.hpp"
@@ -32,28 +32,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 const std::string png("\x89PNG\r\n\x1a\n not a true picture", 27);
-
-struct Glb {
-  Json json;
-  std::string numbers;
-
-  explicit Glb(const std::string& bytes) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, &bytes.at(12), sizeof length);
-    json = Json::parse(bytes.substr(20, length));
-    numbers = bytes.substr(28 + std::size_t{length});
-  }
-
-  template <typename Value>
-  [[nodiscard]] std::vector<Value> values(std::size_t accessor) const {
-    const Json& view =
-        json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
-    std::vector<Value> result(view["byteLength"].get<std::size_t>() / sizeof(Value));
-    std::memcpy(result.data(), &numbers.at(view["byteOffset"].get<std::size_t>()),
-                result.size() * sizeof(Value));
-    return result;
-  }
-};
 
 /// A torus whose every face has texture coordinates of its own kind: by its row, so that each
 /// vertex has up to `seams` of them; faces in `materials` runs.
@@ -220,6 +198,7 @@ TEST_F(DressObj, MaterialsAreThoseOfTheLibrary) {
   EXPECT_EQ(materials[2]["pbrMetallicRoughness"]["metallicFactor"], 1.0);
   EXPECT_FALSE(materials[4].contains("pbrMetallicRoughness"));  // in no library
   ASSERT_EQ(glb.json["images"].size(), 1U);                     // one picture, two materials
+  EXPECT_EQ(glb.json["textures"], Json::array({{{"source", 0}}}));
   for (const std::size_t m : {1U, 2U}) {
     EXPECT_EQ(materials[m]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
   }

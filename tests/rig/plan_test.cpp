@@ -55,6 +55,24 @@ TEST(FindPlan, HumanoidsHaveTheirJoints) {
   EXPECT_EQ(plan.joints.front().parent, -1);
 }
 
+/// In the ball of a belly the curve has one junction or two: noise decides.
+TEST(FindPlan, AFatHumanIsOneWithAChestAndWithout) {
+  for (const bool has_chest : {true, false}) {
+    Figure figure;
+    const int hips = figure.add({0, 9, 0}, 4);
+    const int chest = has_chest ? figure.add({0, 12, 0}, 3, hips) : hips;
+    const int neck = figure.add({0, 16, 0}, 0.9, chest);
+    figure.add({0, 18.5, 0}, 1.5, neck);
+    figure.add_pair(chest, {{4, 12.5, 0}, {7, 12.5, 0}, {10, 12.5, 0}}, 0.7);
+    figure.add_pair(hips, {{2, 5, 0}, {2, 1, 0}, {2, 0.8, 1.5}}, 0.8);
+    const RigSubject subject = subject_of("fat human", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+    EXPECT_TRUE(plan.missing.empty());
+    expect_near(plan, "leftUpperArm", {4.2, 12.5, 0}, 1.2);
+  }
+}
+
 /// From the thumb, which is ahead, backwards.
 TEST(FindPlan, FingersAreInTheirOrder) {
   const std::vector<std::string> names{"Index", "Middle", "Ring", "Little"};

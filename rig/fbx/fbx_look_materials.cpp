@@ -1,0 +1,169 @@
+#include "rig/fbx/fbx_look_materials.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/base64.hpp"
+#include "surface/read/fbx_tree.hpp"
+
+namespace curveskel {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::initializer_list<std::string_view>;
+
+class MaterialLooks {
+ public:
+  MaterialLooks(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
+                const FbxRecord& material)
+      : file_(file), root_(root), scene_(scene), material_(material) {}
+
+  [[nodiscard]] DressedMaterial read() const {
+    MaterialLook look;
+    look.colour = colour("DiffuseColor", number("DiffuseFactor").value_or(1));
+    look.emission = colour("EmissiveColor", number("EmissiveFactor").value_or(1));
+    look.opacity = opacity();
+    const auto shininess = number("Shininess");
+    const double shine = shininess ? *shininess : number("ShininessExponent").value_or(0);
+    look.roughness = 1 - std::sqrt(std::max(shine, 0.0)) / 10;
+    if (has_metalness()) look.metalness = number("ReflectionFactor").value_or(0);
+    look.base = picture({"DiffuseColor", "Maya|baseColor", "Maya|baseColor|file",
+                         "Maya|TEX_color_map", "Maya|TEX_color_map|file", "Maya|DiffuseTexture",
+                         "3dsMax|Parameters|base_color_map"});
+    look.normals = picture({"NormalMap", "Maya|normalCamera", "Maya|TEX_normal_map",
+                            "Maya|TEX_normal_map|file", "Maya|NormalTexture"});
+    look.light = picture({"EmissiveColor", "Maya|emissionColor", "Maya|TEX_emissive_map",
+                          "Maya|TEX_emissive_map|file", "3dsMax|Parameters|emit_color_map"});
+    const auto cutout = picture({"TransparentColor", "TransparencyFactor"});
+    look.base_has_alpha = look.base && cutout && cutout->path == look.base->path;
+    return {name_of(material_), look};
+  }
+
+ private:
+  /// "Skin\0\1Material" in binary files, "Material::Skin" in text.
+  static std::string name_of(const FbxRecord& object) {
+    const std::string_view text = object.text(1);
+    const std::size_t end = text.find('\0');
+    if (end != std::string_view::npos) return std::string(text.substr(0, end));
+    const std::size_t kind = text.find("::");
+    return std::string(kind == std::string_view::npos ? text : text.substr(kind + 2));
+  }
+
+  [[nodiscard]] std::optional<double> number(std::string_view name) const {
+    const FbxRecord* found = fbx_property(&material_, name);
+    if (found == nullptr) return std::nullopt;
+    const double value = found->number(first_property_value, std::nan(""));
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<std::array<double, 3>> colour(std::string_view name,
+                                                            double factor) const {
+    const FbxRecord* found = fbx_property(&material_, name);
+    if (found == nullptr) return std::nullopt;
+    std::array<double, 3> result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[k] = factor * found->number(first_property_value + k, 0);
+      if (!std::isfinite(result[k])) return std::nullopt;
+    }
+    return result;
+  }
+
+  /// Nobody has a material that is not seen at all: exporters that say so mean that it is.
+  [[nodiscard]] double opacity() const {
+    std::optional<double> result = number("Opacity");
+    if (!result) {
+      const auto transparent = colour("TransparentColor", number("TransparencyFactor").value_or(1));
+      result = 1 - (transparent ? ((*transparent)[0] + (*transparent)[1] + (*transparent)[2]) / 3
+                                : number("TransparencyFactor").value_or(0));
+    }
+    return *result > 0 ? std::min(*result, 1.0) : 1;
+  }
+
+  /// Elsewhere the property says how mirror-like a phong material is.
+  [[nodiscard]] bool has_metalness() const {
+    const FbxRecord* header = root_.child("FBXHeaderExtension");
+    const FbxRecord* creator = header == nullptr ? nullptr : header->child("Creator");
+    if (creator == nullptr) return false;
+    const std::string_view text = creator->text(0);
+    return text.starts_with("Blender") || text.starts_with("curveskel");
+  }
+
+  [[nodiscard]] std::optional<DressedPicture> picture(Names properties) const {
+    for (const std::string_view property : properties) {
+      const FbxRecord* texture = scene_.at_property(material_, property, "Texture");
+      if (texture != nullptr) return picture_of(*texture);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] DressedPicture picture_of(const FbxRecord& texture) const {
+    const auto videos = scene_.below(texture, "Video");
+    const FbxRecord& named = videos.empty() ? texture : *videos.front();
+    DressedPicture result;
+    result.name = file_named(named);
+    if (result.name.empty()) result.name = file_named(texture);
+    const FbxRecord* content = named.child("Content");
+    if (content != nullptr) result.bytes = bytes_of(*content);
+    result.path = result.bytes.empty() ? found(result.name) : fs::path(result.name);
+    return result;
+  }
+
+  /// With the separators of this system.
+  static std::string file_named(const FbxRecord& object) {
+    for (const std::string_view key : {"RelativeFilename", "FileName", "Filename"}) {
+      const FbxRecord* child = object.child(key);
+      if (child == nullptr || child->text(0).empty()) continue;
+      std::string name(child->text(0));
+      std::replace(name.begin(), name.end(), '\\', '/');
+      return name;
+    }
+    return "";
+  }
+
+  /// In text files as base64, in pieces.
+  [[nodiscard]] std::string bytes_of(const FbxRecord& content) const {
+    if (is_binary_fbx(file_)) return std::string(content.text(0));
+    std::string bytes;
+    for (std::size_t k = 0; k < content.values.size(); ++k) {
+      std::string_view text = content.text(k);
+      append_from_base64(bytes, text, bytes.size() + text.size());
+    }
+    return bytes;
+  }
+
+  /// As named, else where pictures of such files mostly are, as paths of another machine lead
+  /// nowhere.
+  [[nodiscard]] fs::path found(const std::string& name) const {
+    const fs::path folder = file_.path.parent_path();
+    const fs::path alone = fs::path(name).filename();
+    fs::path own = file_.path.stem();
+    own += ".fbm";
+    for (const fs::path& path : {folder / name, folder / alone, folder / "textures" / alone,
+                                 folder / "Textures" / alone, folder / own / alone}) {
+      std::error_code ignored;
+      if (fs::is_regular_file(path, ignored)) return path;
+    }
+    return folder / alone;
+  }
+
+  const FileBytes& file_;
+  const FbxRecord& root_;
+  const FbxScene& scene_;
+  const FbxRecord& material_;
+};
+
+}  // namespace
+
+DressedMaterial fbx_look_of(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
+                            const FbxRecord& material) {
+  return MaterialLooks(file, root, scene, material).read();
+}
+
+}  // namespace curveskel

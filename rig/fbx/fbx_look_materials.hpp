@@ -1,0 +1,15 @@
+// Materials of an FBX file, read.
+#pragma once
+
+#include <vector>
+
+#include "rig/gltf/dressed_mesh.hpp"
+#include "surface/read/fbx_scene.hpp"
+
+namespace curveskel {
+
+/// The look of one "Material" of the scene, see `read_fbx_looks`. `root` is the scene's.
+[[nodiscard]] DressedMaterial fbx_look_of(const FileBytes& file, const FbxRecord& root,
+                                          const FbxScene& scene, const FbxRecord& material);
+
+}  // namespace curveskel

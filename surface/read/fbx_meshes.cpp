@@ -1,0 +1,168 @@
+#include "surface/read/fbx_meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "surface/read/formats.hpp"
+
+namespace curveskel {
+namespace {
+
+class FbxMeshes {
+ public:
+  FbxMeshes(const FileBytes& file, const FbxScene& scene) : file_(file), scene_(scene) {}
+
+  void give(const std::function<void(const FbxMesh&)>& take) {
+    for (const FbxRecord* model : scene_.all("Model")) {
+      for (const FbxRecord* geometry : scene_.below(*model, "Geometry")) {
+        if (geometry->child("PolygonVertexIndex") != nullptr) take(shown(*model, *geometry));
+      }
+    }
+  }
+
+ private:
+  FbxMesh shown(const FbxRecord& model, const FbxRecord& geometry) {
+    const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
+    if (is_new) entry->second = mesh(geometry);
+    const Eigen::Affine3d geometric = scene_.geometric(model);
+    return {model, geometry, entry->second, scene_.frame(model) * geometric,
+            skin(geometry, geometric, entry->second.positions.rows())};
+  }
+
+  [[noreturn]] void fail(const FbxRecord& at, const std::string& found,
+                         const std::string& needed) const {
+    file_.fail(
+        found + " in \"" + std::string(at.name) + "\" at byte " + std::to_string(at.position),
+        needed, fbx_remedy);
+  }
+
+  /// A polygon's last index is -1 - vertex.
+  [[nodiscard]] PolygonSoup mesh(const FbxRecord& geometry) const {
+    PolygonSoup soup;
+    soup.offsets.push_back(0);
+    const FbxRecord* vertices = geometry.child("Vertices");
+    if (vertices != nullptr) soup.positions = positions_from(rows_of_three(*vertices));
+    morph(geometry, soup.positions);
+    const FbxRecord& indices = *geometry.child("PolygonVertexIndex");
+    for (const double index : fbx_numbers(file_, indices)) {
+      const double vertex = index < 0 ? -1 - index : index;
+      soup.corners.push_back(
+          static_cast<std::int32_t>(checked(indices, vertex, soup.positions.rows())));
+      if (index < 0) end_polygon(soup);
+    }
+    soup.corners.resize(static_cast<std::size_t>(soup.offsets.back()));
+    return soup;
+  }
+
+  [[nodiscard]] std::vector<double> rows_of_three(const FbxRecord& record) const {
+    std::vector<double> numbers = fbx_numbers(file_, record);
+    if (numbers.size() % 3 != 0 || numbers.size() / 3 > static_cast<std::size_t>(most_vertices)) {
+      fail(record, std::to_string(numbers.size()) + " coordinates", "three per vertex");
+    }
+    return numbers;
+  }
+
+  /// The vertex, if it is one.
+  [[nodiscard]] std::size_t checked(const FbxRecord& record, double vertex,
+                                    Eigen::Index vertices) const {
+    if (!(vertex >= 0 && vertex < static_cast<double>(vertices) && std::floor(vertex) == vertex)) {
+      fail(record, "vertex index " + std::to_string(vertex),
+           "whole numbers below " + std::to_string(vertices));
+    }
+    return static_cast<std::size_t>(vertex);
+  }
+
+  void morph(const FbxRecord& geometry, Positions& positions) const {
+    for (const FbxRecord* morph : scene_.below(geometry, "Deformer", "BlendShape")) {
+      for (const FbxRecord* channel : scene_.below(*morph, "Deformer", "BlendShapeChannel")) {
+        const FbxRecord* percent = channel->child("DeformPercent");
+        const double weight = percent == nullptr ? 0 : percent->number(0, 0) / 100;
+        if (weight == 0) continue;
+        for (const FbxRecord* shape : scene_.below(*channel, "Geometry")) {
+          add_shape(*shape, weight, positions);
+        }
+      }
+    }
+  }
+
+  void add_shape(const FbxRecord& shape, double weight, Positions& positions) const {
+    const FbxRecord* indices = shape.child("Indexes");
+    const FbxRecord* offsets = shape.child("Vertices");
+    if (indices == nullptr || offsets == nullptr) return;
+    const std::vector<double> vertices = fbx_numbers(file_, *indices);
+    const std::vector<double> moves = rows_of_three(*offsets);
+    if (moves.size() != 3 * vertices.size()) {
+      fail(shape, std::to_string(moves.size() / 3) + " offsets", "one per vertex that moves");
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto v = static_cast<Eigen::Index>(checked(*indices, vertices[i], positions.rows()));
+      positions.row(v) += weight * Eigen::Map<const Eigen::RowVector3d>(moves.data() + 3 * i);
+    }
+  }
+
+  /// "Transform" of a cluster leads from the mesh to the joint as both stood when they were bound.
+  [[nodiscard]] MeshSkin skin(const FbxRecord& geometry, const Eigen::Affine3d& geometric,
+                              Eigen::Index vertices) const {
+    MeshSkin result;
+    for (const FbxRecord* deformer : scene_.below(geometry, "Deformer", "Skin")) {
+      for (const FbxRecord* cluster : scene_.below(*deformer, "Deformer", "Cluster")) {
+        const FbxRecord* transform = cluster->child("Transform");
+        const std::vector<const FbxRecord*> joints = scene_.below(*cluster, "Model");
+        if (transform == nullptr || joints.empty()) continue;  // it moves nothing
+        result.joints.push_back(scene_.frame(*joints.front()) * scene_.matrix(*transform) *
+                                geometric);
+        add_weights(*cluster, vertices, result);
+      }
+    }
+    return result;
+  }
+
+  void add_weights(const FbxRecord& cluster, Eigen::Index vertices, MeshSkin& skin) const {
+    const FbxRecord* indices = cluster.child("Indexes");
+    const FbxRecord* weights = cluster.child("Weights");
+    if (indices == nullptr || weights == nullptr) return;
+    const std::vector<double> moved = fbx_numbers(file_, *indices);
+    const std::vector<double> values = fbx_numbers(file_, *weights);
+    if (moved.size() != values.size() ||
+        !std::all_of(values.begin(), values.end(), [](double w) { return std::isfinite(w); })) {
+      fail(cluster, std::to_string(values.size()) + " weights",
+           "a number for each of " + std::to_string(moved.size()) + " vertices");
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      skin.weights.push_back(
+          {checked(*indices, moved[i], vertices), skin.joints.size() - 1, values[i]});
+    }
+  }
+
+  const FileBytes& file_;
+  const FbxScene& scene_;
+  std::unordered_map<const FbxRecord*, PolygonSoup> mesh_of_;
+};
+
+/// The version that the file's header states, 0 if it states none.
+std::int64_t version_of(const FbxRecord& root) {
+  const FbxRecord* header = root.child("FBXHeaderExtension");
+  const FbxRecord* version = header == nullptr ? nullptr : header->child("FBXVersion");
+  return version == nullptr ? 0 : version->integer(0, 0);
+}
+
+}  // namespace
+
+void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene,
+                       const std::function<void(const FbxMesh&)>& take) {
+  FbxMeshes(file, scene).give(take);
+}
+
+void require_fbx_version(const FileBytes& file, const FbxRecord& root) {
+  constexpr std::int64_t first_version = 7000;
+  const std::int64_t version = version_of(root);
+  if (version >= first_version) return;
+  file.fail("FBX of version " + std::to_string(version),
+            "version " + std::to_string(first_version) + " or later",
+            "export it again as FBX 2011 or later, for instance by Autodesk's FBX Converter");
+}
+
+}  // namespace curveskel

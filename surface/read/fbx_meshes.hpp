@@ -1,0 +1,31 @@
+// The meshes of an FBX file where its models show them. Internal to surface/ and rig/.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include <curveskel/read.hpp>
+#include "surface/read/fbx_scene.hpp"
+#include "surface/read/fbx_tree.hpp"
+#include "surface/read/placed_meshes.hpp"
+
+namespace curveskel {
+
+/// All are there while the file is.
+struct FbxMesh {
+  const FbxRecord& model;
+  const FbxRecord& geometry;
+  const PolygonSoup& polygons;  ///< of the geometry, morphed by the weights that the file gives
+  Eigen::Affine3d frame;        ///< from the geometry to the world
+  MeshSkin skin;
+};
+
+/// Each mesh as often as a model shows it, in the order in which `read_polygons` has them. Throws
+/// Error(Fault::input).
+void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene,
+                       const std::function<void(const FbxMesh&)>& take);
+
+/// Throws Error(Fault::input) for files of before version 7, whose objects have no numbers.
+void require_fbx_version(const FileBytes& file, const FbxRecord& root);
+
+}  // namespace curveskel

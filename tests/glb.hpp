@@ -1,0 +1,36 @@
+// The two chunks of a GLB file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace curveskel {
+
+struct Glb {
+  nlohmann::json json;
+  std::string numbers;
+
+  explicit Glb(const std::string& bytes) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, &bytes.at(12), sizeof length);
+    json = nlohmann::json::parse(bytes.substr(20, length));
+    numbers = bytes.substr(28 + std::size_t{length});
+  }
+
+  /// The whole view of an accessor.
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> values(std::size_t accessor) const {
+    const nlohmann::json& view =
+        json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+    std::vector<Value> result(view["byteLength"].get<std::size_t>() / sizeof(Value));
+    std::memcpy(result.data(), &numbers.at(view["byteOffset"].get<std::size_t>()),
+                result.size() * sizeof(Value));
+    return result;
+  }
+};
+
+}  // namespace curveskel

@@ -1,0 +1,392 @@
+// Laws of rigs for FBX files: the look of the file is there in glTF, however the file gives it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/read_materials.hpp>
+#include <curveskel/rig_files.hpp>
+#include "base/base64.hpp"
+#include "tests/glb.hpp"
+#include "tests/own_folder.hpp"
+#include "tests/rig/random_rigs.hpp"
+#include "tests/surface/scene_encodings.hpp"
+
+namespace curveskel::dress_fbx_laws {
+namespace {
+
+namespace fs = std::filesystem;
+using encodings::FbxForm;
+using encodings::FbxItem;
+using encodings::FbxItems;
+using Json = nlohmann::json;
+
+const std::string png("\x89PNG\r\n\x1a\n no true picture", 24);
+constexpr std::array all_forms{FbxForm::text, FbxForm::binary, FbxForm::binary_wide_and_zipped};
+constexpr int faces = 6;
+constexpr std::int64_t first_material = 10;
+
+/// Of a corner of the box: its face, and which of the face's it is.
+std::size_t vertex_at(int face, int corner) {
+  return static_cast<std::size_t>(encodings::quads[idx(face)][idx(corner)]);
+}
+
+struct Mapping {
+  std::string name;
+  int rows;  ///< that it has on the box
+  int (*place)(int face, int corner);
+};
+
+const std::vector<Mapping> mappings{
+    {"ByPolygonVertex", 24, [](int face, int corner) { return 4 * face + corner; }},
+    {"ByVertice", 8,
+     [](int face, int corner) { return static_cast<int>(vertex_at(face, corner)); }},
+    {"ByPolygon", 6, [](int face, int) { return face; }},
+    {"AllSame", 1, [](int, int) { return 0; }},
+};
+
+/// Row r of the texture coordinates is (.01 r, .02 r). With indices place p has row 2 p + 1.
+struct Textures {
+  Mapping mapping;
+  bool is_indexed;
+
+  [[nodiscard]] int row(int face, int corner) const {
+    const int place = mapping.place(face, corner);
+    return is_indexed ? 2 * place + 1 : place;
+  }
+
+  [[nodiscard]] FbxItem layer() const {
+    std::vector<double> values;
+    std::vector<int> indices;
+    for (int place = 0; place < mapping.rows; ++place) {
+      indices.push_back(2 * place + 1);
+    }
+    for (int row = 0; row < (is_indexed ? 2 : 1) * mapping.rows; ++row) {
+      values.push_back(0.01 * row);
+      values.push_back(0.02 * row);
+    }
+    FbxItem result{"LayerElementUV",
+                   {0},
+                   {{"MappingInformationType", {mapping.name}},
+                    {"ReferenceInformationType", {is_indexed ? "IndexToDirect" : "Direct"}},
+                    {"UV", {values}}}};
+    if (is_indexed) result.children.push_back({"UVIndex", {indices}});
+    return result;
+  }
+};
+
+FbxItem properties(const std::vector<encodings::FbxProperty>& given) {
+  FbxItem list{"Properties70", {}};
+  for (const encodings::FbxProperty& property : given) {
+    FbxItem one{"P", {property.name, "Color", "", "A"}};
+    one.values.insert(one.values.end(), property.values.begin(), property.values.end());
+    list.children.push_back(std::move(one));
+  }
+  return list;
+}
+
+FbxItem material(int number, const std::vector<encodings::FbxProperty>& given) {
+  return {"Material",
+          {first_material + number, "Material::m " + std::to_string(number), ""},
+          {properties(given)}};
+}
+
+/// The box with these objects beside it; those of kind "Material" are on it.
+FbxItems scene(FbxItem box, FbxItem model, const FbxItems& beside,
+               const std::vector<FbxItem>& links = {}) {
+  FbxItems objects{std::move(box), std::move(model)};
+  objects.insert(objects.end(), beside.begin(), beside.end());
+  FbxItems all = encodings::fbx_scene(objects, {{2, 0}, {1, 2}});
+  for (const FbxItem& object : beside) {
+    if (object.name != "Material") continue;
+    all[1].children.push_back({"C", {"OO", object.values[0], std::int64_t{2}}});
+  }
+  all[1].children.insert(all[1].children.end(), links.begin(), links.end());
+  return all;
+}
+
+/// Of the face that has all three.
+int face_of(const SurfaceMaterials& look, Eigen::Index triangle) {
+  for (int face = 0; face < faces; ++face) {
+    std::set<int> own;
+    for (int corner = 0; corner < 4; ++corner) own.insert(int(vertex_at(face, corner)));
+    const auto row = look.triangles.row(triangle);
+    const bool has_all = std::all_of(row.begin(), row.end(), [&](int drawn) {
+      return own.count(look.vertices[idx(drawn)]) > 0;
+    });
+    if (has_all) return face;
+  }
+  return -1;
+}
+
+class DressFbx : public testing::Test {
+ protected:
+  [[nodiscard]] fs::path written(const FbxItems& records, FbxForm form) const {
+    return folder_.write("a thing.fbx", encodings::fbx(records, form));
+  }
+
+  [[nodiscard]] EditedFile dressed(const fs::path& file, RigFormat format = RigFormat::glb) const {
+    const Eigen::Index rows = read_polygons(file).positions.rows();
+    const auto edited = format_rig_into(file, random_rig(rows, 5, "bone "),
+                                        {format, OldRig::replaced, "rig", "curveskel, a test"});
+    EXPECT_TRUE(edited);
+    return *edited;
+  }
+
+  OwnFolder folder_;
+};
+
+TEST_F(DressFbx, TextureCoordinatesAreTheFilesHoweverTheyAreGiven) {
+  for (const FbxForm form : all_forms) {
+    for (const Mapping& mapping : mappings) {
+      for (const int kind : {0, 1, 2}) {
+        SCOPED_TRACE(mapping.name + " " + std::to_string(kind));
+        const Textures textures{mapping, kind == 1};
+        const double side = kind == 2 ? -1 : 1;  // mirrored: corners are in the other order
+        FbxItem box = encodings::fbx_box();
+        box.children.push_back(textures.layer());
+        const fs::path file =
+            written(scene(box, encodings::fbx_model(2, {{"Lcl Scaling", {side, 1.0, 1.0}}}),
+                          {material(0, {})}),
+                    form);
+        const auto look = read_materials(file);
+        ASSERT_TRUE(look);
+        ASSERT_EQ(look->triangles.rows(), 12);
+        for (Eigen::Index t = 0; t < 12; ++t) {
+          const int face = face_of(*look, t);
+          ASSERT_GE(face, 0);
+          for (const int drawn : look->triangles.row(t)) {
+            int corner = 0;
+            while (int(vertex_at(face, corner)) != look->vertices[idx(drawn)]) ++corner;
+            const auto row = static_cast<float>(textures.row(face, corner));
+            EXPECT_NEAR(look->places_in_picture(drawn, 0), 0.01F * row, 1e-6F);
+            EXPECT_NEAR(look->places_in_picture(drawn, 1), 1 - 0.02F * row, 1e-6F);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(DressFbx, FacesHaveTheMaterialThatTheLayerGivesThem) {
+  for (const FbxForm form : all_forms) {
+    FbxItem box = encodings::fbx_box();
+    box.children.push_back({"LayerElementMaterial",
+                            {0},
+                            {{"MappingInformationType", {"ByPolygon"}},
+                             {"ReferenceInformationType", {"IndexToDirect"}},
+                             {"Materials", {std::vector<int>{2, 0, 1, 1, 7, 2}}}}});
+    const FbxItems three{material(0, {{"DiffuseColor", {1.0, 0.0, 0.0}}}),
+                         material(1, {{"DiffuseColor", {0.0, 1.0, 0.0}}}),
+                         material(2, {{"DiffuseColor", {0.0, 0.0, 1.0}}})};
+    const auto look = read_materials(written(scene(box, encodings::fbx_model(2), three), form));
+    ASSERT_TRUE(look);
+    const std::array<int, faces> wanted{2, 0, 1, 1, -1, 2};  // there is no material 7
+    for (Eigen::Index t = 0; t < look->triangles.rows(); ++t) {
+      EXPECT_EQ(look->material[idx(t)], wanted.at(idx(face_of(*look, t))));
+    }
+    for (int m = 0; m < 3; ++m) EXPECT_EQ(look->materials[idx(m)].colour[idx(m)], 1);
+  }
+}
+
+/// A box whose corners have the normals of their faces, turned, stretched and mirrored.
+TEST_F(DressFbx, NormalsStayNormal) {
+  FbxItem box = encodings::fbx_box();
+  std::vector<double> normals;
+  for (int face = 0; face < faces; ++face) {
+    const auto at = [&](int corner) {
+      const auto& p = encodings::corners[vertex_at(face, corner)];
+      return Eigen::Vector3d(p[0], p[1], p[2]);
+    };
+    const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+    for (int corner = 0; corner < 4; ++corner) {
+      normals.insert(normals.end(), normal.begin(), normal.end());
+    }
+  }
+  box.children.push_back({"LayerElementNormal",
+                          {0},
+                          {{"MappingInformationType", {"ByPolygonVertex"}},
+                           {"ReferenceInformationType", {"Direct"}},
+                           {"Normals", {normals}}}});
+  for (const double side : {1.0, -2.0}) {
+    const FbxItem model = encodings::fbx_model(
+        2, {{"Lcl Rotation", {30.0, 40.0, 50.0}}, {"Lcl Scaling", {side, 0.5, 3.0}}});
+    const Glb glb(dressed(written(scene(box, model, {}), FbxForm::binary)).bytes);
+    const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+    const auto places = glb.values<float>(primitive["attributes"]["POSITION"]);
+    const auto written_normals = glb.values<float>(primitive["attributes"]["NORMAL"]);
+    const auto triangles = glb.values<std::uint32_t>(primitive["indices"]);
+    ASSERT_EQ(triangles.size(), 36U);
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+      const auto row = [&](const std::vector<float>& rows, std::size_t k) {
+        return Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(&rows[3 * triangles[t + k]]));
+      };
+      const Eigen::Vector3f edge = row(places, 1) - row(places, 0);
+      const Eigen::Vector3f normal = edge.cross(row(places, 2) - row(places, 0)).normalized();
+      for (const std::size_t k : {0U, 1U, 2U}) {
+        EXPECT_LT((row(written_normals, k) - normal).norm(), 1e-5F);
+      }
+    }
+  }
+}
+
+TEST_F(DressFbx, PicturesAreTakenFromTheFileOrFoundBesideIt) {
+  fs::create_directory(folder_.path() / "textures");
+  (void)folder_.write("textures/skin.png", png);
+  for (const FbxForm form : all_forms) {
+    for (const bool is_within : {true, false}) {
+      FbxItem video{"Video",
+                    {std::int64_t{30}, "Video::v", "Clip"},
+                    {{"RelativeFilename", {"..\\work\\skin.png"}}}};
+      if (is_within) {
+        const std::string bytes = form == FbxForm::text ? base64_of(png) : png;
+        video.children.push_back({"Content", {bytes}});
+      }
+      const FbxItems beside{material(0, {}),
+                            material(1, {}),
+                            {"Texture", {std::int64_t{20}, "Texture::t", ""}},
+                            video};
+      const std::vector<FbxItem> links{
+          {"C", {"OP", std::int64_t{20}, first_material, "DiffuseColor"}},
+          {"C", {"OP", std::int64_t{20}, first_material + 1, "Maya|TEX_color_map"}},
+          {"C", {"OP", std::int64_t{20}, first_material + 1, "NormalMap"}},
+          {"C", {"OO", std::int64_t{30}, std::int64_t{20}}}};
+      const EditedFile edited = dressed(
+          written(scene(encodings::fbx_box(), encodings::fbx_model(2), beside, links), form));
+      EXPECT_TRUE(edited.notes.empty());
+      const Glb glb(edited.bytes);
+      EXPECT_EQ(glb.json["textures"], Json::array({{{"source", 0}}}));  // one for all
+      const Json& image = glb.json["images"][0];
+      EXPECT_EQ(image["name"], "skin");
+      const Json& view = glb.json["bufferViews"][image["bufferView"].get<std::size_t>()];
+      EXPECT_EQ(glb.numbers.substr(view["byteOffset"], view["byteLength"]), png);
+      for (const Json& one : glb.json["materials"]) {
+        EXPECT_EQ(one["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+      }
+      EXPECT_EQ(glb.json["materials"][1]["normalTexture"]["index"], 0);
+    }
+  }
+}
+
+TEST_F(DressFbx, OpacityIsWhatExportersMean) {
+  using Given = std::vector<encodings::FbxProperty>;
+  const std::vector<std::pair<Given, double>> cases{
+      {{}, 1},
+      {{{"Opacity", {0.25}}, {"TransparencyFactor", {1.0}}}, 0.25},
+      {{{"TransparencyFactor", {0.75}}}, 0.25},
+      {{{"TransparencyFactor", {1.0}}, {"TransparentColor", {0.0, 0.0, 0.0}}}, 1},
+      {{{"TransparencyFactor", {1.0}}, {"TransparentColor", {0.5, 0.5, 0.5}}}, 0.5},
+      {{{"Opacity", {0.0}}}, 1},  // nobody has a thing that is not seen
+  };
+  for (const auto& [given, opacity] : cases) {
+    const FbxItems records =
+        scene(encodings::fbx_box(), encodings::fbx_model(2), {material(0, given)});
+    const Glb glb(dressed(written(records, FbxForm::text)).bytes);
+    const Json& look = glb.json["materials"][0];
+    EXPECT_NEAR(look["pbrMetallicRoughness"]["baseColorFactor"][3].get<double>(), opacity, 1e-12);
+    EXPECT_EQ(look.contains("alphaMode"), opacity < 1);
+  }
+}
+
+/// Corners of triangles by place and texture coordinates in hundredths, by material.
+using Corners = std::multiset<std::array<long, 15>>;
+std::map<int, Corners> corners_of(const fs::path& file) {
+  const auto look = read_materials(file);
+  const PolygonSoup soup = read_polygons(file);
+  std::map<int, Corners> result;
+  for (Eigen::Index t = 0; look && t < look->triangles.rows(); ++t) {
+    std::array<std::array<long, 5>, 3> triangle{};
+    for (int k = 0; k < 3; ++k) {
+      const int drawn = look->triangles(t, k);
+      Eigen::RowVector<float, 5> row;
+      row << soup.positions.row(look->vertices[idx(drawn)]).cast<float>(),
+          look->places_in_picture.row(drawn);
+      for (int n = 0; n < 5; ++n) triangle.at(idx(k)).at(idx(n)) = std::lround(100 * row[n]);
+    }
+    const auto first = std::min_element(triangle.begin(), triangle.end());
+    std::rotate(triangle.begin(), first, triangle.end());
+    std::array<long, 15> flat{};
+    for (std::size_t k = 0; k < flat.size(); ++k) flat.at(k) = triangle.at(k / 5).at(k % 5);
+    result[look->material[idx(t)]].insert(flat);
+  }
+  return result;
+}
+
+TEST_F(DressFbx, TheFilesOfARigCanBeRiggedAgain) {
+  (void)folder_.write("looks.mtl",
+                      "newmtl skin\nmap_Kd skin.png\nNs 90\n"
+                      "newmtl glass\nKd .25 .5 1\nd .5\nPm 1\nPr .25\nKe .5 0 0\n");
+  (void)folder_.write("skin.png", png);
+  std::string obj = "mtllib looks.mtl\n";
+  for (const auto& p : encodings::corners) obj += "v " + encodings::spaced(p) + "\n";
+  obj += "vt 0 0\nvt .5 0\nvt .5 1\nvt 0 .25\n";
+  for (int face = 0; face < faces; ++face) {
+    obj += face % 3 == 0 ? (face == 0 ? "usemtl skin\nf" : "usemtl glass\nf") : "f";
+    for (int k = 0; k < 4; ++k) {
+      obj += " " + std::to_string(vertex_at(face, k) + 1) + "/" + std::to_string(k + 1);
+    }
+    obj += "\n";
+  }
+  const fs::path given = folder_.write("box.obj", obj);
+  const fs::path fbx = folder_.write("once.fbx", dressed(given, RigFormat::fbx).bytes);
+  const Glb once(dressed(given).bytes);
+  const EditedFile edited = dressed(fbx);
+  EXPECT_TRUE(edited.notes.empty());
+  Glb twice(edited.bytes);
+  for (Json& material : twice.json["materials"]) material.erase("doubleSided");
+  ASSERT_EQ(twice.json["materials"].size(), 2U);
+  for (const std::size_t m : {0U, 1U}) {
+    const Json& wanted = once.json["materials"][m];
+    const Json& found = twice.json["materials"][m];
+    EXPECT_EQ(found["name"], wanted["name"]);
+    const Json& look = wanted["pbrMetallicRoughness"];
+    const Json& again = found["pbrMetallicRoughness"];
+    EXPECT_EQ(again["baseColorFactor"], look["baseColorFactor"]);
+    EXPECT_NEAR(again["roughnessFactor"].get<double>(), look["roughnessFactor"].get<double>(),
+                1e-9);
+    EXPECT_EQ(again["metallicFactor"], look["metallicFactor"]);
+    EXPECT_EQ(found.value("emissiveFactor", Json()), wanted.value("emissiveFactor", Json()));
+    EXPECT_EQ(found.value("alphaMode", ""), wanted.value("alphaMode", ""));
+  }
+  const auto wanted = corners_of(folder_.write("once.glb", dressed(given).bytes));
+  EXPECT_EQ(wanted.size(), 2U);
+  EXPECT_EQ(corners_of(fbx), wanted);
+  EXPECT_EQ(corners_of(folder_.write("twice.glb", edited.bytes)), wanted);
+}
+
+TEST_F(DressFbx, BrokenNumbersAreNone) {
+  FbxItem box = encodings::fbx_box();
+  box.children.push_back({"LayerElementUV",
+                          {0},
+                          {{"MappingInformationType", {"ByPolygonVertex"}},
+                           {"ReferenceInformationType", {"IndexToDirect"}},
+                           {"UV", {std::vector<double>{0.5, 0.5, 0.25}}},
+                           {"UVIndex", {std::vector<int>{0, 0, -3, 1, 90000}}}}});
+  box.children.push_back({"LayerElementNormal", {0}, {{"MappingInformationType", {"ByPolygon"}}}});
+  for (const FbxForm form : all_forms) {
+    const Glb glb(dressed(written(scene(box, encodings::fbx_model(2), {}), form)).bytes);
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    for (const float number : glb.values<float>(attributes["TEXCOORD_0"])) {
+      EXPECT_TRUE(number == 0 || number == 0.5F || number == 1);
+    }
+  }
+}
+
+TEST_F(DressFbx, NothingWhereThereIsNothingToKeep) {
+  EXPECT_FALSE(format_rig_into(written(encodings::fbx_box_scene(), FbxForm::text),
+                               random_rig(8, 3, "bone ")));
+}
+
+}  // namespace
+}  // namespace curveskel::dress_fbx_laws
