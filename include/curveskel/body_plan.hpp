@@ -49,11 +49,13 @@ inline constexpr NameTable<Direction, 7> directions{{
 
 struct PlanOptions {
   BodyKind plan = BodyKind::automatic;
-  Direction up = Direction::automatic;  ///< automatic: y, as in glTF
+  Direction up = Direction::automatic;  ///< automatic: y, as in glTF, or z
   Direction front =
-      Direction::automatic;    ///< automatic: of quadrupeds by their heads and ears, of
-                               ///< fish the thicker half, of others z, or -z if `faces_minus_z`
+      Direction::automatic;    ///< automatic: of humans where their toes point, of quadrupeds by
+                               ///< their heads and ears, of fish the thicker half; else z (with z
+                               ///< up -y), or the opposite if `faces_minus_z`
   bool faces_minus_z = false;  ///< what the file says, as VRM 0.x does
+  bool z_is_up = false;        ///< what the file says: with `up` automatic z is tried first
 };
 
 /// A joint that a plan asks for.

@@ -35,6 +35,7 @@ struct PolygonSoup {
   std::vector<std::int64_t> offsets;  ///< #P + 1 entries, the first 0
   SurfaceFormat format = SurfaceFormat::obj;
   bool faces_minus_z = false;  ///< figures look along -z, as in VRM 0.x; else nothing is known
+  bool z_is_up = false;        ///< the file says so (FBX, COLLADA); else nothing is known
   bool posed = false;          ///< glTF: joints bend it away from the pose in which they were bound
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
   /// Vertices of the file with NaN or infinity: they have their rows, at the place of another, and

@@ -9,6 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_layers.hpp"
 #include "rig/fbx/fbx_look_materials.hpp"
+#include "surface/read/fbx_axes.hpp"
 #include "surface/read/fbx_meshes.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
@@ -46,6 +47,7 @@ class LookReader {
   std::optional<DressedFile> read() {
     for_each_fbx_mesh(file_, scene_, [this](const FbxMesh& mesh) { add(mesh); });
     if (!made_.mesh.has_looks()) return std::nullopt;
+    made_.mesh.to_gltf = fbx_to_gltf(root_);
     const PolygonSoup soup = meshes_.soup(SurfaceFormat::fbx);
     made_.mesh.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
     made_.mesh.offsets = soup.offsets;

@@ -194,7 +194,7 @@ DressedDocument dressed_document(const DressedMesh& mesh,
     if (group < mesh.materials.size()) primitive["material"] = group;
     OrderedJson& primitives = array_in(document.json["meshes"][0], "primitives");
     made.parts.push_back({0, 0, static_cast<int>(primitives.size()), true, 0,
-                          split.soup.positions.rows(), Eigen::Affine3d::Identity()});
+                          split.soup.positions.rows(), mesh.to_gltf});
     primitives.push_back(std::move(primitive));
   }
   return made;

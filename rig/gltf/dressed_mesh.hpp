@@ -2,6 +2,7 @@
 // materials.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -27,6 +28,8 @@ struct DressedMesh {
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
   std::vector<std::string> materials;  ///< their names
+  /// From the places to glTF's: y up, z ahead, metres. A similarity.
+  Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 
   /// Something that a bare rig would lose.
   [[nodiscard]] bool has_looks() const {

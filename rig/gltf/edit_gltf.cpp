@@ -2,6 +2,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -181,6 +182,17 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   return edited;
 }
 
+/// The rig as the scene places it.
+Rig placed(Rig rig, const Eigen::Affine3d& place) {
+  if (place.matrix() == Eigen::Matrix4d::Identity()) return rig;
+  rig.joints =
+      (rig.joints * place.linear().transpose()).rowwise() + place.translation().transpose();
+  const double scale = std::cbrt(place.linear().determinant());
+  const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale));
+  for (Eigen::Quaterniond& rests : rig.turns) rests = turn * rests * turn.conjugate();
+  return rig;
+}
+
 /// Nothing: the file has no more than a bare rig has.
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
@@ -193,7 +205,7 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
-  add_gltf_rig(made.document, made.parts, rig, options.name);
+  add_gltf_rig(made.document, made.parts, placed(rig, dressed->mesh.to_gltf), options.name);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
   finish(edited, std::move(made.document), rig, options, monitor);
   return edited;

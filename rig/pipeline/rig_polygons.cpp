@@ -40,6 +40,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   CharacterOptions wanted = options.character;
   wanted.rig.skin.threads = wanted.parts.threads = options.threads;
   wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
+  wanted.plan.z_is_up = soup.z_is_up;
   if (sources.joints || sources.skeleton) wanted.parts.follow = 0;
 
   const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);

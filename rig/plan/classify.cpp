@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -81,9 +82,11 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
     found.plan = BodyKind::bird;
     found.reason = "one pair of legs, wings longer than these; " + leans;
-  } else {
+  } else if (found.arms >= 0 || posture.back > 0.1) {
     found.plan = BodyKind::tailed_biped;
     found.reason = "one pair of legs; " + leans;
+  } else {
+    found.reason = "one pair of limbs reaches the ground, but there are neither arms nor a tail";
   }
 }
 
@@ -131,6 +134,30 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
     found.plan = wanted;
   }
   return found;
+}
+
+bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  constexpr double clearly = 0.05;  // of the legs' length
+  const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
+  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
+  double ahead = -std::numeric_limits<double>::infinity();
+  double behind = -ahead;
+  double shin = 0;
+  int count = 0;
+  for (const int v : leg.vertices) {
+    const Vector3d& p = tree.vertices[idx(v)];
+    const double height = (p.y() - tree.ground) / length;
+    if (height < 0.1) {
+      ahead = std::max(ahead, p.z());
+      behind = std::min(behind, p.z());
+    } else if (height < 0.35) {
+      shin += p.z();
+      ++count;
+    }
+  }
+  if (count == 0 || !(ahead > behind)) return false;
+  shin /= count;
+  return (shin - behind) - (ahead - shin) > clearly * length;
 }
 
 bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {

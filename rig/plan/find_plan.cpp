@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -35,23 +36,39 @@ Vector3d vector_of(Direction direction) {
   return Vector3d::Zero();
 }
 
-Eigen::Matrix3d axes_of(const PlanOptions& options) {
-  Vector3d up = vector_of(options.up);
-  if (options.up == Direction::automatic) up = Vector3d::UnitY();
-  Vector3d front = vector_of(options.front);
-  if (options.front == Direction::automatic) {
+Eigen::Matrix3d axes_of(const Vector3d& up, const Vector3d& front) {
+  Eigen::Matrix3d axes;
+  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
+  return axes;
+}
+
+/// The usual ones first: y up and z ahead, as in glTF, or z up and -y ahead, as in Blender; then
+/// those of a body that looks aside.
+std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
+  std::vector<Vector3d> ups{vector_of(options.up)};
+  if (options.up == Direction::automatic) ups = {Vector3d::UnitY(), Vector3d::UnitZ()};
+  if (options.up == Direction::automatic && options.z_is_up) std::swap(ups[0], ups[1]);
+  std::vector<Eigen::Matrix3d> frames;
+  const auto add = [&](const Vector3d& up, const Vector3d& front) {
+    if (up.cross(front).norm() > 0) frames.push_back(axes_of(up, front));
+  };
+  for (const Vector3d& up : ups) {
+    if (options.front != Direction::automatic) {
+      add(up, vector_of(options.front));
+      continue;
+    }
     const bool lies_along_z = up.cross(Vector3d::UnitZ()).norm() == 0;
-    front = lies_along_z ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
-    if (options.faces_minus_z) front = -front;
+    const Vector3d usual =
+        lies_along_z ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
+    add(up, options.faces_minus_z ? Vector3d(-usual) : usual);
+    add(up, up.cross(usual));
   }
-  if (up.cross(front).norm() == 0) {
+  if (frames.empty()) {
     throw Error(Fault::usage,
                 "up and front are one direction, needed two that are normal to each "
                 "other; give another --up or --front");
   }
-  Eigen::Matrix3d axes;
-  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
-  return axes;
+  return frames;
 }
 
 /// "left.." and "..L" of the right.
@@ -149,9 +166,74 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
   }
 }
 
-bool is_turned(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+/// A frame, and the body as one sees it there.
+struct Sight {
+  Eigen::Matrix3d axes;
+  CurveTree tree;
+  Limbs limbs;
+  PlanFound found;
+};
+
+Sight look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
+           BodyKind wanted) {
+  Sight sight{axes, curve_tree(surface, skeleton, axes), {}, {}};
+  sight.limbs = find_limbs(sight.tree);
+  sight.found = classify(sight.tree, sight.limbs, wanted);
+  return sight;
+}
+
+/// The mean distance of the curve's mirror image from the curve, of the size.
+double asymmetry(const CurveTree& tree) {
+  constexpr std::size_t samples = 300;
+  const std::size_t stride = 1 + tree.nodes.size() / samples;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
+    Vector3d image = tree.nodes[k];
+    image.x() = 2 * tree.middle - image.x();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
+    sum += std::sqrt(least);
+    ++count;
+  }
+  return sum / (std::max(count, 1) * tree.size);
+}
+
+/// Two pairs of limbs that are where they should be are no accident.
+bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
+
+/// In the usual frame what is seen there; in others what is clear, or as good as symmetric, but no
+/// fish, as any long thing is one from somewhere. Of those that are clear the most symmetric.
+Sight best_sight(const Surface& surface, const CurveSkeleton& skeleton,
+                 const PlanOptions& options) {
+  constexpr double symmetric = 0.02;
+  const std::vector<Eigen::Matrix3d> frames = frames_of(options);
+  Sight best = look(surface, skeleton, frames.front(), options.plan);
+  double off = asymmetry(best.tree);
+  if (is_clear(best.found.plan) && off < symmetric) return best;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    Sight other = look(surface, skeleton, frames[k], options.plan);
+    const double other_off = asymmetry(other.tree);
+    const BodyKind plan = other.found.plan;
+    const bool was_clear = is_clear(best.found.plan);
+    const bool is_better = is_clear(plan)
+                               ? !was_clear || other_off < off
+                               : best.found.plan == BodyKind::other && plan != BodyKind::other &&
+                                     plan != BodyKind::fish && other_off < symmetric;
+    if (!is_better) continue;
+    best = std::move(other);
+    off = other_off;
+  }
+  return best;
+}
+
+bool is_turned(const Sight& sight, const PlanOptions& options) {
+  if (options.front != Direction::automatic) return false;
+  const auto& [axes, tree, limbs, found] = sight;
   if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
-  return found.plan == BodyKind::fish && swims_back(tree, limbs);
+  if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
+  return found.plan == BodyKind::humanoid && !options.faces_minus_z &&
+         toes_point_back(tree, limbs, found);
 }
 
 }  // namespace
@@ -160,22 +242,18 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
-  result.axes = axes_of(options);
-  CurveTree tree = curve_tree(surface, skeleton, result.axes);
-  Limbs limbs = find_limbs(tree);
-  PlanFound found = classify(tree, limbs, options.plan);
-  const bool turns = options.front == Direction::automatic && is_turned(tree, limbs, found);
-  if (turns) {
-    result.axes.row(0) *= -1;
-    result.axes.row(2) *= -1;
-    tree = curve_tree(surface, skeleton, result.axes);
-    limbs = find_limbs(tree);
-    found = classify(tree, limbs, options.plan);
+  Sight sight = best_sight(surface, skeleton, options);
+  if (is_turned(sight, options)) {
+    Eigen::Matrix3d axes = sight.axes;
+    axes.row(0) *= -1;
+    axes.row(2) *= -1;
+    sight = look(surface, skeleton, axes, options.plan);
   }
-  const std::vector<Place> places = places_of(tree, limbs, found);
-  result.plan = found.plan;
-  result.reason = found.reason;
-  result.joints = Planner(tree, limbs).joints(places, result.axes);
+  const std::vector<Place> places = places_of(sight.tree, sight.limbs, sight.found);
+  result.axes = sight.axes.array() + 0.0;  // no -0
+  result.plan = sight.found.plan;
+  result.reason = sight.found.reason;
+  result.joints = Planner(sight.tree, sight.limbs).joints(places, result.axes);
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {
       if (std::none_of(result.joints.begin(), result.joints.end(),

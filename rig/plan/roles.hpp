@@ -62,6 +62,11 @@ inline constexpr const char* wrist_reason =
 /// True if a quadruped's head is at its rear: what is called front is its back.
 [[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found);
 
+/// True if the feet of a human reach farther behind the shins than ahead of them, by a twentieth of
+/// the legs' length.
+[[nodiscard]] bool toes_point_back(const CurveTree& tree, const Limbs& limbs,
+                                   const PlanFound& found);
+
 /// True if the trunk is long, thick and level, with fins beside it.
 [[nodiscard]] bool is_fish(const CurveTree& tree, const Limbs& limbs);
 /// True if the thicker half of a fish's trunk is behind.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/certify/measured_curve.hpp"
 
 namespace curveskel {

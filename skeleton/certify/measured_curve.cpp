@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/error.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"

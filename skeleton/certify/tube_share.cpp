@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include "skeleton/graph/sequence_tree.hpp"
 #include "surface/spatial/spread_points.hpp"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <curveskel/advanced/indices.hpp>
+
 namespace curveskel::linking {
 namespace {
 

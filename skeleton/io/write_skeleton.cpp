@@ -1,6 +1,7 @@
 // The choice of the format, and the formats that are little more than a list of points and lines.
 #include <cstdint>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"

@@ -208,6 +208,12 @@ class DaeSceneReader {
   std::map<const XmlElement*, PolygonSoup> mesh_of_;
 };
 
+bool has_z_up(const XmlElement& root) {
+  const XmlElement* asset = root.child("asset");
+  const XmlElement* up = asset == nullptr ? nullptr : asset->child("up_axis");
+  return up != nullptr && up->text.find("Z_UP") != std::string::npos;
+}
+
 }  // namespace
 
 PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor) {
@@ -217,7 +223,9 @@ PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor) {
     file.fail("XML that begins with <" + root.name + ">", "<COLLADA>",
               "check the file's content, or name it by its format");
   }
-  return DaeSceneReader(file, DaeDocument(file, root), monitor).read();
+  PolygonSoup soup = DaeSceneReader(file, DaeDocument(file, root), monitor).read();
+  soup.z_is_up = has_z_up(root);
+  return soup;
 }
 
 bool looks_like_dae(const FileBytes& file) {

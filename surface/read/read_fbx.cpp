@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "surface/read/fbx_axes.hpp"
 #include "surface/read/fbx_meshes.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
@@ -20,7 +21,9 @@ PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor) {
   const FbxScene scene(file, root);
   for_each_fbx_mesh(file, scene,
                     [&](const FbxMesh& mesh) { meshes.add(mesh.polygons, mesh.frame, mesh.skin); });
-  return meshes.soup(SurfaceFormat::fbx);
+  PolygonSoup soup = meshes.soup(SurfaceFormat::fbx);
+  soup.z_is_up = fbx_has_z_up(root);
+  return soup;
 }
 
 bool looks_like_fbx(const FileBytes& file) {

@@ -16,6 +16,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_materials.hpp>
+#include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include "base/base64.hpp"
 #include "tests/glb.hpp"
@@ -363,6 +364,57 @@ TEST_F(DressFbx, TheFilesOfARigCanBeRiggedAgain) {
   EXPECT_EQ(wanted.size(), 2U);
   EXPECT_EQ(corners_of(fbx), wanted);
   EXPECT_EQ(corners_of(folder_.write("twice.glb", edited.bytes)), wanted);
+}
+
+/// In glTF the thing stands upright, in metres; its stored vertices stay as they are.
+TEST_F(DressFbx, TheSceneIsInMetresWithYUp) {
+  struct Frame {
+    double unit;
+    int up;
+    int front;
+    double front_sign;
+    Eigen::Matrix3d axes;
+  };
+  Eigen::Matrix3d upright;
+  upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const std::vector<Frame> frames{{1, 1, 2, 1, Eigen::Matrix3d::Identity()},
+                                  {100, 1, 2, 1, Eigen::Matrix3d::Identity()},
+                                  {2.54, 2, 1, -1, upright},
+                                  {100, 2, 2, 1, Eigen::Matrix3d::Identity()},  // no axes
+                                  {0, 7, 1, -1, Eigen::Matrix3d::Identity()}};
+  const Rig rig = random_rig(8, 5, "bone ");
+  for (const Frame& frame : frames) {
+    SCOPED_TRACE(frame.unit);
+    FbxItem settings{"GlobalSettings",
+                     {},
+                     {properties({{"UpAxis", {frame.up}},
+                                  {"FrontAxis", {frame.front}},
+                                  {"FrontAxisSign", {frame.front_sign}},
+                                  {"UnitScaleFactor", {frame.unit}}})}};
+    FbxItems records = scene(encodings::fbx_box(), encodings::fbx_model(2), {material(0, {})});
+    records.push_back(settings);
+    const fs::path file = written(records, FbxForm::binary);
+    const PolygonSoup given = read_polygons(file);
+    EXPECT_EQ(given.z_is_up, frame.up == 2);
+    const auto edited =
+        format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"});
+    ASSERT_TRUE(edited);
+    const fs::path made = folder_.write("made.glb", edited->bytes);
+    const double scale = frame.unit > 0 ? frame.unit / 100 : 1;
+    const auto in_scene = [&](const Positions& places) -> Positions {
+      return scale * places * frame.axes.transpose();
+    };
+    EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(), 1e-5 * scale);
+    EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * scale);
+    const Glb glb(edited->bytes);
+    const auto stored =
+        glb.values<float>(glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+    for (Eigen::Index v = 0; v < 8; ++v) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        EXPECT_EQ(stored[idx(3 * v + k)], static_cast<float>(given.positions(v, k)));
+      }
+    }
+  }
 }
 
 TEST_F(DressFbx, BrokenNumbersAreNone) {

@@ -193,6 +193,76 @@ TEST(FindPlan, FollowsUpAndFront) {
   EXPECT_THROW((void)find_plan(turned.surface, turned.skeleton, options), Error);
 }
 
+/// `axes`: rows to the left, up and ahead, in which the subject stands as it is made.
+RigSubject standing_in(RigSubject subject, const Eigen::Matrix3d& axes) {
+  subject.surface.positions *= axes;
+  subject.skeleton.nodes *= axes;
+  return subject;
+}
+
+Eigen::Matrix3d frame(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
+  Eigen::Matrix3d axes;
+  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
+  return axes;
+}
+
+/// With y or z up, looking along any other axis. A tail's biped stands with its toes to no side.
+TEST(FindPlan, UpAndFrontAreFound) {
+  using Eigen::Vector3d;
+  std::vector<Eigen::Matrix3d> frames;
+  for (const double side : {1.0, -1.0}) {
+    frames.push_back(frame(Vector3d::UnitY(), side * Vector3d::UnitZ()));
+    frames.push_back(frame(Vector3d::UnitY(), side * Vector3d::UnitX()));
+    frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitY()));
+    frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitX()));
+  }
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    const BodyPlan usual = find_plan(subject.surface, subject.skeleton);
+    ASSERT_NE(usual.plan, BodyKind::other);
+    for (const Eigen::Matrix3d& axes : frames) {
+      SCOPED_TRACE(testing::Message() << subject.name << "\n" << axes);
+      const RigSubject stands = standing_in(subject, axes);
+      for (const bool z_is_up : {false, true}) {
+        PlanOptions options;
+        options.z_is_up = z_is_up;
+        const BodyPlan found = find_plan(stands.surface, stands.skeleton, options);
+        EXPECT_EQ(found.plan, usual.plan) << found.reason;
+        EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
+        ASSERT_EQ(found.joints.size(), usual.joints.size());
+        for (std::size_t k = 0; k < found.joints.size(); ++k) {
+          EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
+          EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
+        }
+      }
+    }
+  }
+}
+
+/// Where it is said, it is so: an actor may walk backwards in shoes with the longer end behind.
+TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
+  const RigSubject back =
+      standing_in(human(), frame(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ()));
+  PlanOptions options;
+  options.front = Direction::z;
+  EXPECT_EQ(find_plan(back.surface, back.skeleton, options).axes(2, 2), 1);
+  const RigSubject subject = human();
+  options.front = Direction::automatic;
+  options.faces_minus_z = true;
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).axes(2, 2), -1);
+}
+
+/// A vessel that forks stands on two legs.
+TEST(FindPlan, AForkIsNoAnimal) {
+  Figure figure;
+  const int fork = figure.add({0, 10, 0}, 1);
+  figure.add({0, 20, 0}, 1, fork);
+  figure.add_pair(fork, {{2, 5, 0}, {2, 0.5, 0}}, 0.8);
+  const RigSubject subject = subject_of("fork", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+  EXPECT_TRUE(plan.joints.empty());
+}
+
 TEST(FindPlan, QuadrupedsLookWhereTheirHeadsAre) {
   for (const double front : {1.0, -1.0}) {
     const RigSubject subject = beast(front);

@@ -47,6 +47,13 @@ TEST(ReadDae, TransformsOfANodeApplyFromTheLastToTheFirst) {
   });
 }
 
+TEST(ReadDae, SaysWhichAxisIsUp) {
+  std::string document = dae(box, dae_box_node);
+  EXPECT_TRUE(read(document).z_is_up);
+  document.replace(document.find("Z_UP"), 4, "Y_UP");
+  EXPECT_FALSE(read(document).z_is_up);
+}
+
 TEST(ReadDae, NodesNestAndMatricesAreByRows) {
   const PolygonSoup soup = read_nodes(
       "<node><matrix>0 0 1 5  1 0 0 6  0 1 0 7  0 0 0 1</matrix><node><translate>10 20 "

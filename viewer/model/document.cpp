@@ -44,6 +44,7 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   document.mesh_file = file;
   document.format = soup.format;
   document.faces_minus_z = soup.faces_minus_z;
+  document.z_is_up = soup.z_is_up;
   document.posed = soup.posed;
   document.surface.triangles = triangulate(soup);
   if (has_same_triangles(soup, document.surface.triangles)) {
@@ -106,6 +107,7 @@ std::shared_ptr<const PolygonSoup> Document::polygons() const {
   auto made = std::make_shared<PolygonSoup>(soup_of(surface));
   made->format = format;
   made->faces_minus_z = faces_minus_z;
+  made->z_is_up = z_is_up;
   made->file = mesh_file;
   return made;
 }

@@ -24,6 +24,7 @@ struct Document {
   std::shared_ptr<const PolygonSoup> soup;
   SurfaceFormat format = SurfaceFormat::obj;  ///< of the mesh's file
   bool faces_minus_z = false;                 ///< as in PolygonSoup
+  bool z_is_up = false;                       ///< likewise
   bool posed = false;                         ///< the same
   Surface surface;                            ///< the file's triangles, nothing repaired
   std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one

@@ -16,6 +16,7 @@ std::shared_ptr<const CharacterRig> rig_of(const Document& document,
       skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
   CharacterOptions facing = options;
   facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
+  facing.plan.z_is_up = document.z_is_up;
   CharacterRig made = rig_character(document.surface, repaired, mapped, facing, monitor);
   const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
   made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
