@@ -21,15 +21,19 @@ struct Glb {
     numbers = bytes.substr(28 + std::size_t{length});
   }
 
-  /// The whole view of an accessor.
   template <typename Value>
-  [[nodiscard]] std::vector<Value> values(std::size_t accessor) const {
-    const nlohmann::json& view =
-        json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+  [[nodiscard]] std::vector<Value> of_view(std::size_t number) const {
+    const nlohmann::json& view = json["bufferViews"][number];
     std::vector<Value> result(view["byteLength"].get<std::size_t>() / sizeof(Value));
     std::memcpy(result.data(), &numbers.at(view["byteOffset"].get<std::size_t>()),
                 result.size() * sizeof(Value));
     return result;
+  }
+
+  /// The whole view of an accessor.
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> values(std::size_t accessor) const {
+    return of_view<Value>(json["accessors"][accessor]["bufferView"].get<std::size_t>());
   }
 };
 

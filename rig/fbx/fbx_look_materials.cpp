@@ -43,19 +43,10 @@ class MaterialLooks {
                           "Maya|TEX_emissive_map|file", "3dsMax|Parameters|emit_color_map"});
     const auto cutout = picture({"TransparentColor", "TransparencyFactor"});
     look.base_has_alpha = look.base && cutout && cutout->path == look.base->path;
-    return {name_of(material_), look};
+    return {fbx_name(material_), look};
   }
 
  private:
-  /// "Skin\0\1Material" in binary files, "Material::Skin" in text.
-  static std::string name_of(const FbxRecord& object) {
-    const std::string_view text = object.text(1);
-    const std::size_t end = text.find('\0');
-    if (end != std::string_view::npos) return std::string(text.substr(0, end));
-    const std::size_t kind = text.find("::");
-    return std::string(kind == std::string_view::npos ? text : text.substr(kind + 2));
-  }
-
   [[nodiscard]] std::optional<double> number(std::string_view name) const {
     const FbxRecord* found = fbx_property(&material_, name);
     if (found == nullptr) return std::nullopt;

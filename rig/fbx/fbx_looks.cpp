@@ -17,9 +17,8 @@
 namespace curveskel {
 namespace {
 
-/// By vertex, of normals: the inverse transpose of what moves its surroundings, times a number
-/// above 0.
-std::vector<Eigen::Matrix3d> normal_maps(const FbxMesh& mesh) {
+/// By vertex, what moves its surroundings to the world.
+std::vector<Eigen::Matrix3d> vertex_maps(const FbxMesh& mesh) {
   const auto count = static_cast<std::size_t>(mesh.polygons.positions.rows());
   std::vector<Eigen::Matrix3d> maps(count, Eigen::Matrix3d::Zero());
   std::vector<double> sums(count, 0);
@@ -28,12 +27,20 @@ std::vector<Eigen::Matrix3d> normal_maps(const FbxMesh& mesh) {
     sums[one.vertex] += one.weight;
   }
   for (std::size_t v = 0; v < count; ++v) {
-    const Eigen::Matrix3d moved = sums[v] > 0 ? maps[v] : Eigen::Matrix3d(mesh.frame.linear());
+    maps[v] = sums[v] > 0 ? Eigen::Matrix3d(maps[v] / sums[v]) : mesh.frame.linear();
+  }
+  return maps;
+}
+
+/// The same of normals: the inverse transpose times a number above 0.
+std::vector<Eigen::Matrix3d> normal_maps(std::vector<Eigen::Matrix3d> maps) {
+  for (Eigen::Matrix3d& map : maps) {
     // The cofactors, which are there for flattened vertices, too.
-    maps[v].col(0) = moved.col(1).cross(moved.col(2));
-    maps[v].col(1) = moved.col(2).cross(moved.col(0));
-    maps[v].col(2) = moved.col(0).cross(moved.col(1));
-    if (moved.determinant() < 0) maps[v] = -maps[v];
+    const Eigen::Matrix3d moved = map;
+    map.col(0) = moved.col(1).cross(moved.col(2));
+    map.col(1) = moved.col(2).cross(moved.col(0));
+    map.col(2) = moved.col(0).cross(moved.col(1));
+    if (moved.determinant() < 0) map = -map;
   }
   return maps;
 }
@@ -63,6 +70,9 @@ class LookReader {
 
  private:
   void add(const FbxMesh& mesh) {
+    const std::vector<Eigen::Matrix3d> moving = vertex_maps(mesh);
+    add_shapes(mesh, moving);
+    first_vertex_ += mesh.polygons.positions.rows();
     meshes_.add(mesh.polygons, mesh.frame, mesh.skin);
     const FbxRecord& geometry = mesh.geometry;
     const FbxLayer textures(file_, geometry, "LayerElementUV", "UV", "UVIndex", 2);
@@ -74,7 +84,7 @@ class LookReader {
     has_further_sets_ = has_further_sets_ || sets > 1;
 
     const std::vector<int> numbers = materials_of(mesh.model);
-    const std::vector<Eigen::Matrix3d> maps = normal_maps(mesh);
+    const std::vector<Eigen::Matrix3d> maps = normal_maps(moving);
     const bool mirrored = is_mirrored(mesh.frame, mesh.skin);
     normal_rows_.clear();
     texture_rows_.clear();
@@ -93,6 +103,22 @@ class LookReader {
       const bool is_there = number >= 0 && number < static_cast<double>(numbers.size());
       made_.mesh.material_of_face.push_back(is_there ? numbers[static_cast<std::size_t>(number)]
                                                      : -1);
+    }
+  }
+
+  /// Channels of one name are one, as a face's and its teeth's.
+  void add_shapes(const FbxMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
+    const Eigen::Index vertices = mesh.polygons.positions.rows();
+    for (const FbxShape& shape : fbx_shapes(file_, scene_, mesh.geometry, vertices)) {
+      const auto [entry, is_new] = shape_numbers_.try_emplace(shape.name, made_.mesh.shapes.size());
+      if (is_new) made_.mesh.shapes.push_back({shape.name, {}});
+      DressedShape& made = made_.mesh.shapes[entry->second];
+      for (std::size_t k = 0; k < shape.vertices.size(); ++k) {
+        const auto place =
+            static_cast<std::int32_t>(first_vertex_) + static_cast<std::int32_t>(shape.vertices[k]);
+        const Eigen::Vector3d move = moving[shape.vertices[k]] * shape.moves[k].transpose();
+        if (move.allFinite()) made.moves[place] = move;
+      }
     }
   }
 
@@ -164,6 +190,8 @@ class LookReader {
   std::map<const FbxRecord*, int> numbers_;                    // of materials
   std::map<std::array<float, 2>, std::int32_t> texture_rows_;  // of the mesh
   std::map<NormalKey, std::int32_t> normal_rows_;              // likewise
+  std::map<std::string, std::size_t> shape_numbers_;
+  Eigen::Index first_vertex_ = 0;  // of the mesh
   bool has_colours_ = false;
   bool has_further_sets_ = false;
 };

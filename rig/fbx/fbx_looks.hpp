@@ -10,8 +10,8 @@
 
 namespace curveskel {
 
-/// Texture coordinates (of each mesh the first set), normals and materials; nothing where there is
-/// neither. Of a material: diffuse colour and picture (those of Maya's and 3ds Max's own materials,
+/// Texture coordinates (of each mesh the first set), normals, materials and shape keys; nothing where
+/// there is none of these. Of a material: diffuse colour and picture (those of Maya's and 3ds Max's own materials,
 /// too), normal map, emission, opacity, roughness from the shininess as Blender has it, and, of
 /// files of Blender's and of this program, metalness. Pictures are taken from the file, or sought
 /// where it names them, beside it, and in "textures" and "<file>.fbm". `notes` has a line where

@@ -136,6 +136,39 @@ std::size_t add_textures(GltfDocument& document, const DressedMesh& mesh, const 
   return add_accessor(document, rows, "VEC2", gltf_float, split.vertices.size(), gltf_vertices);
 }
 
+/// The moves of a shape, sparse: of those that are none nothing is written.
+std::size_t add_shape(GltfDocument& document, const DressedShape& shape, const SplitMesh& split) {
+  std::string rows;
+  std::string moves;
+  std::size_t count = 0;
+  Eigen::Vector3f low = Eigen::Vector3f::Zero();
+  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  for (std::size_t v = 0; v < split.vertices.size(); ++v) {
+    const auto found = shape.moves.find(split.vertices[v].place);
+    if (found == shape.moves.end()) continue;
+    const Eigen::Vector3f move = found->second.cast<float>();
+    put_number(rows, static_cast<std::uint32_t>(v));
+    for (const float number : move) put_number(moves, number);
+    low = low.cwiseMin(move);
+    high = high.cwiseMax(move);
+    ++count;
+  }
+  OrderedJson accessor{{"componentType", gltf_float},
+                       {"count", split.vertices.size()},
+                       {"type", "VEC3"},
+                       {"min", {low.x(), low.y(), low.z()}},
+                       {"max", {high.x(), high.y(), high.z()}}};
+  if (count > 0) {
+    accessor["sparse"] = {
+        {"count", count},
+        {"indices", {{"bufferView", add_view(document, rows)}, {"componentType", gltf_uint32}}},
+        {"values", {{"bufferView", add_view(document, moves)}}}};
+  }
+  OrderedJson& accessors = array_in(document.json, "accessors");
+  accessors.push_back(std::move(accessor));
+  return accessors.size() - 1;
+}
+
 Triangles triangles_of(const SplitMesh& split, std::size_t group) {
   PolygonSoup soup;
   soup.positions = split.soup.positions;
@@ -187,11 +220,19 @@ DressedDocument dressed_document(const DressedMesh& mesh,
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
   if (!mesh.textures.empty()) attributes["TEXCOORD_0"] = add_textures(document, mesh, split);
+  OrderedJson targets = OrderedJson::array();
+  for (const DressedShape& shape : mesh.shapes) {
+    targets.push_back({{"POSITION", add_shape(document, shape, split)}});
+    OrderedJson& written = document.json["meshes"][0];
+    array_in(written, "weights").push_back(0);
+    written["extras"]["targetNames"].push_back(as_utf8(shape.name));
+  }
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (groups[group].rows() == 0) continue;
     OrderedJson primitive{{"attributes", attributes},
                           {"indices", add_triangles(document, groups[group])}};
     if (group < mesh.materials.size()) primitive["material"] = group;
+    if (!targets.empty()) primitive["targets"] = targets;
     OrderedJson& primitives = array_in(document.json["meshes"][0], "primitives");
     made.parts.push_back({0, 0, static_cast<int>(primitives.size()), true, 0,
                           split.soup.positions.rows(), mesh.to_gltf});

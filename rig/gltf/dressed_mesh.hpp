@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ struct DressedCorner {
   std::int32_t normal = -1;
 };
 
+/// Moves of places, of which a slider applies a share.
+struct DressedShape {
+  std::string name;
+  std::map<std::int32_t, Eigen::Vector3d> moves;  ///< by place
+};
+
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
 struct DressedMesh {
   std::vector<double> places;                  ///< x y z x y z ...
@@ -28,12 +35,13 @@ struct DressedMesh {
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
   std::vector<std::string> materials;  ///< their names
+  std::vector<DressedShape> shapes;
   /// From the places to glTF's: y up, z ahead, metres. A similarity.
   Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 
   /// Something that a bare rig would lose.
   [[nodiscard]] bool has_looks() const {
-    return !textures.empty() || !normals.empty() || !materials.empty();
+    return !textures.empty() || !normals.empty() || !materials.empty() || !shapes.empty();
   }
 };
 

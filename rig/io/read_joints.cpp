@@ -163,13 +163,6 @@ bool is_joint(const FbxRecord& model) {
   return kind == "LimbNode" || kind == "Limb" || kind == "Root";
 }
 
-/// "hips" of "hips", a mark and "Model", or of "Model::hips", as text has it.
-std::string plain_name(std::string_view name) {
-  constexpr std::string_view before = "Model::";
-  if (name.starts_with(before)) name.remove_prefix(before.size());
-  return std::string(name.substr(0, name.find('\0')));
-}
-
 /// The limbs of the file where its nodes rest.
 Rig joints_of_fbx(const FileBytes& file) {
   const FbxRecord root = parse_fbx(file);
@@ -184,7 +177,7 @@ Rig joints_of_fbx(const FileBytes& file) {
   }
   for (const FbxRecord* model : models) {
     GivenJoint joint;
-    joint.name = plain_name(model->text(1));
+    joint.name = fbx_name(*model);
     joint.position = scene.frame(*model).translation().transpose();
     const FbxRecord* above = scene.parent(*model);
     while (above != nullptr && !number.contains(above)) above = scene.parent(*above);

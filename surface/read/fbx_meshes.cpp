@@ -23,6 +23,11 @@ class FbxMeshes {
     }
   }
 
+  [[nodiscard]] std::vector<FbxShape> all_shapes(const FbxRecord& geometry,
+                                                 Eigen::Index vertices) const {
+    return shapes(geometry, vertices, [](double) { return true; });
+  }
+
  private:
   FbxMesh shown(const FbxRecord& model, const FbxRecord& geometry) {
     const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
@@ -75,31 +80,46 @@ class FbxMeshes {
     return static_cast<std::size_t>(vertex);
   }
 
-  void morph(const FbxRecord& geometry, Positions& positions) const {
+  /// Of several shapes of a channel the last is the channel in full.
+  template <typename Wanted>
+  [[nodiscard]] std::vector<FbxShape> shapes(const FbxRecord& geometry, Eigen::Index vertices,
+                                             const Wanted& wanted) const {
+    std::vector<FbxShape> result;
     for (const FbxRecord* morph : scene_.below(geometry, "Deformer", "BlendShape")) {
       for (const FbxRecord* channel : scene_.below(*morph, "Deformer", "BlendShapeChannel")) {
         const FbxRecord* percent = channel->child("DeformPercent");
         const double weight = percent == nullptr ? 0 : percent->number(0, 0) / 100;
-        if (weight == 0) continue;
-        for (const FbxRecord* shape : scene_.below(*channel, "Geometry")) {
-          add_shape(*shape, weight, positions);
-        }
+        const std::vector<const FbxRecord*> found = scene_.below(*channel, "Geometry");
+        if (found.empty() || !wanted(weight)) continue;
+        result.push_back({fbx_name(*channel), weight, {}, {}});
+        read_shape(*found.back(), vertices, result.back());
       }
     }
+    return result;
   }
 
-  void add_shape(const FbxRecord& shape, double weight, Positions& positions) const {
-    const FbxRecord* indices = shape.child("Indexes");
-    const FbxRecord* offsets = shape.child("Vertices");
+  void read_shape(const FbxRecord& record, Eigen::Index count, FbxShape& shape) const {
+    const FbxRecord* indices = record.child("Indexes");
+    const FbxRecord* offsets = record.child("Vertices");
     if (indices == nullptr || offsets == nullptr) return;
     const std::vector<double> vertices = fbx_numbers(file_, *indices);
     const std::vector<double> moves = rows_of_three(*offsets);
     if (moves.size() != 3 * vertices.size()) {
-      fail(shape, std::to_string(moves.size() / 3) + " offsets", "one per vertex that moves");
+      fail(record, std::to_string(moves.size() / 3) + " offsets", "one per vertex that moves");
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const auto v = static_cast<Eigen::Index>(checked(*indices, vertices[i], positions.rows()));
-      positions.row(v) += weight * Eigen::Map<const Eigen::RowVector3d>(moves.data() + 3 * i);
+      shape.vertices.push_back(checked(*indices, vertices[i], count));
+      shape.moves.emplace_back(moves[3 * i], moves[3 * i + 1], moves[3 * i + 2]);
+    }
+  }
+
+  void morph(const FbxRecord& geometry, Positions& positions) const {
+    const auto is_seen = [](double weight) { return weight != 0; };
+    for (const FbxShape& shape : shapes(geometry, positions.rows(), is_seen)) {
+      for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
+        positions.row(static_cast<Eigen::Index>(shape.vertices[i])) +=
+            shape.weight * shape.moves[i];
+      }
     }
   }
 
@@ -150,6 +170,11 @@ std::int64_t version_of(const FbxRecord& root) {
 }
 
 }  // namespace
+
+std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
+                                 const FbxRecord& geometry, Eigen::Index vertices) {
+  return FbxMeshes(file, scene).all_shapes(geometry, vertices);
+}
 
 void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene,
                        const std::function<void(const FbxMesh&)>& take) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include <curveskel/read.hpp>
 #include "surface/read/fbx_scene.hpp"
@@ -19,6 +22,18 @@ struct FbxMesh {
   Eigen::Affine3d frame;        ///< from the geometry to the world
   MeshSkin skin;
 };
+
+/// A channel of morphing, where it is in full.
+struct FbxShape {
+  std::string name;
+  double weight = 0;  ///< that the file gives it
+  std::vector<std::size_t> vertices;
+  std::vector<Eigen::RowVector3d> moves;  ///< of these, in the geometry
+};
+
+/// Of a geometry with so many vertices, in the file's order. Throws Error(Fault::input).
+[[nodiscard]] std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
+                                               const FbxRecord& geometry, Eigen::Index vertices);
 
 /// Each mesh as often as a model shows it, in the order in which `read_polygons` has them. Throws
 /// Error(Fault::input).

@@ -48,6 +48,14 @@ const FbxRecord* fbx_property(const FbxRecord* owner, std::string_view name) {
   return nullptr;
 }
 
+std::string fbx_name(const FbxRecord& object) {
+  const std::string_view text = object.text(1);
+  const std::size_t mark = text.find('\0');
+  if (mark != std::string_view::npos) return std::string(text.substr(0, mark));
+  const std::size_t kind = text.find("::");
+  return std::string(kind == std::string_view::npos ? text : text.substr(kind + 2));
+}
+
 FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
     : file_(file), objects_(root.child("Objects")), defaults_(defaults_of_models(root)) {
   if (objects_ == nullptr) file.fail("no \"Objects\"", "a scene", fbx_remedy);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -14,6 +15,9 @@ namespace curveskel {
 
 /// "P: "Lcl Scaling", "Lcl Scaling", "", "A", 1, 1, 1" among an object's properties, or nullptr.
 [[nodiscard]] const FbxRecord* fbx_property(const FbxRecord* owner, std::string_view name);
+
+/// "hips" of "hips", a mark and "Model", as binary files have it, and of "Model::hips".
+[[nodiscard]] std::string fbx_name(const FbxRecord& object);
 
 /// Of a property's values, which stand behind name, two types and flags, the first.
 inline constexpr std::size_t first_property_value = 4;

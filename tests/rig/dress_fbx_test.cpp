@@ -366,6 +366,56 @@ TEST_F(DressFbx, TheFilesOfARigCanBeRiggedAgain) {
   EXPECT_EQ(corners_of(folder_.write("twice.glb", edited.bytes)), wanted);
 }
 
+/// Two channels, the second of which is half on; the model is turned, and its uv seam copies vertex
+/// 7, which moves, too.
+TEST_F(DressFbx, ShapesBecomeMorphTargets) {
+  const Textures textures{mappings[0], false};
+  FbxItem box = encodings::fbx_box();
+  box.children.push_back(textures.layer());
+  FbxItems objects{{"Deformer", {std::int64_t{40}, "Deformer::m", "BlendShape"}}};
+  std::vector<FbxItem> links{{"C", {"OO", std::int64_t{40}, std::int64_t{1}}}};
+  const std::vector<double> moves{0.5, 0, 0, 0, 0, 2};
+  for (const std::int64_t k : {0, 1}) {
+    objects.push_back({"Deformer",
+                       {50 + k, "SubDeformer::channel " + std::to_string(k), "BlendShapeChannel"},
+                       {{"DeformPercent", {50.0 * double(k)}}}});
+    objects.push_back({"Geometry",
+                       {60 + k, "Geometry::s", "Shape"},
+                       {{"Indexes", {std::vector<int>{2, 7}}}, {"Vertices", {moves}}}});
+    links.push_back({"C", {"OO", 50 + k, std::int64_t{40}}});
+    links.push_back({"C", {"OO", 60 + k, 50 + k}});
+  }
+  const FbxItem model = encodings::fbx_model(2, {{"Lcl Rotation", {0.0, 0.0, 90.0}}});
+  for (const FbxForm form : all_forms) {
+    const fs::path file = written(scene(box, model, objects, links), form);
+    const PolygonSoup soup = read_polygons(file);
+    const Glb glb(dressed(file).bytes);
+    const Json& mesh = glb.json["meshes"][0];
+    EXPECT_EQ(mesh["weights"], Json({0, 0}));
+    EXPECT_EQ(mesh["extras"]["targetNames"], Json({"channel 0", "channel 1"}));
+    const Json& primitive = mesh["primitives"][0];
+    const auto places = glb.values<float>(primitive["attributes"]["POSITION"]);
+    ASSERT_EQ(primitive["targets"].size(), 2U);
+    for (const Json& target : primitive["targets"]) {
+      const Json& accessor = glb.json["accessors"][target["POSITION"].get<std::size_t>()];
+      const Json& sparse = accessor["sparse"];
+      EXPECT_EQ(3 * accessor["count"].get<std::size_t>(), places.size());
+      const auto rows = glb.of_view<std::uint32_t>(sparse["indices"]["bufferView"]);
+      const auto found = glb.of_view<float>(sparse["values"]["bufferView"]);
+      ASSERT_EQ(rows.size(), 6U);  // each of the two on three faces
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Eigen::Vector3f at = Eigen::Map<const Eigen::Vector3f>(&places[3 * rows[k]]);
+        const Eigen::Vector3f moved = Eigen::Map<const Eigen::Vector3f>(&found[3 * k]);
+        const bool is_second =
+            (at - soup.positions.row(2).transpose().cast<float>()).norm() < 1e-6F;
+        const Eigen::Vector3f wanted =
+            is_second ? Eigen::Vector3f(0, 0.5, 0) : Eigen::Vector3f(0, 0, 2);
+        EXPECT_LT((moved - wanted).norm(), 1e-6F);
+      }
+    }
+  }
+}
+
 /// In glTF the thing stands upright, in metres; its stored vertices stay as they are.
 TEST_F(DressFbx, TheSceneIsInMetresWithYUp) {
   struct Frame {
