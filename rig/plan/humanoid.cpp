@@ -68,8 +68,11 @@ class Humanoid {
     };
     const Vector3d ankle = at_share(0.115);
     double toes = -std::numeric_limits<double>::infinity();
-    for (const int v : leg_.vertices) toes = std::max(toes, tree_.vertices[idx(v)].z());
-    if (leg_.vertices.empty()) toes = course.points.back().z();
+    for (const int v : leg_.vertices) {
+      const Vector3d& p = tree_.vertices[idx(v)];
+      if (p.y() <= ankle.y()) toes = std::max(toes, p.z());  // a belly may reach farther
+    }
+    if (!std::isfinite(toes)) toes = course.points.back().z();
     add("leftUpperLeg", "hips", hip_, leg_pair_, "above the place where the legs part");
     add("leftLowerLeg", "leftUpperLeg", at_share(0.56), leg_pair_,
         ".56 of the hips' height above the ground");
