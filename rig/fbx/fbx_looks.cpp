@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -165,21 +166,13 @@ class LookReader {
     if (!given.allFinite()) return -1;
     const Eigen::Vector3f normal = (map * given).normalized().cast<float>();
     const std::array<float, 3> turned{normal.x(), normal.y(), normal.z()};
-    const auto [entry, is_new] =
-        normal_rows_.try_emplace({corner.vertex, static_cast<float>(given.x()),
-                                  static_cast<float>(given.y()), static_cast<float>(given.z())},
-                                 static_cast<std::int32_t>(made_.mesh.normals.size()));
+    const auto [entry, is_new] = normal_rows_.try_emplace(
+        std::tuple(corner.vertex, static_cast<float>(given.x()), static_cast<float>(given.y()),
+                   static_cast<float>(given.z())),
+        static_cast<std::int32_t>(made_.mesh.normals.size()));
     if (is_new) made_.mesh.normals.push_back(turned);
     return entry->second;
   }
-
-  struct NormalKey {
-    std::size_t vertex;
-    float x;
-    float y;
-    float z;
-    auto operator<=>(const NormalKey&) const = default;
-  };
 
   const FileBytes& file_;
   const FbxRecord& root_;
@@ -189,7 +182,7 @@ class LookReader {
   DressedFile made_;
   std::map<const FbxRecord*, int> numbers_;                    // of materials
   std::map<std::array<float, 2>, std::int32_t> texture_rows_;  // of the mesh
-  std::map<NormalKey, std::int32_t> normal_rows_;              // likewise
+  std::map<std::tuple<std::size_t, float, float, float>, std::int32_t> normal_rows_;  // likewise
   std::map<std::string, std::size_t> shape_numbers_;
   Eigen::Index first_vertex_ = 0;  // of the mesh
   bool has_colours_ = false;

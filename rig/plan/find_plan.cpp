@@ -167,19 +167,19 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
 }
 
 /// A frame, and the body as one sees it there.
-struct Sight {
+struct Outlook {
   Eigen::Matrix3d axes;
   CurveTree tree;
   Limbs limbs;
   PlanFound found;
 };
 
-Sight look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
-           BodyKind wanted) {
-  Sight sight{axes, curve_tree(surface, skeleton, axes), {}, {}};
-  sight.limbs = find_limbs(sight.tree);
-  sight.found = classify(sight.tree, sight.limbs, wanted);
-  return sight;
+Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
+             BodyKind wanted) {
+  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}};
+  outlook.limbs = find_limbs(outlook.tree);
+  outlook.found = classify(outlook.tree, outlook.limbs, wanted);
+  return outlook;
 }
 
 /// The mean distance of the curve's mirror image from the curve, of the size.
@@ -204,15 +204,15 @@ bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == Body
 
 /// In the usual frame what is seen there; in others what is clear, or as good as symmetric, but no
 /// fish, as any long thing is one from somewhere. Of those that are clear the most symmetric.
-Sight best_sight(const Surface& surface, const CurveSkeleton& skeleton,
-                 const PlanOptions& options) {
+Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
+                     const PlanOptions& options) {
   constexpr double symmetric = 0.02;
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
-  Sight best = look(surface, skeleton, frames.front(), options.plan);
+  Outlook best = look(surface, skeleton, frames.front(), options.plan);
   double off = asymmetry(best.tree);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
-    Sight other = look(surface, skeleton, frames[k], options.plan);
+    Outlook other = look(surface, skeleton, frames[k], options.plan);
     const double other_off = asymmetry(other.tree);
     const BodyKind plan = other.found.plan;
     const bool was_clear = is_clear(best.found.plan);
@@ -227,9 +227,9 @@ Sight best_sight(const Surface& surface, const CurveSkeleton& skeleton,
   return best;
 }
 
-bool is_turned(const Sight& sight, const PlanOptions& options) {
+bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (options.front != Direction::automatic) return false;
-  const auto& [axes, tree, limbs, found] = sight;
+  const auto& [axes, tree, limbs, found] = outlook;
   if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
   return found.plan == BodyKind::humanoid && !options.faces_minus_z &&
@@ -242,18 +242,18 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
-  Sight sight = best_sight(surface, skeleton, options);
-  if (is_turned(sight, options)) {
-    Eigen::Matrix3d axes = sight.axes;
+  Outlook outlook = best_outlook(surface, skeleton, options);
+  if (is_turned(outlook, options)) {
+    Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    sight = look(surface, skeleton, axes, options.plan);
+    outlook = look(surface, skeleton, axes, options.plan);
   }
-  const std::vector<Place> places = places_of(sight.tree, sight.limbs, sight.found);
-  result.axes = sight.axes.array() + 0.0;  // no -0
-  result.plan = sight.found.plan;
-  result.reason = sight.found.reason;
-  result.joints = Planner(sight.tree, sight.limbs).joints(places, result.axes);
+  const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
+  result.axes = outlook.axes.array() + 0.0;  // no -0
+  result.plan = outlook.found.plan;
+  result.reason = outlook.found.reason;
+  result.joints = Planner(outlook.tree, outlook.limbs).joints(places, result.axes);
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {
       if (std::none_of(result.joints.begin(), result.joints.end(),

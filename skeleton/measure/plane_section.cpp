@@ -16,15 +16,15 @@ using Loop = SectionLoop;
 
 /// A triangle that the plane crosses, from the half-edge that goes below it to the one that rises
 /// above it: so the solid lies on the left as seen from the normal.
-struct Crossing {
+struct PlaneCrossing {
   std::array<std::int32_t, 2> falling;  ///< from a vertex above to one below
   std::array<std::int32_t, 2> rising;   ///< from a vertex below to one above
   int triangle;
 };
 
-std::vector<Crossing> crossings(const Surface& surface, const SurfaceTree& tree,
-                                const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
-  std::vector<Crossing> all;
+std::vector<PlaneCrossing> crossings(const Surface& surface, const SurfaceTree& tree,
+                                     const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+  std::vector<PlaneCrossing> all;
   for (const int triangle : tree.near_plane(point, normal)) {
     std::array<bool, 3> above{};
     for (int k = 0; k < 3; ++k) {
@@ -32,7 +32,7 @@ std::vector<Crossing> crossings(const Surface& surface, const SurfaceTree& tree,
       above[idx(k)] = (surface.positions.row(vertex).transpose() - point).dot(normal) >= 0;
     }
     if (above[0] == above[1] && above[1] == above[2]) continue;
-    Crossing crossing{{}, {}, triangle};
+    PlaneCrossing crossing{{}, {}, triangle};
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
       const std::array<std::int32_t, 2> edge{surface.triangles(triangle, k),
@@ -60,14 +60,14 @@ Eigen::Vector2d crossing_point(const Surface& surface, const PlaneSection& frame
 
 /// Triangles joined where one rises and its neighbour falls. What does not close is left out.
 std::vector<Loop> loops_of(const Surface& surface, const PlaneSection& frame,
-                           std::vector<Crossing> all) {
+                           std::vector<PlaneCrossing> all) {
   std::sort(all.begin(), all.end(),
-            [](const Crossing& a, const Crossing& b) { return a.falling < b.falling; });
-  const auto next_of = [&all](const Crossing& crossing) -> int {
+            [](const PlaneCrossing& a, const PlaneCrossing& b) { return a.falling < b.falling; });
+  const auto next_of = [&all](const PlaneCrossing& crossing) -> int {
     const std::array<std::int32_t, 2> twin{crossing.rising[1], crossing.rising[0]};
-    const auto found =
-        std::lower_bound(all.begin(), all.end(), twin,
-                         [](const Crossing& one, const auto& edge) { return one.falling < edge; });
+    const auto found = std::lower_bound(
+        all.begin(), all.end(), twin,
+        [](const PlaneCrossing& one, const auto& edge) { return one.falling < edge; });
     return found != all.end() && found->falling == twin ? static_cast<int>(found - all.begin())
                                                         : -1;
   };

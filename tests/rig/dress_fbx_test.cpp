@@ -70,6 +70,7 @@ struct Textures {
   [[nodiscard]] FbxItem layer() const {
     std::vector<double> values;
     std::vector<int> indices;
+    indices.reserve(idx(mapping.rows));
     for (int place = 0; place < mapping.rows; ++place) {
       indices.push_back(2 * place + 1);
     }
@@ -231,7 +232,8 @@ TEST_F(DressFbx, NormalsStayNormal) {
     ASSERT_EQ(triangles.size(), 36U);
     for (std::size_t t = 0; t < triangles.size(); t += 3) {
       const auto row = [&](const std::vector<float>& rows, std::size_t k) {
-        return Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(&rows[3 * triangles[t + k]]));
+        return Eigen::Vector3f(
+            Eigen::Map<const Eigen::Vector3f>(&rows[3 * std::size_t{triangles[t + k]}]));
       };
       const Eigen::Vector3f edge = row(places, 1) - row(places, 0);
       const Eigen::Vector3f normal = edge.cross(row(places, 2) - row(places, 0)).normalized();
@@ -404,7 +406,8 @@ TEST_F(DressFbx, ShapesBecomeMorphTargets) {
       const auto found = glb.of_view<float>(sparse["values"]["bufferView"]);
       ASSERT_EQ(rows.size(), 6U);  // each of the two on three faces
       for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Eigen::Vector3f at = Eigen::Map<const Eigen::Vector3f>(&places[3 * rows[k]]);
+        const Eigen::Vector3f at =
+            Eigen::Map<const Eigen::Vector3f>(&places[3 * std::size_t{rows[k]}]);
         const Eigen::Vector3f moved = Eigen::Map<const Eigen::Vector3f>(&found[3 * k]);
         const bool is_second =
             (at - soup.positions.row(2).transpose().cast<float>()).norm() < 1e-6F;
