@@ -123,6 +123,14 @@ std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const S
   return add_accessor(document, rows, "VEC3", gltf_float, split.vertices.size(), gltf_vertices);
 }
 
+std::size_t add_colours(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
+  std::string rows;
+  for (const DressedCorner& vertex : split.vertices) {
+    for (const float number : mesh.colours[idx(vertex.place)]) put_number(rows, number);
+  }
+  return add_accessor(document, rows, "VEC4", gltf_float, split.vertices.size(), gltf_vertices);
+}
+
 /// Rows count from the picture's upper edge, as glTF wants them.
 std::size_t add_textures(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
   std::string rows;
@@ -220,6 +228,7 @@ DressedDocument dressed_document(const DressedMesh& mesh,
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
   if (!mesh.textures.empty()) attributes["TEXCOORD_0"] = add_textures(document, mesh, split);
+  if (!mesh.colours.empty()) attributes["COLOR_0"] = add_colours(document, mesh, split);
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {
     targets.push_back({{"POSITION", add_shape(document, shape, split)}});

@@ -1,10 +1,13 @@
 #include "rig/gltf/dressed_file.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rig/fbx/fbx_looks.hpp"
+#include "rig/gltf/colours.hpp"
 #include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/obj_materials.hpp"
+#include "rig/gltf/ply_looks.hpp"
 #include "surface/read/formats.hpp"
 
 namespace curveskel {
@@ -13,10 +16,18 @@ std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<
                                              const Monitor& monitor) {
   const auto format = surface_format_of(file);
   if (format == SurfaceFormat::fbx) return read_fbx_looks(file, notes, monitor);
+  if (format == SurfaceFormat::ply) return read_ply_looks(file, monitor);
   if (format != SurfaceFormat::obj) return std::nullopt;
   ObjFile obj = read_obj_file(file, monitor);
   if (!obj.mesh.has_looks()) return std::nullopt;
   std::vector<DressedMaterial> materials = read_obj_materials(obj, file, notes, monitor);
+  if (!materials.empty()) {
+    obj.mesh.colours.clear();  // of what the materials show, mostly, of which they would be factors
+  } else if (!obj.mesh.colours.empty()) {
+    materials.push_back({coloured_material, MaterialLook{}});
+    obj.mesh.materials.emplace_back(coloured_material);
+    std::fill(obj.mesh.material_of_face.begin(), obj.mesh.material_of_face.end(), 0);
+  }
   return DressedFile{std::move(obj.mesh), std::move(materials)};
 }
 

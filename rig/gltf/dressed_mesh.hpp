@@ -31,6 +31,7 @@ struct DressedMesh {
   std::vector<double> places;                  ///< x y z x y z ...
   std::vector<std::array<float, 2>> textures;  ///< rows count from the picture's lower edge
   std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 4>> colours;  ///< of each place, linear RGBA; or none
   std::vector<DressedCorner> corners;
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
@@ -41,7 +42,8 @@ struct DressedMesh {
 
   /// Something that a bare rig would lose.
   [[nodiscard]] bool has_looks() const {
-    return !textures.empty() || !normals.empty() || !materials.empty() || !shapes.empty();
+    return !textures.empty() || !normals.empty() || !materials.empty() || !shapes.empty() ||
+           !colours.empty();
   }
 };
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/gltf/colours.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/text_cursor.hpp"
 
@@ -16,21 +17,24 @@ std::int32_t index_from_zero(std::int64_t number, std::size_t so_far) {
   return index < 0 || index >= most_vertices ? -1 : static_cast<std::int32_t>(index);
 }
 
+bool is_number(const TextCursor& text) {
+  const char c = text.peek();
+  return c == '-' || c == '+' || c == '.' || (c >= '0' && c <= '9');
+}
+
 /// v, v/vt, v//vn or v/vt/vn.
 DressedCorner read_corner(TextCursor& text, const DressedMesh& mesh) {
   DressedCorner corner;
   corner.place = index_from_zero(text.integer("a vertex index"), mesh.places.size() / 3);
-  const auto is_number = [&] {
-    return text.peek() == '-' || (text.peek() >= '0' && text.peek() <= '9');
-  };
   if (text.peek() != '/') return corner;
   text.skip(1);
-  if (is_number()) {
+  if (is_number(text)) {
     corner.texture = index_from_zero(text.integer("an index"), mesh.textures.size());
   }
   if (text.peek() != '/') return corner;
   text.skip(1);
-  if (is_number()) corner.normal = index_from_zero(text.integer("an index"), mesh.normals.size());
+  if (is_number(text))
+    corner.normal = index_from_zero(text.integer("an index"), mesh.normals.size());
   return corner;
 }
 
@@ -64,6 +68,19 @@ std::array<float, Count> read_numbers(TextCursor& text) {
   return numbers;
 }
 
+/// "v x y z r g b", as scanners' programs write; a fourth coordinate alone is no colour.
+void read_colour(TextCursor& text, DressedMesh& mesh) {
+  std::array<double, 3> colour{};
+  std::size_t count = 0;
+  for (text.skip_blanks(); count < colour.size() && is_number(text); text.skip_blanks()) {
+    colour[count++] = text.coordinate("a colour");
+  }
+  if (count < colour.size()) return;
+  mesh.colours.resize(mesh.places.size() / 3 - 1, {1, 1, 1, 1});
+  mesh.colours.push_back(
+      {linear_from_srgb(colour[0]), linear_from_srgb(colour[1]), linear_from_srgb(colour[2]), 1});
+}
+
 int number_of(std::vector<std::string>& names, const std::string& name) {
   const auto known = std::find(names.begin(), names.end(), name);
   const auto number = static_cast<int>(known - names.begin());
@@ -83,6 +100,7 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     text.skip_blanks();
     if (text.accept("v")) {
       text.read_vertex(mesh.places);
+      read_colour(text, mesh);
     } else if (text.accept("vt")) {
       mesh.textures.push_back(read_numbers<2>(text));
     } else if (text.accept("vn")) {
@@ -99,6 +117,7 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     }
     text.skip_continued_line();
   }
+  if (!mesh.colours.empty()) mesh.colours.resize(mesh.places.size() / 3, {1, 1, 1, 1});
   for (DressedCorner& corner : mesh.corners) {
     if (corner.place < 0 || idx(corner.place) >= mesh.places.size() / 3) {
       file.fail("a vertex index that is not there",
