@@ -27,13 +27,12 @@ class MaterialLooks {
 
   [[nodiscard]] DressedMaterial read() const {
     MaterialLook look;
-    look.colour = colour("DiffuseColor", number("DiffuseFactor").value_or(1));
-    look.emission = colour("EmissiveColor", number("EmissiveFactor").value_or(1));
+    look.colour = colour("DiffuseColor", number("DiffuseFactor", 1));
+    look.emission = colour("EmissiveColor", number("EmissiveFactor", 1));
     look.opacity = opacity();
-    const auto shininess = number("Shininess");
-    const double shine = shininess ? *shininess : number("ShininessExponent").value_or(0);
+    const double shine = number("Shininess", number("ShininessExponent", 0));
     look.roughness = 1 - std::sqrt(std::max(shine, 0.0)) / 10;
-    if (has_metalness()) look.metalness = number("ReflectionFactor").value_or(0);
+    if (has_metalness()) look.metalness = number("ReflectionFactor", 0);
     look.base = picture({"DiffuseColor", "Maya|baseColor", "Maya|baseColor|file",
                          "Maya|TEX_color_map", "Maya|TEX_color_map|file", "Maya|DiffuseTexture",
                          "3dsMax|Parameters|base_color_map"});
@@ -47,11 +46,11 @@ class MaterialLooks {
   }
 
  private:
-  [[nodiscard]] std::optional<double> number(std::string_view name) const {
+  [[nodiscard]] double number(std::string_view name, double otherwise) const {
     const FbxRecord* found = fbx_property(&material_, name);
-    if (found == nullptr) return std::nullopt;
-    const double value = found->number(first_property_value, std::nan(""));
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    if (found == nullptr) return otherwise;
+    const double value = found->number(first_property_value, otherwise);
+    return std::isfinite(value) ? value : otherwise;
   }
 
   [[nodiscard]] std::optional<std::array<double, 3>> colour(std::string_view name,
@@ -68,13 +67,14 @@ class MaterialLooks {
 
   /// Nobody has a material that is not seen at all: exporters that say so mean that it is.
   [[nodiscard]] double opacity() const {
-    std::optional<double> result = number("Opacity");
-    if (!result) {
-      const auto transparent = colour("TransparentColor", number("TransparencyFactor").value_or(1));
-      result = 1 - (transparent ? ((*transparent)[0] + (*transparent)[1] + (*transparent)[2]) / 3
-                                : number("TransparencyFactor").value_or(0));
+    double result = number("Opacity", -1);
+    if (result < 0) {
+      const double factor = number("TransparencyFactor", 0);
+      const bool is_given = fbx_property(&material_, "TransparencyFactor") != nullptr;
+      const auto through = colour("TransparentColor", is_given ? factor : 1);
+      result = 1 - (through ? ((*through)[0] + (*through)[1] + (*through)[2]) / 3 : factor);
     }
-    return *result > 0 ? std::min(*result, 1.0) : 1;
+    return result > 0 ? std::min(result, 1.0) : 1;
   }
 
   /// Elsewhere the property says how mirror-like a phong material is.

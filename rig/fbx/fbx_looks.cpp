@@ -46,10 +46,10 @@ std::vector<Eigen::Matrix3d> normal_maps(std::vector<Eigen::Matrix3d> maps) {
   return maps;
 }
 
-class LookReader {
+class FbxLookReader {
  public:
-  LookReader(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
-             std::vector<std::string>& notes, const Monitor& monitor)
+  FbxLookReader(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
+                std::vector<std::string>& notes, const Monitor& monitor)
       : file_(file), root_(root), scene_(scene), notes_(notes), meshes_(file, monitor) {}
 
   std::optional<DressedFile> read() {
@@ -196,7 +196,7 @@ std::optional<DressedFile> read_fbx_looks(const FileBytes& file, std::vector<std
   const FbxRecord root = parse_fbx(file);
   require_fbx_version(file, root);
   const FbxScene scene(file, root);
-  return LookReader(file, root, scene, notes, monitor).read();
+  return FbxLookReader(file, root, scene, notes, monitor).read();
 }
 
 }  // namespace curveskel

@@ -58,9 +58,9 @@ bool is_look(const PlyElement& element, const PlyProperty& property) {
          (element.name == "face" && property.is_list && property.name == "texcoord");
 }
 
-class LookReader {
+class PlyLookReader {
  public:
-  LookReader(const FileBytes& file, const Monitor& monitor)
+  PlyLookReader(const FileBytes& file, const Monitor& monitor)
       : header_(read_ply_header(file)), soup_(read_ply(file, monitor)) {
     with_ply_values(file, header_, [this](auto values) { read(std::move(values)); });
   }
@@ -187,7 +187,7 @@ std::optional<DressedFile> read_ply_looks(const FileBytes& file, const Monitor& 
                            [&](const PlyProperty& property) { return is_look(element, property); });
       });
   if (!has_looks) return std::nullopt;
-  return LookReader(file, monitor).dressed(file);
+  return PlyLookReader(file, monitor).dressed(file);
 }
 
 }  // namespace curveskel

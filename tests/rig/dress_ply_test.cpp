@@ -35,9 +35,9 @@ struct PlySubject {
   bool float_colours = false;
   bool alpha = false;
   bool normals = false;
-  std::string vertex_textures;  ///< names, as "s t"
+  std::string vertex_textures = {};  ///< names, as "s t"
   bool corner_textures = false;
-  std::string picture;
+  std::string picture = {};
 
   static int red(int vertex) { return 30 * vertex; }
 
