@@ -15,14 +15,14 @@ if ! clang++-14 -fsanitize=fuzzer,address "$work/empty.cpp" -o "$work/empty" 2>"
   exit 77
 fi
 
-fuzzers=(obj off ply stl om gltf vtp vtk 3mf dae fbx gz rig
+fuzzers=(obj off ply stl om gltf vtp vtk 3mf dae fbx gz rig look_fbx look_obj look_ply
   skeleton_obj skeleton_ply skeleton_cgal skeleton_swc skeleton_vtp skeleton_graphml skeleton_json)
 cmake --preset fuzz >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 ninja -C build/fuzz -j "$(packages/jobs)" "${fuzzers[@]/%/_fuzzer}"
 export inputs work
 # New inputs go to the first folder, seeds come from the second and from broken files at hand.
 feed() {
-  local format=${1#skeleton_} found=$work/$1 seeds=$work/$1-seeds
+  local format=${1#*_} found=$work/$1 seeds=$work/$1-seeds
   mkdir -p "$found" "$seeds"
   cp fuzz/corpus/"$1"/* "$seeds"
   [ "$format" != "$1" ] || find ../shared/meshes/defects -name "*.${format/gltf/gl[tb]*}" -size -64k \
