@@ -314,11 +314,23 @@ class Rig(CommandLineTest):
                      says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
 
     def test_a_file_whose_look_is_not_read_is_said_to_lose_it(self):
+        words = "are not taken from such a file"
+        corners = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)]
+        faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+        numbers = lambda rows: " ".join(str(number) for row in rows for number in row)
+        (self.folder / "y.vtk").write_text(
+            "# vtk DataFile Version 3.0\ny\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+            f"{numbers(corners)}\nPOLYGONS 4 16\n{numbers((3, *face) for face in faces)}\n")
+        self.assertIn(words, self.run_ok("rig", "y.vtk", "-o", "z.glb", cwd=self.folder).err)
+        quiet = self.run_ok("rig", "y.vtk", "-o", "z.glb", "--bare", cwd=self.folder).err
+        self.assertNotIn(words, quiet)
+
+    def test_the_look_of_fbx_is_read(self):
         self.run_ok("rig", Y, "-o", "y.fbx", cwd=self.folder)
-        said = self.run_ok("rig", "y.fbx", "-o", "z.fbx", cwd=self.folder).err
-        self.assertIn("are not taken from such a file", said)
-        quiet = self.run_ok("rig", "y.fbx", "-o", "z.fbx", "--bare", cwd=self.folder).err
-        self.assertNotIn("are not taken from such a file", quiet)
+        said = self.run_ok("rig", "y.fbx", "-o", "z.glb", cwd=self.folder).err
+        self.assertNotIn("warning", said)
+        materials = self.glb((self.folder / "z.glb").read_bytes())["materials"]
+        self.assertEqual(materials[0]["pbrMetallicRoughness"]["metallicFactor"], 0)
 
     def test_another_extension_is_a_usage_error_that_lists_the_formats(self):
         for name in ("y.x3d", "y.obj", "y"):
