@@ -134,9 +134,11 @@ Rig joints_for(const fs::path& file, const PolygonSoup& soup, const Monitor& mon
                           file.string(), rig.joints.rows()));
 }
 
-/// VRM's figures look along z, their arms held out.
-void warn_of_posture(const BodyPlan& plan, Session& session) {
+/// VRM's figures look along z, their arms held out. FBX is turned until y is up.
+void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, Session& session) {
   if (plan.plan != BodyKind::humanoid) return;
+  const bool is_turned = soup.format == SurfaceFormat::fbx && soup.z_is_up;
+  const double ahead = is_turned ? -plan.axes(2, 1) : plan.axes(2, 2);
   const auto place = [&](const char* role) -> Eigen::RowVector3d {
     const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
                                     [&](const PlannedJoint& joint) { return joint.role == role; });
@@ -144,7 +146,7 @@ void warn_of_posture(const BodyPlan& plan, Session& session) {
   };
   const Eigen::RowVector3d arm = place("leftHand") - place("leftUpperArm");
   constexpr double held_out = 0.94;  // cos of 20 degrees
-  if (plan.axes(2, 2) < 1) {
+  if (ahead < 1) {
     session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
   } else if (arm.x() < held_out * arm.norm()) {
     session.terminal.warn(
@@ -274,7 +276,7 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!sources.joints) warn_of_names(plan, arguments.names, session);
   const Surface given{soup.positions, triangulate(soup)};
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
-    if (arguments.pose == RestPose::input) warn_of_posture(plan, session);
+    if (arguments.pose == RestPose::input) warn_of_posture(soup, plan, session);
   }
   const Rig written = rig_for_export(
       found.character.rig, plan, given,
