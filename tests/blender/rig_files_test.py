@@ -290,5 +290,103 @@ class Fbx(unittest.TestCase):
         self.assertGreaterEqual(counts[0][1], counts[1][1])  # a mesh a material, with all joints
 
 
+# Blender's own FBX of the characters, to be rigged.
+EXPORT = """
+import json, pathlib, sys
+import bpy, numpy
+numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
+
+folder = pathlib.Path(sys.argv[-1])
+for file in sorted(folder.glob("*.before.glb")):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=str(file))
+    for thing in [*bpy.data.objects]:
+        thing.animation_data_clear()
+        if thing.type == "ARMATURE":
+            thing.data.pose_position = "REST"
+        elif "Icosphere" in thing.name:  # what bones look like
+            bpy.data.objects.remove(thing)
+    bpy.ops.export_scene.fbx(filepath=str(file.with_suffix(".fbx")), path_mode="COPY",
+                             embed_textures=True, bake_anim=False, add_leaf_bones=False)
+(folder / "result.json").write_text(json.dumps({}))
+"""
+
+COMPARE = """
+import json, pathlib, sys
+import bpy, numpy
+numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
+
+def look(file):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    (bpy.ops.import_scene.fbx if file.suffix == ".fbx" else
+     bpy.ops.import_scene.gltf)(filepath=str(file))
+    for thing in bpy.data.objects:
+        thing.animation_data_clear()
+    for thing in bpy.data.objects:
+        if thing.type == "ARMATURE":
+            thing.data.pose_position = "REST"
+    bpy.context.view_layer.update()
+    graph = bpy.context.evaluated_depsgraph_get()
+    found = {"keys": set(), "pictures": {tuple(image.size) for image in bpy.data.images
+                                         if image.size[0] > 0}}
+    corners = []
+    for thing in bpy.data.objects:
+        if thing.type != "MESH" or "Icosphere" in thing.name:
+            continue
+        names = [slot.material.name for slot in thing.material_slots]
+        if thing.data.shape_keys:
+            found["keys"] |= {block.name for block in thing.data.shape_keys.key_blocks[1:]}
+        shown = thing.evaluated_get(graph)
+        mesh = shown.to_mesh()
+        places = [thing.matrix_world @ vertex.co for vertex in mesh.vertices]
+        maps = mesh.uv_layers[0].data if mesh.uv_layers else None
+        for face in mesh.polygons:
+            material = names[face.material_index] if names else ""
+            for loop in face.loop_indices:
+                uv = maps[loop].uv if maps else (0, 0)
+                corners.append((material, *places[mesh.loops[loop].vertex_index], *uv))
+        shown.to_mesh_clear()
+    size = max(numpy.ptp([corner[1 + k] for corner in corners]) for k in range(3))
+    rounded = [(corner[0], *(round(2000 * x / size) for x in corner[1:4]),
+                *(round(500 * x) for x in corner[4:])) for corner in corners]
+    return found, size, sorted(rounded)
+
+folder = pathlib.Path(sys.argv[-1])
+result = {}
+for file in sorted(folder.glob("*.before.fbx")):
+    wanted, size, corners = look(file)
+    found, new_size, new_corners = look(file.with_name(file.name.replace("before.fbx", "glb")))
+    near = sum(numpy.abs(numpy.array(a[1:]) - b[1:]).max() <= 1 and a[0] == b[0]
+               for a, b in zip(corners, new_corners))
+    result[file.name.split(".")[0]] = {
+        "same": [found[name] == wanted[name] for name in ("keys", "pictures")],
+        "said": str((wanted, found)), "size": new_size / size,
+        "corners": [len(corners), len(new_corners)], "alike": near / max(len(corners), 1)}
+(folder / "result.json").write_text(json.dumps(result))
+"""
+
+
+@unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
+class FbxOfBlender(unittest.TestCase):
+    def test_keeps_its_look_and_its_size(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            for source in rigged_files():
+                shutil.copy(source, folder / f"{source.stem}.before.glb")
+            result_of(EXPORT, folder)
+            for file in folder.glob("*.before.fbx"):
+                subprocess.run([PROGRAM, "rig", file, "-o", folder / f"{file.name[:-11]}.glb",
+                                "-q"], check=True, stderr=subprocess.DEVNULL)
+            found = result_of(COMPARE, folder)
+        self.assertTrue(found)
+        for name, result in found.items():
+            with self.subTest(name):
+                self.assertEqual(result["same"], [True, True], result["said"])
+                self.assertAlmostEqual(result["size"], 1, places=4)
+                self.assertEqual(*result["corners"])
+                # Some of rounded numbers go the other way, and the order with them.
+                self.assertGreater(result["alike"], 0.95)
+
+
 if __name__ == "__main__":
     unittest.main()
