@@ -14,13 +14,6 @@ struct Glb {
   nlohmann::json json;
   std::string numbers;
 
-  explicit Glb(const std::string& bytes) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, &bytes.at(12), sizeof length);
-    json = nlohmann::json::parse(bytes.substr(20, length));
-    numbers = bytes.substr(28 + std::size_t{length});
-  }
-
   template <typename Value>
   [[nodiscard]] std::vector<Value> of_view(std::size_t number) const {
     const nlohmann::json& view = json["bufferViews"][number];
@@ -36,5 +29,11 @@ struct Glb {
     return of_view<Value>(json["accessors"][accessor]["bufferView"].get<std::size_t>());
   }
 };
+
+[[nodiscard]] inline Glb glb_of(const std::string& bytes) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, &bytes.at(12), sizeof length);
+  return {nlohmann::json::parse(bytes.substr(20, length)), bytes.substr(28 + std::size_t{length})};
+}
 
 }  // namespace curveskel

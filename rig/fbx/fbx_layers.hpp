@@ -1,4 +1,4 @@
-// What the corners of an FBX mesh have beside their place: texture coordinates, normals, materials.
+// Texture coordinates, normals and materials of the corners of an FBX mesh.
 #pragma once
 
 #include <cstddef>

@@ -60,8 +60,8 @@ bool is_look(const PlyElement& element, const PlyProperty& property) {
 
 class PlyLookReader {
  public:
-  PlyLookReader(const FileBytes& file, const Monitor& monitor)
-      : header_(read_ply_header(file)), soup_(read_ply(file, monitor)) {
+  PlyLookReader(const FileBytes& file, PlyHeader header, const Monitor& monitor)
+      : header_(std::move(header)), soup_(read_ply(file, monitor)) {
     with_ply_values(file, header_, [this](auto values) { read(std::move(values)); });
   }
 
@@ -180,14 +180,14 @@ class PlyLookReader {
 }  // namespace
 
 std::optional<DressedFile> read_ply_looks(const FileBytes& file, const Monitor& monitor) {
-  const PlyHeader header = read_ply_header(file);
+  PlyHeader header = read_ply_header(file);
   const bool has_looks =
       std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
         return std::any_of(element.properties.begin(), element.properties.end(),
                            [&](const PlyProperty& property) { return is_look(element, property); });
       });
   if (!has_looks) return std::nullopt;
-  return PlyLookReader(file, monitor).dressed(file);
+  return PlyLookReader(file, std::move(header), monitor).dressed(file);
 }
 
 }  // namespace curveskel

@@ -1,7 +1,9 @@
 #include "rig/joints/sides.hpp"
 
+#include <map>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,22 @@ void name_sides(Rig& rig, bool faces_minus_z) {
     name_pair(rig, chains[chain], chains[idx(other)],
               aside(chains[chain]) > aside(chains[idx(other)]));
   }
+}
+
+std::vector<int> twins_of(const Rig& rig) {
+  std::map<std::string_view, int> number;
+  for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+    number[rig.names[joint]] = static_cast<int>(joint);
+  }
+  std::vector<int> twins(rig.names.size(), -1);
+  for (const auto& [name, joint] : number) {
+    if (!name.ends_with(".L")) continue;
+    const auto found = number.find(std::string(name.substr(0, name.size() - 2)) + ".R");
+    if (found == number.end()) continue;
+    twins[idx(joint)] = found->second;
+    twins[idx(found->second)] = joint;
+  }
+  return twins;
 }
 
 }  // namespace curveskel

@@ -1,6 +1,8 @@
 // Left and right, where a rig has them.
 #pragma once
 
+#include <vector>
+
 #include <curveskel/rig.hpp>
 
 namespace curveskel {
@@ -19,5 +21,9 @@ namespace curveskel {
 /// of equals x, y, z. Where less than an eighth of all length is paired, nothing is named. Unique
 /// names stay so. O(limbs^2 depth); nothing is done for more than 1,000 limbs.
 void name_sides(Rig& rig, bool faces_minus_z = false);
+
+/// By joint the one that is its mirror image by name, ".L" or ".R" instead of the other; -1 = none.
+/// O(joints log joints).
+[[nodiscard]] std::vector<int> twins_of(const Rig& rig);
 
 }  // namespace curveskel

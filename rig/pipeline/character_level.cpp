@@ -9,6 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/rig_character.hpp>
+#include "rig/joints/sides.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 #include "surface/spatial/segment.hpp"
 
@@ -80,14 +81,9 @@ void share_in_hands(const Rig& rig, std::vector<double>& lives) {
 
 /// Of two that are each other's mirror images the longer life is that of both.
 void share_with_twins(const Rig& rig, std::vector<double>& lives) {
-  std::map<std::string_view, std::size_t> number;
-  for (std::size_t joint = 0; joint < lives.size(); ++joint) number[rig.names[joint]] = joint;
+  const std::vector<int> twins = twins_of(rig);
   for (std::size_t joint = 0; joint < lives.size(); ++joint) {
-    if (!rig.names[joint].ends_with(".L")) continue;
-    const std::string twin = rig.names[joint].substr(0, rig.names[joint].size() - 2) + ".R";
-    const auto found = number.find(twin);
-    if (found == number.end()) continue;
-    lives[joint] = lives[found->second] = std::max(lives[joint], lives[found->second]);
+    if (twins[joint] >= 0) lives[joint] = std::max(lives[joint], lives[idx(twins[joint])]);
   }
 }
 

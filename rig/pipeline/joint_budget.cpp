@@ -1,10 +1,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <map>
 #include <queue>
-#include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -12,6 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/rig_character.hpp>
 #include "base/option_ranges.hpp"
+#include "rig/joints/sides.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 
 namespace curveskel {
@@ -52,12 +50,11 @@ class TipTaker {
         rig_(character.rig),
         moved_(areas_moved(rig_, given)),
         children_(rig_.names.size(), 0),
-        twin_(rig_.names.size(), -1),
+        twin_(twins_of(rig_)),
         stays_(rig_.names.size(), 1) {
     for (const int parent : rig_.parents) {
       if (parent >= 0) ++children_[idx(parent)];
     }
-    find_twins();
     for (int joint = 0; joint < static_cast<int>(stays_.size()); ++joint) offer(joint);
   }
 
@@ -78,20 +75,6 @@ class TipTaker {
   }
 
  private:
-  void find_twins() {
-    std::map<std::string_view, int> number;
-    for (std::size_t joint = 0; joint < stays_.size(); ++joint) {
-      number[rig_.names[joint]] = static_cast<int>(joint);
-    }
-    for (const auto& [name, joint] : number) {
-      if (!name.ends_with(".L")) continue;
-      const auto found = number.find(std::string(name.substr(0, name.size() - 2)) + ".R");
-      if (found == number.end()) continue;
-      twin_[idx(joint)] = found->second;
-      twin_[idx(found->second)] = joint;
-    }
-  }
-
   [[nodiscard]] bool is_tip(int joint) const {
     return children_[idx(joint)] == 0 && rig_.parents[joint] >= 0 &&
            !is_required(character_, idx(joint));

@@ -224,7 +224,7 @@ TEST_F(DressFbx, NormalsStayNormal) {
   for (const double side : {1.0, -2.0}) {
     const FbxItem model = encodings::fbx_model(
         2, {{"Lcl Rotation", {30.0, 40.0, 50.0}}, {"Lcl Scaling", {side, 0.5, 3.0}}});
-    const Glb glb(dressed(written(scene(box, model, {}), FbxForm::binary)).bytes);
+    const Glb glb = glb_of(dressed(written(scene(box, model, {}), FbxForm::binary)).bytes);
     const Json& primitive = glb.json["meshes"][0]["primitives"][0];
     const auto places = glb.values<float>(primitive["attributes"]["POSITION"]);
     const auto written_normals = glb.values<float>(primitive["attributes"]["NORMAL"]);
@@ -268,7 +268,7 @@ TEST_F(DressFbx, PicturesAreTakenFromTheFileOrFoundBesideIt) {
       const EditedFile edited = dressed(
           written(scene(encodings::fbx_box(), encodings::fbx_model(2), beside, links), form));
       EXPECT_TRUE(edited.notes.empty());
-      const Glb glb(edited.bytes);
+      const Glb glb = glb_of(edited.bytes);
       EXPECT_EQ(glb.json["textures"], Json::array({{{"source", 0}}}));  // one for all
       const Json& image = glb.json["images"][0];
       EXPECT_EQ(image["name"], "skin");
@@ -295,7 +295,7 @@ TEST_F(DressFbx, OpacityIsWhatExportersMean) {
   for (const auto& [given, opacity] : cases) {
     const FbxItems records =
         scene(encodings::fbx_box(), encodings::fbx_model(2), {material(0, given)});
-    const Glb glb(dressed(written(records, FbxForm::text)).bytes);
+    const Glb glb = glb_of(dressed(written(records, FbxForm::text)).bytes);
     const Json& look = glb.json["materials"][0];
     EXPECT_NEAR(look["pbrMetallicRoughness"]["baseColorFactor"][3].get<double>(), opacity, 1e-12);
     EXPECT_EQ(look.contains("alphaMode"), opacity < 1);
@@ -343,10 +343,10 @@ TEST_F(DressFbx, TheFilesOfARigCanBeRiggedAgain) {
   }
   const fs::path given = folder_.write("box.obj", obj);
   const fs::path fbx = folder_.write("once.fbx", dressed(given, RigFormat::fbx).bytes);
-  const Glb once(dressed(given).bytes);
+  const Glb once = glb_of(dressed(given).bytes);
   const EditedFile edited = dressed(fbx);
   EXPECT_TRUE(edited.notes.empty());
-  Glb twice(edited.bytes);
+  Glb twice = glb_of(edited.bytes);
   for (Json& material : twice.json["materials"]) material.erase("doubleSided");
   ASSERT_EQ(twice.json["materials"].size(), 2U);
   for (const std::size_t m : {0U, 1U}) {
@@ -391,7 +391,7 @@ TEST_F(DressFbx, ShapesBecomeMorphTargets) {
   for (const FbxForm form : all_forms) {
     const fs::path file = written(scene(box, model, objects, links), form);
     const PolygonSoup soup = read_polygons(file);
-    const Glb glb(dressed(file).bytes);
+    const Glb glb = glb_of(dressed(file).bytes);
     const Json& mesh = glb.json["meshes"][0];
     EXPECT_EQ(mesh["weights"], Json({0, 0}));
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"channel 0", "channel 1"}));
@@ -459,7 +459,7 @@ TEST_F(DressFbx, TheSceneIsInMetresWithYUp) {
     };
     EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(), 1e-5 * scale);
     EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * scale);
-    const Glb glb(edited->bytes);
+    const Glb glb = glb_of(edited->bytes);
     const auto stored =
         glb.values<float>(glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
     for (Eigen::Index v = 0; v < 8; ++v) {
@@ -480,7 +480,7 @@ TEST_F(DressFbx, BrokenNumbersAreNone) {
                            {"UVIndex", {std::vector<int>{0, 0, -3, 1, 90000}}}}});
   box.children.push_back({"LayerElementNormal", {0}, {{"MappingInformationType", {"ByPolygon"}}}});
   for (const FbxForm form : all_forms) {
-    const Glb glb(dressed(written(scene(box, encodings::fbx_model(2), {}), form)).bytes);
+    const Glb glb = glb_of(dressed(written(scene(box, encodings::fbx_model(2), {}), form)).bytes);
     const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
     for (const float number : glb.values<float>(attributes["TEXCOORD_0"])) {
       EXPECT_TRUE(number == 0 || number == 0.5F || number == 1);

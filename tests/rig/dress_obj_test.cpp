@@ -142,7 +142,7 @@ TEST_F(DressObj, EveryCornerHasWhatItsFaceNames) {
   write_materials();
   const Surface torus = torus_surface();
   for (const ObjSubject& subject : subjects()) {
-    const Glb glb(dressed(subject.text(), rig_).bytes);
+    const Glb glb = glb_of(dressed(subject.text(), rig_).bytes);
     const Json& primitives = glb.json["meshes"][0]["primitives"];
     const auto runs = static_cast<std::size_t>(std::max(subject.materials, 1));
     ASSERT_EQ(primitives.size(), runs);
@@ -185,7 +185,7 @@ TEST_F(DressObj, EveryCornerHasWhatItsFaceNames) {
 TEST_F(DressObj, MaterialsAreThoseOfTheLibrary) {
   write_materials();
   const EditedFile edited = dressed(ObjSubject{.materials = 5}.text(), rig_);
-  const Glb glb(edited.bytes);
+  const Glb glb = glb_of(edited.bytes);
   const Json& materials = glb.json["materials"];
   ASSERT_EQ(materials.size(), 5U);
   for (int m = 0; m < 5; ++m) EXPECT_EQ(materials[idx(m)]["name"], "m " + std::to_string(m));
@@ -220,7 +220,7 @@ TEST_F(DressObj, AMissingLibraryIsNamed) {
   const EditedFile edited = dressed(ObjSubject{}.text(), rig_);
   ASSERT_FALSE(edited.notes.empty());
   EXPECT_NE(edited.notes[0].find("looks of it.mtl"), std::string::npos);
-  EXPECT_EQ(Glb(edited.bytes).json["materials"].size(), 2U);
+  EXPECT_EQ(glb_of(edited.bytes).json["materials"].size(), 2U);
 }
 
 /// Polygons are triangulated with their texture coordinates; a face without a place is left out.
@@ -229,7 +229,7 @@ TEST_F(DressObj, PolygonsKeepTheirTextureCoordinates) {
       "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 nan\nv 1 3 1\n"
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
       "f 1/1 2/2 3/3 4/4\nf 4/4 3/3 6\nf 1/1 5/2 3/3\n";
-  const Glb glb(dressed(obj, random_rig(6, 3, "bone ")).bytes);
+  const Glb glb = glb_of(dressed(obj, random_rig(6, 3, "bone ")).bytes);
   const Json& primitive = glb.json["meshes"][0]["primitives"][0];
   const auto corners = glb.values<std::uint32_t>(primitive["indices"]);
   const auto textures = glb.values<float>(primitive["attributes"]["TEXCOORD_0"]);

@@ -105,7 +105,7 @@ class DressPly : public testing::Test {
     const auto edited = format_rig_into(file, random_rig(8, 5, "bone "),
                                         {RigFormat::glb, OldRig::replaced, "rig", "a test"});
     EXPECT_TRUE(edited);
-    return Glb(edited->bytes);
+    return glb_of(edited->bytes);
   }
 
   static const Json& attributes(const Glb& glb) {

@@ -19,6 +19,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/edit_subjects.hpp"
 #include "tests/rig/rig_subjects.hpp"
@@ -29,17 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-struct Glb {
-  Json json;
-  std::string numbers;
-};
-
-Glb glb_of(const std::string& bytes) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, &bytes.at(12), sizeof length);
-  return {Json::parse(bytes.substr(20, length)), bytes.substr(28 + std::size_t{length})};
-}
 
 std::string bytes_of(const Glb& glb) {
   std::string json = glb.json.dump();
