@@ -58,6 +58,7 @@ class JointPlacer {
                                usual_planned_bone(planned)) /
                       options.bone_length) {
     joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
+    planned_at_.assign(idx(skeleton.nodes.rows()), -1);
     above_ = tree_.parent;
     for (std::size_t k = 0; k < tree_.roots.size(); ++k)
       above_[idx(tree_.roots[k])] = tree_.above[k];
@@ -99,15 +100,12 @@ class JointPlacer {
       for (; node >= 0 && joints_.joint_of_node[node] < 0; node = above_[idx(node)]) {
         joints_.joint_of_node[node] = joint.parent;
       }
-      joints_.joint_of_node[joint.node] = static_cast<int>(k);
+      joints_.joint_of_node[joint.node] = planned_at_[idx(joint.node)] = static_cast<int>(k);
     }
   }
 
   void place_component(int root, int above) {
-    if (joints_.joint_of_node[root] < 0) {
-      const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
-      joints_.joint_of_node[root] = add(skeleton_.nodes.row(root), parent, part_ + "root");
-    }
+    if (joints_.joint_of_node[root] < 0) joints_.joint_of_node[root] = joint_of_root(root, above);
     std::vector<int> open{root};  // upper ends of limbs yet to be placed
     while (!open.empty()) {
       const int upper = open.back();
@@ -121,6 +119,20 @@ class JointPlacer {
         if (!tree_.children[idx(lower)].empty()) open.push_back(lower);
       }
     }
+  }
+
+  /// A component that begins at the last planned joint of a limb, as a doll's fingertip at its ball
+  /// hinge, is what that joint moves.
+  int joint_of_root(int root, int above) {
+    const Eigen::RowVector3d place = skeleton_.nodes.row(root);
+    const int parent = above < 0 ? -1 : joints_.joint_of_node[above];
+    const bool is_planned = parent >= 0 && parent < static_cast<int>(planned_.size());
+    if (is_planned && std::find(parents_.begin(), parents_.end(), parent) == parents_.end() &&
+        (place - points_[idx(parent)]).norm() < least_length_) {
+      planned_at_[idx(root)] = parent;
+      return parent;
+    }
+    return add(place, parent, part_ + "root");
   }
 
   [[nodiscard]] Limb limb_from(int upper, int child) const {
@@ -259,9 +271,8 @@ class JointPlacer {
 
   /// The planned joint from whose node the limb begins, or null.
   [[nodiscard]] const PlannedJoint* planned_above(const Limb& limb) const {
-    const auto joint = idx(joints_.joint_of_node[limb.nodes.front()]);
-    const bool is_its = joint < planned_.size() && planned_[joint].node == limb.nodes.front();
-    return is_its ? &planned_[joint] : nullptr;
+    const int joint = planned_at_[idx(limb.nodes.front())];
+    return joint < 0 ? nullptr : &planned_[idx(joint)];
   }
 
   /// The end of the last planned bone of its limb, which shows how long the bone is.
@@ -309,7 +320,8 @@ class JointPlacer {
   const std::vector<PlannedJoint>& planned_;
   const JointOptions& options_;
   const RootedTree tree_;
-  std::vector<int> above_;  // by node: towards the root, across components
+  std::vector<int> above_;       // by node: towards the root, across components
+  std::vector<int> planned_at_;  // by node: the planned joint that lies there, -1 = none
   const Eigen::VectorXd radii_;
   const double least_length_;  // of a bone
   const double least_radius_;  // in which a way is measured

@@ -8,6 +8,7 @@
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
+#include "rig/joints/idle_joints.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/skin/skin_bones.hpp"
 #include "skeleton/graph/node_balls.hpp"
@@ -58,7 +59,9 @@ void require_valid(const RigOptions& options) {
 
 Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton, const RigOptions& options,
              const Monitor& monitor) {
-  return make_planned_rig(surface, skeleton, BodyPlan{}, options, monitor);
+  const Eigen::Index count = surface.positions.rows();
+  return without_idle_joints(make_planned_rig(surface, skeleton, BodyPlan{}, options, monitor), 0,
+                             Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1));
 }
 
 Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, const BodyPlan& plan,

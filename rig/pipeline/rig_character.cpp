@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
@@ -67,7 +68,9 @@ namespace {
 /// With names; the joints of the plan first.
 RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor& monitor) {
   RiggedBody made{std::move(figure.body), std::move(figure.skeleton), {}};
-  made.rig = make_planned_rig(made.body.surface, made.skeleton, figure.plan, options.rig, monitor);
+  made.rig = without_idle_joints(
+      make_planned_rig(made.body.surface, made.skeleton, figure.plan, options.rig, monitor),
+      figure.plan.joints.size(), made.body.vertex_of_input);
   name_roles(made.rig, figure.plan, options.names);
   return made;
 }

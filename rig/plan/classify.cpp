@@ -72,6 +72,7 @@ std::string rounded(double value) { return std::to_string(std::lround(value)); }
 void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const int leg = found.legs.front();
   const Posture posture = posture_of(tree, limbs, leg, found.arms);
+  found.lean = posture.lean;
   const std::string leans = "the trunk leans by " + rounded(posture.lean) + " degrees, " +
                             rounded(100 * posture.back) + " % of the size lies behind the legs";
   const double leg_length = limbs.pairs[idx(leg)].length;

@@ -47,6 +47,9 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
     tree.node_of_vertex[idx(v)] = skeleton.node_of_vertex[v];
   }
   for (const Vector3d& p : spread_points(surface, spread)) tree.spread.push_back(in_frame(p));
+  const auto nodes = static_cast<Eigen::Index>(tree.nodes.size());
+  const auto components = static_cast<Eigen::Index>(rooted.roots.size());
+  tree.has_cycles = skeleton.edges.rows() > nodes - components;
   tree.size = (high - low).maxCoeff();
   tree.ground = low.y();
   tree.height = high.y() - low.y();

@@ -19,7 +19,8 @@ struct CurveTree {
   double size = 0;                        ///< longest side of the surface's box
   double ground = 0;                      ///< lowest y
   double height = 0;
-  double middle = 0;  ///< x of the mirror plane
+  double middle = 0;        ///< x of the mirror plane
+  bool has_cycles = false;  ///< of the skeleton, which are cut here
 
   [[nodiscard]] bool is_tip(int node) const;
   [[nodiscard]] double aside(int node) const;  ///< x from the mirror plane

@@ -119,7 +119,7 @@ class Planner {
     if (place.on_curve) {
       Vector3d beside = place.beside.value_or(place.at);
       if (is_right) beside.x() = 2 * tree_.middle - beside.x();
-      joint.node = nearest(place, is_right, beside);
+      joint.node = place.node >= 0 ? place.node : nearest(place, is_right, beside);
     }
     number_[role] = static_cast<int>(joints_.size());
     joints_.push_back(std::move(joint));
@@ -199,14 +199,23 @@ double asymmetry(const CurveTree& tree) {
   return sum / (std::max(count, 1) * tree.size);
 }
 
+constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirror image
+
 /// Two pairs of limbs that are where they should be are no accident.
 bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
 
-/// In the usual frame what is seen there; in others what is clear, or as good as symmetric, but no
-/// fish, as any long thing is one from somewhere. Of those that are clear the most symmetric.
+/// In frames that are not the usual one: a tailed biped whose trunk rises by half of its length.
+/// No fish and no bird, as any long thing and any cross is one from somewhere.
+bool is_seen_from_aside(const Outlook& outlook, double off) {
+  constexpr double rises = 60;  // degrees from upright
+  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < rises &&
+         off < symmetric;
+}
+
+/// In the usual frame what is seen there; in others what is clear, of that the most symmetric, or
+/// a tailed biped.
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
-  constexpr double symmetric = 0.02;
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Outlook best = look(surface, skeleton, frames.front(), options.plan);
   double off = asymmetry(best.tree);
@@ -214,12 +223,10 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(surface, skeleton, frames[k], options.plan);
     const double other_off = asymmetry(other.tree);
-    const BodyKind plan = other.found.plan;
-    const bool was_clear = is_clear(best.found.plan);
-    const bool is_better = is_clear(plan)
-                               ? !was_clear || other_off < off
-                               : best.found.plan == BodyKind::other && plan != BodyKind::other &&
-                                     plan != BodyKind::fish && other_off < symmetric;
+    const bool is_better =
+        is_clear(other.found.plan)
+            ? !is_clear(best.found.plan) || other_off < off
+            : best.found.plan == BodyKind::other && is_seen_from_aside(other, other_off);
     if (!is_better) continue;
     best = std::move(other);
     off = other_off;

@@ -1,10 +1,13 @@
 // The places of a fish's joints, and what makes a body a fish.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
 #include "rig/plan/roles.hpp"
 #include "rig/plan/trunk.hpp"
 
@@ -56,14 +59,33 @@ std::string joint_beside(const std::vector<Place>& trunk, const Vector3d& at) {
       ->role;
 }
 
-/// The first sample of the trunk that is no farther ahead, or the last.
-std::size_t first_behind(const Trunk& trunk, double z) {
+/// A place on the trunk and the node next to it.
+struct OnTrunk {
+  Vector3d at;
+  int node;
+};
+
+/// The first that is no farther ahead than z, or the last. In the mirror plane, unless the trunk
+/// bends out of it, as of a fish that swims.
+OnTrunk first_behind(const CurveTree& tree, const Trunk& trunk, double z) {
+  constexpr double bent = 0.01;  // of the size
+  const std::vector<Vector3d>& points = trunk.line.points;
   std::size_t k = 0;
-  while (k + 1 < trunk.line.points.size() && trunk.line.points[k].z() > z) ++k;
-  return k;
+  while (k + 1 < points.size() && points[k].z() > z) ++k;
+  const std::size_t before = k > 0 ? k - 1 : 0;
+  const double step = points[before].z() - points[k].z();
+  const double share = step > 0 ? std::clamp((points[before].z() - z) / step, 0.0, 1.0) : 1;
+  Vector3d at = points[before] + share * (points[k] - points[before]);
+  if (std::any_of(trunk.path.begin(), trunk.path.end(),
+                  [&](int node) { return std::abs(tree.aside(node)) > bent * tree.size; })) {
+    const double from = tree.nodes[idx(trunk.path[before])].x();
+    at.x() = from + share * (tree.nodes[idx(trunk.path[k])].x() - from);
+  }
+  return {at, trunk.path[share < 0.5 ? before : k]};
 }
 
-/// Shares of the surface's length from the nose on: an artist's, of a shark.
+/// Shares of the length that the surface has in the mirror plane, from the nose on: an artist's, of
+/// a shark.
 std::vector<Place> trunk_places(const CurveTree& tree, const Trunk& trunk) {
   constexpr double root = 0.24;
   constexpr double head = 0.19;
@@ -71,20 +93,26 @@ std::vector<Place> trunk_places(const CurveTree& tree, const Trunk& trunk) {
   constexpr double last_bone = 0.92;
   constexpr int bones = 7;
   const std::string reason = "at its share of the length from the nose";
-  const auto [rear, front] =
-      std::minmax_element(tree.vertices.begin(), tree.vertices.end(),
-                          [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
-  const auto at = [&, rear = rear->z(), front = front->z()](double share) {
-    return trunk.line.at(trunk.line.way[first_behind(trunk, front + share * (rear - front))]);
-  };
+  double rear = std::numeric_limits<double>::infinity();
+  double front = -rear;
+  for (const Vector3d& p : tree.vertices) {
+    if (std::abs(p.x() - tree.middle) > near_plane * tree.size) continue;
+    rear = std::min(rear, p.z());
+    front = std::max(front, p.z());
+  }
   std::vector<Place> places;
-  places.push_back({"spine", "", at(root), true, -1, reason});
-  places.push_back({"head", "spine", at(head), true, -1, reason});
+  const auto add = [&](const std::string& role, const std::string& above, double share) {
+    const OnTrunk place = first_behind(tree, trunk, front + share * (rear - front));
+    places.push_back({role, above, place.at, true, -1, reason});
+    places.back().node = place.node;
+  };
+  add("spine", "", root);
+  add("head", "spine", head);
   std::string above = "spine";
   for (int k = 0; k < bones; ++k) {
     const std::string role = k == 0 ? "tail" : "tail.00" + std::to_string(k);
     const double share = first_bone + (last_bone - first_bone) * k / (bones - 1);
-    places.push_back({role, above, at(share), true, -1, reason});
+    add(role, above, share);
     above = role;
   }
   return places;
@@ -177,10 +205,24 @@ void place_unpaired(const CurveTree& tree, const Trunk& trunk, const std::vector
   }
 }
 
+/// Towards one of its ends, as a rod does not.
+bool tapers(const CurveTree& tree, const Trunk& trunk, double thick) {
+  constexpr double end = 0.2;  // of the length
+  std::vector<double> radii[2];
+  for (std::size_t k = 0; k < trunk.path.size(); ++k) {
+    const double share = trunk.line.way[k] / trunk.line.whole();
+    if (share < end) radii[0].push_back(tree.radii[idx(trunk.path[k])]);
+    if (share > 1 - end) radii[1].push_back(tree.radii[idx(trunk.path[k])]);
+  }
+  return std::min(median_of(std::move(radii[0])), median_of(std::move(radii[1]))) < 0.5 * thick;
+}
+
 }  // namespace
 
 bool is_fish(const CurveTree& tree, const Limbs& limbs) {
-  if (limbs.pairs.empty() || limbs.trunk.empty()) return false;
+  constexpr double least_fin = 0.05;  // of the size, as of those that get joints
+  if (tree.has_cycles || limbs.pairs.empty() || limbs.trunk.empty()) return false;
+  if (limbs.pairs.front().length < least_fin * tree.size) return false;
   double width = 0;
   for (const Vector3d& p : tree.vertices)
     width = std::max(width, 2 * std::abs(p.x() - tree.middle));
@@ -189,7 +231,8 @@ bool is_fish(const CurveTree& tree, const Limbs& limbs) {
   const double length = std::abs(along.z());
   const double thick = tree.radii[idx(thickest(tree, limbs))];
   return length > 0.5 * tree.size && std::abs(along.y()) < 0.5 * length &&
-         width < 0.8 * tree.size && thick > 0.04 * length;
+         trunk.line.whole() < 1.2 * length && width < 0.8 * tree.size && thick > 0.04 * length &&
+         tapers(tree, trunk, thick);
 }
 
 bool swims_back(const CurveTree& tree, const Limbs& limbs) {

@@ -71,7 +71,7 @@ void name_limbs(Rig& rig, const BodyPlan& plan, const std::vector<std::string>& 
     if (above < 0) continue;
     LimbName parts = taken_apart(rig.names[joint]);
     const bool is_last = (rig.parents.array() == static_cast<int>(joint)).count() == 0;
-    if (parts.rest.empty() && is_last) parts.rest = "_end";  // of a component with one joint
+    if (parts.rest.empty() && is_last) parts.rest = "_1";  // of a component with one joint
     const std::string word =
         word_for(plan.joints[idx(above)], readable[idx(above)], plan.plan, !parts.side.empty(),
                  above == rig.parents[static_cast<Eigen::Index>(joint)] && is_last);

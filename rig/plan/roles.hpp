@@ -15,6 +15,7 @@ struct PlanFound {
   std::string reason;
   std::vector<int> legs;  ///< pairs; of quadrupeds two
   int arms = -1;          ///< pair; -1 = none
+  double lean = 0;        ///< of a biped's trunk from upright, in degrees
 };
 
 [[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted);
@@ -30,6 +31,7 @@ struct Place {
   std::size_t way = 0;                                   ///< of the pair
   bool is_last = false;                                  ///< the limb beyond is one bone
   std::optional<Eigen::Vector3d> beside = std::nullopt;  ///< where its node is, if not at `at`
+  int node = -1;                                         ///< its node, if it is known
 };
 
 /// Of the left one.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
@@ -78,6 +79,22 @@ class GivenBones {
   std::vector<bool> is_leaf_;
 };
 
+/// A joint without a part is of those of its parent, and where none above has any, as a root beside
+/// the curve, of those of its children.
+void spread(const Eigen::VectorXi& parents, std::vector<std::set<int>>& parts) {
+  for (Eigen::Index joint = 0; joint < parents.size(); ++joint) {
+    const int parent = parents[joint];
+    if (parent >= 0 && parts[idx(joint)].empty()) parts[idx(joint)] = parts[idx(parent)];
+  }
+  std::vector<char> takes(parts.size());
+  for (std::size_t joint = 0; joint < parts.size(); ++joint) takes[joint] = parts[joint].empty();
+  for (Eigen::Index joint = parents.size(); joint-- > 0;) {
+    const int parent = parents[joint];
+    if (parent >= 0 && takes[idx(parent)] != 0)
+      parts[idx(parent)].merge(std::set(parts[idx(joint)]));
+  }
+}
+
 }  // namespace
 
 Eigen::RowVector3d nearest_on(const Bone& bone, const Eigen::RowVector3d& point) {
@@ -86,19 +103,20 @@ Eigen::RowVector3d nearest_on(const Bone& bone, const Eigen::RowVector3d& point)
 }
 
 std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& joints) {
-  std::vector<int> part_of_joint(idx(joints.parents.size()), -1);
+  std::vector<std::set<int>> parts_of_joint(idx(joints.parents.size()));
   const std::vector<int> parts = connected_components(skeleton.nodes.rows(), skeleton.edges);
   for (std::size_t node = 0; node < parts.size(); ++node) {
-    part_of_joint[idx(joints.joint_of_node[static_cast<Eigen::Index>(node)])] = parts[node];
+    parts_of_joint[idx(joints.joint_of_node[static_cast<Eigen::Index>(node)])].insert(parts[node]);
   }
+  spread(joints.parents, parts_of_joint);
   std::vector<Bone> bones;
-  bones.reserve(part_of_joint.size());
+  bones.reserve(parts_of_joint.size());
   for (int joint = 0; joint < joints.parents.size(); ++joint) {
     const int parent = joints.parents[joint];
     if (parent < 0) continue;
-    if (part_of_joint[idx(joint)] < 0) part_of_joint[idx(joint)] = part_of_joint[idx(parent)];
-    bones.push_back({parent, joints.positions.row(parent), joints.positions.row(joint),
-                     part_of_joint[idx(parent)]});
+    for (const int part : parts_of_joint[idx(parent)]) {
+      bones.push_back({parent, joints.positions.row(parent), joints.positions.row(joint), part});
+    }
   }
   return bones;
 }
