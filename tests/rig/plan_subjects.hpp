@@ -151,6 +151,33 @@ inline RigSubject fish(double front) {
   return subject_of("fish", figure, 2);
 }
 
+/// The same with its tail aside, as it swims, and the fins of its sides ahead of its nose.
+inline RigSubject lionfish() {
+  Figure figure;
+  const int thick = figure.add({0, 6, 3}, 2.2);
+  figure.add({0, 6, 5}, 1.8, thick);
+  const int back = figure.add({0, 6, 0.5}, 1.9, thick);
+  const int slim = figure.add({0.25, 6, -5}, 0.9, back);
+  figure.add({0.5, 6, -11}, 0.5, slim);
+  figure.add_pair(thick, {{2.5, 6.5, 5}, {4, 8, 12}}, 0.35);
+  return subject_of("lionfish", figure, 2);
+}
+
+/// A rod with a pair of pegs; or with a ring at its end.
+inline RigSubject rod(bool is_ringed) {
+  Figure figure;
+  const int front = figure.add({0, 6, 9}, is_ringed ? 2.0 : 1.0);
+  const int middle = figure.add({0, 6, 3}, is_ringed ? 1.6 : 1.0, front);
+  const int rear = figure.add({0, 6, -9}, is_ringed ? 0.4 : 1.0, middle);
+  figure.add_pair(middle, {{3, 5, 3}, {5, 5, 2}}, 0.35);
+  if (is_ringed) {
+    const int above = figure.add({0, 9, -9}, 0.4, rear);
+    const int ahead = figure.add({0, 9, -3}, 0.4, above);
+    figure.edges.emplace_back(ahead, middle);
+  }
+  return subject_of("rod", figure, 2);
+}
+
 inline RigSubject snake() {
   Figure figure;
   int before = figure.add({-10, 1, 0}, 0.8);

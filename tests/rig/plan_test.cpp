@@ -301,6 +301,29 @@ TEST(FindPlan, FishHaveASpineAndFins) {
   }
 }
 
+TEST(FindPlan, AFishThatBendsHasEachJointOfItsTailOnTheCurve) {
+  const RigSubject subject = lionfish();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::fish) << plan.reason;
+  std::vector<int> nodes;
+  for (const PlannedJoint& joint : plan.joints) {
+    if (!joint.role.starts_with("tail") && joint.role != "head") continue;
+    nodes.push_back(joint.node);
+    const Eigen::RowVector3d node = subject.skeleton.nodes.row(joint.node);
+    EXPECT_LT((node - joint.position).norm(), 0.5) << joint.role;
+  }
+  EXPECT_EQ(nodes.size(), 8U);
+  std::sort(nodes.begin(), nodes.end());
+  EXPECT_EQ(std::adjacent_find(nodes.begin(), nodes.end()), nodes.end()) << "one node, two joints";
+}
+
+TEST(FindPlan, NamesNoFinOnARod) {
+  for (const RigSubject& subject : {rod(false), rod(true)}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+  }
+}
+
 TEST(FindPlan, NamesNoHumanOnATree) {
   for (const RigSubject& subject : {tree(), snake()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
