@@ -49,6 +49,8 @@ std::size_t rearmost(const Course& course, std::size_t from, std::size_t to, dou
   return best;
 }
 
+constexpr double least_bone = 0.02;  // of the size, as elsewhere in a rig
+
 /// Below the first joint a leg hangs beside the body: the first one lies as far from the mirror
 /// plane as the second.
 void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const LegRule& rule,
@@ -67,7 +69,9 @@ void place_leg(const CurveTree& tree, const LimbPair& pair, int number, const Le
   if (rule.has_hock) {
     samples[2] = rearmost(course, samples[1], samples[3], 0.01 * tree.size, samples[2]);
   }
-  for (std::size_t joint = 0; joint < samples.size(); ++joint) {
+  const Vector3d foot_bone = course.points[samples[3]] - course.points[samples[2]];
+  const bool has_toe = foot_bone.norm() > least_bone * tree.size;  // else the foot is a hoof
+  for (std::size_t joint = 0; joint < samples.size() - (has_toe ? 0 : 1); ++joint) {
     const bool is_hock = rule.has_hock && joint == 2;
     places.push_back({rule.roles[joint], above, course.points[samples[joint]], true, number,
                       is_hock ? "where the leg reaches farthest back"
