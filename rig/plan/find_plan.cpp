@@ -204,11 +204,11 @@ constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirr
 /// Two pairs of limbs that are where they should be are no accident.
 bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
 
-/// In frames that are not the usual one: a tailed biped whose trunk rises by half of its length.
+/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
 /// No fish and no bird, as any long thing and any cross is one from somewhere.
 bool is_seen_from_aside(const Outlook& outlook, double off) {
-  constexpr double rises = 60;  // degrees from upright
-  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < rises &&
+  constexpr double level = 90;  // degrees from upright
+  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level &&
          off < symmetric;
 }
 

@@ -123,6 +123,19 @@ inline RigSubject beast(double front) {
   return subject_of("beast", figure);
 }
 
+/// On two legs, leaning far ahead of a tail, with short arms.
+inline RigSubject t_rex() {
+  Figure figure;
+  const int hips = figure.add({0, 8, 0}, 1.5);
+  const int chest = figure.add({0, 9.6, 5}, 1.2, hips);
+  const int neck = figure.add({0, 11.5, 7.5}, 0.8, chest);
+  figure.add({0, 12, 11}, 1, neck);
+  figure.add({0, 7, -11}, 0.4, figure.add({0, 7.5, -5}, 0.9, hips));
+  figure.add_pair(hips, {{1.7, 6, 0.5}, {1.7, 3, -0.5}, {1.7, 0.6, 0}, {1.7, 0.5, 1.2}}, 0.5);
+  figure.add_pair(chest, {{1.5, 8.4, 5.6}, {1.6, 7, 6.2}}, 0.3);
+  return subject_of("t-rex", figure);
+}
+
 /// Six branches round a trunk, none of them down to the ground.
 inline RigSubject tree() {
   Figure figure;

@@ -237,6 +237,16 @@ TEST(FindPlan, UpAndFrontAreFound) {
   }
 }
 
+TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {
+  const RigSubject subject = t_rex();
+  const RigSubject stands =
+      standing_in(subject, frame(Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY()));
+  for (const RigSubject& one : {subject, stands}) {
+    const BodyPlan plan = find_plan(one.surface, one.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::tailed_biped) << plan.reason;
+  }
+}
+
 /// A front that is said holds, in shoes with the longer end behind, too.
 TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
   const RigSubject back =
