@@ -106,7 +106,8 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
 
 /// By node.
 std::vector<bool> shown_nodes(const GltfDocument& document, const GltfScene& scene) {
-  std::vector<bool> shown(document.json.at("nodes").size(), scene.nodes.empty());
+  const auto nodes = document.json.find("nodes");
+  std::vector<bool> shown(nodes == document.json.end() ? 0 : nodes->size(), scene.nodes.empty());
   for (const int node : scene.nodes) shown[idx(node)] = true;
   return shown;
 }

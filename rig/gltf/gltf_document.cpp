@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -33,7 +34,9 @@ bool holds_nothing(const OrderedJson& buffer) {
 
 /// All buffers one after the other, and the views where their bytes are now.
 void join_buffers(GltfDocument& document, const tinygltf::Model& model) {
-  OrderedJson& buffers = array_in(document.json, "buffers");
+  for (const char* name : {"buffers", "bufferViews"}) (void)array_in(document.json, name);
+  OrderedJson& buffers = document.json["buffers"];  // a new member would move it
+  OrderedJson& views = document.json["bufferViews"];
   std::vector<std::size_t> begins;
   for (std::size_t k = 0; k < buffers.size() && k < model.buffers.size(); ++k) {
     pad(document.numbers, '\0');
@@ -42,7 +45,7 @@ void join_buffers(GltfDocument& document, const tinygltf::Model& model) {
     const auto& bytes = model.buffers[k].data;
     document.numbers.append(bytes.begin(), bytes.end());
   }
-  for (OrderedJson& view : array_in(document.json, "bufferViews")) {
+  for (OrderedJson& view : views) {
     const std::size_t buffer = view.at("buffer").get<std::size_t>();
     if (begins.at(buffer) == 0 && buffer == 0) continue;
     view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begins[buffer];
@@ -94,6 +97,9 @@ GltfDocument read_gltf_document(const FileBytes& file, const tinygltf::Model& mo
     take_in_pictures(document, file, notes, monitor);
   } catch (const nlohmann::json::exception& failure) {
     file.fail(std::string("what the JSON parser refuses: ") + failure.what(), "glTF 2.0",
+              "export the file again");
+  } catch (const std::out_of_range& failure) {
+    file.fail(std::string("a number of what is not there: ") + failure.what(), "glTF 2.0",
               "export the file again");
   }
   return document;
