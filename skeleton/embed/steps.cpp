@@ -265,6 +265,7 @@ constexpr std::array settling{
 constexpr std::array at_last{
     EmbedStep{"mirror", step::mirror, guarded},
     EmbedStep{"thin straight runs", step::thin_straight, guarded},
+    EmbedStep{"tell apart", step::tell_apart},
 };
 constexpr std::array full_phases{
     EmbedPhase{settling, true, 0.9},

@@ -81,8 +81,9 @@ class LifeTree {
       const int node = order_[k];
       const int parent = parent_[idx(node)];
       int lowest = depth_[idx(node)];
-      for (const int other : graph_.neighbours(node)) {
-        if (other == parent) continue;
+      for (int step = graph_.first[idx(node)]; step < graph_.first[idx(node) + 1]; ++step) {
+        if (graph_.edge[idx(step)] == edge_above_[idx(node)]) continue;
+        const int other = graph_.neighbour[idx(step)];
         lowest = std::min(lowest, is_child(other, node) ? lowest_[idx(other)] : depth_[idx(other)]);
       }
       lowest_[idx(node)] = lowest;

@@ -109,11 +109,11 @@ double narrowest_gap(const Surface& triangles) {
 Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& budget,
              const Monitor& monitor) {
   require_room(triangles, options.gap);
-  constexpr double usual = 1.5;  // made for one expected; 1 to 4 where the gap is narrow
   const std::function<void()> when_spent = [&, all = budget.vertices] {
     refuse_more(triangles, options.gap, all);
   };
-  if (usual * expected_vertices(triangles, options.gap) > double(budget.vertices)) {
+  if (options.vertices_for_expected * expected_vertices(triangles, options.gap) >
+      double(budget.vertices)) {
     when_spent();
   }
   monitor.report("wrap", 0);

@@ -72,11 +72,17 @@ std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const W
   const double extent = extent_of_faces(faces);
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
+  WrapOptions options;
   const auto solid_at = [&](double share) {
     WrapBudget left = budget;
-    const double offset = offset_for(share) * extent;
-    return solid_components(wrap(faces, {share * extent, offset}, left, monitor), offset,
-                            given_area);
+    options.gap = share * extent;
+    options.offset = offset_for(share) * extent;
+    const Surface wrapped = wrap(faces, options, left, monitor);
+    // Crossing faces take far more vertices than their area tells; the next wrap will, too.
+    const double expected = given_area / (options.gap * options.gap);
+    options.vertices_for_expected = std::max(
+        options.vertices_for_expected, static_cast<double>(wrapped.positions.rows()) / expected);
+    return solid_components(wrapped, options.offset, given_area);
   };
   // The widest costs least, and no other encloses more.
   const double widest = gap > 0 ? gap : wrap_gaps.back();

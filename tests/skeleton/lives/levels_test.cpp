@@ -179,6 +179,24 @@ TEST(Levels, LimitsLieBetweenLives) {
   }
 }
 
+/// Two edges between the same nodes, alone and with a branch.
+TEST(Levels, TwoEdgesBetweenTwoNodesAreACycle) {
+  for (const bool has_branch : {false, true}) {
+    CurveSkeleton ring;
+    ring.nodes.setRandom(has_branch ? 3 : 2, 3);
+    ring.edges.resize(ring.nodes.rows(), 2);
+    ring.edges.row(0) << 0, 1;
+    ring.edges.row(1) << 0, 1;
+    if (has_branch) ring.edges.row(2) << 1, 2;
+    ring.lives.setConstant(ring.nodes.rows(), 0.5);
+    const Eigen::VectorXd lives = edge_lives(ring);
+    EXPECT_EQ(lives[0], lives_for_ever);
+    EXPECT_EQ(lives[1], lives_for_ever);
+    if (has_branch) EXPECT_EQ(lives[2], 0.5);
+    EXPECT_EQ(level_of(ring, 1).edges.rows(), 2);
+  }
+}
+
 TEST(Levels, WithoutLivesThereIsOne) {
   CurveSkeleton skeleton = graph_by_lot(3);
   skeleton.lives.resize(0);
