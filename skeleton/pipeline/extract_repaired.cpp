@@ -54,11 +54,36 @@ std::string why_wrapped(double gap) {
   return words.str();
 }
 
-Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap, const WrapBudget& budget,
+/// The widest wrap, which costs least, and tells how many vertices narrower ones take.
+class WidestWrap {
+ public:
+  WidestWrap(const FailingComponent& failing, WrapBudget budget, const Monitor& monitor)
+      : budget_(budget) {
+    constexpr double gap = wrap_gaps.back();
+    try {
+      wrap_ = wrap_solid(failing.surface, gap, budget, monitor);
+    } catch (const WrapTooLarge&) {
+      return;
+    }
+    if (!wrap_) return;
+    budget_.for_expected =
+        std::max(budget_.for_expected, vertices_for_expected(wrap_->surface, failing.surface, gap));
+  }
+  [[nodiscard]] const WrapBudget& budget() const { return budget_; }
+  /// Not made again.
+  [[nodiscard]] const std::optional<WrappedSolid>& wrap() const { return wrap_; }
+
+ private:
+  WrapBudget budget_;
+  std::optional<WrappedSolid> wrap_;
+};
+
+Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
+                        const std::optional<WrappedSolid>& made, const WrapBudget& budget,
                         const ExtractOptions& options) {
   return {try_wrapped, [gap](const auto&) { return why_wrapped(gap); },
-          [&failing, gap, budget, &options](const Plan<Attempt>::Room& room) {
-            auto wrapped = wrap_solid(failing.surface, gap, budget, room.monitor);
+          [&failing, gap, &made, budget, &options](const Plan<Attempt>::Room& room) {
+            auto wrapped = made ? made : wrap_solid(failing.surface, gap, budget, room.monitor);
             if (!wrapped) throw GaveUp("the wrap encloses next to nothing");
             const Extraction found = extract_once(wrapped->surface, options, room.monitor, nullptr,
                                                   room.log, room.number);
@@ -77,10 +102,17 @@ Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap, const WrapB
 std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
                                  const WrapBudget& budget, const ExtractOptions& options,
                                  const Plan<Extracted>::Room& room) {
+  const std::optional<WrappedSolid> none;
+  std::optional<WidestWrap> widest;
   std::vector<Plan<Attempt>> plans;
-  for (const double one : wrap_gaps) {
-    plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, budget, options));
-    if (gap > 0) break;
+  if (gap > 0) {
+    plans.push_back(wrap_plan(failing, gap, none, budget, options));
+  } else {
+    widest.emplace(failing, budget, room.monitor);
+    for (const double one : wrap_gaps) {
+      const auto& made = one == wrap_gaps.back() ? widest->wrap() : none;
+      plans.push_back(wrap_plan(failing, one, made, widest->budget(), options));
+    }
   }
   const auto takes = [&](const Attempt& wider, const Attempt* best) {
     return wider.certificate.correct() &&

@@ -112,8 +112,7 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& b
   const std::function<void()> when_spent = [&, all = budget.vertices] {
     refuse_more(triangles, options.gap, all);
   };
-  if (options.vertices_for_expected * expected_vertices(triangles, options.gap) >
-      double(budget.vertices)) {
+  if (budget.for_expected * expected_vertices(triangles, options.gap) > double(budget.vertices)) {
     when_spent();
   }
   monitor.report("wrap", 0);

@@ -67,21 +67,22 @@ WrappedSolid measured(Surface surface, double gap, const Surface& faces, double 
 
 }  // namespace
 
+double vertices_for_expected(const Surface& wrapped, const Surface& faces, double gap) {
+  const double alpha = gap * extent_of_faces(faces);
+  return static_cast<double>(wrapped.positions.rows()) * alpha * alpha / area(faces);
+}
+
 std::optional<WrappedSolid> wrap_solid(const Surface& faces, double gap, const WrapBudget& budget,
                                        const Monitor& monitor) {
   const double extent = extent_of_faces(faces);
   const double given_area = area(faces);
   if (!(given_area > 1e-12 * extent * extent)) return std::nullopt;
-  WrapOptions options;
+  WrapBudget each = budget;
   const auto solid_at = [&](double share) {
-    WrapBudget left = budget;
-    options.gap = share * extent;
-    options.offset = offset_for(share) * extent;
+    WrapBudget left = each;
+    const WrapOptions options{share * extent, offset_for(share) * extent};
     const Surface wrapped = wrap(faces, options, left, monitor);
-    // Crossing faces take far more vertices than their area tells; the next wrap will, too.
-    const double expected = given_area / (options.gap * options.gap);
-    options.vertices_for_expected = std::max(
-        options.vertices_for_expected, static_cast<double>(wrapped.positions.rows()) / expected);
+    each.for_expected = std::max(each.for_expected, vertices_for_expected(wrapped, faces, share));
     return solid_components(wrapped, options.offset, given_area);
   };
   // The widest costs least, and no other encloses more.

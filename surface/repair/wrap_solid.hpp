@@ -35,6 +35,10 @@ inline constexpr WrapBudget budget_of_wanted_wraps{100000};  ///< that are asked
   return {budget_of_needed_wraps.vertices / static_cast<std::int64_t>(components)};
 }
 
+/// Of a wrap with this gap, of the extent: see WrapBudget.
+[[nodiscard]] double vertices_for_expected(const Surface& wrapped, const Surface& faces,
+                                           double gap);
+
 /// Wraps (see `wrap`) with this gap, of the extent, or, for 0, with the narrowest of `wrap_gaps`
 /// that encloses something and whose vertices the budget allows: the volume is more than twice the
 /// offset times the area, and the wrap has not two sides for most of what it wraps. Nothing if none
