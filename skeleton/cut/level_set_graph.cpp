@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +19,19 @@ namespace {
 constexpr int most_halvings = 20;
 constexpr Eigen::Index most_sliced_vertices = 4000000;  // after subdivision
 
-/// Shortest distances along edges.
-std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
+/// What a way along edges is measured in.
+enum class EdgeMeasure { length, count };
+
+/// Of the shortest ways along edges.
+std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source,
+                                   EdgeMeasure measure) {
   ShortestPaths paths(surface.positions.rows());
+  const auto length = [&](int from, int to, int /*edge*/) {
+    if (measure == EdgeMeasure::count) return 1.0;
+    return (surface.positions.row(from) - surface.positions.row(to)).norm();
+  };
   paths.search(graph_of(surface.positions.rows(), index.edges), source, ShortestPaths::no_target,
-               [&](int from, int to, int /*edge*/) {
-                 return (surface.positions.row(from) - surface.positions.row(to)).norm();
-               });
+               length);
   return paths.distances();
 }
 
@@ -165,11 +172,14 @@ PartitionGraph cut(const Sliced& sliced, const std::vector<bool>& wanted) {
 }
 
 /// One group, at values that grow from 0 at one end to the other.
-Sliced uncut(const Surface& surface) {
+Sliced uncut(const Surface& surface, EdgeMeasure measure) {
   Sliced result{surface, index_edges(surface.triangles), {}, {}, 0, 0};
-  const auto from_any = edge_distances(surface, result.index, 0);
+  const auto from_any = edge_distances(surface, result.index, 0, measure);
   const auto end = std::max_element(from_any.begin(), from_any.end()) - from_any.begin();
-  result.value = edge_distances(surface, result.index, static_cast<int>(end));
+  result.value = edge_distances(surface, result.index, static_cast<int>(end), measure);
+  if (measure == EdgeMeasure::count) {  // else no level parts vertices that are as far away
+    for (std::size_t v = 0; v < result.value.size(); ++v) result.value[v] += 0.4 * scattered(v);
+  }
   result.group.assign(result.value.size(), 0);
   for (std::size_t e = 0; e < result.index.edges.size(); ++e) {
     result.first_width = std::max(result.first_width, result.step(e) * 1.0001);
@@ -201,8 +211,12 @@ std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& g
   return genus;
 }
 
-LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
-  Sliced sliced = uncut(surface);
+namespace {
+
+/// Nothing if a piece keeps a handle.
+std::optional<LevelSetGraph> graph_by(EdgeMeasure measure, const Surface& surface,
+                                      const Monitor& monitor) {
+  Sliced sliced = uncut(surface, measure);
   std::vector<bool> wanted{true};
   for (int halvings = 0; halvings <= most_halvings; ++halvings) {
     monitor.report("surgery", halvings / (most_halvings + 1.0));
@@ -216,21 +230,31 @@ LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
     PartitionGraph graph = cut(sliced, wanted);
     const auto genus = genus_of_groups(sliced.surface, graph);
     if (std::all_of(genus.begin(), genus.end(), [](int g) { return g == 0; })) {
-      return {std::move(sliced.surface),
-              Eigen::VectorXi::LinSpaced(surface.positions.rows(), 0,
-                                         static_cast<int>(surface.positions.rows()) - 1),
-              std::move(graph)};
+      return LevelSetGraph{
+          std::move(sliced.surface),
+          Eigen::VectorXi::LinSpaced(surface.positions.rows(), 0,
+                                     static_cast<int>(surface.positions.rows()) - 1),
+          std::move(graph)};
     }
     sliced.group.assign(graph.group_of_vertex.begin(), graph.group_of_vertex.end());
     wanted.assign(idx(graph.groups), false);
     for (std::size_t g = 0; g < genus.size(); ++g) wanted[g] = genus[g] > 0;
   }
-  throw Error(Fault::solver,
-              "no partition without handles was found with " +
-                  std::to_string(sliced.surface.positions.rows()) +
-                  " vertices; the surface has handles far smaller than its edges: raise "
-                  "--resolution, repair the surface or, if it was wrapped, choose a wider "
-                  "--wrap-gap");
+  return std::nullopt;
+}
+
+}  // namespace
+
+LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
+  // A handle whose vertices coincide has no length, but edges.
+  for (const EdgeMeasure measure : {EdgeMeasure::length, EdgeMeasure::count}) {
+    if (auto found = graph_by(measure, surface, monitor)) return std::move(*found);
+  }
+  throw Error(
+      Fault::solver,
+      "no partition without handles was found; the surface has handles far smaller than its "
+      "edges: raise --resolution, repair the surface or, if it was wrapped, choose a wider "
+      "--wrap-gap");
 }
 
 }  // namespace curveskel

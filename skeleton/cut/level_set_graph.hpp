@@ -19,8 +19,9 @@ struct LevelSetGraph {
 /// components of the slices are pieces that meet along cut curves: a discrete Reeb graph (Reeb
 /// 1946). Where a piece has a handle of its own, w is too wide: the piece's edges are split until d
 /// changes by less than w/2 along each, and that piece alone is cut again, and so on. Precondition:
-/// one closed oriented component. Throws Error(Fault::solver) if a piece keeps a handle after
-/// twenty halvings or when there are four million vertices.
+/// one closed oriented component. If a piece keeps a handle after twenty halvings, or when there
+/// are four million vertices, as of a handle whose vertices coincide, d counts edges instead.
+/// Throws Error(Fault::solver) if that does not help.
 [[nodiscard]] LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor);
 
 /// Genus of each group's piece of surface, (2 - chi - cut curves) / 2.

@@ -105,6 +105,15 @@ TEST(LevelSets, HandlesFinerThanASliceAreFoundBySubdividing) {
   EXPECT_EQ(cycle_rank(level_set_graph(torus.surface, {}).graph), 1);
 }
 
+TEST(LevelSets, HandlesWithoutSizeAreFoundByTheirEdges) {
+  for (const auto& shape : connected_shapes()) {
+    Surface point = shape.surface;
+    point.positions.setZero();
+    const LevelSetGraph level_sets = level_set_graph(point, {});
+    EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus) << shape.name;
+  }
+}
+
 TEST(LevelSets, SlicesAreAsNarrowAsNeededWhereTheyAreNeededOnly) {
   for (const double ratio : {10.0, 1e3, 1e5}) {
     SCOPED_TRACE(ratio);
