@@ -56,6 +56,8 @@ struct PlanOptions {
                                ///< up -y), or the opposite if `faces_minus_z`
   bool faces_minus_z = false;  ///< what the file says, as VRM 0.x does
   bool z_is_up = false;        ///< what the file says: with `up` automatic z is tried first
+  bool made_of_tubes = true;   ///< what the certificate says: of others no plan is found unless one
+                               ///< is asked for, as any room has corners like legs
 };
 
 /// A joint that a plan asks for.

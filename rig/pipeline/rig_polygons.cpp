@@ -56,6 +56,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
     result.character.follows = followers_of(body.vertex_of_input);
   } else {
+    wanted.plan.made_of_tubes = !result.certificate || result.certificate->curve_like;
     CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                             skeleton, least_life(options.extract.embed.detail));
     result.character = within_budget(std::move(level), given, wanted.joint_budget);

@@ -249,6 +249,12 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
+  if (options.plan == BodyKind::automatic && !options.made_of_tubes) {
+    result.plan = BodyKind::other;
+    result.axes = frames_of(options).front().array() + 0.0;  // no -0
+    result.reason = "the surface is not made of tubes, as bodies are; --plan asks for one";
+    return result;
+  }
   Outlook outlook = best_outlook(surface, skeleton, options);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;

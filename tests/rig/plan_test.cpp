@@ -327,6 +327,18 @@ TEST(FindPlan, AFishThatBendsHasEachJointOfItsTailOnTheCurve) {
   EXPECT_EQ(std::adjacent_find(nodes.begin(), nodes.end()), nodes.end()) << "one node, two joints";
 }
 
+/// A room's corners, say.
+TEST(FindPlan, SeesNoBodyWhereTheSurfaceIsNotMadeOfTubes) {
+  const RigSubject subject = human();
+  PlanOptions options;
+  options.made_of_tubes = false;
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton, options);
+  EXPECT_EQ(plan.plan, BodyKind::other);
+  EXPECT_NE(plan.reason.find("tubes"), std::string::npos);
+  options.plan = BodyKind::humanoid;  // all the same
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::humanoid);
+}
+
 TEST(FindPlan, NamesNoFinOnARod) {
   for (const RigSubject& subject : {rod(false), rod(true)}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);

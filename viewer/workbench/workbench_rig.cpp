@@ -32,6 +32,11 @@ void Workbench::rig() {
   rigging_stop_ = {};
   CharacterOptions options = pipeline.character;
   options.rig.joints.root = history_.now().root;
+  if (judgement_ && judgement_->error.empty() && judgement_->skeleton == history_.now().skeleton) {
+    options.plan.made_of_tubes = judgement_->certificate.curve_like;
+  } else if (result_) {
+    options.plan.made_of_tubes = result_->extraction->certificate.curve_like;
+  }
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
   rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
