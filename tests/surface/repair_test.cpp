@@ -20,6 +20,7 @@
 #include "meshes/shapes.hpp"
 #include "surface/read/placed_vertices.hpp"
 #include "surface/repair/close_surface.hpp"
+#include "surface/repair/join_soup.hpp"
 #include "surface/repair/wrap.hpp"
 #include "surface/repair/wrap_solid.hpp"
 #include "tests/soups.hpp"
@@ -478,6 +479,20 @@ TEST(Repairing, WhatNoWrapEnclosesButHasAnInsideIsToBeRepairedWithout) {
   }
 }
 
+/// A canopy of two sides in one place; single precision could not tell them apart.
+TEST(Repairing, LeavesOutWhatIsThinnerThanSinglePrecision) {
+  const shapes::Shape ball = shapes::ellipsoid({1, 1, 1}, 3);
+  for (const double thickness : {1e-3, 1e-9}) {
+    shapes::Shape canopy = shapes::torus(2, 0.6, 12);
+    canopy.surface.positions.col(2) *= thickness;
+    const PolygonSoup soup =
+        soup_of(shapes::together("", {ball, shapes::translated(canopy, {0, 0, 3})}).surface);
+    const RepairedSurface result = repair(soup, {}, {});
+    EXPECT_EQ(result.repairs.sheets_dropped, thickness < 1e-8 ? 1 : 0) << thickness;
+    EXPECT_EQ(topology(result.surface).components(), thickness < 1e-8 ? 1 : 2) << thickness;
+  }
+}
+
 TEST(Repairing, RefusesAWrapThatIsTooLargeAndNamesTheNarrowestWrapGap) {
   const Surface torus = shapes::torus(3, 1, 24).surface;
   const double diagonal = bounding_box_diagonal(torus.positions);
@@ -526,6 +541,24 @@ PolygonSoup loose_triangles(int count) {
 }
 
 // The narrowest gap would take 136,000 vertices, and minutes.
+/// What a wider wrap told about this one.
+TEST(Repairing, AWrapThatWouldNotEndWithItsBudgetIsNotBegun) {
+  const Surface ball = shapes::ellipsoid({1, 1, 1}, 3).surface;
+  const WrapOptions options{0.2, 0.01};
+  int reports = 0;
+  Monitor monitor;
+  monitor.progress = [&](std::string_view, double) { ++reports; };
+  WrapBudget budget{10000};
+  const Surface wrapped = wrap(ball, options, budget, monitor);
+  EXPECT_GT(reports, 0);
+  const double told = vertices_for_expected(wrapped, ball, 0.2 / extent_of_faces(ball));
+  EXPECT_NEAR(told * area(ball) / (0.2 * 0.2), double(wrapped.positions.rows()), 1e-6);
+  reports = 0;
+  budget = {wrapped.positions.rows() - 1, told};
+  EXPECT_THROW((void)wrap(ball, options, budget, monitor), WrapTooLarge);
+  EXPECT_EQ(reports, 0);
+}
+
 TEST(Repairing, ASoupIsWrappedWithinTheBudgetAndSaysWhatTheWrapFollows) {
   for (const int count : {50, 100}) {
     const RepairedSurface result = repair(loose_triangles(count), {}, {});
