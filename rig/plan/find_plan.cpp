@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/topology.hpp>
 #include "rig/plan/roles.hpp"
 
 namespace curveskel {
@@ -243,6 +245,28 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
          toes_point_back(tree, limbs, found);
 }
 
+/// Of the area.
+double share_of_largest_component(const Surface& surface) {
+  const Topology counted = topology(surface);
+  std::vector<double> areas(idx(counted.components()), 0);
+  for (const auto& t : surface.triangles.rowwise()) {
+    const Vector3d a = surface.positions.row(t(0));
+    const Vector3d b = surface.positions.row(t(1));
+    const Vector3d c = surface.positions.row(t(2));
+    areas[idx(counted.component_of_vertex[t(0)])] += (b - a).cross(c - a).norm();
+  }
+  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
+  return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;
+}
+
+/// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
+/// nothing about humans.
+bool is_put_together(const Surface& surface, BodyKind plan) {
+  constexpr double most_of_it = 0.5;
+  const bool is_animal = plan != BodyKind::humanoid && plan != BodyKind::other;
+  return is_animal && share_of_largest_component(surface) < most_of_it;
+}
+
 }  // namespace
 
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
@@ -261,6 +285,11 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     axes.row(0) *= -1;
     axes.row(2) *= -1;
     outlook = look(surface, skeleton, axes, options.plan);
+  }
+  if (options.plan == BodyKind::automatic && is_put_together(surface, outlook.found.plan)) {
+    outlook.found.plan = BodyKind::other;
+    outlook.found.reason =
+        "most of an animal is one component, which here is less than half; " + outlook.found.reason;
   }
   const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
   result.axes = outlook.axes.array() + 0.0;  // no -0

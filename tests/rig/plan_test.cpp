@@ -339,6 +339,28 @@ TEST(FindPlan, SeesNoBodyWhereTheSurfaceIsNotMadeOfTubes) {
   EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::humanoid);
 }
 
+/// The same surface three times over, as of something that is put together.
+RigSubject in_three(const RigSubject& subject) {
+  shapes::Shape one;
+  one.surface = subject.surface;
+  RigSubject three = subject;
+  three.surface = shapes::together("", {one, one, one}).surface;
+  three.skeleton.node_of_vertex = subject.skeleton.node_of_vertex.replicate(3, 1);
+  return three;
+}
+
+TEST(FindPlan, SeesNoAnimalInWhatIsPutTogether) {
+  for (const RigSubject& subject : {beast(1), t_rex(), fish(1)}) {
+    const RigSubject parts = in_three(subject);
+    EXPECT_NE(find_plan(subject.surface, subject.skeleton).plan, BodyKind::other) << subject.name;
+    const BodyPlan plan = find_plan(parts.surface, parts.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << subject.name;
+    EXPECT_TRUE(plan.joints.empty());
+  }
+  const RigSubject doll = in_three(human());
+  EXPECT_EQ(find_plan(doll.surface, doll.skeleton).plan, BodyKind::humanoid);
+}
+
 TEST(FindPlan, NamesNoFinOnARod) {
   for (const RigSubject& subject : {rod(false), rod(true)}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
