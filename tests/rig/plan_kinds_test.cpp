@@ -1,0 +1,182 @@
+// Laws of which body is seen in a curve, and from which side.
+#include <curveskel/body_plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "tests/rig/plan_subjects.hpp"
+
+namespace curveskel::plan_kind_laws {
+namespace {
+
+using Eigen::RowVector3d;
+
+TEST(FindPlan, FollowsUpAndFront) {
+  const RigSubject subject = human();
+  const BodyPlan upright = find_plan(subject.surface, subject.skeleton);
+  // Lying: up is z, and the front is -y, as in Blender.
+  RigSubject turned = subject;
+  const auto turn = [](Positions& points) {
+    const Positions given = points;
+    points.col(1) = -given.col(2);
+    points.col(2) = given.col(1);
+  };
+  turn(turned.surface.positions);
+  turn(turned.skeleton.nodes);
+  PlanOptions options;
+  options.up = Direction::z;
+  const BodyPlan found = find_plan(turned.surface, turned.skeleton, options);
+  ASSERT_EQ(found.plan, BodyKind::humanoid);
+  ASSERT_EQ(found.joints.size(), upright.joints.size());
+  for (std::size_t k = 0; k < found.joints.size(); ++k) {
+    const RowVector3d& place = upright.joints[k].position;
+    EXPECT_EQ(found.joints[k].role, upright.joints[k].role);
+    EXPECT_LT((found.joints[k].position - RowVector3d(place.x(), -place.z(), place.y())).norm(),
+              0.4);
+  }
+  options.front = Direction::minus_z;
+  EXPECT_THROW((void)find_plan(turned.surface, turned.skeleton, options), Error);
+}
+
+/// `axes`: rows to the left, up and ahead, in which the subject stands as it is made.
+RigSubject standing_in(RigSubject subject, const Eigen::Matrix3d& axes) {
+  subject.surface.positions *= axes;
+  subject.skeleton.nodes *= axes;
+  return subject;
+}
+
+Eigen::Matrix3d frame(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
+  Eigen::Matrix3d axes;
+  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
+  return axes;
+}
+
+/// With y or z up, looking along any other axis. A tail's biped stands with its toes to no side.
+TEST(FindPlan, UpAndFrontAreFound) {
+  using Eigen::Vector3d;
+  std::vector<Eigen::Matrix3d> frames;
+  for (const double side : {1.0, -1.0}) {
+    frames.push_back(frame(Vector3d::UnitY(), side * Vector3d::UnitZ()));
+    frames.push_back(frame(Vector3d::UnitY(), side * Vector3d::UnitX()));
+    frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitY()));
+    frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitX()));
+  }
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    const BodyPlan usual = find_plan(subject.surface, subject.skeleton);
+    ASSERT_NE(usual.plan, BodyKind::other);
+    bool z_is_up = false;  // right or wrong
+    for (const Eigen::Matrix3d& axes : frames) {
+      SCOPED_TRACE(testing::Message() << subject.name << "\n" << axes);
+      const RigSubject stands = standing_in(subject, axes);
+      PlanOptions options;
+      options.z_is_up = z_is_up;
+      z_is_up = !z_is_up;
+      const BodyPlan found = find_plan(stands.surface, stands.skeleton, options);
+      EXPECT_EQ(found.plan, usual.plan) << found.reason;
+      EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
+      ASSERT_EQ(found.joints.size(), usual.joints.size());
+      for (std::size_t k = 0; k < found.joints.size(); ++k) {
+        EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
+        EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
+      }
+    }
+  }
+}
+
+TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {
+  const RigSubject subject = t_rex();
+  const RigSubject stands =
+      standing_in(subject, frame(Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY()));
+  for (const RigSubject& one : {subject, stands}) {
+    const BodyPlan plan = find_plan(one.surface, one.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::tailed_biped) << plan.reason;
+  }
+}
+
+/// A front that is said holds, in shoes with the longer end behind, too.
+TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
+  const RigSubject back =
+      standing_in(human(), frame(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ()));
+  PlanOptions options;
+  options.front = Direction::z;
+  EXPECT_EQ(find_plan(back.surface, back.skeleton, options).axes(2, 2), 1);
+  const RigSubject subject = human();
+  options.front = Direction::automatic;
+  options.faces_minus_z = true;
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).axes(2, 2), -1);
+}
+
+/// A vessel that forks stands on two legs.
+TEST(FindPlan, AForkIsNoAnimal) {
+  Figure figure;
+  const int fork = figure.add({0, 10, 0}, 1);
+  figure.add({0, 20, 0}, 1, fork);
+  figure.add_pair(fork, {{2, 5, 0}, {2, 0.5, 0}}, 0.8);
+  const RigSubject subject = subject_of("fork", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+  EXPECT_TRUE(plan.joints.empty());
+}
+
+/// A room's corners, say.
+TEST(FindPlan, SeesNoBodyWhereTheSurfaceIsNotMadeOfTubes) {
+  const RigSubject subject = human();
+  PlanOptions options;
+  options.made_of_tubes = false;
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton, options);
+  EXPECT_EQ(plan.plan, BodyKind::other);
+  EXPECT_NE(plan.reason.find("tubes"), std::string::npos);
+  options.plan = BodyKind::humanoid;  // all the same
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::humanoid);
+}
+
+/// The same surface three times over, as of something that is put together.
+RigSubject in_three(const RigSubject& subject) {
+  shapes::Shape one;
+  one.surface = subject.surface;
+  RigSubject three = subject;
+  three.surface = shapes::together("", {one, one, one}).surface;
+  three.skeleton.node_of_vertex = subject.skeleton.node_of_vertex.replicate(3, 1);
+  return three;
+}
+
+TEST(FindPlan, SeesNoAnimalInWhatIsPutTogether) {
+  for (const RigSubject& subject : {beast(1), t_rex(), fish(1)}) {
+    const RigSubject parts = in_three(subject);
+    EXPECT_NE(find_plan(subject.surface, subject.skeleton).plan, BodyKind::other) << subject.name;
+    const BodyPlan plan = find_plan(parts.surface, parts.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << subject.name;
+    EXPECT_TRUE(plan.joints.empty());
+  }
+  const RigSubject doll = in_three(human());
+  EXPECT_EQ(find_plan(doll.surface, doll.skeleton).plan, BodyKind::humanoid);
+}
+
+TEST(FindPlan, NamesNoFinOnARod) {
+  for (const RigSubject& subject : {rod(false), rod(true)}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+  }
+}
+
+TEST(FindPlan, NamesNoHumanOnATree) {
+  for (const RigSubject& subject : {tree(), snake()}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << subject.name;
+    EXPECT_TRUE(plan.joints.empty());
+    EXPECT_FALSE(plan.reason.empty());
+    PlanOptions options;
+    options.plan = BodyKind::humanoid;
+    EXPECT_TRUE(find_plan(subject.surface, subject.skeleton, options).joints.empty());
+    options.plan = BodyKind::none;
+    EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::none);
+  }
+}
+
+}  // namespace
+}  // namespace curveskel::plan_kind_laws
