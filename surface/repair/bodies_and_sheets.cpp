@@ -84,9 +84,6 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
       part.faces_as_given += runs_as_given(closed, joined, f) ? 1 : 0;
     }
   }
-  // Sides no farther apart than two neighbouring numbers of single precision, in which most files
-  // are, enclose nothing.
-  constexpr double least_volume = 0x1p-24;
   constexpr double more_if_roomy = 4.0 / 3;
   const auto sums = component_sums(closed.surface, judged.orientation, threads);
   const bool one_sided = is_one_sided(joined, closed.vertices_copied);
@@ -95,7 +92,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;
     part.is_body =
-        !one_sided && std::abs(sums[c].volume) > least_volume * sums[c].area &&
+        !one_sided && std::abs(sums[c].volume) > least_volume_of_area * sums[c].area &&
         (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&
                                      !crosses_itself(component(closed, judged.orientation, c))));
   }

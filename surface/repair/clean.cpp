@@ -119,11 +119,9 @@ void orient_consistently(Draft& draft, const Orientation& orientation) {
 }
 
 void turn_outward(Draft& draft, const Orientation& orientation, int threads) {
-  // A sheet in rounded double coordinates has some 1e-17 of its area times its extent.
-  constexpr double least_volume = 1e-10;
   const auto sums = component_sums(draft.surface, orientation, threads);
   for (const ComponentSums& sum : sums) {
-    if (std::abs(sum.volume) > least_volume * sum.area) {
+    if (std::abs(sum.volume) > least_volume_of_area * sum.area) {
       draft.changes.components_turned += sum.volume < 0 ? 1 : 0;
       continue;
     }

@@ -32,6 +32,10 @@ struct ComponentSums {
   double volume = 0;  ///< signed, positive when outward
 };
 
+/// A component with less volume than this share of its area encloses nothing: its sides are no
+/// farther apart than two neighbouring numbers of single precision, in which most files are.
+inline constexpr double least_volume_of_area = 0x1p-24;
+
 /// The same for any number of threads. O(#V + #F).
 [[nodiscard]] std::vector<ComponentSums> component_sums(const Surface& surface,
                                                         const Orientation& orientation,

@@ -246,10 +246,12 @@ TEST(Refusing, SurfacesWithoutVolume) {
   expect_said(refusal(soup_of(line.surface)), {"without volume"});
 }
 
-TEST(Refusing, ThinSurfacesIsNotDone) {
+TEST(Refusing, ThinSurfacesIsNotDoneUnlessSinglePrecisionTellsNoSides) {
   shapes::Shape thin = shapes::ellipsoid({1, 2, 3}, 2);
-  thin.surface.positions.col(2) *= 1e-7;
+  thin.surface.positions.col(2) *= 2e-7;
   EXPECT_EQ(clean(soup_of(thin.surface), {}).surface.triangles, thin.surface.triangles);
+  thin.surface.positions.col(2) *= 0.25;
+  expect_said(refusal(soup_of(thin.surface)), {"without volume"});
 }
 
 TEST(Refusing, ATorusGluedToItsMirrorImage) {

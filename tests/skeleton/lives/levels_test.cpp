@@ -192,7 +192,9 @@ TEST(Levels, TwoEdgesBetweenTwoNodesAreACycle) {
     const Eigen::VectorXd lives = edge_lives(ring);
     EXPECT_EQ(lives[0], lives_for_ever);
     EXPECT_EQ(lives[1], lives_for_ever);
-    if (has_branch) EXPECT_EQ(lives[2], 0.5);
+    if (has_branch) {
+      EXPECT_EQ(lives[2], 0.5);
+    }
     EXPECT_EQ(level_of(ring, 1).edges.rows(), 2);
   }
 }
