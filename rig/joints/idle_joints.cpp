@@ -46,7 +46,10 @@ void count_anew(std::vector<std::string>& names) {
     }
     const std::string side = name.substr(end);
     name.resize(at + 1);
-    name += std::to_string(++counts[name + side]) + side;
+    std::string unnumbered = name;
+    unnumbered += side;
+    name += std::to_string(++counts[unnumbered]);
+    name += side;
   }
 }
 

@@ -92,7 +92,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;
     part.is_body =
-        !one_sided && std::abs(sums[c].volume) > least_volume_of_area * sums[c].area &&
+        !one_sided && sums[c].encloses_something() &&
         (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&
                                      !crosses_itself(component(closed, judged.orientation, c))));
   }

@@ -121,7 +121,7 @@ void orient_consistently(Draft& draft, const Orientation& orientation) {
 void turn_outward(Draft& draft, const Orientation& orientation, int threads) {
   const auto sums = component_sums(draft.surface, orientation, threads);
   for (const ComponentSums& sum : sums) {
-    if (std::abs(sum.volume) > least_volume_of_area * sum.area) {
+    if (sum.encloses_something()) {
       draft.changes.components_turned += sum.volume < 0 ? 1 : 0;
       continue;
     }

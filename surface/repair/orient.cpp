@@ -127,6 +127,11 @@ std::vector<Part> for_components(std::size_t faces, const Orientation& orientati
 
 }  // namespace
 
+bool ComponentSums::encloses_something() const {
+  constexpr double least = 0x1p-24;
+  return std::abs(volume) > least * area * std::sqrt(area);
+}
+
 std::vector<ComponentSums> component_sums(const Surface& surface, const Orientation& orientation,
                                           int threads) {
   const std::size_t faces = idx(surface.triangles.rows());

@@ -30,11 +30,11 @@ struct ComponentSums {
   std::int32_t first_face = -1;
   double area = 0;
   double volume = 0;  ///< signed, positive when outward
-};
 
-/// A component with less volume than this share of its area encloses nothing: its sides are no
-/// farther apart than two neighbouring numbers of single precision, in which most files are.
-inline constexpr double least_volume_of_area = 0x1p-24;
+  /// False where the sides are no farther apart, for the area's side, than two neighbouring numbers
+  /// of single precision, in which most files are. A vertex far away makes no sheet of a body.
+  [[nodiscard]] bool encloses_something() const;
+};
 
 /// The same for any number of threads. O(#V + #F).
 [[nodiscard]] std::vector<ComponentSums> component_sums(const Surface& surface,
