@@ -163,6 +163,11 @@ bool tell_apart(SkeletonGraph& graph, const Setting& /*in*/) {
   return true;
 }
 
+bool tell_twins(SkeletonGraph& graph, const Setting& /*in*/) {
+  tell_twins_apart(graph);
+  return true;
+}
+
 bool thin(SkeletonGraph& graph, const Setting& in) {
   thin_out(graph, in.tree, in.spacing);
   return true;
@@ -265,7 +270,7 @@ constexpr std::array settling{
 constexpr std::array at_last{
     EmbedStep{"mirror", step::mirror, guarded},
     EmbedStep{"thin straight runs", step::thin_straight, guarded},
-    EmbedStep{"tell apart", step::tell_apart},
+    EmbedStep{"tell apart", step::tell_twins},
 };
 constexpr std::array full_phases{
     EmbedPhase{settling, true, 0.9},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -204,19 +205,37 @@ void cut_detours(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxTunin
   }
 }
 
+namespace {
+
+/// By midpoints, until there are so many.
+void add_inner_points(const SkeletonGraph& graph, Arc& arc, std::size_t least) {
+  while (arc.points.size() < least) {
+    const auto line = graph.polyline(arc);
+    std::vector<CurvePoint> points;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      if (i > 0) points.push_back(arc.points[i - 1]);
+      points.emplace_back(0.5 * (line[i] + line[i + 1]));
+    }
+    arc.points = std::move(points);
+  }
+}
+
+}  // namespace
+
 void keep_simple(SkeletonGraph& graph) {
   for (Arc& arc : graph.arcs) {
+    if (arc.alive) add_inner_points(graph, arc, arc.from == arc.to ? 2 : 1);
+  }
+}
+
+void tell_twins_apart(SkeletonGraph& graph) {
+  std::set<std::pair<int, int>> bare;  // between these nodes there is an arc without points
+  for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
-    const std::size_t least = arc.from == arc.to ? 2 : 1;
-    while (arc.points.size() < least) {
-      const auto line = graph.polyline(arc);
-      std::vector<CurvePoint> points;
-      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        if (i > 0) points.push_back(arc.points[i - 1]);
-        points.emplace_back(0.5 * (line[i] + line[i + 1]));
-      }
-      arc.points = std::move(points);
-    }
+    if (arc.from == arc.to) add_inner_points(graph, arc, 2);
+    if (!arc.points.empty()) continue;
+    const bool is_first = bare.insert(std::minmax(arc.from, arc.to)).second;
+    if (!is_first) add_inner_points(graph, arc, 1);
   }
 }
 

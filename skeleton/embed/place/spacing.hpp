@@ -45,7 +45,12 @@ void thin_straight_runs(SkeletonGraph& graph, const SurfaceTree& tree, const Spa
 /// inside.
 void cut_detours(SkeletonGraph& graph, const SurfaceTree& tree, const RelaxTuning& tuning = {});
 
-/// Two arcs between the same nodes, or a closed one, get the inner points that tell them apart.
+/// Each arc gets an inner point, a closed one two, where it has none: whatever comes then, two arcs
+/// between the same nodes are told apart.
 void keep_simple(SkeletonGraph& graph);
+
+/// The same only for closed arcs, and for all but one of the arcs without points between the same
+/// nodes. O(arcs log arcs).
+void tell_twins_apart(SkeletonGraph& graph);
 
 }  // namespace curveskel

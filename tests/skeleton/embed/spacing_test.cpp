@@ -99,5 +99,29 @@ TEST(StraightRuns, StayInsideThinSheets) {
   }
 }
 
+/// Of three arcs without points between two nodes two get one, a closed arc two; a fourth arc,
+/// which has points, and one between other nodes stay.
+TEST(Spacing, TellsArcsBetweenTheSameNodesApart) {
+  SkeletonGraph graph;
+  const auto add = [&](int from, int to, const std::vector<Point>& points) {
+    const int arc = static_cast<int>(graph.arcs.size());
+    graph.arcs.push_back({from, to, {points.begin(), points.end()}, {0}});
+    graph.nodes[static_cast<std::size_t>(from)].arcs.push_back(arc);
+    graph.nodes[static_cast<std::size_t>(to)].arcs.push_back(arc);
+  };
+  graph.nodes = {{Point(0, 0, 0), {}}, {Point(1, 0, 0), {}}, {Point(2, 0, 0), {}}};
+  add(0, 1, {});
+  add(1, 0, {});
+  add(0, 1, {});
+  add(0, 1, {Point(0.5, 1, 0)});
+  add(1, 2, {});
+  add(2, 2, {});
+  tell_twins_apart(graph);
+  const std::vector<std::size_t> points{0, 1, 1, 1, 0, 3};
+  for (std::size_t s = 0; s < points.size(); ++s) {
+    EXPECT_EQ(graph.arcs[s].points.size(), points[s]) << s;
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::spacing_laws
