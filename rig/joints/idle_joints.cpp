@@ -1,14 +1,14 @@
 #include "rig/joints/idle_joints.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/joints/keep_joints.hpp"
+#include "rig/joints/limb_name.hpp"
 #include "rig/joints/sides.hpp"
 
 namespace curveskel {
@@ -31,25 +31,13 @@ std::vector<char> needed_joints(const Rig& rig, const Eigen::VectorXi& vertices)
 
 /// "limb2_4.L" becomes "limb2_3.L", if it is the third that is left.
 void count_anew(std::vector<std::string>& names) {
-  std::map<std::string, int> counts;  // by the name without its number
+  std::map<std::pair<std::string, std::string>, int> counts;  // by limb and side
   for (std::string& name : names) {
-    const bool has_side = name.ends_with(".L") || name.ends_with(".R");
-    const std::size_t end = has_side ? name.size() - 2 : name.size();
-    const std::size_t at = name.rfind('_', end);
-    const std::size_t limb = name.find("limb");
-    if (limb == std::string::npos || at == std::string::npos || at < limb || at + 1 == end)
-      continue;
-    const auto digits = std::string_view(name).substr(at + 1, end - at - 1);
-    if (!std::all_of(digits.begin(), digits.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; })) {
-      continue;
-    }
-    const std::string side = name.substr(end);
-    name.resize(at + 1);
-    std::string unnumbered = name;
-    unnumbered += side;
-    name += std::to_string(++counts[unnumbered]);
-    name += side;
+    const LimbName parts = taken_apart(name);
+    const bool is_counted = parts.rest.size() > 1 && parts.rest != "_end";
+    if (!is_counted) continue;
+    const int number = ++counts[{parts.limb, parts.side}];
+    name = parts.limb + "_" + std::to_string(number) + parts.side;
   }
 }
 
@@ -64,12 +52,7 @@ Rig without_idle_joints(const Rig& rig, std::size_t planned, const Eigen::Vector
     if (twin >= 0 && stays[joint] != 0) stays[idx(twin)] = 1;
   }
   if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return rig;
-  std::vector<int> number(stays.size(), -1);
-  int count = 0;
-  for (std::size_t joint = 0; joint < stays.size(); ++joint) {
-    if (stays[joint] != 0) number[joint] = count++;
-  }
-  Rig result = keep_joints(rig, number);
+  Rig result = keep_joints(rig, numbers_of(stays));
   count_anew(result.names);
   return result;
 }

@@ -4,16 +4,20 @@
 
 namespace curveskel {
 
-std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays) {
-  for (Eigen::Index joint = rig.parents.size(); joint-- > 0;) {
-    if (stays[idx(joint)] != 0 && rig.parents[joint] >= 0) stays[idx(rig.parents[joint])] = 1;
-  }
+std::vector<int> numbers_of(const std::vector<char>& stays) {
   std::vector<int> number(stays.size(), -1);
   int count = 0;
   for (std::size_t joint = 0; joint < stays.size(); ++joint) {
     if (stays[joint] != 0) number[joint] = count++;
   }
   return number;
+}
+
+std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays) {
+  for (Eigen::Index joint = rig.parents.size(); joint-- > 0;) {
+    if (stays[idx(joint)] != 0 && rig.parents[joint] >= 0) stays[idx(rig.parents[joint])] = 1;
+  }
+  return numbers_of(stays);
 }
 
 Rig keep_joints(const Rig& rig, const std::vector<int>& number) {

@@ -8,31 +8,10 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/joints/limb_name.hpp"
 
 namespace curveskel {
 namespace {
-
-/// "part3_limb4_2.L" taken apart.
-struct LimbName {
-  std::string limb;  ///< part3_limb4
-  std::string rest;  ///< _2
-  std::string side;  ///< .L
-};
-
-bool ends_with_side(std::string_view name) { return name.ends_with(".L") || name.ends_with(".R"); }
-
-LimbName taken_apart(std::string name) {
-  LimbName parts;
-  if (ends_with_side(name)) {
-    parts.side = name.substr(name.size() - 2);
-    name.resize(name.size() - 2);
-  }
-  const std::size_t at = name.rfind('_');
-  const bool counts = at != std::string::npos && name.find("limb") < at;
-  parts.limb = name.substr(0, counts ? at : std::string::npos);
-  if (counts) parts.rest = name.substr(at);
-  return parts;
-}
 
 /// "finger_index" of "finger_index_3.L".
 std::string without_side_and_number(std::string name) {

@@ -19,7 +19,7 @@ namespace {
 constexpr int most_halvings = 20;
 constexpr Eigen::Index most_sliced_vertices = 4000000;  // after subdivision
 
-/// What a way along edges is measured in.
+/// The measure of ways along edges.
 enum class EdgeMeasure { length, count };
 
 /// Of the shortest ways along edges.

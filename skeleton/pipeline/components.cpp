@@ -44,8 +44,8 @@ std::vector<double> extents_over_whole(const std::vector<Component>& components)
 WorkingSize working_size(const ExtractOptions& options, int vertices, int genus, double extent,
                          const Topology& whole) {
   constexpr int sure_in_all = 200000;
-  const int fewest_made = genus == 0 ? 40 : 100;  // few enough for any number, enough for the
-                                                  // simplest of shapes, and of rings
+  // Few enough for any number, enough for the simplest of shapes, and of those with a handle.
+  const int fewest_made = genus == 0 ? 40 : 100;
   constexpr int fewest_left = 200;
   constexpr int per_handle = 32;
   WorkingSize size;

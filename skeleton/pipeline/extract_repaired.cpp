@@ -54,30 +54,30 @@ std::string why_wrapped(double gap) {
   return words.str();
 }
 
-/// The widest wrap, which costs least, and tells how many vertices narrower ones take.
-class WidestWrap {
- public:
-  WidestWrap(const FailingComponent& failing, WrapBudget budget, const Monitor& monitor)
-      : budget_(budget) {
-    constexpr double gap = wrap_gaps.back();
-    try {
-      wrap_ = wrap_solid(failing.surface, gap, budget, monitor);
-    } catch (const WrapTooLarge&) {
-      return;
-    }
-    if (!wrap_) return;
-    budget_.for_expected =
-        std::max(budget_.for_expected, vertices_for_expected(wrap_->surface, failing.surface, gap));
-  }
-  [[nodiscard]] const WrapBudget& budget() const { return budget_; }
-  /// Not made again.
-  [[nodiscard]] const std::optional<WrappedSolid>& wrap() const { return wrap_; }
-
- private:
-  WrapBudget budget_;
-  std::optional<WrappedSolid> wrap_;
+/// The widest wrap of a component, none if that encloses nothing, and a budget that knows from it
+/// how many vertices narrower ones take.
+struct WidestWrap {
+  WrapBudget budget;
+  std::optional<WrappedSolid> wrap;
 };
 
+WidestWrap widest_wrap(const FailingComponent& failing, const WrapBudget& budget,
+                       const Monitor& monitor) {
+  constexpr double gap = wrap_gaps.back();
+  WidestWrap result{budget, std::nullopt};
+  try {
+    result.wrap = wrap_solid(failing.surface, gap, budget, monitor);
+  } catch (const WrapTooLarge&) {  // so is any other
+    return result;
+  }
+  if (result.wrap) {
+    result.budget.for_expected = std::max(
+        budget.for_expected, vertices_for_expected(result.wrap->surface, failing.surface, gap));
+  }
+  return result;
+}
+
+/// `made`, if there is one, is not made again; it must outlive the plan.
 Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
                         const std::optional<WrappedSolid>& made, const WrapBudget& budget,
                         const ExtractOptions& options) {
@@ -102,17 +102,14 @@ Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
 std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
                                  const WrapBudget& budget, const ExtractOptions& options,
                                  const Plan<Extracted>::Room& room) {
+  const WidestWrap widest =
+      gap > 0 ? WidestWrap{budget, std::nullopt} : widest_wrap(failing, budget, room.monitor);
   const std::optional<WrappedSolid> none;
-  std::optional<WidestWrap> widest;
   std::vector<Plan<Attempt>> plans;
-  if (gap > 0) {
-    plans.push_back(wrap_plan(failing, gap, none, budget, options));
-  } else {
-    widest.emplace(failing, budget, room.monitor);
-    for (const double one : wrap_gaps) {
-      const auto& made = one == wrap_gaps.back() ? widest->wrap() : none;
-      plans.push_back(wrap_plan(failing, one, made, widest->budget(), options));
-    }
+  for (const double one : wrap_gaps) {
+    const auto& made = one == wrap_gaps.back() ? widest.wrap : none;
+    plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, made, widest.budget, options));
+    if (gap > 0) break;
   }
   const auto takes = [&](const Attempt& wider, const Attempt* best) {
     return wider.certificate.correct() &&

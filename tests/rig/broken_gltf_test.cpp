@@ -55,7 +55,7 @@ Json broken(Json json, std::mt19937& lot) {
   return json;
 }
 
-/// What was refused, or nothing.
+/// The refusal's words, none if there is a rig.
 std::string refusal_of(const fs::path& file) {
   try {
     const auto rows = read_polygons(file, {}, {true}).positions.rows();

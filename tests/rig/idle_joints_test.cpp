@@ -86,17 +86,8 @@ RigSubject arm_and_hand() {
   const Eigen::RowVector3d way =
       (arm.axis.nodes.row(arm.axis.nodes.rows() - 1) - arm.axis.nodes.row(0)).normalized();
   const shapes::Shape beyond = shapes::translated(hand, (between * way).transpose());
-  RigSubject subject{"arm and hand", shapes::together("", {arm, beyond}).surface, arm.axis};
-  CurveSkeleton& curve = subject.skeleton;
-  const auto first = static_cast<int>(arm.axis.nodes.rows());
-  curve.nodes.resize(first + beyond.axis.nodes.rows(), 3);
-  curve.nodes << arm.axis.nodes, beyond.axis.nodes;
-  curve.radii.resize(curve.nodes.rows());
-  curve.radii << arm.axis.radii, beyond.axis.radii;
-  curve.edges.resize(arm.axis.edges.rows() + beyond.axis.edges.rows(), 2);
-  curve.edges << arm.axis.edges, beyond.axis.edges.array() + first;
-  curve.node_of_vertex.resize(0);
-  return subject;
+  return {"arm and hand", shapes::together("", {arm, beyond}).surface,
+          together(arm.axis, beyond.axis)};
 }
 
 PlannedJoint planned_at(const RigSubject& subject, const std::string& role, int parent, int node) {
@@ -133,16 +124,10 @@ TEST(IdleJoints, AreNoneThatMoveTwoComponents) {
 
 /// A doll's fingertip begins at the ball of the hinge before it.
 TEST(IdleJoints, AreNoneBeforeAComponentThatBeginsThere) {
-  CurveSkeleton curve = chain_through({{0, 0, 0}, {10, 0, 0}}, 0.5, 0.5);
+  const CurveSkeleton finger = chain_through({{0, 0, 0}, {10, 0, 0}}, 0.5, 0.5);
   const CurveSkeleton tip = chain_through({{10.2, 0, 0}, {12, 0, 0}}, 0.5, 0.3);
-  const auto first = static_cast<int>(curve.nodes.rows());
-  const Positions before = curve.nodes;
-  const Edges edges = curve.edges;
-  curve.nodes.resize(first + tip.nodes.rows(), 3);
-  curve.nodes << before, tip.nodes;
-  curve.radii.setConstant(curve.nodes.rows(), 0.5);
-  curve.edges.resize(edges.rows() + tip.edges.rows(), 2);
-  curve.edges << edges, tip.edges.array() + first;
+  const auto first = static_cast<int>(finger.nodes.rows());
+  const CurveSkeleton curve = together(finger, tip);
   const RigSubject subject{"finger", {}, curve};
   const std::vector<PlannedJoint> planned{planned_at(subject, "finger_1", -1, 0),
                                           planned_at(subject, "finger_2", 0, first - 1)};

@@ -70,14 +70,7 @@ TEST(MakeRig, MeasuresFromTheBallNotFromItsCentre) {
   const shapes::Shape thick = bar(3);
   const shapes::Shape thin = shapes::translated(bar(0.2), {0, 3.5, 0});
   const Surface surface = shapes::together("", {thick, thin}).surface;
-  CurveSkeleton curve = thick.axis;
-  const auto first = static_cast<int>(curve.nodes.rows());
-  curve.nodes.resize(first + thin.axis.nodes.rows(), 3);
-  curve.nodes << thick.axis.nodes, thin.axis.nodes;
-  curve.radii.resize(curve.nodes.rows());
-  curve.radii << thick.axis.radii, thin.axis.radii;
-  curve.edges.resize(thick.axis.edges.rows() + thin.axis.edges.rows(), 2);
-  curve.edges << thick.axis.edges, thin.axis.edges.array() + first;
+  const CurveSkeleton curve = together(thick.axis, thin.axis);
   const Rig rig = make_rig(surface, curve, {}, {});
   const Eigen::Index vertices = thick.surface.positions.rows();
   for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {

@@ -58,6 +58,18 @@ inline const std::vector<RigSubject>& rig_subjects() {
   return all;
 }
 
+/// The nodes and edges of both, those of the first before.
+inline CurveSkeleton together(const CurveSkeleton& a, const CurveSkeleton& b) {
+  CurveSkeleton both;
+  both.nodes.resize(a.nodes.rows() + b.nodes.rows(), 3);
+  both.nodes << a.nodes, b.nodes;
+  both.radii.resize(both.nodes.rows());
+  both.radii << a.radii, b.radii;
+  both.edges.resize(a.edges.rows() + b.edges.rows(), 2);
+  both.edges << a.edges, b.edges.array() + static_cast<int>(a.nodes.rows());
+  return both;
+}
+
 /// A chain of nodes at most `step` apart through the corners.
 inline CurveSkeleton chain_through(const std::vector<Eigen::RowVector3d>& corners, double radius,
                                    double step) {

@@ -50,7 +50,7 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
       EXPECT_EQ(names.count("RightLowerLeg") > 0, is_human && style.value == NameStyle::unity);
       EXPECT_EQ(names.count("forearm.R") > 0, is_human && style.value == NameStyle::rigify);
       EXPECT_EQ(names.count("upper_leg.L") > 0, is_human && style.value == NameStyle::automatic);
-      // What hangs from a joint of the plan is called after it.
+      // A limb is called after the joint of the plan that it hangs from.
       const bool says_limb = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return name.find("limb") != std::string::npos;
       });
