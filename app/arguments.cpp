@@ -27,6 +27,9 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
              "chosen; below "
              "about 0.001 the wrap is too large to be made");
   add_number(parser, "--wrap-opening", options.wrap_gap, 0.0, 0.5, "its former name")->group("");
+  add_number(parser, "--least-sheet", options.least_sheet, 0.0, 1.0,
+             "sheets that no wrap makes a body of become thin bodies, if their extent is at least "
+             "this, of the diagonal of the whole; 0 = none");
   parser.add_flag("--merge-overlapping", options.merge_overlapping,
                   "components that cross or touch become one body, those inside another are left "
                   "out; what merely comes near stays apart");

@@ -85,6 +85,7 @@ Json to_json(const Repairs& r) {
           {"crumbs_dropped", r.crumbs_dropped},
           {"specks_dropped", r.specks_dropped},
           {"sheets_dropped", r.sheets_dropped},
+          {"sheets_thickened", r.sheets_thickened},
           {"not_chosen", r.not_chosen},
           {"faces_wrapped", r.faces_wrapped},
           {"wrapped_as_asked", r.wrapped_as_asked},
@@ -101,7 +102,8 @@ Json to_json(const RepairOptions& o) {
   return {{"join_distance", o.join_distance}, {"least_area", o.least_area},
           {"components", o.components},       {"most_added_area", o.most_added_area},
           {"least_crumb", o.least_crumb},     {"wrap", name_of(wrappings, o.wrap)},
-          {"wrap_gap", o.wrap_gap},           {"merge_overlapping", o.merge_overlapping}};
+          {"wrap_gap", o.wrap_gap},           {"merge_overlapping", o.merge_overlapping},
+          {"least_sheet", o.least_sheet}};
 }
 
 Json to_json(const ContractionOptions& o) {

@@ -52,7 +52,7 @@ struct RigArguments {
   double time_limit_seconds = 0;
   int fair_iterations = 0;
   int threads = 0;
-  RepairOptions repair;
+  RepairOptions repair = repair_for_rigs();
   ExtractOptions extract;
   RigOptions rig;
   PartOptions parts;

@@ -51,13 +51,15 @@ struct PlanOptions {
   BodyKind plan = BodyKind::automatic;
   Direction up = Direction::automatic;  ///< automatic: y, as in glTF, or z
   Direction front =
-      Direction::automatic;    ///< automatic: of humans where their toes point, of quadrupeds by
-                               ///< their heads and ears, of fish the thicker half; else z (with z
-                               ///< up -y), or the opposite if `faces_minus_z`
+      Direction::automatic;  ///< automatic: of what stands on two legs where its toes point, of
+                             ///< quadrupeds by their heads and ears, of fish the thicker half; else
+                             ///< z (with z up -y), or the opposite if `faces_minus_z`
   bool faces_minus_z = false;  ///< what the file says, as VRM 0.x does
   bool z_is_up = false;        ///< what the file says: with `up` automatic z is tried first
   bool made_of_tubes = true;   ///< what the certificate says: of others no plan is found unless one
                                ///< is asked for, as any room has corners like legs
+  std::vector<std::int32_t> sheets = {};  ///< a vertex of each component that was made of a sheet,
+                                          ///< see RepairedSurface; no large one need be the body
 };
 
 /// A joint that a plan asks for.

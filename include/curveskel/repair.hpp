@@ -46,6 +46,10 @@ struct RepairOptions {
   /// Components that cross or touch one another become one body, their exact union; those that lie
   /// wholly inside another are left out. What merely comes near stays apart.
   bool merge_overlapping = false;
+  /// Sheets that no wrap makes a body of get a second side near the first one and so become thin
+  /// bodies, if their extent is at least this, of D: wings and ears of one layer of triangles. 0 =
+  /// all sheets are left out.
+  double least_sheet = 0;
 
   [[nodiscard]] bool operator==(const RepairOptions&) const = default;
 };
@@ -86,6 +90,7 @@ struct Repairs {
   std::int64_t crumbs_dropped = 0;      ///< small components cut off a much larger one
   std::int64_t specks_dropped = 0;      ///< components below the least area
   std::int64_t sheets_dropped = 0;      ///< components that enclose nothing
+  std::int64_t sheets_thickened = 0;    ///< see RepairOptions::least_sheet
   std::int64_t not_chosen = 0;          ///< components beyond the number wanted
   std::int64_t faces_wrapped = 0;       ///< that a wrap stands for
   bool wrapped_as_asked = false;        ///< see Wrapping::all
@@ -108,11 +113,14 @@ struct RepairedSurface {
   Repairs repairs;
   /// The vertices of the surface round each hole that was closed, in order.
   std::vector<std::vector<std::int32_t>> rims;
+  /// A vertex of the surface on each sheet that got a thickness.
+  std::vector<std::int32_t> sheets;
 };
 
 /// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is
 /// no orientable 2-manifold, closes holes (see `close_surface`), wraps what still encloses nothing
-/// (see `wrap`) if the wrap holds more than its own thickness. With `Wrapping::all`, wraps what the
+/// (see `wrap`) if the wrap holds more than its own thickness, gives large sheets a thickness if so
+/// wanted. With `Wrapping::all`, wraps what the
 /// file holds, whole or not. Then leaves out coincident copies of components, crumbs, specks and
 /// sheets, merges components that overlap and leaves out all but the largest, if so wanted.
 /// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.

@@ -19,8 +19,11 @@ struct RigSources {
   std::optional<Rig> joints;              ///< these stay; they get weights, and there is no plan
 };
 
+/// Sheets of a tenth of D and more have joints of their own: wings, ears, tails of one layer.
+[[nodiscard]] RepairOptions repair_for_rigs();
+
 struct RigPolygonsOptions {
-  RepairOptions repair;
+  RepairOptions repair = repair_for_rigs();
   ExtractOptions extract;
   CharacterOptions character;
   int threads =
@@ -28,8 +31,10 @@ struct RigPolygonsOptions {
 };
 
 struct PolygonsRig {
-  CharacterRig character;                  ///< the rig is by the vertices of the file
-  std::optional<Certificate> certificate;  ///< of the skeleton, where it was extracted
+  CharacterRig character;  ///< the rig is by the vertices of the file
+  /// Of the skeleton, where it was extracted. `curve_like` is judged without sheets that got a
+  /// thickness, of which hardly any area is a tube's.
+  std::optional<Certificate> certificate;
 };
 
 /// `repair`, `find_parts`, `extract_repaired` of the body alone, `rig_body` or

@@ -244,7 +244,7 @@ def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **optio
     threads: at most; 0 = one per core. The result does not depend on it.
     progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
     strict: a certificate that does not hold is a SolverError, not a CertificateWarning.
-    options: the program's, with _ for -: components, fair, flow, merge_overlapping, min_size,
+    options: the program's, with _ for -: components, fair, flow, least_sheet, merge_overlapping, min_size,
         preset, resolution (a number or "full"), solver, wrap, wrap_gap.
 
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
@@ -266,7 +266,7 @@ def evaluate(mesh, skeleton, *, threads=0, progress=None, **options):
 
     skeleton: a Skeleton, a path to a skeleton file, a pair of arrays, nodes (n, 3) and edges
         (m, 2), or an object with `vertices` and `edges`, as skeletor's.
-    options: those of repair: components, merge_overlapping, min_size, wrap, wrap_gap.
+    options: those of repair: components, least_sheet, merge_overlapping, min_size, wrap, wrap_gap.
 
     Raises UsageError or InputError.
     """

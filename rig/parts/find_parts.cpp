@@ -203,6 +203,8 @@ RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts) 
   for (auto& rim : body.rims) {
     for (std::int32_t& v : rim) v = number[idx(v)];
   }
+  std::erase_if(body.sheets, [&](std::int32_t v) { return number[idx(v)] < 0; });
+  for (std::int32_t& v : body.sheets) v = number[idx(v)];
   return body;
 }
 

@@ -84,6 +84,7 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
   std::vector<Figure> figures = find_figures(body, dense, wanted);
+  wanted.sheets = body.sheets;
   if (figures.empty()) figures.push_back({body, dense, find_plan(body.surface, dense, wanted)});
   CharacterRig result;
   result.plan = figures.front().plan;

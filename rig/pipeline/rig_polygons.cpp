@@ -1,19 +1,45 @@
 #include <curveskel/rig_polygons.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/topology.hpp>
 
 namespace curveskel {
 namespace {
 
 /// The level of detail at which all is there that was extracted, see `least_life`.
 constexpr double everything = 0.5;
+
+/// Of the area. One vertex of each sheet is known.
+double share_of_sheets(const RepairedSurface& body) {
+  if (body.sheets.empty()) return 0;
+  const Topology counted = topology(body.surface);
+  std::vector<char> is_sheet(idx(counted.components()), 0);
+  for (const std::int32_t v : body.sheets) is_sheet[idx(counted.component_of_vertex[v])] = 1;
+  std::vector<Eigen::Index> faces;
+  for (Eigen::Index f = 0; f < body.surface.triangles.rows(); ++f) {
+    const std::int32_t v = body.surface.triangles(f, 0);
+    if (is_sheet[idx(counted.component_of_vertex[v])] != 0) faces.push_back(f);
+  }
+  const Surface sheets{body.surface.positions, body.surface.triangles(faces, Eigen::all)};
+  return area(sheets) / area(body.surface);
+}
+
+/// What is judged is the body without its sheets, of which hardly any area is a tube's.
+bool is_made_of_tubes(const Certificate& certificate, const RepairedSurface& body) {
+  return certificate.curve_like ||
+         certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));
+}
 
 /// Given or extracted. Where only a wrap would do, this is what `body` becomes.
 CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& options,
@@ -30,10 +56,17 @@ CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& 
   RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor);
   if (found.wrapped) body = std::move(*found.wrapped);
   certificate = found.extraction.certificate;
+  certificate->curve_like = is_made_of_tubes(*certificate, body);
   return std::move(found.extraction.skeleton);
 }
 
 }  // namespace
+
+RepairOptions repair_for_rigs() {
+  RepairOptions options;
+  options.least_sheet = 0.1;
+  return options;
+}
 
 PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
                          const RigPolygonsOptions& options, const Monitor& monitor) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/roles.hpp"
@@ -13,13 +14,31 @@ namespace {
 using Eigen::Vector3d;
 
 // Shares of the body's height or size; means over artists' rigs lie well within.
-bool is_leg(const CurveTree& tree, const LimbPair& pair) {
+struct LegLimits {
+  double shortest;  ///< of the size
+  double aside;     ///< of its length, that the tip lies beside the root at most
+};
+constexpr LegLimits upright_legs{0.1, 0.45};
+constexpr LegLimits sprawling_legs{0.05, 0.8};
+
+bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits = upright_legs) {
   const Vector3d& root = tree.nodes[idx(pair.root)];
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   const bool reaches_ground = pair.lowest < tree.ground + 0.06 * tree.height;
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
-  const bool mostly_down = std::abs(tip.x() - root.x()) < 0.45 * pair.length;
-  return reaches_ground && pair.length > 0.1 * tree.size && goes_down && mostly_down;
+  const bool mostly_down = std::abs(tip.x() - root.x()) < limits.aside * pair.length;
+  return reaches_ground && pair.length > limits.shortest * tree.size && goes_down && mostly_down;
+}
+
+/// Short or sprawling ones, as a crocodile's, if there are two pairs.
+std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
+  std::vector<int> legs;
+  std::vector<int> with_sprawling_ones;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (is_leg(tree, limbs.pairs[idx(k)])) legs.push_back(k);
+    if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) with_sprawling_ones.push_back(k);
+  }
+  return legs.size() < 2 && with_sprawling_ones.size() == 2 ? with_sprawling_ones : legs;
 }
 
 /// Of the upper pairs that begin no lower than the legs the one that reaches farthest sideways: not
@@ -95,9 +114,7 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
 
 PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
   PlanFound found;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    if (is_leg(tree, limbs.pairs[idx(k)])) found.legs.push_back(k);
-  }
+  found.legs = find_legs(tree, limbs);
   const std::size_t legs = found.legs.size();
   const bool is_asked_for = wanted == BodyKind::fish && !limbs.trunk.empty();
   const bool looks_like_it = wanted == BodyKind::automatic && legs == 0 && is_fish(tree, limbs);

@@ -241,12 +241,13 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   const auto& [axes, tree, limbs, found] = outlook;
   if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
-  return found.plan == BodyKind::humanoid && !options.faces_minus_z &&
-         toes_point_back(tree, limbs, found);
+  const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
+                        found.plan == BodyKind::tailed_biped;
+  return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
 }
 
-/// Of the area.
-double share_of_largest_component(const Surface& surface) {
+/// Of the area that is no sheet's.
+double share_of_largest_component(const Surface& surface, const std::vector<std::int32_t>& sheets) {
   const Topology counted = topology(surface);
   std::vector<double> areas(idx(counted.components()), 0);
   for (const auto& t : surface.triangles.rowwise()) {
@@ -255,16 +256,17 @@ double share_of_largest_component(const Surface& surface) {
     const Vector3d c = surface.positions.row(t(2));
     areas[idx(counted.component_of_vertex[t(0)])] += (b - a).cross(c - a).norm();
   }
+  for (const std::int32_t v : sheets) areas[idx(counted.component_of_vertex[v])] = 0;
   const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
   return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;
 }
 
 /// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
 /// nothing about humans.
-bool is_put_together(const Surface& surface, BodyKind plan) {
+bool is_put_together(const Surface& surface, BodyKind plan, const PlanOptions& options) {
   constexpr double most_of_it = 0.5;
   const bool is_animal = plan != BodyKind::humanoid && plan != BodyKind::other;
-  return is_animal && share_of_largest_component(surface) < most_of_it;
+  return is_animal && share_of_largest_component(surface, options.sheets) < most_of_it;
 }
 
 }  // namespace
@@ -286,7 +288,8 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     axes.row(2) *= -1;
     outlook = look(surface, skeleton, axes, options.plan);
   }
-  if (options.plan == BodyKind::automatic && is_put_together(surface, outlook.found.plan)) {
+  if (options.plan == BodyKind::automatic &&
+      is_put_together(surface, outlook.found.plan, options)) {
     outlook.found.plan = BodyKind::other;
     outlook.found.reason =
         "most of an animal is one component, which here is less than half; " + outlook.found.reason;

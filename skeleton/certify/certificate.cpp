@@ -28,7 +28,6 @@ using Eigen::Vector3d;
 
 constexpr double curvature_scale = 1.0 / 100;  // of D
 constexpr double coverage_factor = 1.5;        // of the local radius
-constexpr double tube_share_needed = 0.5;
 constexpr Eigen::Index most_vertices = 20000;
 
 void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {

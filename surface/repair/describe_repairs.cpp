@@ -95,6 +95,8 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
   said(repairs.copies_dropped, "component", "components", "left out as copies of another");
   said(repairs.sheets_dropped, "open or flat part", "open or flat parts",
        "left out, enclosing nothing");
+  said(repairs.sheets_thickened, "open or flat part", "open or flat parts",
+       "given a second side near the first one");
   said(repairs.crumbs_dropped, "crumb", "crumbs",
        "left out (small pieces cut off a much larger one; their vertices follow its nearest)");
   said(repairs.specks_dropped, "speck", "specks",

@@ -131,6 +131,8 @@ void merge_overlapping(RepairedSurface& result, const Monitor& monitor) {
   for (auto& rim : result.rims) {
     for (std::int32_t& v : rim) v = merged.number(v);
   }
+  std::erase_if(result.sheets, [&](std::int32_t v) { return !merged.stays(v); });
+  for (std::int32_t& v : result.sheets) v = merged.number(v);
 }
 
 }  // namespace curveskel

@@ -22,6 +22,7 @@
 #include "surface/repair/lies_in_plane.hpp"
 #include "surface/repair/merge_overlapping.hpp"
 #include "surface/repair/select_components.hpp"
+#include "surface/repair/thicken.hpp"
 #include "surface/repair/weld.hpp"
 #include "surface/repair/wrap.hpp"
 #include "surface/repair/wrap_solid.hpp"
@@ -213,6 +214,22 @@ std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOpt
   return result;
 }
 
+/// Returns their number.
+std::int64_t add_thick_sheets(const ClosedParts& closed, const JudgedParts& judged,
+                              const Joined& joined, const RepairOptions& options,
+                              VertexMap& vertex_map, RepairedSurface& result) {
+  if (options.least_sheet <= 0) return 0;
+  ThickSheets thick =
+      thicken(closed, judged, options.least_sheet * extent_of_faces(joined.surface));
+  const auto first = static_cast<std::int32_t>(result.surface.positions.rows());
+  for (std::int32_t& v : thick.number) v = v < 0 ? -1 : v + first;
+  for (std::int32_t& v : thick.firsts) v += first;
+  vertex_map.add_closed(closed, thick.number);
+  append_surface(result.surface, thick.surface);
+  result.sheets = std::move(thick.firsts);
+  return result.repairs.sheets_thickened = static_cast<std::int64_t>(result.sheets.size());
+}
+
 /// If `clean` refuses. The refusal stands where there are no faces, or too many to count.
 RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
@@ -251,8 +268,10 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
     result.repairs.wrap_followed =
         1 - (1 - wrapped->followed) * area(wrapped->surface) / area(result.surface);
   } else {
+    const std::int64_t thickened =
+        add_thick_sheets(closed, judged, joined, options, vertex_map, result);
     if (result.surface.triangles.rows() == 0) refuse(soup, sheets);
-    result.repairs.sheets_dropped = sheets.components;
+    result.repairs.sheets_dropped = sheets.components - thickened;
   }
   result.vertex_of_input = vertex_map.of_file();
   return result;
@@ -273,6 +292,7 @@ Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
     return {{std::move(cleaned.surface),
              std::move(cleaned.vertex_of_input),
              std::move(cleaned.changes),
+             {},
              {},
              {}},
             cleaned.components == 1,
@@ -326,6 +346,7 @@ void require_valid(const RepairOptions& options) {
   check.number("least_crumb", options.least_crumb, share_range);
   check.choice("wrap", options.wrap, wrappings);
   check.number("wrap_gap", options.wrap_gap, gap);
+  check.number("least_sheet", options.least_sheet, share_range);
 }
 
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,

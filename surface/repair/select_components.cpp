@@ -160,12 +160,15 @@ void leave_out_components(RepairedSurface& result, const SelectionRules& rules) 
     }
   }
   for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  std::erase_if(result.rims, [&](const auto& rim) {
-    return fates[idx(counted.component_of_vertex[rim[0]])] != Fate::kept;
-  });
+  const auto is_gone = [&](std::int32_t v) {
+    return fates[idx(counted.component_of_vertex[v])] != Fate::kept;
+  };
+  std::erase_if(result.rims, [&](const auto& rim) { return is_gone(rim[0]); });
+  std::erase_if(result.sheets, is_gone);
   for (auto& rim : result.rims) {
     for (std::int32_t& v : rim) v = number[idx(v)];
   }
+  for (std::int32_t& v : result.sheets) v = number[idx(v)];
 }
 
 }  // namespace curveskel

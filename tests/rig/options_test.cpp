@@ -80,7 +80,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   const double over_one = 1 + 1e-9;
   {
     using O = RepairOptions;
-    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h] = O{};
+    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i] = O{};
     expect_ranges<O>(
         "RepairOptions",
         {option("join_distance", &O::join_distance, "0..0.1", {0, 0.1}, {-1e-9, 0.11}),
@@ -89,7 +89,8 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
          option("most_added_area", &O::most_added_area, "0..1", {0, 1}, {-1e-9, over_one}),
          option("least_crumb", &O::least_crumb, "0..1", {0, 1}, {-1e-9, over_one}),
          option("wrap", &O::wrap, "one of never, needed, all", {0, 1, 2}, {3, 200}),
-         option("wrap_gap", &O::wrap_gap, "0..0.5", {0, 0.5}, {-1e-9, 0.51})});
+         option("wrap_gap", &O::wrap_gap, "0..0.5", {0, 0.5}, {-1e-9, 0.51}),
+         option("least_sheet", &O::least_sheet, "0..1", {0, 1}, {-1e-9, over_one})});
   }
   {
     using O = CoarsenOptions;

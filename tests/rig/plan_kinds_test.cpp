@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,35 @@ TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {
   }
 }
 
+TEST(FindPlan, ABipedWithATailLooksWhereItsToesPoint) {
+  const RigSubject back =
+      standing_in(t_rex(), frame(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ()));
+  const BodyPlan plan = find_plan(back.surface, back.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::tailed_biped) << plan.reason;
+  EXPECT_EQ(plan.axes(2, 2), -1);
+}
+
+/// Low, long, on short legs that stand out to the sides.
+RigSubject lizard() {
+  Figure figure;
+  const int rump = figure.add({0, 1.6, -3}, 0.8);
+  const int withers = figure.add({0, 1.6, 4}, 0.8, rump);
+  figure.add({0, 1.8, 9}, 0.6, figure.add({0, 1.8, 6.5}, 0.5, withers));
+  figure.add({0, 1, -11}, 0.3, rump);
+  for (const int root : {rump, withers}) {
+    const double z = figure.places[idx(root)].z();
+    figure.add_pair(root, {{1.4, 1.5, z}, {2.1, 0.3, z}}, 0.25);
+  }
+  return subject_of("lizard", figure);
+}
+
+TEST(FindPlan, SprawlsOnFourLegs) {
+  const RigSubject subject = lizard();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+  EXPECT_EQ(plan.axes(2, 2), 1);
+}
+
 /// A front that is said holds, in shoes with the longer end behind, too.
 TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
   const RigSubject back =
@@ -155,6 +185,14 @@ TEST(FindPlan, SeesNoAnimalInWhatIsPutTogether) {
   }
   const RigSubject doll = in_three(human());
   EXPECT_EQ(find_plan(doll.surface, doll.skeleton).plan, BodyKind::humanoid);
+}
+
+TEST(FindPlan, CountsNoSheetWhereMostOfAnAnimalIsOneComponent) {
+  const RigSubject parts = in_three(beast(1));
+  PlanOptions options;
+  const auto one = static_cast<std::int32_t>(parts.surface.positions.rows() / 3);
+  options.sheets = {one, 2 * one};
+  EXPECT_EQ(find_plan(parts.surface, parts.skeleton, options).plan, BodyKind::quadruped);
 }
 
 TEST(FindPlan, NamesNoFinOnARod) {
