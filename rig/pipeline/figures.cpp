@@ -151,9 +151,7 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
 
   const auto alone = [&](int wanted) {
     Figure figure = part_of_scene(body, skeleton, counted.component_of_vertex, group, wanted);
-    PlanOptions its = options;
-    its.sheets = figure.body.sheets;
-    figure.plan = find_plan(figure.body.surface, figure.skeleton, its);
+    figure.plan = plan_with_sheets(figure.body, figure.skeleton, options);
     return figure;
   };
   constexpr int least_tips = 4;  // two pairs of limbs: no plan has fewer

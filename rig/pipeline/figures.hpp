@@ -19,6 +19,11 @@ struct Figure {
   BodyPlan plan;
 };
 
+/// `find_plan` of the body without the components that were made of sheets, if that is a humanoid's
+/// or a quadruped's: capes and manes are no limbs. Else of all, as a bird's wings may be sheets.
+[[nodiscard]] BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                                        PlanOptions options);
+
 /// The bodies that stand clear of one another (their boxes do not meet) and are each built to a
 /// plan: two or more, the largest first, or none. All else that is not a figure goes with the one
 /// whose box is nearest. `skeleton` has node_of_vertex, by the body's vertices; without it there

@@ -5,14 +5,15 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/topology.hpp>
 #include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
 namespace {
 
-/// Of each node: some vertex of the body collapsed to its component, or nothing at all did.
-std::vector<char> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
+/// The nodes to whose component some vertex of the body collapsed, or nothing at all.
+std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
   const Eigen::Index count = skeleton.nodes.rows();
   UnionFind joined(count);
   for (const auto& edge : skeleton.edges.rowwise()) joined.unite(edge[0], edge[1]);
@@ -24,31 +25,54 @@ std::vector<char> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& p
     const bool is_follower = parts.parts[idx(parts.part_of_vertex[v])].follows;
     (is_follower ? follows : is_body)[idx(joined.root(node))] = 1;
   }
-  std::vector<char> kept(idx(count), 0);
+  std::vector<int> nodes;
   for (int node = 0; node < static_cast<int>(count); ++node) {
     const std::size_t root = idx(joined.root(node));
-    kept[idx(node)] = is_body[root] != 0 || follows[root] == 0 ? 1 : 0;
+    if (is_body[root] != 0 || follows[root] == 0) nodes.push_back(node);
   }
-  return kept;
+  return nodes;
+}
+
+/// A component follows if it was made of a sheet.
+RigParts sheets_follow(const RepairedSurface& body) {
+  const Topology counted = topology(body.surface);
+  RigParts parts;
+  parts.part_of_vertex = counted.component_of_vertex;
+  parts.parts.resize(idx(counted.components()));
+  for (const std::int32_t v : body.sheets) parts.parts[idx(parts.part_of_vertex[v])].follows = true;
+  return parts;
 }
 
 }  // namespace
 
-CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
-  const std::vector<char> kept = nodes_of_body(skeleton, parts);
-  std::vector<int> number(kept.size(), -1);
-  std::vector<int> nodes;
-  for (std::size_t node = 0; node < kept.size(); ++node) {
-    if (kept[node] == 0) continue;
-    number[node] = static_cast<int>(nodes.size());
-    nodes.push_back(static_cast<int>(node));
+BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                          PlanOptions options) {
+  if (!body.sheets.empty() && skeleton.node_of_vertex.size() > 0) {
+    const RigParts parts = sheets_follow(body);
+    BodyPlan plan =
+        find_plan(body_of(body, parts).surface, skeleton_of_body(skeleton, parts), options);
+    if (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) {
+      const std::vector<int> nodes = nodes_of_body(skeleton, parts);
+      for (PlannedJoint& joint : plan.joints) {
+        if (joint.node >= 0) joint.node = nodes[idx(joint.node)];
+      }
+      return plan;
+    }
   }
+  options.sheets = body.sheets;
+  return find_plan(body.surface, skeleton, options);
+}
+
+CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
+  const std::vector<int> nodes = nodes_of_body(skeleton, parts);
+  std::vector<int> number(idx(skeleton.nodes.rows()), -1);
+  for (std::size_t k = 0; k < nodes.size(); ++k) number[idx(nodes[k])] = static_cast<int>(k);
   CurveSkeleton body;
   body.nodes = skeleton.nodes(nodes, Eigen::all);
   if (skeleton.radii.size() > 0) body.radii = skeleton.radii(nodes);
   std::vector<Eigen::Index> edges;
   for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
-    if (kept[idx(skeleton.edges(e, 0))] != 0) edges.push_back(e);
+    if (number[idx(skeleton.edges(e, 0))] >= 0) edges.push_back(e);
   }
   body.edges = skeleton.edges(edges, Eigen::all);
   for (int& node : body.edges.reshaped()) node = number[idx(node)];
@@ -84,8 +108,7 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
   std::vector<Figure> figures = find_figures(body, dense, wanted);
-  wanted.sheets = body.sheets;
-  if (figures.empty()) figures.push_back({body, dense, find_plan(body.surface, dense, wanted)});
+  if (figures.empty()) figures.push_back({body, dense, plan_with_sheets(body, dense, wanted)});
   CharacterRig result;
   result.plan = figures.front().plan;
   std::vector<RiggedBody> made;

@@ -30,7 +30,8 @@ bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits
   return reaches_ground && pair.length > limits.shortest * tree.size && goes_down && mostly_down;
 }
 
-/// Short or sprawling ones, as a crocodile's, if there are two pairs.
+/// Short or sprawling ones, as a crocodile's, if there are two pairs and no others: arms may hang
+/// so.
 std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
   std::vector<int> legs;
   std::vector<int> with_sprawling_ones;
@@ -38,7 +39,7 @@ std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
     if (is_leg(tree, limbs.pairs[idx(k)])) legs.push_back(k);
     if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) with_sprawling_ones.push_back(k);
   }
-  return legs.size() < 2 && with_sprawling_ones.size() == 2 ? with_sprawling_ones : legs;
+  return legs.empty() && with_sprawling_ones.size() == 2 ? with_sprawling_ones : legs;
 }
 
 /// Of the upper pairs that begin no lower than the legs the one that reaches farthest sideways: not

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "meshes/shapes.hpp"
+#include "tests/rig/plan_subjects.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::sheet_joint_laws {
@@ -69,6 +70,32 @@ TEST(SheetJoints, WithoutAThicknessTheWingFollowsTheBody) {
   const PolygonsRig found = rig_polygons(flier(), {}, options);
   const auto [left, right] = joints_beside(found.character.rig);
   EXPECT_EQ(left + right, 0);
+}
+
+/// Banners from the shoulders down to the ground, one on each side.
+PolygonSoup with_banners(const Surface& surface) {
+  PolygonSoup soup = soup_of(surface);
+  for (const double side : {1.0, -1.0}) {
+    const auto first = static_cast<std::int32_t>(soup.positions.rows());
+    soup.positions.conservativeResize(first + 6, 3);
+    for (int i = 0; i < 3; ++i) {
+      const double y = 14.5 - 7.2 * i;
+      soup.positions.row(first + 2 * i) << side * 3.2, y, -2;
+      soup.positions.row(first + 2 * i + 1) << side * 4.8, y, -2.2;
+    }
+    append(soup, {first, first + 2, first + 3, first + 1});
+    append(soup, {first + 2, first + 4, first + 5, first + 3});
+  }
+  return soup;
+}
+
+TEST(SheetJoints, SheetsAreNoLegsOfAHuman) {
+  const PolygonSoup soup = with_banners(human().surface);
+  const PolygonsRig found = rig_polygons(soup);
+  EXPECT_EQ(found.character.plan.plan, BodyKind::humanoid) << found.character.plan.reason;
+  EXPECT_TRUE(found.character.plan.missing.empty());
+  const auto& joints = found.character.rig.joints;
+  EXPECT_TRUE((joints.col(2).array() < -1.5).any());  // in a banner
 }
 
 }  // namespace
