@@ -117,9 +117,11 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
   found << "a surface that encloses nothing: " << sheets.surface.triangles.rows() << " faces in "
         << sheets.components << (sheets.components == 1 ? " part" : " parts")
         << ", flat, or so open that closing would make up about half of the surface";
-  throw Error(Fault::input, file + ": found " + found.str() +
-                                ", needed a surface with an inside; give it thickness (Blender: "
-                                "the Solidify modifier) or close it first");
+  throw Error(Fault::input,
+              file + ": found " + found.str() +
+                  ", needed a surface with an inside; give it thickness "
+                  "(--least-sheet 0.01 does so with sheets of a hundredth of the "
+                  "whole and more; Blender: the Solidify modifier) or close it first");
 }
 
 /// No wrap or closing makes a body of these; to try would take long.

@@ -232,6 +232,16 @@ class Repair(CommandLineTest):
         self.refused(3, "extract", sheet, "-o", "x.obj", says=["encloses nothing", "Solidify"],
                      cwd=self.folder)
 
+    def test_a_bent_sheet_is_refused_or_gets_a_second_side(self):
+        sheet = self.folder / "bent.off"
+        sheet.write_text("OFF\n6 4 0\n0 0 0\n0 1 0\n3 0 0\n3 1 0\n6 0 1\n6 1 1\n"
+                         "3 0 2 3\n3 0 3 1\n3 2 4 5\n3 2 5 3\n")
+        self.refused(3, "extract", sheet, "-o", "x.obj", says=["--least-sheet", "Solidify"],
+                     cwd=self.folder)
+        result = run("extract", sheet, "--least-sheet", "0.1", "-o", "x.obj", cwd=self.folder)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("1 open or flat part given a second side", result.err + result.out.decode())
+
 
 class TimeLimit(CommandLineTest):
     def test_ends_the_run_and_leaves_nothing(self):
