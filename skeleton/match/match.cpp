@@ -51,7 +51,7 @@ std::vector<double> scales_between(const TipFeatures& a, const TipFeatures& b) {
   return {1, ratio};
 }
 
-struct Outcome {
+struct PairingOutcome {
   std::vector<BranchPair> pairs;
   NodeMotions motions;
   double misfit;
@@ -109,7 +109,7 @@ class Trials {
     for (int vertex = 0; vertex < all; vertex += step) samples_.push_back(vertex);
   }
 
-  [[nodiscard]] Outcome outcome_of(NodeMotions motions) const {
+  [[nodiscard]] PairingOutcome outcome_of(NodeMotions motions) const {
     std::vector<int> components = pair_components(of_a_, of_b_, motions);
     std::vector<BranchPair> pairs = pairs_of(motions, components);
     if (!seats_.empty()) {
@@ -122,7 +122,7 @@ class Trials {
     return {std::move(pairs), std::move(motions), misfit};
   }
 
-  [[nodiscard]] NodeMotions anchored(const Outcome& outcome) const {
+  [[nodiscard]] NodeMotions anchored(const PairingOutcome& outcome) const {
     return anchored_motions(a_, of_a_, b_, outcome.pairs, outcome.motions);
   }
 
@@ -182,23 +182,25 @@ class Trials {
 
 /// Of each way that a might have become b, and of the same with clear pairs taken for granted: they
 /// put right a motion that was followed wrongly. The best first.
-std::vector<Outcome> outcomes_of(const Trials& trials, const std::vector<NodeMotions>& hypotheses,
-                                 const Monitor& monitor) {
-  std::vector<Outcome> outcomes;
+std::vector<PairingOutcome> outcomes_of(const Trials& trials,
+                                        const std::vector<NodeMotions>& hypotheses,
+                                        const Monitor& monitor) {
+  std::vector<PairingOutcome> outcomes;
   for (const NodeMotions& hypothesis : hypotheses) {
     outcomes.push_back(trials.outcome_of(hypothesis));
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round) {
-      Outcome next = trials.outcome_of(trials.anchored(outcomes.back()));
+      PairingOutcome next = trials.outcome_of(trials.anchored(outcomes.back()));
       const bool settled = next.pairs == outcomes.back().pairs;
       outcomes.push_back(std::move(next));
       if (settled) break;
     }
     monitor.report("match", 0.5);
   }
-  std::stable_sort(outcomes.begin(), outcomes.end(), [](const Outcome& one, const Outcome& other) {
-    return one.misfit < other.misfit;
-  });
+  std::stable_sort(outcomes.begin(), outcomes.end(),
+                   [](const PairingOutcome& one, const PairingOutcome& other) {
+                     return one.misfit < other.misfit;
+                   });
   return outcomes;
 }
 
@@ -219,9 +221,9 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
     alignments.insert(alignments.end(), found.begin(), found.end());
   }
   const Trials trials(a, of_a, b, of_b, like, tree_b, options.threads);
-  const std::vector<Outcome> outcomes = outcomes_of(
+  const std::vector<PairingOutcome> outcomes = outcomes_of(
       trials, follow_cores(a, of_a, tree_b, alignments, options.threads, monitor), monitor);
-  const Outcome& best = outcomes.front();
+  const PairingOutcome& best = outcomes.front();
   SkeletonMatch match;
   match.branches = best.pairs;
   for (std::size_t k = 1; k < outcomes.size(); ++k) {

@@ -111,27 +111,22 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
   }
 }
 
-[[noreturn]] void refuse(const PolygonSoup& soup, const Sheets& sheets) {
+const std::string give_thickness =
+    "give it thickness (--least-sheet 0.01 does so with sheets of a hundredth of the whole and "
+    "more; Blender: the Solidify modifier)";
+
+[[noreturn]] void refuse(const PolygonSoup& soup, const std::string& found) {
   const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  throw Error(Fault::input, file + ": found " + found + ", needed a surface with an inside; " +
+                                give_thickness + " or close it first");
+}
+
+[[noreturn]] void refuse(const PolygonSoup& soup, const Sheets& sheets) {
   std::ostringstream found;
   found << "a surface that encloses nothing: " << sheets.surface.triangles.rows() << " faces in "
         << sheets.components << (sheets.components == 1 ? " part" : " parts")
         << ", flat, or so open that closing would make up about half of the surface";
-  throw Error(Fault::input,
-              file + ": found " + found.str() +
-                  ", needed a surface with an inside; give it thickness "
-                  "(--least-sheet 0.01 does so with sheets of a hundredth of the "
-                  "whole and more; Blender: the Solidify modifier) or close it first");
-}
-
-/// No wrap or closing makes a body of these; to try would take long.
-void refuse_drawing(const PolygonSoup& soup) {
-  if (!lies_in_plane(soup)) return;
-  throw Error(Fault::input,
-              (soup.file.empty() ? "surface" : soup.file.string()) +
-                  ": found a flat drawing, of which all vertices lie in one plane and which "
-                  "encloses nothing, needed a surface with an inside; give it thickness (Blender: "
-                  "the Solidify modifier)");
+  refuse(soup, found.str());
 }
 
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
@@ -354,9 +349,16 @@ void require_valid(const RepairOptions& options) {
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
   require_valid(options);
-  refuse_drawing(soup);
+  RepairOptions its = options;
+  if (lies_in_plane(soup)) {
+    if (options.least_sheet <= 0 || options.wrap == Wrapping::all) {
+      refuse(soup,
+             "a flat drawing, of which all vertices lie in one plane and which encloses nothing");
+    }
+    its.wrap = Wrapping::never;  // none makes a body of it, and to try would take long
+  }
   Mended mended = options.wrap == Wrapping::all ? wrapped_whole(soup, options, monitor, threads)
-                                                : clean_or_rebuilt(soup, options, monitor, threads);
+                                                : clean_or_rebuilt(soup, its, monitor, threads);
   RepairedSurface& result = mended.result;
   if (!mended.has_one_component) {
     const double least_crumb = mended.was_cut ? options.least_crumb : 0;

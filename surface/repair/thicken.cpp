@@ -17,7 +17,8 @@ using Eigen::RowVector3d;
 
 constexpr double half_thickness = 0.01;  // of the square root of the area
 
-using Side = std::pair<std::int32_t, std::int32_t>;
+/// From one vertex to another.
+using DirectedEdge = std::pair<std::int32_t, std::int32_t>;
 
 /// One sheet with vertices of its own.
 struct Sheet {
@@ -39,20 +40,20 @@ Sheet sheet_of(const Surface& closed, const std::vector<Eigen::Index>& faces) {
   return sheet;
 }
 
-/// The sides of faces that no other face shares, as the faces run.
-std::vector<Side> boundary_of(const Triangles& triangles) {
-  std::set<Side> sides;
+/// The edges of faces that no other face shares, as the faces run.
+std::vector<DirectedEdge> boundary_of(const Triangles& triangles) {
+  std::set<DirectedEdge> directed;
   for (const auto& t : triangles.rowwise()) {
-    for (int k = 0; k < 3; ++k) sides.emplace(t[k], t[(k + 1) % 3]);
+    for (int k = 0; k < 3; ++k) directed.emplace(t[k], t[(k + 1) % 3]);
   }
-  std::vector<Side> boundary;
-  for (const auto& [from, to] : sides) {
-    if (sides.count({to, from}) == 0) boundary.emplace_back(from, to);
+  std::vector<DirectedEdge> boundary;
+  for (const auto& [from, to] : directed) {
+    if (directed.count({to, from}) == 0) boundary.emplace_back(from, to);
   }
   return boundary;
 }
 
-bool passes_once(const std::vector<Side>& boundary) {
+bool passes_once(const std::vector<DirectedEdge>& boundary) {
   std::set<std::int32_t> begun;
   for (const auto& [from, to] : boundary) {
     if (!begun.insert(from).second) return false;
@@ -75,13 +76,13 @@ Positions area_vectors(const Surface& surface) {
 /// No vertices if the sheet has no second side. The first half of the vertices are above the
 /// sheet's, the others below.
 Surface two_sided(const Surface& sheet) {
-  const std::vector<Side> boundary = boundary_of(sheet.triangles);
+  const std::vector<DirectedEdge> boundary = boundary_of(sheet.triangles);
   const Positions up = area_vectors(sheet);
   const double whole = area(sheet);
   constexpr double cancelled = 1e-9;  // of the area
-  const bool has_sides = !boundary.empty() && passes_once(boundary) &&
-                         (up.rowwise().norm().array() > cancelled * whole).all();
-  if (!has_sides) return {};
+  const bool has_two_sides = !boundary.empty() && passes_once(boundary) &&
+                             (up.rowwise().norm().array() > cancelled * whole).all();
+  if (!has_two_sides) return {};
   const Positions offset = half_thickness * std::sqrt(whole) * up.rowwise().normalized();
   const auto count = static_cast<std::int32_t>(sheet.positions.rows());
   const Eigen::Index faces = sheet.triangles.rows();

@@ -120,6 +120,23 @@ TEST(Thicken, SheetsWithoutTwoSidesAreLeftOut) {
   EXPECT_EQ(result.repairs.sheets_dropped, 1);
 }
 
+/// A leaf, a paper doll: with both sides it has a curve.
+TEST(Thicken, ADrawingInThePlaneIsASheet) {
+  PolygonSoup soup = soup_of(Positions(0, 3), {});
+  soup.positions.resize(6, 3);
+  soup.positions << 0, 0, 0, 0, 1, 0, 3, 0, 0, 3, 1, 0, 6, 0, 0, 6, 1, 0;
+  append(soup, {0, 2, 3, 1});
+  append(soup, {2, 4, 5, 3});
+  EXPECT_THROW((void)repair(soup), Error);
+  const RepairedSurface result = repair(soup, thick(0.1));
+  EXPECT_EQ(result.repairs.sheets_thickened, 1);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_EQ(used_but_dropped(soup, result), 0);
+  RepairOptions wrapped = thick(0.1);
+  wrapped.wrap = Wrapping::all;
+  EXPECT_THROW((void)repair(soup, wrapped), Error);
+}
+
 TEST(Thicken, OptionsOutOfRangeAreRefused) {
   EXPECT_THROW((void)repair(winged(3, 0.1), thick(1.5)), Error);
   EXPECT_THROW((void)repair(winged(3, 0.1), thick(-0.1)), Error);
