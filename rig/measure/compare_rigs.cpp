@@ -31,10 +31,10 @@ double longest_box_side(const Surface& surface) {
               "the truth's surface has no extent; needed is one to measure lengths by");
 }
 
-Eigen::MatrixXd distances_between(const Positions& rows, const Positions& columns) {
-  Eigen::MatrixXd distances(rows.rows(), columns.rows());
+Eigen::MatrixXd distances_between(const Positions& rows, const Positions& others) {
+  Eigen::MatrixXd distances(rows.rows(), others.rows());
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    distances.row(row) = (columns.rowwise() - rows.row(row)).rowwise().norm().transpose();
+    distances.row(row) = (others.rowwise() - rows.row(row)).rowwise().norm().transpose();
   }
   return distances;
 }

@@ -104,10 +104,10 @@ std::optional<Attempt> best_wrap(const FailingComponent& failing, double gap,
                                  const Plan<Extracted>::Room& room) {
   const WidestWrap widest =
       gap > 0 ? WidestWrap{budget, std::nullopt} : widest_wrap(failing, budget, room.monitor);
-  const std::optional<WrappedSolid> none;
+  const std::optional<WrappedSolid> not_made;
   std::vector<Plan<Attempt>> plans;
   for (const double one : wrap_gaps) {
-    const auto& made = one == wrap_gaps.back() ? widest.wrap : none;
+    const auto& made = one == wrap_gaps.back() ? widest.wrap : not_made;
     plans.push_back(wrap_plan(failing, gap > 0 ? gap : one, made, widest.budget, options));
     if (gap > 0) break;
   }
