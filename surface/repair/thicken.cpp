@@ -84,18 +84,19 @@ Surface two_sided(const Surface& sheet) {
                              (up.rowwise().norm().array() > cancelled * whole).all();
   if (!has_two_sides) return {};
   const Positions offset = half_thickness * std::sqrt(whole) * up.rowwise().normalized();
-  const auto count = static_cast<std::int32_t>(sheet.positions.rows());
+  const Eigen::Index count = sheet.positions.rows();
+  const auto below = static_cast<std::int32_t>(count);
   const Eigen::Index faces = sheet.triangles.rows();
   Surface both;
   both.positions.resize(2 * count, 3);
   both.positions << sheet.positions + offset, sheet.positions - offset;
   both.triangles.resize(2 * faces + 2 * static_cast<Eigen::Index>(boundary.size()), 3);
   both.triangles.topRows(faces) = sheet.triangles;
-  both.triangles.middleRows(faces, faces) = sheet.triangles.rowwise().reverse().array() + count;
+  both.triangles.middleRows(faces, faces) = sheet.triangles.rowwise().reverse().array() + below;
   Eigen::Index row = 2 * faces;
   for (const auto& [from, to] : boundary) {
-    both.triangles.row(row++) << to, from, from + count;
-    both.triangles.row(row++) << to, from + count, to + count;
+    both.triangles.row(row++) << to, from, from + below;
+    both.triangles.row(row++) << to, from + below, to + below;
   }
   return both;
 }
