@@ -29,8 +29,8 @@ void set_options(const py::dict& options, const OptionSetters& setters) {
 
 OptionSetters repair_setters(RepairOptions& options) {
   return {{"components", sets(options.components)},
-          {"merge_overlapping", sets(options.merge_overlapping)},
           {"least_sheet", sets(options.least_sheet)},
+          {"merge_overlapping", sets(options.merge_overlapping)},
           {"min_size", sets(options.least_area)},
           {"wrap", sets(options.wrap, "wrap", wrappings)},
           {"wrap_gap", sets(options.wrap_gap)}};

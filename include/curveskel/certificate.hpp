@@ -26,6 +26,7 @@ void require_valid(const CertificateOptions& options);
 
 /// Under this share of its area near the faces given, a wrap is another shape.
 inline constexpr double wrap_followed_needed = 0.75;
+/// Under this share of its area near the curve, a surface is not made of tubes.
 inline constexpr double tube_share_needed = 0.5;
 
 /// D = the surface's bounding-box diagonal. docs/method.md has the definitions.
@@ -56,7 +57,7 @@ struct Certificate {
   }
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
   bool curve_like = false;  ///< tube_share >= tube_share_needed: the surface is made of tubes, so
-                            ///< that a can stand for it
+                            ///< that a curve can stand for it
   /// Of a surface with wraps (see `repair`): the share of its area that lies near the faces given.
   /// Known to `extract_repaired` and `evaluate_repaired` alone.
   double wrap_followed = 1;

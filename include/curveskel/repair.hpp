@@ -120,11 +120,10 @@ struct RepairedSurface {
 /// `clean`, and where that refuses: joins vertices that nearly coincide, cuts and stitches what is
 /// no orientable 2-manifold, closes holes (see `close_surface`), wraps what still encloses nothing
 /// (see `wrap`) if the wrap holds more than its own thickness, gives large sheets a thickness if so
-/// wanted. With `Wrapping::all`, wraps what the
-/// file holds, whole or not. Then leaves out coincident copies of components, crumbs, specks and
-/// sheets, merges components that overlap and leaves out all but the largest, if so wanted.
-/// Throws Error(Fault::input) if nothing with an inside is left, Cancelled on a stop.
-/// Deterministic. As fast as `clean` for a whole surface.
+/// wanted. With `Wrapping::all`, wraps what the file holds, whole or not. Then leaves out
+/// coincident copies of components, crumbs, specks and sheets, merges components that overlap and
+/// leaves out all but the largest, if so wanted. Throws Error(Fault::input) if nothing with an
+/// inside is left, Cancelled on a stop. Deterministic. As fast as `clean` for a whole surface.
 [[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options = {},
                                      const Monitor& monitor = {}, int threads = 0);
 

@@ -78,8 +78,8 @@ def rig(mesh, *, skeleton=None, joints=None, threads=0, progress=None, **options
     joints: a path to a rig: its joints get new weights, and no others are made.
     threads, progress: as of `extract`.
     options: the program's, with _ for -: bone_length, components, detail, ends (False for
-        --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet, merge_overlapping, min_size,
-        names, plan, pose, root, softness, up, wrap, wrap_gap.
+        --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
+        merge_overlapping, min_size, names, plan, pose, root, softness, up, wrap, wrap_gap.
 
     Raises UsageError, InputError, DeviceError or SolverError.
     """

@@ -244,8 +244,8 @@ def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **optio
     threads: at most; 0 = one per core. The result does not depend on it.
     progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
     strict: a certificate that does not hold is a SolverError, not a CertificateWarning.
-    options: the program's, with _ for -: components, fair, flow, least_sheet, merge_overlapping, min_size,
-        preset, resolution (a number or "full"), solver, wrap, wrap_gap.
+    options: the program's, with _ for -: components, fair, flow, least_sheet, merge_overlapping,
+        min_size, preset, resolution (a number or "full"), solver, wrap, wrap_gap.
 
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
     meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.

@@ -12,6 +12,7 @@
 #include "base/median.hpp"
 #include "base/option_ranges.hpp"
 #include "rig/parts/body.hpp"
+#include "surface/repair/renumber.hpp"
 #include "surface/repair/select_components.hpp"
 
 namespace curveskel {
@@ -198,13 +199,8 @@ RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts) 
     fates.push_back(part.follows ? Fate::not_chosen : Fate::kept);
   }
   const std::vector<std::int32_t> number = keep_components(body.surface, counted, fates);
-  for (int& v : body.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  std::erase_if(body.rims, [&](const auto& rim) { return number[idx(rim[0])] < 0; });
-  for (auto& rim : body.rims) {
-    for (std::int32_t& v : rim) v = number[idx(v)];
-  }
-  std::erase_if(body.sheets, [&](std::int32_t v) { return number[idx(v)] < 0; });
-  for (std::int32_t& v : body.sheets) v = number[idx(v)];
+  const auto new_number = [&](std::int32_t v) { return number[idx(v)]; };
+  renumber(body, new_number, [&](std::int32_t v) { return new_number(v) < 0; });
   return body;
 }
 

@@ -35,7 +35,7 @@ double share_of_sheets(const RepairedSurface& body) {
   return area(sheets) / area(body.surface);
 }
 
-/// What is judged is the body without its sheets, of which hardly any area is a tube's.
+/// Of the body without its sheets, of which hardly any area is a tube's.
 bool is_made_of_tubes(const Certificate& certificate, const RepairedSurface& body) {
   return certificate.curve_like ||
          certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));

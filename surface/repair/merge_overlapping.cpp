@@ -12,6 +12,7 @@
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/mesh/overlaps.hpp"
 #include "surface/repair/assembly.hpp"
+#include "surface/repair/renumber.hpp"
 #include "surface/repair/unite.hpp"
 
 namespace curveskel {
@@ -124,15 +125,9 @@ void merge_overlapping(RepairedSurface& result, const Monitor& monitor) {
   if (unions.bodies.empty() && result.repairs.merging.covered.empty()) return;
   const MergedSurface merged(parts, overlaps, unions, result.surface.positions.rows());
   result.surface = merged.whole();
-  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : merged.number(v);
-  std::erase_if(result.rims, [&](const auto& rim) {
-    return !std::all_of(rim.begin(), rim.end(), [&](std::int32_t v) { return merged.stays(v); });
-  });
-  for (auto& rim : result.rims) {
-    for (std::int32_t& v : rim) v = merged.number(v);
-  }
-  std::erase_if(result.sheets, [&](std::int32_t v) { return !merged.stays(v); });
-  for (std::int32_t& v : result.sheets) v = merged.number(v);
+  renumber(
+      result, [&](std::int32_t v) { return merged.number(v); },
+      [&](std::int32_t v) { return !merged.stays(v); });
 }
 
 }  // namespace curveskel

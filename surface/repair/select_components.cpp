@@ -12,6 +12,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include "surface/mesh/nearest_vertex.hpp"
+#include "surface/repair/renumber.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -159,16 +160,9 @@ void leave_out_components(RepairedSurface& result, const SelectionRules& rules) 
       number[idx(v)] = nearest_vertex(result.surface, tree, positions.row(v));
     }
   }
-  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
-  const auto is_gone = [&](std::int32_t v) {
-    return fates[idx(counted.component_of_vertex[v])] != Fate::kept;
-  };
-  std::erase_if(result.rims, [&](const auto& rim) { return is_gone(rim[0]); });
-  std::erase_if(result.sheets, is_gone);
-  for (auto& rim : result.rims) {
-    for (std::int32_t& v : rim) v = number[idx(v)];
-  }
-  for (std::int32_t& v : result.sheets) v = number[idx(v)];
+  renumber(
+      result, [&](std::int32_t v) { return number[idx(v)]; },
+      [&](std::int32_t v) { return fates[idx(counted.component_of_vertex[v])] != Fate::kept; });
 }
 
 }  // namespace curveskel

@@ -11,6 +11,7 @@
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/assembly.hpp"
 #include "surface/repair/describe_repairs.hpp"
+#include "surface/repair/renumber.hpp"
 #include "surface/repair/wrap_solid.hpp"
 
 namespace curveskel {
@@ -59,16 +60,9 @@ RepairedSurface with_wraps(const RepairedSurface& repaired, const std::vector<Co
           first + nearest_vertex(wrapped->surface, tree, surface.positions.row(std::int64_t(v)));
     }
   }
-  const auto is_wrapped = [&](std::int32_t v) {
-    return wrap_of[idx(counted.component_of_vertex[v])] != nullptr;
-  };
-  std::erase_if(result.rims, [&](const auto& rim) { return is_wrapped(rim[0]); });
-  std::erase_if(result.sheets, is_wrapped);
-  for (auto& rim : result.rims) {
-    for (std::int32_t& v : rim) v = number[idx(v)];
-  }
-  for (std::int32_t& v : result.sheets) v = number[idx(v)];
-  for (int& v : result.vertex_of_input) v = v < 0 ? -1 : number[idx(v)];
+  renumber(
+      result, [&](std::int32_t v) { return number[idx(v)]; },
+      [&](std::int32_t v) { return wrap_of[idx(counted.component_of_vertex[v])] != nullptr; });
   result.surface = assembly.whole();
   result.repairs.faces_wrapped += faces;
   result.repairs.wrap_followed = std::max(0.0, 1 - strayed / area(result.surface));
