@@ -11,7 +11,7 @@
 namespace curveskel {
 namespace {
 
-constexpr int most_steps = 64;
+constexpr int most_added = 64;
 
 /// The direction in which the line arrives at its point i, from three points before it, or from
 /// outside its inscribed ball: within, the limb has no direction.
@@ -64,7 +64,7 @@ void extend_tip(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double 
   const Point first_heading = heading(line, line.size() - 1, radius);
   double nearest = std::numeric_limits<double>::infinity();  // in inscribed radii
   std::size_t kept = 1;
-  for (int step = 0; step < most_steps && radius >= tuning.least_radius; ++step) {
+  for (int step = 0; step < most_added && radius >= tuning.least_radius; ++step) {
     const Point& tip = line.back();
     const Point direction = heading(line, line.size() - 1, radius);
     const double left = tree.ray(tip, direction).distance;
