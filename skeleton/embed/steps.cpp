@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -112,7 +114,8 @@ bool complete_mirror_image(SkeletonGraph& graph, const Setting& in) {
   return any;
 }
 
-/// The cut divides a body without limbs anyhow: along any diagonal, and into corners.
+/// The cut divides a body without limbs anyhow: along any diagonal, and into corners. So its axis
+/// takes the place of all that the cut would become.
 bool draw_axis(SkeletonGraph& graph, const Setting& in) {
   if (in.guard.has_handles() || !is_convex(in.working, in.tree, in.tuning.convex_dent)) {
     return false;
@@ -212,6 +215,23 @@ bool lengthen(SkeletonGraph& graph, const Setting& in) {
 
 }  // namespace step
 
+/// One change of the graph, known by its name to reports and to the viewer.
+struct EmbedStep {
+  std::string_view name;
+  /// Returns true if the steps of `then` are to follow.
+  bool (*apply)(SkeletonGraph& graph, const Setting& setting);
+  /// Arcs that the step leads off their handle get their points back.
+  bool guarded = false;
+  std::span<const EmbedStep> then{};
+};
+
+/// Steps in their order.
+struct EmbedPhase {
+  std::span<const EmbedStep> steps;
+  bool until_no_spur = false;  ///< spurs are pruned after the last step; if there were any, again
+  double done = 0;             ///< share of the embedding that is done then, for progress
+};
+
 constexpr bool guarded = true;
 
 constexpr EmbedStep prune_the_spurs{"prune spurs", step::prune};
@@ -230,6 +250,8 @@ constexpr std::array after_rerouting{
     EmbedStep{"shape tips", step::shape_ends},  // they were shaped as the old ways arrived
 };
 
+constexpr EmbedStep axis{"axis of a convex body", step::draw_axis};
+
 constexpr std::array beginning{
     EmbedStep{"first course", step::start},
     EmbedStep{"widen junctions", step::widen_junctions, guarded},
@@ -242,20 +264,23 @@ constexpr std::array settling_branches{
     EmbedStep{"straighten", step::straighten, guarded},
     EmbedStep{"shape tips", step::shape_ends},
 };
-constexpr std::array finishing{
+constexpr std::array branching{
     EmbedStep{"widen bottlenecks", step::widen_bottlenecks, false, after_rerouting},
     EmbedStep{"grow branches", step::grow, false, after_growth},
     EmbedStep{"complete the mirror image", step::complete_mirror_image, false, after_growth},
     EmbedStep{"merge junctions", step::merge},  // centred, they may have come together
-    EmbedStep{"axis of a convex body", step::draw_axis},
+};
+constexpr std::array limb_phases{
+    EmbedPhase{beginning, false, 0.2},
+    EmbedPhase{settling_branches, true, 0.4},
+    EmbedPhase{branching, false, 0.5},
+};
+
+constexpr std::array centring{
     EmbedStep{"mirror", step::mirror, guarded},
     EmbedStep{"centre at last", step::centre_at_last},
 };
-constexpr std::array working_phases{
-    EmbedPhase{beginning, false, 0.2},
-    EmbedPhase{settling_branches, true, 0.4},
-    EmbedPhase{finishing, false, 0.6},
-};
+constexpr std::array centring_phases{EmbedPhase{centring, false, 0.6}};
 
 constexpr std::array settling{
     EmbedStep{"keep inside", step::tell_apart},
@@ -304,11 +329,6 @@ bool run_step(const EmbedStep& one, SkeletonGraph& graph, const Setting& in, Ste
   return goes_on;
 }
 
-}  // namespace
-
-std::span<const EmbedPhase> phases_on_working_surface() { return working_phases; }
-std::span<const EmbedPhase> phases_on_full_surface() { return full_phases; }
-
 void run_phases(std::span<const EmbedPhase> phases, SkeletonGraph& graph, const Setting& setting,
                 StepClock& clock, const Monitor& monitor) {
   for (const EmbedPhase& phase : phases) {
@@ -317,6 +337,21 @@ void run_phases(std::span<const EmbedPhase> phases, SkeletonGraph& graph, const 
     } while (phase.until_no_spur && run_step(prune_the_spurs, graph, setting, clock, monitor));
     monitor.report("embed", phase.done);
   }
+}
+
+}  // namespace
+
+void embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
+                              const Monitor& monitor) {
+  if (!run_step(axis, graph, setting, clock, monitor)) {
+    run_phases(limb_phases, graph, setting, clock, monitor);
+  }
+  run_phases(centring_phases, graph, setting, clock, monitor);
+}
+
+void embed_in_full_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
+                           const Monitor& monitor) {
+  run_phases(full_phases, graph, setting, clock, monitor);
 }
 
 }  // namespace curveskel

@@ -28,9 +28,9 @@ std::vector<Point> directions_all_round(int count) {
 
 /// Each once.
 std::vector<Point> vertices_farthest_out(const WorkingSurface& working) {
-  constexpr int directions = 32;
+  static const std::vector<Point> directions = directions_all_round(32);
   std::vector<Eigen::Index> farthest;
-  for (const Point& direction : directions_all_round(directions)) {
+  for (const Point& direction : directions) {
     const Eigen::VectorXd heights = working.surface().positions * direction;
     Eigen::Index vertex = 0;
     heights.maxCoeff(&vertex);
@@ -46,11 +46,32 @@ std::vector<Point> vertices_farthest_out(const WorkingSurface& working) {
   return places;
 }
 
+/// True if no corner lies in front of the plane of any triangle, but by rounding. No point between
+/// corners does then, so it sees all triangles from behind and the surface winds round it: the
+/// chords are inside without a query.
+bool behind_all_triangles(const std::vector<Point>& corners, const Surface& surface) {
+  constexpr double rounding = 1e-12;
+  double size = 0;
+  for (const Point& corner : corners) size = std::max(size, corner.norm());
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    const Point at = surface.positions.row(triangle[0]);
+    const Point one = surface.positions.row(triangle[1]).transpose() - at;
+    const Point other = surface.positions.row(triangle[2]).transpose() - at;
+    const Point normal = one.cross(other);
+    const double in_front = rounding * size * normal.norm();
+    for (const Point& corner : corners) {
+      if (normal.dot(corner - at) > in_front) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool is_convex(const WorkingSurface& working, const SurfaceTree& tree, double dent) {
   const double deepest = dent * working.balls().radii.maxCoeff();
   const std::vector<Point> corners = vertices_farthest_out(working);
+  if (behind_all_triangles(corners, working.surface())) return true;
   for (const double share : {0.5, 0.25, 0.75}) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       for (std::size_t j = i + 1; j < corners.size(); ++j) {

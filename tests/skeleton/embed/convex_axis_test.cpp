@@ -29,15 +29,15 @@ bool is_convex_shape(const Surface& surface) {
   return is_convex(WorkingSurface(surface, balls), tree, dent);
 }
 
-/// Along z, its middle at the origin.
-Surface prism(int sides, double radius, double height) {
+/// Along z, its middle at the origin. With two turns or more it is a star that crosses itself.
+Surface prism(int sides, double radius, double height, int turns = 1) {
   Surface prism;
   prism.positions.resize(Eigen::Index{2} * sides + 2, 3);
   prism.triangles.resize(Eigen::Index{4} * sides, 3);
   prism.positions.row(Eigen::Index{2} * sides) << 0, 0, -height / 2;
   prism.positions.row(Eigen::Index{2} * sides + 1) << 0, 0, height / 2;
   for (int i = 0; i < sides; ++i) {
-    const double angle = 2 * std::numbers::pi * i / sides;
+    const double angle = 2 * std::numbers::pi * turns * i / sides;
     const int next = (i + 1) % sides;
     for (const int level : {0, 1}) {
       prism.positions.row(Eigen::Index{level} * sides + i) << radius * std::cos(angle),
@@ -170,6 +170,24 @@ TEST(ConvexAxis, APrismHasItsOwnOrAWidthOfItsMiddlePlane) {
       }
     }
   }
+}
+
+TEST(ConvexAxis, StarsThatBendOutwardsAtEachEdgeAreNotConvex) {
+  for (const int turns : {2, 3}) EXPECT_FALSE(is_convex_shape(prism(7, 0.5, 1, turns))) << turns;
+  EXPECT_TRUE(is_convex_shape(prism(7, 0.5, 1)));
+}
+
+TEST(ConvexAxis, NothingIsMadeOfTheCutOfAConvexBody) {
+  const auto first_courses = [](const Surface& surface) {
+    std::ptrdiff_t count = 0;
+    for (const StageTime& stage : extract(surface, {}).times) {
+      count += std::count_if(stage.steps.begin(), stage.steps.end(),
+                             [](const StepTime& step) { return step.step == "first course"; });
+    }
+    return count;
+  };
+  EXPECT_EQ(first_courses(prism(6, 0.5, 1)), 0);
+  EXPECT_EQ(first_courses(shapes::tube_union("Y", shapes::star(3, 0.5, 0.07)).surface), 1);
 }
 
 TEST(ConvexAxis, DentsAreNoLimbsAndLimbsAreNoDents) {
