@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <curveskel/rig_polygons.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
 #include "app/kernel_cache.hpp"
@@ -65,6 +66,8 @@ std::string set_stage(ViewOptions& options, const std::string& text) {
   }
   options.stage = wish;
   options.stage_given = true;
+  // As `rig` repairs; `--least-sheet` is read later and has the last word.
+  if (wish.stage == "rig") options.pipeline.repair.least_sheet = repair_for_rigs().least_sheet;
   return {};
 }
 

@@ -22,6 +22,11 @@ struct RigSources {
 /// Sheets of a tenth of D and more have joints of their own: wings, ears, tails of one layer.
 [[nodiscard]] RepairOptions repair_for_rigs();
 
+/// `curve_like`, judged without the area of sheets that got a second side, hardly any of which is a
+/// tube's. `body` is the surface that was certified.
+[[nodiscard]] bool made_of_tubes_but_for_sheets(const Certificate& certificate,
+                                                const RepairedSurface& body);
+
 struct RigPolygonsOptions {
   RepairOptions repair = repair_for_rigs();
   ExtractOptions extract;
@@ -32,8 +37,8 @@ struct RigPolygonsOptions {
 
 struct PolygonsRig {
   CharacterRig character;  ///< the rig is by the vertices of the file
-  /// Of the skeleton, where it was extracted. `curve_like` is judged without sheets that got a
-  /// thickness, of which hardly any area is a tube's.
+  /// Of the skeleton, where it was extracted. `curve_like` is judged by
+  /// `made_of_tubes_but_for_sheets`.
   std::optional<Certificate> certificate;
 };
 

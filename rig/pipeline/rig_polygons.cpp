@@ -35,12 +35,6 @@ double share_of_sheets(const RepairedSurface& body) {
   return area(sheets) / area(body.surface);
 }
 
-/// Of the body without its sheets, of which hardly any area is a tube's.
-bool is_made_of_tubes(const Certificate& certificate, const RepairedSurface& body) {
-  return certificate.curve_like ||
-         certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));
-}
-
 /// Given or extracted. Where only a wrap would do, this is what `body` becomes.
 CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& options,
                            RepairedSurface& body, std::optional<Certificate>& certificate,
@@ -56,7 +50,7 @@ CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& 
   RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor);
   if (found.wrapped) body = std::move(*found.wrapped);
   certificate = found.extraction.certificate;
-  certificate->curve_like = is_made_of_tubes(*certificate, body);
+  certificate->curve_like = made_of_tubes_but_for_sheets(*certificate, body);
   return std::move(found.extraction.skeleton);
 }
 
@@ -66,6 +60,11 @@ RepairOptions repair_for_rigs() {
   RepairOptions options;
   options.least_sheet = 0.1;
   return options;
+}
+
+bool made_of_tubes_but_for_sheets(const Certificate& certificate, const RepairedSurface& body) {
+  return certificate.curve_like ||
+         certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));
 }
 
 PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
@@ -237,6 +240,37 @@ TEST_F(Rigging, IsSavedThoughAChangeWasMadeAndTakenBackMeanwhile) {
   ASSERT_TRUE(wait([&] { return !bench.busy(); }));
   EXPECT_TRUE(bench.has_rig());
   EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+/// Beyond one limb of the letter, in its plane.
+std::string y_with_a_wing() {
+  std::ostringstream obj;
+  const PolygonSoup y = read_polygons(mesh("y.off"));
+  for (const auto& place : y.positions.rowwise()) obj << "v " << place << '\n';
+  obj << "v 7.1 -2 0\nv 12 -2 0\nv 12 2 0\nv 7.1 2 0\n";
+  for (std::size_t c = 0; c < y.corners.size(); ++c) {  // triangles
+    obj << (c % 3 == 0 ? "\nf " : " ") << y.corners[c] + 1;
+  }
+  const Eigen::Index last = y.positions.rows() + 4;
+  obj << "\nf " << last - 3 << ' ' << last - 2 << ' ' << last - 1 << ' ' << last << '\n';
+  return std::move(obj).str();
+}
+
+TEST_F(Rigging, SaysHowSheetsGetJoints) {
+  const auto file = folder.write("wing.obj", y_with_a_wing());
+  const auto joints_in_the_wing = [&](double least_sheet) {
+    bench.pipeline.repair.least_sheet = least_sheet;
+    const Scene* const before = bench.scene.get();
+    bench.open({file});
+    EXPECT_TRUE(wait([&] { return bench.scene.get() != before && bench.result() != nullptr; }));
+    EXPECT_TRUE(wait([&] { return !bench.busy(); }));
+    make_rig();
+    return (bench.scene->rig()->joints.col(0).array() > 7.1).count();
+  };
+  EXPECT_EQ(joints_in_the_wing(0), 0);
+  EXPECT_NE(last_said().find("--least-sheet 0.1"), std::string::npos) << last_said();
+  EXPECT_GE(joints_in_the_wing(0.1), 1);
+  EXPECT_EQ(last_said().find("--least-sheet"), std::string::npos) << last_said();
 }
 
 TEST_F(Rigging, NeedsASkeletonAndSaysSo) {

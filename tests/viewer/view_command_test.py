@@ -154,6 +154,23 @@ class Stages(ViewTest):
         numpy.testing.assert_array_equal(self.picture(Y, extracted, "--stage", "rig"), rig)
         self.assert_differ(self.picture(Y, "--stage", "rig", "--joint", "root"), rig)
 
+    def test_a_rig_has_joints_in_sheets_unless_told_otherwise(self):
+        head, counts, *lines = pathlib.Path(Y).read_text().splitlines()
+        vertices, faces = map(int, counts.split()[:2])
+        wing = ["7.1 -2 0", "12 -2 0", "12 2 0", "7.1 2 0"]
+        file = self.folder / "wing.off"
+        file.write_text("\n".join(
+            [head, f"{vertices + 4} {faces + 1} 0", *lines[:vertices], *wing,
+             *lines[vertices:vertices + faces],
+             "4 " + " ".join(str(vertices + i) for i in range(4)), ""]))
+        rig = self.picture(file, "--stage", "rig")
+        bare = self.picture(file, "--least-sheet", "0", "--stage", "rig")
+        self.assert_differ(rig, bare)
+        numpy.testing.assert_array_equal(
+            self.picture(file, "--stage", "rig", "--least-sheet", "0"), bare)
+        numpy.testing.assert_array_equal(
+            self.picture(file, "--stage", "rig", "--least-sheet", "0.1"), rig)
+
     def test_that_never_come_are_refused(self):
         skeleton = self.skeleton()
         out = self.folder / "out.png"

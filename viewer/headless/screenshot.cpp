@@ -27,8 +27,10 @@ using Part = Renderer::Part;
 constexpr int largest_side = 16384;
 
 void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
-             const CharacterOptions& character, const Monitor& monitor) {
-  scene.recording.add(moment_of(rig_of(scene.document, repaired, skeleton, character, monitor)));
+             const Certificate* certificate, const CharacterOptions& character,
+             const Monitor& monitor) {
+  scene.recording.add(
+      moment_of(rig_of(scene.document, repaired, skeleton, certificate, character, monitor)));
 }
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
@@ -42,9 +44,8 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
     if (news.state == Run::State::finished) {
       scene.recording.settle(news.result->extraction->history);
       if (options.stage.stage != "rig") return;
-      CharacterOptions character = options.pipeline.character;
-      character.plan.made_of_tubes = news.result->extraction->certificate.curve_like;
-      add_rig(scene, *news.result->repaired, *news.result->skeleton, character, monitor);
+      add_rig(scene, *news.result->repaired, *news.result->skeleton,
+              &news.result->extraction->certificate, options.pipeline.character, monitor);
       return;
     }
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
@@ -253,7 +254,7 @@ void write_pictures(const ViewOptions& options, Session& session) {
   } else if (options.stage.stage == "rig" && scene.own_skeleton && scene.document.has_surface()) {
     const RepairedSurface repaired =
         repair(*scene.document.polygons(), options.pipeline.repair, monitor);
-    add_rig(scene, repaired, *scene.own_skeleton, options.pipeline.character, monitor);
+    add_rig(scene, repaired, *scene.own_skeleton, nullptr, options.pipeline.character, monitor);
     go_to(scene, options.stage);
     look_at_rig(scene, options.joint);
   } else if (scene.document.has_surface() && wants_run &&

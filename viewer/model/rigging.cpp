@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <utility>
 
+#include <curveskel/rig_polygons.hpp>
+
 namespace curveskel::viewer {
 
-std::shared_ptr<const CharacterRig> rig_of(const Document& document,
-                                           const RepairedSurface& repaired,
-                                           const CurveSkeleton& skeleton,
-                                           const CharacterOptions& options,
-                                           const Monitor& monitor) {
+std::shared_ptr<const CharacterRig> rig_of(
+    const Document& document, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
+    const Certificate* certificate, const CharacterOptions& options, const Monitor& monitor) {
   const CurveSkeleton mapped =
       skeleton_of_repaired(skeleton, repaired.vertex_of_input, repaired.surface.positions.rows());
   CharacterOptions facing = options;
   facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
   facing.plan.z_is_up = document.z_is_up;
+  if (certificate != nullptr) {
+    facing.plan.made_of_tubes = made_of_tubes_but_for_sheets(*certificate, repaired);
+  }
   CharacterRig made = rig_character(document.surface, repaired, mapped, facing, monitor);
   const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
   made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
@@ -47,6 +50,14 @@ std::string words_of(const CharacterRig& character) {
       std::count_if(parts.begin(), parts.end(), [](const RigPart& part) { return part.follows; });
   if (followers > 0) words += fmt::format("; {} of {} parts follow", followers, parts.size());
   return words;
+}
+
+std::string words_on_sheets(const RepairedSurface& repaired, const RepairOptions& options) {
+  const auto left_out = repaired.repairs.sheets_dropped;
+  if (left_out == 0 || options.least_sheet > 0) return {};
+  return fmt::format(
+      "{} open or flat part{} no joints: --least-sheet {} gives large ones their own", left_out,
+      left_out == 1 ? " has" : "s have", repair_for_rigs().least_sheet);
 }
 
 }  // namespace curveskel::viewer

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <curveskel/certificate.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_character.hpp>
 #include "viewer/model/document.hpp"
@@ -13,16 +14,19 @@ namespace curveskel::viewer {
 
 /// The rig and its parts by the vertices of the document's file; node_of_vertex of the skeleton (if
 /// it has one) is by these, too. Precondition: the document has a surface, `repaired` was made of
-/// it.
-[[nodiscard]] std::shared_ptr<const CharacterRig> rig_of(const Document& document,
-                                                         const RepairedSurface& repaired,
-                                                         const CurveSkeleton& skeleton,
-                                                         const CharacterOptions& options,
-                                                         const Monitor& monitor);
+/// it; the skeleton's certificate, if there is one, belongs to `repaired`.
+[[nodiscard]] std::shared_ptr<const CharacterRig> rig_of(
+    const Document& document, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
+    const Certificate* certificate, const CharacterOptions& options, const Monitor& monitor);
 
 [[nodiscard]] Moment moment_of(std::shared_ptr<const CharacterRig> character);
 
 /// "73 joints, humanoid (one pair of legs ...); 33 of 48 parts follow".
 [[nodiscard]] std::string words_of(const CharacterRig& character);
+
+/// Says that sheets have no joints, and how they get some; empty where none was left out or
+/// `least_sheet` has decided.
+[[nodiscard]] std::string words_on_sheets(const RepairedSurface& repaired,
+                                          const RepairOptions& options);
 
 }  // namespace curveskel::viewer

@@ -166,6 +166,7 @@ class Workbench {
   struct Rigged {
     Edited of;
     std::shared_ptr<const CharacterRig> rig;  // null where it was stopped
+    std::string on_sheets;                    // see words_on_sheets
     std::string error;
   };
   bool take_opened();

@@ -32,15 +32,16 @@ void Workbench::rig() {
   rigging_stop_ = {};
   CharacterOptions options = pipeline.character;
   options.rig.joints.root = history_.now().root;
+  std::optional<Certificate> certificate;
   if (judgement_ && judgement_->error.empty() && judgement_->skeleton == history_.now().skeleton) {
-    options.plan.made_of_tubes = judgement_->certificate.curve_like;
+    certificate = judgement_->certificate;
   } else if (result_) {
-    options.plan.made_of_tubes = result_->extraction->certificate.curve_like;
+    certificate = result_->extraction->certificate;
   }
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
   rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
-                                             repair_options = pipeline.repair,
+                                             certificate, repair_options = pipeline.repair,
                                              stop = rigging_stop_.get_token()]() mutable {
     give_way();
     Monitor monitor;
@@ -52,7 +53,9 @@ void Workbench::rig() {
         repaired = std::make_shared<const RepairedSurface>(
             repair(*held->document.polygons(), repair_options, monitor));
       }
-      made.rig = rig_of(held->document, *repaired, *of.skeleton, options, monitor);
+      made.rig = rig_of(held->document, *repaired, *of.skeleton,
+                        certificate ? &*certificate : nullptr, options, monitor);
+      made.on_sheets = words_on_sheets(*repaired, repair_options);
     } catch (const Cancelled&) {
     } catch (const std::exception& error) {
       made.error = error.what();
@@ -85,6 +88,7 @@ bool Workbench::take_rig() {
   scene->recording.add(moment_of(made.rig));
   go_to(scene->recording.moments().size() - 1);
   say(words_of(*made.rig));
+  if (!made.on_sheets.empty()) say(made.on_sheets);
   if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}));
   return true;
 }
