@@ -250,7 +250,7 @@ constexpr std::array after_rerouting{
     EmbedStep{"shape tips", step::shape_ends},  // they were shaped as the old ways arrived
 };
 
-constexpr EmbedStep axis{"axis of a convex body", step::draw_axis};
+constexpr EmbedStep draw_the_axis{"axis of a convex body", step::draw_axis};
 
 constexpr std::array beginning{
     EmbedStep{"first course", step::start},
@@ -343,7 +343,7 @@ void run_phases(std::span<const EmbedPhase> phases, SkeletonGraph& graph, const 
 
 void embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
                               const Monitor& monitor) {
-  if (!run_step(axis, graph, setting, clock, monitor)) {
+  if (!run_step(draw_the_axis, graph, setting, clock, monitor)) {
     run_phases(limb_phases, graph, setting, clock, monitor);
   }
   run_phases(centring_phases, graph, setting, clock, monitor);
