@@ -1,4 +1,4 @@
-// The steps of the embedding, as tables: their names, their order, and when they are repeated.
+// The steps of the embedding, in the order and as often as the tables in steps.cpp say.
 #pragma once
 
 #include <curveskel/advanced/step_clock.hpp>
@@ -8,8 +8,9 @@
 
 namespace curveskel {
 
-/// Within the working surface, whose tree is quick to ask: all that takes many rays. The graph that
-/// goes in is empty. Each step is timed under its name. Throws Cancelled if a stop was requested.
+/// Within the working surface, whose tree is quick to ask: all that takes many rays. A convex body
+/// gets its axis, any other the limbs of the cut. The graph that goes in is empty. Each step is
+/// timed under its name. Throws Cancelled if a stop was requested.
 void embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
                               const Monitor& monitor);
 

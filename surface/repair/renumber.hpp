@@ -1,4 +1,4 @@
-// What a repaired surface knows of its vertices, when these get other numbers.
+// New numbers for the vertices of a repaired surface: in its map, its rims and its sheets.
 #pragma once
 
 #include <algorithm>
