@@ -1,0 +1,265 @@
+#include "surface/read/dae_scene.hpp"
+
+#include <fast_float/fast_float.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "surface/read/dae_skin.hpp"
+
+namespace curveskel {
+namespace {
+
+constexpr int deepest_node = 500;  // chains of joints nest
+
+/// x right, y up, -z ahead: what <lookat> turns towards its point of interest.
+Eigen::Affine3d looking(const std::vector<double>& numbers) {
+  const Eigen::Vector3d eye(numbers[0], numbers[1], numbers[2]);
+  const Eigen::Vector3d interest(numbers[3], numbers[4], numbers[5]);
+  const Eigen::Vector3d up(numbers[6], numbers[7], numbers[8]);
+  const Eigen::Vector3d back = (eye - interest).normalized();
+  const Eigen::Vector3d right = up.cross(back).normalized();
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.linear() << right, back.cross(right), back;
+  result.translation() = eye;
+  return result;
+}
+
+const XmlElement* asset_entry(const DaeDocument& document, std::string_view name) {
+  const XmlElement* asset = document.root().child("asset");
+  return asset == nullptr ? nullptr : asset->child(name);
+}
+
+/// As the file has it, without blanks; empty where it does not say.
+std::string up_axis(const DaeDocument& document) {
+  const XmlElement* entry = asset_entry(document, "up_axis");
+  std::string text = entry == nullptr ? "" : entry->text;
+  std::erase_if(text, [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
+  return text;
+}
+
+double metres_per_unit(const DaeDocument& document) {
+  const XmlElement* unit = asset_entry(document, "unit");
+  if (unit == nullptr) return 1;
+  const std::string text(unit->attribute("meter"));
+  double metres = 0;
+  const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), metres);
+  return error == std::errc() && metres > 0 && std::isfinite(metres) ? metres : 1;
+}
+
+class DaeSceneReader {
+ public:
+  DaeSceneReader(const DaeDocument& document, const Monitor& monitor,
+                 const std::function<void(const DaeShownMesh&)>& take)
+      : document_(document), monitor_(monitor), take_(take) {}
+
+  void read() {
+    const XmlElement* scene = shown_scene();
+    if (scene == nullptr) {
+      for (const XmlElement* library : document_.root().all("library_geometries")) {
+        for (const XmlElement* geometry : library->all("geometry")) {
+          take_({nullptr, mesh_of(*geometry), Eigen::Affine3d::Identity(), {}, nullptr});
+        }
+      }
+      return;
+    }
+    place_nodes(*scene);
+    for (const auto& [node, frame] : placed_) {
+      for (const XmlElement& child : node->children) {
+        if (child.name == "instance_geometry") {
+          take_({&child, mesh_of(document_.referred(child, "url")), frame, {}, nullptr});
+        } else if (child.name == "instance_controller") {
+          take_controlled(child, frame);
+        }
+      }
+    }
+  }
+
+ private:
+  using Placed = std::pair<const XmlElement*, Eigen::Affine3d>;
+
+  [[nodiscard]] const XmlElement* shown_scene() const {
+    const XmlElement* scene = document_.root().child("scene");
+    const XmlElement* instance = scene == nullptr ? nullptr : scene->child("instance_visual_scene");
+    if (instance != nullptr) return &document_.referred(*instance, "url");
+    const XmlElement* library = document_.root().child("library_visual_scenes");
+    return library == nullptr ? nullptr : library->child("visual_scene");
+  }
+
+  /// Depth first, in the file's order; instances of nodes may refer in circles, or multiply.
+  void place_nodes(const XmlElement& scene) {
+    constexpr std::size_t most_nodes = 1000000;
+    std::vector<Placed> open{{&scene, Eigen::Affine3d::Identity()}};
+    while (!open.empty()) {
+      monitor_.report("read", 0.3);
+      const auto [node, parent] = open.back();
+      open.pop_back();
+      const Eigen::Affine3d frame = parent * transform(*node);
+      placed_.emplace_back(node, frame);
+      frame_of_.emplace(node, frame);
+      if (placed_.size() + open.size() > most_nodes) {
+        document_.fail(*node, "more than " + std::to_string(most_nodes) + " nodes in the scene",
+                       "fewer, and no node in itself");
+      }
+      for (std::size_t i = node->children.size(); i-- > 0;) {
+        const XmlElement& child = node->children[i];
+        if (child.name == "node") open.emplace_back(&child, frame);
+        if (child.name == "instance_node") {
+          open.emplace_back(&document_.referred(child, "url"), frame);
+        }
+      }
+    }
+  }
+
+  /// The product of a node's transformations in their order.
+  [[nodiscard]] Eigen::Affine3d transform(const XmlElement& node) const {
+    Eigen::Affine3d frame = Eigen::Affine3d::Identity();
+    for (const XmlElement& child : node.children) {
+      const auto numbers = [&](std::size_t count) {
+        std::vector<double> values = document_.numbers(child);
+        if (values.size() != count) {
+          document_.fail(child, std::to_string(values.size()) + " numbers in <" + child.name + ">",
+                         std::to_string(count));
+        }
+        return values;
+      };
+      if (child.name == "matrix") {
+        frame = frame * document_.matrix(child, numbers(16).data());
+      } else if (child.name == "translate") {
+        frame.translate(Eigen::Vector3d(numbers(3).data()));
+      } else if (child.name == "scale") {
+        frame.scale(Eigen::Vector3d(numbers(3).data()));
+      } else if (child.name == "rotate") {
+        const std::vector<double> turn = numbers(4);
+        const Eigen::Vector3d axis(turn.data());
+        if (axis.norm() == 0) continue;
+        frame.rotate(Eigen::AngleAxisd(turn[3] * std::numbers::pi / 180, axis.normalized()));
+      } else if (child.name == "lookat") {
+        frame = frame * looking(numbers(9));
+      } else if (child.name == "skew") {
+        document_.fail(child, "<skew>", "a <matrix> instead");
+      }
+    }
+    if (!frame.matrix().allFinite()) document_.fail(node, "a transform of no numbers", "numbers");
+    return frame;
+  }
+
+  const DaeMesh& mesh_of(const XmlElement& geometry) {
+    const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
+    if (is_new) entry->second = read_dae_mesh(document_, geometry);
+    return entry->second;
+  }
+
+  /// Morphs stand for their base mesh: the weights of a scene at rest are zero.
+  void take_controlled(const XmlElement& instance, const Eigen::Affine3d& frame) {
+    constexpr int deepest_controller = 10;
+    const XmlElement* target = &document_.referred(instance, "url");
+    const XmlElement* skin = nullptr;
+    const XmlElement* morph = nullptr;
+    for (int depth = 0; target->name == "controller"; ++depth) {
+      const XmlElement* inner = target->child("skin");
+      if (inner != nullptr) {
+        skin = inner;
+      } else {
+        inner = target->child("morph");
+        morph = inner;
+      }
+      if (inner == nullptr || depth > deepest_controller) {
+        document_.fail(*target, "a controller that is neither skin nor morph of a mesh", "one");
+      }
+      target = &document_.referred(*inner, "source");
+    }
+    const DaeMesh& mesh = mesh_of(*target);
+    if (skin == nullptr) return take_({&instance, mesh, frame, {}, morph});
+    const DaeSkin read =
+        read_dae_skin(document_, *skin, static_cast<std::size_t>(mesh.polygons.positions.rows()));
+    MeshSkin posed{{}, read.weights};
+    for (std::size_t j = 0; j < read.joints.size(); ++j) {
+      posed.joints.push_back(joint_frame(instance, read.joints[j], read.joints_are_ids) *
+                             read.to_joint[j]);
+    }
+    take_({&instance, mesh, frame * read.bind_shape, std::move(posed), morph});
+  }
+
+  /// Of the node with that sid below the instance's skeletons, or with that id; exporters that
+  /// leave the sid out use the name.
+  [[nodiscard]] Eigen::Affine3d joint_frame(const XmlElement& instance, const std::string& joint,
+                                            bool is_id) const {
+    if (is_id && document_.has(joint)) {
+      for (const auto& [node, frame] : placed_) {
+        if (node->attribute("id") == joint) return frame;
+      }
+    }
+    for (const std::string_view key : {"sid", "name", "id"}) {
+      for (const XmlElement* skeleton : instance.all("skeleton")) {
+        std::string root(skeleton->text);
+        const std::size_t begin = root.find_first_not_of(" \t\r\n#");
+        if (begin == std::string::npos) continue;
+        root = root.substr(begin, root.find_last_not_of(" \t\r\n") + 1 - begin);
+        for (const auto& [node, frame] : placed_) {
+          if (node->attribute("id") != root) continue;
+          const XmlElement* found = below(*node, key, joint);
+          const auto at = found == nullptr ? frame_of_.end() : frame_of_.find(found);
+          if (at != frame_of_.end()) return at->second;
+        }
+      }
+      for (const auto& [node, frame] : placed_) {
+        if (node->attribute(key) == joint) return frame;
+      }
+    }
+    document_.fail(instance, "no node that is the joint " + in_quotes(joint), "one in the scene");
+  }
+
+  static const XmlElement* below(const XmlElement& node, std::string_view key,
+                                 std::string_view value) {
+    if (node.attribute(key) == value) return &node;
+    for (const XmlElement& child : node.children) {
+      if (child.name != "node") continue;
+      if (const XmlElement* found = below(child, key, value)) return found;
+    }
+    return nullptr;
+  }
+
+  const DaeDocument& document_;
+  const Monitor& monitor_;
+  const std::function<void(const DaeShownMesh&)>& take_;
+  std::vector<Placed> placed_;
+  std::map<const XmlElement*, Eigen::Affine3d> frame_of_;  // where it stands first
+  std::map<const XmlElement*, DaeMesh> mesh_of_;
+};
+
+}  // namespace
+
+void for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor,
+                       const std::function<void(const DaeShownMesh&)>& take) {
+  DaeSceneReader(document, monitor, take).read();
+}
+
+bool has_z_up(const DaeDocument& document) { return up_axis(document) == "Z_UP"; }
+
+Eigen::Affine3d dae_to_gltf(const DaeDocument& document) {
+  const std::string up = up_axis(document);
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (up == "Z_UP") axes << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  if (up == "X_UP") axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.linear() = metres_per_unit(document) * axes;
+  return result;
+}
+
+XmlElement parse_dae(const FileBytes& file) {
+  XmlElement root = parse_xml(file, deepest_node);
+  if (root.name != "COLLADA") {
+    file.fail("XML that begins with <" + root.name + ">", "<COLLADA>",
+              "check the file's content, or name it by its format");
+  }
+  return root;
+}
+
+}  // namespace curveskel

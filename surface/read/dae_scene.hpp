@@ -1,0 +1,38 @@
+// The meshes of a COLLADA file where its scene shows them. Internal to surface/ and rig/.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include <curveskel/monitor.hpp>
+#include "surface/read/dae_document.hpp"
+#include "surface/read/dae_mesh.hpp"
+#include "surface/read/placed_meshes.hpp"
+
+namespace curveskel {
+
+/// All are there while the document is.
+struct DaeShownMesh {
+  const XmlElement* instance;  ///< what shows it; nullptr in a file without a scene
+  const DaeMesh& mesh;
+  Eigen::Affine3d frame;  ///< from the mesh to the world
+  MeshSkin skin;
+  const XmlElement* morph;  ///< <morph> of the mesh, or nullptr
+};
+
+/// Each mesh as often as the scene shows it, in the order in which `read_polygons` has them. Throws
+/// Error(Fault::input) with the line.
+void for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor,
+                       const std::function<void(const DaeShownMesh&)>& take);
+
+/// True if the file says that z is up.
+[[nodiscard]] bool has_z_up(const DaeDocument& document);
+
+/// From the file's coordinates to those of glTF: y up, z ahead, metres. Where the file does not say
+/// its axes are as in glTF, and its unit is the metre.
+[[nodiscard]] Eigen::Affine3d dae_to_gltf(const DaeDocument& document);
+
+/// The document's root. Throws Error(Fault::input) with the line.
+[[nodiscard]] XmlElement parse_dae(const FileBytes& file);
+
+}  // namespace curveskel
