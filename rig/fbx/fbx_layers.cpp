@@ -18,10 +18,17 @@ std::vector<double> numbers_in(const FileBytes& file, const FbxRecord& layer,
 
 }  // namespace
 
-FbxLayer::FbxLayer(const FileBytes& file, const FbxRecord& geometry, std::string_view layer,
-                   std::string_view values, std::string_view indices, std::size_t width)
+std::vector<const FbxRecord*> fbx_texture_sets(const FbxRecord& geometry) {
+  std::vector<const FbxRecord*> sets;
+  for (const FbxRecord& child : geometry.children) {
+    if (child.name == "LayerElementUV") sets.push_back(&child);
+  }
+  return sets;
+}
+
+FbxLayer::FbxLayer(const FileBytes& file, const FbxRecord* record, std::string_view values,
+                   std::string_view indices, std::size_t width)
     : width_(width) {
-  const FbxRecord* record = geometry.child(layer);
   if (record == nullptr) return;
   const std::string_view mapping = text_in(*record, "MappingInformationType");
   if (mapping == "ByPolygonVertex") given_ = Given::by_corner;

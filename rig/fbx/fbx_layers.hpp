@@ -17,14 +17,17 @@ struct FbxCorner {
   std::size_t polygon = 0;
 };
 
-/// The first layer of a kind: rows of numbers, one for each corner, vertex, polygon, or for all.
+/// The sets of texture coordinates of a geometry, in the file's order.
+[[nodiscard]] std::vector<const FbxRecord*> fbx_texture_sets(const FbxRecord& geometry);
+
+/// A layer: rows of numbers, one for each corner, vertex, polygon, or for all.
 class FbxLayer {
  public:
-  /// `layer` as "LayerElementUV", `values` as "UV", `indices` as "UVIndex". Without such a layer,
-  /// or with one that is given in another way, no corner has a row. Throws Error(Fault::input)
-  /// where numbers are broken.
-  FbxLayer(const FileBytes& file, const FbxRecord& geometry, std::string_view layer,
-           std::string_view values, std::string_view indices, std::size_t width);
+  /// `record` as "LayerElementUV", `values` as "UV", `indices` as "UVIndex". Without a record, or
+  /// with one that is given in another way, no corner has a row. Throws Error(Fault::input) where
+  /// numbers are broken.
+  FbxLayer(const FileBytes& file, const FbxRecord* record, std::string_view values,
+           std::string_view indices, std::size_t width);
 
   [[nodiscard]] std::size_t rows() const { return values_.size() / width_; }
   [[nodiscard]] double value(std::size_t row, std::size_t column) const {

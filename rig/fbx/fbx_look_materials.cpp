@@ -9,8 +9,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "base/base64.hpp"
+#include "rig/fbx/fbx_layers.hpp"
 #include "surface/read/fbx_tree.hpp"
 
 namespace curveskel {
@@ -22,8 +24,8 @@ using Names = std::initializer_list<std::string_view>;
 class MaterialLooks {
  public:
   MaterialLooks(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
-                const FbxRecord& material)
-      : file_(file), root_(root), scene_(scene), material_(material) {}
+                const FbxRecord& material, const FbxRecord& geometry)
+      : file_(file), root_(root), scene_(scene), material_(material), geometry_(geometry) {}
 
   [[nodiscard]] DressedMaterial read() const {
     MaterialLook look;
@@ -103,7 +105,20 @@ class MaterialLooks {
     const FbxRecord* content = named.child("Content");
     if (content != nullptr) result.bytes = bytes_of(*content);
     result.path = result.bytes.empty() ? found(result.name) : fs::path(result.name);
+    result.set = set_of(texture);
     return result;
+  }
+
+  /// The set that the texture names; the first where it names none that is there.
+  [[nodiscard]] std::size_t set_of(const FbxRecord& texture) const {
+    const FbxRecord* named = fbx_property(&texture, "UVSet");
+    if (named == nullptr) return 0;
+    const std::vector<const FbxRecord*> sets = fbx_texture_sets(geometry_);
+    for (std::size_t set = 0; set < std::min(sets.size(), most_texture_sets); ++set) {
+      const FbxRecord* name = sets[set]->child("Name");
+      if (name != nullptr && name->text(0) == named->text(first_property_value)) return set;
+    }
+    return 0;
   }
 
   /// With the separators of this system.
@@ -148,13 +163,14 @@ class MaterialLooks {
   const FbxRecord& root_;
   const FbxScene& scene_;
   const FbxRecord& material_;
+  const FbxRecord& geometry_;
 };
 
 }  // namespace
 
 DressedMaterial fbx_look_of(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
-                            const FbxRecord& material) {
-  return MaterialLooks(file, root, scene, material).read();
+                            const FbxRecord& material, const FbxRecord& geometry) {
+  return MaterialLooks(file, root, scene, material, geometry).read();
 }
 
 }  // namespace curveskel

@@ -8,8 +8,10 @@
 
 namespace curveskel {
 
-/// The look of one "Material" of the scene, see `read_fbx_looks`. `root` is the scene's.
+/// The look of one "Material" of the scene, see `read_fbx_looks`. `root` is the scene's; among the
+/// texture coordinates of `geometry` its textures have theirs.
 [[nodiscard]] DressedMaterial fbx_look_of(const FileBytes& file, const FbxRecord& root,
-                                          const FbxScene& scene, const FbxRecord& material);
+                                          const FbxScene& scene, const FbxRecord& material,
+                                          const FbxRecord& geometry);
 
 }  // namespace curveskel

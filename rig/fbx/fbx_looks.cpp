@@ -1,15 +1,15 @@
 #include "rig/fbx/fbx_looks.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_layers.hpp"
 #include "rig/fbx/fbx_look_materials.hpp"
+#include "rig/gltf/dressed_rows.hpp"
+#include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/fbx_axes.hpp"
 #include "surface/read/fbx_meshes.hpp"
 #include "surface/read/fbx_scene.hpp"
@@ -17,34 +17,6 @@
 
 namespace curveskel {
 namespace {
-
-/// By vertex, what moves its surroundings to the world.
-std::vector<Eigen::Matrix3d> vertex_maps(const FbxMesh& mesh) {
-  const auto count = static_cast<std::size_t>(mesh.polygons.positions.rows());
-  std::vector<Eigen::Matrix3d> maps(count, Eigen::Matrix3d::Zero());
-  std::vector<double> sums(count, 0);
-  for (const SkinWeight& one : mesh.skin.weights) {
-    maps[one.vertex] += one.weight * mesh.skin.joints[one.joint].linear();
-    sums[one.vertex] += one.weight;
-  }
-  for (std::size_t v = 0; v < count; ++v) {
-    maps[v] = sums[v] > 0 ? Eigen::Matrix3d(maps[v] / sums[v]) : mesh.frame.linear();
-  }
-  return maps;
-}
-
-/// The same of normals: the inverse transpose times a number above 0.
-std::vector<Eigen::Matrix3d> normal_maps(std::vector<Eigen::Matrix3d> maps) {
-  for (Eigen::Matrix3d& map : maps) {
-    // The cofactors, which are there for flattened vertices, too.
-    const Eigen::Matrix3d moved = map;
-    map.col(0) = moved.col(1).cross(moved.col(2));
-    map.col(1) = moved.col(2).cross(moved.col(0));
-    map.col(2) = moved.col(0).cross(moved.col(1));
-    if (moved.determinant() < 0) map = -map;
-  }
-  return maps;
-}
 
 class FbxLookReader {
  public:
@@ -62,33 +34,32 @@ class FbxLookReader {
     for (std::size_t c = 0; c < soup.corners.size(); ++c) {
       made_.mesh.corners[c].place = soup.corners[c];
     }
-    if (has_colours_) notes_.emplace_back("vertex colours are left out");
-    if (has_further_sets_) {
-      notes_.emplace_back("of several sets of texture coordinates the first is taken");
+    if (leaves_out_sets_) {
+      notes_.push_back("of the sets of texture coordinates the first " +
+                       std::to_string(most_texture_sets) + " are taken");
     }
     return std::move(made_);
   }
 
  private:
   void add(const FbxMesh& mesh) {
-    const std::vector<Eigen::Matrix3d> moving = vertex_maps(mesh);
+    const std::vector<Eigen::Matrix3d> moving = vertex_maps(
+        mesh.skin, mesh.frame, static_cast<std::size_t>(mesh.polygons.positions.rows()));
     add_shapes(mesh, moving);
     first_vertex_ += mesh.polygons.positions.rows();
     meshes_.add(mesh.polygons, mesh.frame, mesh.skin);
     const FbxRecord& geometry = mesh.geometry;
-    const FbxLayer textures(file_, geometry, "LayerElementUV", "UV", "UVIndex", 2);
-    const FbxLayer normals(file_, geometry, "LayerElementNormal", "Normals", "NormalsIndex", 3);
-    const FbxLayer materials(file_, geometry, "LayerElementMaterial", "Materials", "", 1);
-    has_colours_ = has_colours_ || geometry.child("LayerElementColor") != nullptr;
-    std::size_t sets = 0;
-    for (const FbxRecord& child : geometry.children) sets += child.name == "LayerElementUV" ? 1 : 0;
-    has_further_sets_ = has_further_sets_ || sets > 1;
+    const std::vector<FbxLayer> sets = texture_sets(geometry);
+    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, sets.size());
+    const FbxLayer normals(file_, geometry.child("LayerElementNormal"), "Normals", "NormalsIndex",
+                           3);
+    const FbxLayer colours(file_, geometry.child("LayerElementColor"), "Colors", "ColorIndex", 4);
+    const FbxLayer materials(file_, geometry.child("LayerElementMaterial"), "Materials", "", 1);
 
-    const std::vector<int> numbers = materials_of(mesh.model);
+    const std::vector<int> numbers = materials_of(mesh);
     const std::vector<Eigen::Matrix3d> maps = normal_maps(moving);
     const bool mirrored = is_mirrored(mesh.frame, mesh.skin);
-    normal_rows_.clear();
-    texture_rows_.clear();
+    rows_.begin_mesh();
     const std::vector<std::int64_t>& offsets = mesh.polygons.offsets;
     for (std::size_t p = 0; p + 1 < offsets.size(); ++p) {
       const auto begin = idx(offsets[p]);
@@ -96,8 +67,9 @@ class FbxLookReader {
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t c = mirrored ? begin + end - 1 - k : k;
         const FbxCorner corner{c, idx(mesh.polygons.corners[c]), p};
-        made_.mesh.corners.push_back(
-            {-1, texture_of(textures, corner), normal_of(normals, corner, maps[corner.vertex])});
+        made_.mesh.corners.push_back({-1, texture_of(sets, corner),
+                                      normal_of(normals, corner, maps[corner.vertex]),
+                                      colour_of(colours, corner)});
       }
       const std::int64_t row = materials.row_of({begin, 0, p});
       const double number = row < 0 ? 0 : materials.value(idx(row), 0);
@@ -105,6 +77,18 @@ class FbxLookReader {
       made_.mesh.material_of_face.push_back(is_there ? numbers[static_cast<std::size_t>(number)]
                                                      : -1);
     }
+  }
+
+  [[nodiscard]] std::vector<FbxLayer> texture_sets(const FbxRecord& geometry) {
+    std::vector<FbxLayer> sets;
+    for (const FbxRecord* record : fbx_texture_sets(geometry)) {
+      if (sets.size() == most_texture_sets) {
+        leaves_out_sets_ = true;
+        break;
+      }
+      sets.emplace_back(file_, record, "UV", "UVIndex", 2);
+    }
+    return sets;
   }
 
   /// Channels of one name are one, as a face's and its teeth's.
@@ -124,15 +108,15 @@ class FbxLookReader {
   }
 
   /// Of the model's materials, in their order, the numbers in all of the file.
-  std::vector<int> materials_of(const FbxRecord& model) {
+  std::vector<int> materials_of(const FbxMesh& mesh) {
     std::vector<int> numbers;
-    const FbxRecord* culling = model.child("Culling");
+    const FbxRecord* culling = mesh.model.child("Culling");
     const bool two_sided = culling != nullptr && culling->text(0) == "CullingOff";
-    for (const FbxRecord* material : scene_.below(model, "Material")) {
+    for (const FbxRecord* material : scene_.below(mesh.model, "Material")) {
       const auto [entry, is_new] =
           numbers_.try_emplace(material, static_cast<int>(made_.materials.size()));
       if (is_new) {
-        made_.materials.push_back(fbx_look_of(file_, root_, scene_, *material));
+        made_.materials.push_back(fbx_look_of(file_, root_, scene_, *material, mesh.geometry));
         made_.mesh.materials.push_back(made_.materials.back().name);
       }
       made_.materials[idx(entry->second)].look->two_sided |= two_sided;
@@ -141,37 +125,33 @@ class FbxLookReader {
     return numbers;
   }
 
-  /// Equal rows of a mesh are one.
-  std::int32_t texture_of(const FbxLayer& layer, const FbxCorner& corner) {
-    const std::int64_t row = layer.row_of(corner);
-    if (row < 0) return -1;
-    const std::array<float, 2> at{static_cast<float>(layer.value(idx(row), 0)),
-                                  static_cast<float>(layer.value(idx(row), 1))};
-    if (!std::isfinite(at[0]) || !std::isfinite(at[1])) return -1;
-    const auto [entry, is_new] =
-        texture_rows_.try_emplace(at, static_cast<std::int32_t>(made_.mesh.textures.size()));
-    if (is_new) made_.mesh.textures.push_back(at);
-    return entry->second;
+  /// Of the sets that the mesh has; a corner that the first set leaves out has none.
+  std::int32_t texture_of(const std::vector<FbxLayer>& sets, const FbxCorner& corner) {
+    if (sets.empty() || sets.front().row_of(corner) < 0) return -1;
+    TextureRow at{};
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const std::int64_t row = sets[set].row_of(corner);
+      for (std::size_t k = 0; k < 2 && row >= 0; ++k) {
+        at[2 * set + k] = static_cast<float>(sets[set].value(idx(row), k));
+      }
+    }
+    return rows_.texture(at);
   }
 
-  /// Equal rows of a vertex are one.
   std::int32_t normal_of(const FbxLayer& layer, const FbxCorner& corner,
                          const Eigen::Matrix3d& map) {
     const std::int64_t row = layer.row_of(corner);
     if (row < 0) return -1;
-    Eigen::Vector3d given;
-    for (std::size_t k = 0; k < 3; ++k) {
-      given[static_cast<Eigen::Index>(k)] = layer.value(idx(row), k);
-    }
-    if (!given.allFinite()) return -1;
-    const Eigen::Vector3f normal = (map * given).normalized().cast<float>();
-    const std::array<float, 3> turned{normal.x(), normal.y(), normal.z()};
-    const auto [entry, is_new] = normal_rows_.try_emplace(
-        std::tuple(corner.vertex, static_cast<float>(given.x()), static_cast<float>(given.y()),
-                   static_cast<float>(given.z())),
-        static_cast<std::int32_t>(made_.mesh.normals.size()));
-    if (is_new) made_.mesh.normals.push_back(turned);
-    return entry->second;
+    return rows_.normal(
+        corner.vertex,
+        {layer.value(idx(row), 0), layer.value(idx(row), 1), layer.value(idx(row), 2)}, map);
+  }
+
+  std::int32_t colour_of(const FbxLayer& layer, const FbxCorner& corner) {
+    const std::int64_t row = layer.row_of(corner);
+    if (row < 0) return -1;
+    return rows_.colour({layer.value(idx(row), 0), layer.value(idx(row), 1),
+                         layer.value(idx(row), 2), layer.value(idx(row), 3)});
   }
 
   const FileBytes& file_;
@@ -180,13 +160,11 @@ class FbxLookReader {
   std::vector<std::string>& notes_;
   PlacedMeshes meshes_;
   DressedFile made_;
-  std::map<const FbxRecord*, int> numbers_;                    // of materials
-  std::map<std::array<float, 2>, std::int32_t> texture_rows_;  // of the mesh
-  std::map<std::tuple<std::size_t, float, float, float>, std::int32_t> normal_rows_;  // likewise
+  DressedRows rows_{made_.mesh};
+  std::map<const FbxRecord*, int> numbers_;  // of materials
   std::map<std::string, std::size_t> shape_numbers_;
   Eigen::Index first_vertex_ = 0;  // of the mesh
-  bool has_colours_ = false;
-  bool has_further_sets_ = false;
+  bool leaves_out_sets_ = false;
 };
 
 }  // namespace

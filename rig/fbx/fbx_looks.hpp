@@ -10,12 +10,12 @@
 
 namespace curveskel {
 
-/// Texture coordinates (of each mesh the first set), normals, materials and shape keys; nothing
-/// where there is none of these. Of a material: diffuse colour and picture (those of Maya's and 3ds
-/// Max's own materials, too), normal map, emission, opacity, roughness from the shininess as
-/// Blender has it, and, of files of Blender's and of this program, metalness. Pictures are taken
-/// from the file, or sought where it names them, beside it, and in "textures" and "<file>.fbm".
-/// `notes` has a line where vertex colours or further sets are left out.
+/// Texture coordinates (of each mesh up to four sets), normals, colours (as sRGB), materials and
+/// shape keys; nothing where there is none of these. Of a material: diffuse colour and picture
+/// (those of Maya's and 3ds Max's own materials, too), normal map, emission, opacity, roughness
+/// from the shininess as Blender has it, and, of files of Blender's and of this program, metalness.
+/// Pictures are taken from the file, or sought where it names them, beside it, and in "textures"
+/// and "<file>.fbm". `notes` has a line where further sets are left out.
 [[nodiscard]] std::optional<DressedFile> read_fbx_looks(const FileBytes& file,
                                                         std::vector<std::string>& notes,
                                                         const Monitor& monitor);

@@ -17,7 +17,7 @@
 namespace curveskel {
 namespace {
 
-/// Vertices, each with one texture coordinate and one normal.
+/// Vertices, each with one row of texture coordinates, one normal and one colour.
 struct SplitMesh {
   PolygonSoup soup;                     ///< without faces
   std::vector<DressedCorner> vertices;  ///< the first corner there of the file's; then the copies
@@ -37,10 +37,12 @@ class Splitting {
       split_[own] = corner;
     }
     const auto is_same = [&](const DressedCorner& other) {
-      return other.texture == corner.texture && other.normal == corner.normal;
+      return other.texture == corner.texture && other.normal == corner.normal &&
+             other.colour == corner.colour;
     };
     if (is_same(split_[own])) return corner.place;
-    const std::array<std::int32_t, 3> key{corner.place, corner.texture, corner.normal};
+    const std::array<std::int32_t, 4> key{corner.place, corner.texture, corner.normal,
+                                          corner.colour};
     const auto [copy, is_new] = copies_.try_emplace(key, static_cast<std::int32_t>(split_.size()));
     if (is_new) split_.push_back(corner);
     return copy->second;
@@ -54,7 +56,7 @@ class Splitting {
  private:
   std::vector<DressedCorner> split_;
   std::vector<bool> named_;
-  std::map<std::array<std::int32_t, 3>, std::int32_t> copies_;
+  std::map<std::array<std::int32_t, 4>, std::int32_t> copies_;
 };
 
 SplitMesh split(const DressedMesh& mesh, const FileBytes& file) {
@@ -126,18 +128,25 @@ std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const S
 std::size_t add_colours(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
   std::string rows;
   for (const DressedCorner& vertex : split.vertices) {
-    for (const float number : mesh.colours[idx(vertex.place)]) put_number(rows, number);
+    constexpr std::array<float, 4> white{1, 1, 1, 1};
+    const bool is_known = vertex.colour >= 0;
+    for (const float number : is_known ? mesh.colours[idx(vertex.colour)] : white) {
+      put_number(rows, number);
+    }
   }
   return add_accessor(document, rows, "VEC4", gltf_float, split.vertices.size(), gltf_vertices);
 }
 
 /// Rows count from the picture's upper edge, as glTF wants them.
-std::size_t add_textures(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
+std::size_t add_textures(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
+                         std::size_t set) {
   std::string rows;
   for (const DressedCorner& vertex : split.vertices) {
-    const bool is_known = vertex.texture >= 0;
-    const std::array<float, 2> at =
-        is_known ? mesh.textures[idx(vertex.texture)] : std::array<float, 2>{0, 1};
+    std::array<float, 2> at{0, 1};
+    if (vertex.texture >= 0) {
+      const TextureRow& row = mesh.textures[idx(vertex.texture)];
+      at = {row[2 * set], row[2 * set + 1]};
+    }
     put_number(rows, std::isfinite(at[0]) ? at[0] : 0);
     put_number(rows, std::isfinite(at[1]) ? 1 - at[1] : 0);
   }
@@ -227,7 +236,9 @@ DressedDocument dressed_document(const DressedMesh& mesh,
   }
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
-  if (!mesh.textures.empty()) attributes["TEXCOORD_0"] = add_textures(document, mesh, split);
+  for (std::size_t set = 0; !mesh.textures.empty() && set < mesh.texture_sets; ++set) {
+    attributes["TEXCOORD_" + std::to_string(set)] = add_textures(document, mesh, split, set);
+  }
   if (!mesh.colours.empty()) attributes["COLOR_0"] = add_colours(document, mesh, split);
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {

@@ -84,6 +84,7 @@ OrderedJson gltf_material(const std::string& name, const MaterialLook& given, Pi
     if (!index) return std::nullopt;
     OrderedJson reference = OrderedJson::object();
     reference["index"] = *index;
+    if (picture->set > 0) reference["texCoord"] = picture->set;
     return reference;
   };
   OrderedJson& look = result["pbrMetallicRoughness"];

@@ -1,9 +1,10 @@
 // A mesh with all that a corner of a face may name in a file: texture coordinates, normals,
-// materials.
+// colours, materials.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -18,7 +19,14 @@ struct DressedCorner {
   std::int32_t place = -1;
   std::int32_t texture = -1;
   std::int32_t normal = -1;
+  std::int32_t colour = -1;
 };
+
+/// Sets of texture coordinates that are kept of a file: programs that write more hardly exist.
+constexpr std::size_t most_texture_sets = 4;
+
+/// u v of each set; v counts from the picture's lower edge.
+using TextureRow = std::array<float, 2 * most_texture_sets>;
 
 /// Moves of places, of which a slider applies a share.
 struct DressedShape {
@@ -28,10 +36,11 @@ struct DressedShape {
 
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
 struct DressedMesh {
-  std::vector<double> places;                  ///< x y z x y z ...
-  std::vector<std::array<float, 2>> textures;  ///< rows count from the picture's lower edge
+  std::vector<double> places;  ///< x y z x y z ...
+  std::vector<TextureRow> textures;
+  std::size_t texture_sets = 1;  ///< of them: the others are 0
   std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 4>> colours;  ///< of each place, linear RGBA; or none
+  std::vector<std::array<float, 4>> colours;  ///< linear RGBA, factors on the materials'
   std::vector<DressedCorner> corners;
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
@@ -52,6 +61,7 @@ struct DressedPicture {
   std::filesystem::path path;  ///< under which it is known, and sought if there are no bytes
   std::string name;            ///< as the file has it
   std::string bytes;           ///< of PNG or JPEG
+  std::size_t set = 0;         ///< of texture coordinates
 };
 
 /// Numbers are of 0..1, those beyond are taken as the nearest.

@@ -102,7 +102,8 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
       text.read_vertex(mesh.places);
       read_colour(text, mesh);
     } else if (text.accept("vt")) {
-      mesh.textures.push_back(read_numbers<2>(text));
+      const auto [u, v] = read_numbers<2>(text);
+      mesh.textures.push_back({u, v});
     } else if (text.accept("vn")) {
       mesh.normals.push_back(read_numbers<3>(text));
     } else if (text.accept("f")) {
@@ -126,6 +127,7 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     }
     if (corner.texture >= static_cast<std::int64_t>(mesh.textures.size())) corner.texture = -1;
     if (corner.normal >= static_cast<std::int64_t>(mesh.normals.size())) corner.normal = -1;
+    if (!mesh.colours.empty()) corner.colour = corner.place;
   }
   return obj;
 }

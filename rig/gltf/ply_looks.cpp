@@ -70,7 +70,7 @@ class PlyLookReader {
     made.mesh.offsets = soup_.offsets;
     made.mesh.places.assign(soup_.positions.data(),
                             soup_.positions.data() + soup_.positions.size());
-    for (const std::int32_t place : soup_.corners) made.mesh.corners.push_back({place, -1, -1});
+    for (const std::int32_t place : soup_.corners) made.mesh.corners.push_back({place});
     if (has(0) && has(1) && has(2)) colour(made.mesh);
     if (has(4) && has(5) && has(6)) add_normals(made.mesh);
     add_textures(made.mesh);
@@ -129,6 +129,7 @@ class PlyLookReader {
                               linear_from_srgb(look[2]),
                               has(3) ? static_cast<float>(std::clamp(look[3], 0.0, 1.0)) : 1.0F});
     }
+    for (DressedCorner& corner : mesh.corners) corner.colour = corner.place;
   }
 
   void add_normals(DressedMesh& mesh) const {
@@ -149,7 +150,7 @@ class PlyLookReader {
         if (!std::isfinite(at[0]) || !std::isfinite(at[1])) continue;
         const auto [row, is_new] =
             rows.try_emplace(at, static_cast<std::int32_t>(mesh.textures.size()));
-        if (is_new) mesh.textures.push_back(at);
+        if (is_new) mesh.textures.push_back({at[0], at[1]});
         mesh.corners[c].texture = row->second;
       }
     } else if (has(7) && has(8)) {
