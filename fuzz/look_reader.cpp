@@ -1,5 +1,5 @@
 // Any bytes as a file with a look: an error about the input, none, or a mesh that holds together.
-// CURVESKEL_FORMAT is fbx, obj or ply.
+// CURVESKEL_FORMAT is dae, fbx, obj or ply.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <curveskel/error.hpp>
+#include "rig/dae/dae_looks.hpp"
 #include "rig/fbx/fbx_looks.hpp"
 #include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/ply_looks.hpp"
@@ -27,9 +28,13 @@ void require(bool holds) {
   return std::move(read->mesh);
 }
 
-[[maybe_unused]] std::optional<DressedMesh> read_fbx_look(const FileBytes& file) {
+[[maybe_unused]] std::optional<DressedMesh> read_dae_look(const FileBytes& file) {
   std::vector<std::string> notes;
-  return mesh_of(read_fbx_looks(file, notes, {}));
+  return mesh_of(read_dae_looks(file, notes, {}));
+}
+
+[[maybe_unused]] std::optional<DressedMesh> read_fbx_look(const FileBytes& file) {
+  return mesh_of(read_fbx_looks(file, {}));
 }
 
 [[maybe_unused]] std::optional<DressedMesh> read_obj_look(const FileBytes& file) {
@@ -43,7 +48,7 @@ void require(bool holds) {
 void check(const DressedMesh& mesh) {
   const std::size_t places = mesh.places.size() / 3;
   require(mesh.places.size() % 3 == 0);
-  require(mesh.colours.empty() || mesh.colours.size() == places);
+  require(mesh.texture_sets <= most_sets && mesh.colour_sets <= most_sets);
   require(mesh.offsets.front() == 0);
   require(mesh.offsets.back() == static_cast<std::int64_t>(mesh.corners.size()));
   require(mesh.material_of_face.size() + 1 == mesh.offsets.size());
@@ -57,6 +62,7 @@ void check(const DressedMesh& mesh) {
     require(corner.place >= 0 && is_below(corner.place, places));
     require(corner.texture >= -1 && is_below(corner.texture, mesh.textures.size()));
     require(corner.normal >= -1 && is_below(corner.normal, mesh.normals.size()));
+    require(corner.colour >= -1 && is_below(corner.colour, mesh.colours.size()));
   }
   for (const int material : mesh.material_of_face) {
     require(material >= -1 && is_below(material, mesh.materials.size()));

@@ -134,11 +134,10 @@ Rig joints_for(const fs::path& file, const PolygonSoup& soup, const Monitor& mon
                           file.string(), rig.joints.rows()));
 }
 
-/// VRM's figures look along z, their arms held out. FBX is turned until y is up.
+/// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
 void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, Session& session) {
   if (plan.plan != BodyKind::humanoid) return;
-  const bool is_turned = soup.format == SurfaceFormat::fbx && soup.z_is_up;
-  const double ahead = is_turned ? -plan.axes(2, 1) : plan.axes(2, 2);
+  const double ahead = soup.z_is_up ? -plan.axes(2, 1) : plan.axes(2, 2);
   const auto place = [&](const char* role) -> Eigen::RowVector3d {
     const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
                                     [&](const PlannedJoint& joint) { return joint.role == role; });
@@ -162,11 +161,11 @@ OldRig old_rig_in(const RigArguments& arguments) {
 void warn_of_looks(const RigArguments& arguments, Session& session) {
   fs::path name = arguments.mesh;
   if (name.extension() == ".gz") name = name.stem();
-  for (const char* extension : {".dae", ".3mf", ".vtp", ".vtk"}) {
+  for (const char* extension : {".3mf", ".vtp", ".vtk"}) {
     if (name.extension() != extension) continue;
     session.terminal.warn(arguments.mesh.filename().string() +
-                          ": materials, texture coordinates and an old rig are not taken from "
-                          "such a file; to keep them export it as glTF");
+                          ": materials and texture coordinates are not taken from such a file; "
+                          "to keep them export it as glTF");
   }
 }
 
@@ -344,10 +343,10 @@ Verb add_rig(CLI::App& program) {
       parser->add_flag("--keep-rig", arguments->keep_rig,
                        "make no joints, but weights for those that the glTF file has");
   parser
-      ->add_option(
-          "--joints", arguments->joints,
-          "make no joints, but weights for these: glTF with a skin, FBX, .json of this program, "
-          "RigNet's .txt; in the surface's coordinates")
+      ->add_option("--joints", arguments->joints,
+                   "make no joints, but weights for these: glTF with a skin, FBX, DAE, .json of "
+                   "this program, "
+                   "RigNet's .txt; in the surface's coordinates")
       ->type_name("FILE")
       ->excludes(keep);
   parser->add_option("--vrm-name", arguments->vrm.name, "of the figure, for .vrm")

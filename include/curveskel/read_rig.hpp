@@ -18,7 +18,7 @@ namespace curveskel {
                                           const Monitor& monitor);
 
 /// The joints alone (weights has no rows) of a glTF file with a skin, of an FBX file with
-/// limbs (where its nodes rest, in its numbers), of the JSON that `format_rig` writes, or of
+/// limbs or a COLLADA file with joints (where its nodes rest, in its numbers), of the JSON that `format_rig` writes, or of
 /// RigNet's text; parents before their children, whatever the order in the file. Throws
 /// Error(Fault::input) where there are no joints, where parents lead to no root, or where a name or
 /// number is wrong. Linear in the file.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "rig/gltf/dressed_mesh.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -18,10 +20,10 @@ std::vector<double> numbers_in(const FileBytes& file, const FbxRecord& layer,
 
 }  // namespace
 
-std::vector<const FbxRecord*> fbx_texture_sets(const FbxRecord& geometry) {
+std::vector<const FbxRecord*> fbx_sets(const FbxRecord& geometry, std::string_view name) {
   std::vector<const FbxRecord*> sets;
   for (const FbxRecord& child : geometry.children) {
-    if (child.name == "LayerElementUV") sets.push_back(&child);
+    if (child.name == name && sets.size() < most_sets) sets.push_back(&child);
   }
   return sets;
 }

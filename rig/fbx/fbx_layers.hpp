@@ -17,8 +17,10 @@ struct FbxCorner {
   std::size_t polygon = 0;
 };
 
-/// The sets of texture coordinates of a geometry, in the file's order.
-[[nodiscard]] std::vector<const FbxRecord*> fbx_texture_sets(const FbxRecord& geometry);
+/// The layers of a geometry with that name, as "LayerElementUV", in the file's order; `most_sets`
+/// at most.
+[[nodiscard]] std::vector<const FbxRecord*> fbx_sets(const FbxRecord& geometry,
+                                                     std::string_view name);
 
 /// A layer: rows of numbers, one for each corner, vertex, polygon, or for all.
 class FbxLayer {

@@ -113,8 +113,8 @@ class MaterialLooks {
   [[nodiscard]] std::size_t set_of(const FbxRecord& texture) const {
     const FbxRecord* named = fbx_property(&texture, "UVSet");
     if (named == nullptr) return 0;
-    const std::vector<const FbxRecord*> sets = fbx_texture_sets(geometry_);
-    for (std::size_t set = 0; set < std::min(sets.size(), most_texture_sets); ++set) {
+    const std::vector<const FbxRecord*> sets = fbx_sets(geometry_, "LayerElementUV");
+    for (std::size_t set = 0; set < sets.size(); ++set) {
       const FbxRecord* name = sets[set]->child("Name");
       if (name != nullptr && name->text(0) == named->text(first_property_value)) return set;
     }

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_layers.hpp"
 #include "rig/fbx/fbx_look_materials.hpp"
+#include "rig/gltf/colours.hpp"
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/fbx_axes.hpp"
@@ -21,22 +23,18 @@ namespace {
 class FbxLookReader {
  public:
   FbxLookReader(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
-                std::vector<std::string>& notes, const Monitor& monitor)
-      : file_(file), root_(root), scene_(scene), notes_(notes), meshes_(file, monitor) {}
+                const Monitor& monitor)
+      : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
 
   std::optional<DressedFile> read() {
     for_each_fbx_mesh(file_, scene_, [this](const FbxMesh& mesh) { add(mesh); });
-    if (!made_.mesh.has_looks()) return std::nullopt;
     made_.mesh.to_gltf = fbx_to_gltf(root_);
+    if (made_.mesh.is_bare()) return std::nullopt;
     const PolygonSoup soup = meshes_.soup(SurfaceFormat::fbx);
     made_.mesh.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
     made_.mesh.offsets = soup.offsets;
     for (std::size_t c = 0; c < soup.corners.size(); ++c) {
       made_.mesh.corners[c].place = soup.corners[c];
-    }
-    if (leaves_out_sets_) {
-      notes_.push_back("of the sets of texture coordinates the first " +
-                       std::to_string(most_texture_sets) + " are taken");
     }
     return std::move(made_);
   }
@@ -49,11 +47,12 @@ class FbxLookReader {
     first_vertex_ += mesh.polygons.positions.rows();
     meshes_.add(mesh.polygons, mesh.frame, mesh.skin);
     const FbxRecord& geometry = mesh.geometry;
-    const std::vector<FbxLayer> sets = texture_sets(geometry);
-    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, sets.size());
+    const auto textures = layers(geometry, "LayerElementUV", "UV", "UVIndex", 2);
+    const auto colours = layers(geometry, "LayerElementColor", "Colors", "ColorIndex", 4);
+    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, textures.size());
+    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, colours.size());
     const FbxLayer normals(file_, geometry.child("LayerElementNormal"), "Normals", "NormalsIndex",
                            3);
-    const FbxLayer colours(file_, geometry.child("LayerElementColor"), "Colors", "ColorIndex", 4);
     const FbxLayer materials(file_, geometry.child("LayerElementMaterial"), "Materials", "", 1);
 
     const std::vector<int> numbers = materials_of(mesh);
@@ -67,7 +66,7 @@ class FbxLookReader {
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t c = mirrored ? begin + end - 1 - k : k;
         const FbxCorner corner{c, idx(mesh.polygons.corners[c]), p};
-        made_.mesh.corners.push_back({-1, texture_of(sets, corner),
+        made_.mesh.corners.push_back({-1, texture_of(textures, corner),
                                       normal_of(normals, corner, maps[corner.vertex]),
                                       colour_of(colours, corner)});
       }
@@ -79,14 +78,13 @@ class FbxLookReader {
     }
   }
 
-  [[nodiscard]] std::vector<FbxLayer> texture_sets(const FbxRecord& geometry) {
+  /// Those with that name.
+  [[nodiscard]] std::vector<FbxLayer> layers(const FbxRecord& geometry, std::string_view name,
+                                             std::string_view values, std::string_view indices,
+                                             std::size_t width) const {
     std::vector<FbxLayer> sets;
-    for (const FbxRecord* record : fbx_texture_sets(geometry)) {
-      if (sets.size() == most_texture_sets) {
-        leaves_out_sets_ = true;
-        break;
-      }
-      sets.emplace_back(file_, record, "UV", "UVIndex", 2);
+    for (const FbxRecord* record : fbx_sets(geometry, name)) {
+      sets.emplace_back(file_, record, values, indices, width);
     }
     return sets;
   }
@@ -125,17 +123,19 @@ class FbxLookReader {
     return numbers;
   }
 
-  /// Of the sets that the mesh has; a corner that the first set leaves out has none.
+  /// -1 where no set has a row for the corner.
   std::int32_t texture_of(const std::vector<FbxLayer>& sets, const FbxCorner& corner) {
-    if (sets.empty() || sets.front().row_of(corner) < 0) return -1;
-    TextureRow at{};
+    TextureRow made{};
+    bool is_there = false;
     for (std::size_t set = 0; set < sets.size(); ++set) {
       const std::int64_t row = sets[set].row_of(corner);
-      for (std::size_t k = 0; k < 2 && row >= 0; ++k) {
-        at[2 * set + k] = static_cast<float>(sets[set].value(idx(row), k));
+      if (row < 0) continue;
+      is_there = true;
+      for (std::size_t k = 0; k < 2; ++k) {
+        made[2 * set + k] = static_cast<float>(sets[set].value(idx(row), k));
       }
     }
-    return rows_.texture(at);
+    return is_there ? rows_.texture(made) : -1;
   }
 
   std::int32_t normal_of(const FbxLayer& layer, const FbxCorner& corner,
@@ -147,34 +147,38 @@ class FbxLookReader {
         {layer.value(idx(row), 0), layer.value(idx(row), 1), layer.value(idx(row), 2)}, map);
   }
 
-  std::int32_t colour_of(const FbxLayer& layer, const FbxCorner& corner) {
-    const std::int64_t row = layer.row_of(corner);
-    if (row < 0) return -1;
-    return rows_.colour({layer.value(idx(row), 0), layer.value(idx(row), 1),
-                         layer.value(idx(row), 2), layer.value(idx(row), 3)});
+  /// White in sets that have no row for the corner; -1 where none has one.
+  std::int32_t colour_of(const std::vector<FbxLayer>& sets, const FbxCorner& corner) {
+    ColourRow made{};
+    bool is_there = false;
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const std::int64_t row = sets[set].row_of(corner);
+      is_there = is_there || row >= 0;
+      std::array<double, 4> srgb{1, 1, 1, 1};
+      for (std::size_t k = 0; k < 4 && row >= 0; ++k) srgb[k] = sets[set].value(idx(row), k);
+      std::ranges::copy(linear_colour(srgb), made.begin() + static_cast<std::ptrdiff_t>(4 * set));
+    }
+    return is_there ? rows_.colour(made) : -1;
   }
 
   const FileBytes& file_;
   const FbxRecord& root_;
   const FbxScene& scene_;
-  std::vector<std::string>& notes_;
   PlacedMeshes meshes_;
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const FbxRecord*, int> numbers_;  // of materials
   std::map<std::string, std::size_t> shape_numbers_;
   Eigen::Index first_vertex_ = 0;  // of the mesh
-  bool leaves_out_sets_ = false;
 };
 
 }  // namespace
 
-std::optional<DressedFile> read_fbx_looks(const FileBytes& file, std::vector<std::string>& notes,
-                                          const Monitor& monitor) {
+std::optional<DressedFile> read_fbx_looks(const FileBytes& file, const Monitor& monitor) {
   const FbxRecord root = parse_fbx(file);
   require_fbx_version(file, root);
   const FbxScene scene(file, root);
-  return FbxLookReader(file, root, scene, notes, monitor).read();
+  return FbxLookReader(file, root, scene, monitor).read();
 }
 
 }  // namespace curveskel

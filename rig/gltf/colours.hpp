@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace curveskel {
@@ -11,6 +12,12 @@ namespace curveskel {
   const double within = std::clamp(value, 0.0, 1.0);
   return static_cast<float>(within <= 0.04045 ? within / 12.92
                                               : std::pow((within + 0.055) / 1.055, 2.4));
+}
+
+/// A colour of sRGB, its opacity as it is, within 0..1.
+[[nodiscard]] inline std::array<float, 4> linear_colour(const std::array<double, 4>& srgb) {
+  return {linear_from_srgb(srgb[0]), linear_from_srgb(srgb[1]), linear_from_srgb(srgb[2]),
+          static_cast<float>(std::clamp(srgb[3], 0.0, 1.0))};
 }
 
 inline constexpr const char* coloured_material = "vertex colours";

@@ -125,13 +125,12 @@ std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const S
   return add_accessor(document, rows, "VEC3", gltf_float, split.vertices.size(), gltf_vertices);
 }
 
-std::size_t add_colours(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split) {
+std::size_t add_colours(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
+                        std::size_t set) {
   std::string rows;
   for (const DressedCorner& vertex : split.vertices) {
-    constexpr std::array<float, 4> white{1, 1, 1, 1};
-    const bool is_known = vertex.colour >= 0;
-    for (const float number : is_known ? mesh.colours[idx(vertex.colour)] : white) {
-      put_number(rows, number);
+    for (std::size_t k = 4 * set; k < 4 * set + 4; ++k) {
+      put_number(rows, vertex.colour < 0 ? 1 : mesh.colours[idx(vertex.colour)][k]);
     }
   }
   return add_accessor(document, rows, "VEC4", gltf_float, split.vertices.size(), gltf_vertices);
@@ -239,7 +238,9 @@ DressedDocument dressed_document(const DressedMesh& mesh,
   for (std::size_t set = 0; !mesh.textures.empty() && set < mesh.texture_sets; ++set) {
     attributes["TEXCOORD_" + std::to_string(set)] = add_textures(document, mesh, split, set);
   }
-  if (!mesh.colours.empty()) attributes["COLOR_0"] = add_colours(document, mesh, split);
+  for (std::size_t set = 0; !mesh.colours.empty() && set < mesh.colour_sets; ++set) {
+    attributes["COLOR_" + std::to_string(set)] = add_colours(document, mesh, split, set);
+  }
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {
     targets.push_back({{"POSITION", add_shape(document, shape, split)}});

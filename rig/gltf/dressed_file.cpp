@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rig/dae/dae_looks.hpp"
 #include "rig/fbx/fbx_looks.hpp"
 #include "rig/gltf/colours.hpp"
 #include "rig/gltf/obj_file.hpp"
@@ -15,11 +16,12 @@ namespace curveskel {
 std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<std::string>& notes,
                                              const Monitor& monitor) {
   const auto format = surface_format_of(file);
-  if (format == SurfaceFormat::fbx) return read_fbx_looks(file, notes, monitor);
+  if (format == SurfaceFormat::dae) return read_dae_looks(file, notes, monitor);
+  if (format == SurfaceFormat::fbx) return read_fbx_looks(file, monitor);
   if (format == SurfaceFormat::ply) return read_ply_looks(file, monitor);
   if (format != SurfaceFormat::obj) return std::nullopt;
   ObjFile obj = read_obj_file(file, monitor);
-  if (!obj.mesh.has_looks()) return std::nullopt;
+  if (obj.mesh.is_bare()) return std::nullopt;
   std::vector<DressedMaterial> materials = read_obj_materials(obj, file, notes, monitor);
   if (!materials.empty()) {
     obj.mesh.colours.clear();  // of what the materials show, mostly, of which they would be factors

@@ -16,8 +16,9 @@ struct DressedFile {
   std::vector<DressedMaterial> materials;
 };
 
-/// Of OBJ, FBX and PLY; nothing where the file has no look, or is of another format. `notes` has a
-/// line for each thing that is left out. Throws Error(Fault::input) as `read_polygons`.
+/// Of OBJ, COLLADA, FBX and PLY; nothing where the file has no look, or is of another format.
+/// `notes` has a line for each thing that is left out. Throws Error(Fault::input) as
+/// `read_polygons`.
 [[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file,
                                                            std::vector<std::string>& notes,
                                                            const Monitor& monitor);

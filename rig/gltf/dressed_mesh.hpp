@@ -22,11 +22,14 @@ struct DressedCorner {
   std::int32_t colour = -1;
 };
 
-/// Sets of texture coordinates that are kept of a file: programs that write more hardly exist.
-constexpr std::size_t most_texture_sets = 4;
+/// Sets of texture coordinates, and of colours, that are kept of a file: as many as Blender has.
+constexpr std::size_t most_sets = 8;
 
 /// u v of each set; v counts from the picture's lower edge.
-using TextureRow = std::array<float, 2 * most_texture_sets>;
+using TextureRow = std::array<float, 2 * most_sets>;
+
+/// Linear RGBA of each set, factors on the materials' colours.
+using ColourRow = std::array<float, 4 * most_sets>;
 
 /// Moves of places, of which a slider applies a share.
 struct DressedShape {
@@ -38,9 +41,10 @@ struct DressedShape {
 struct DressedMesh {
   std::vector<double> places;  ///< x y z x y z ...
   std::vector<TextureRow> textures;
-  std::size_t texture_sets = 1;  ///< of them: the others are 0
+  std::size_t texture_sets = 1;  ///< the others are 0
   std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 4>> colours;  ///< linear RGBA, factors on the materials'
+  std::vector<ColourRow> colours;
+  std::size_t colour_sets = 1;  ///< the others are 0
   std::vector<DressedCorner> corners;
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
@@ -49,10 +53,10 @@ struct DressedMesh {
   /// From the places to glTF's: y up, z ahead, metres. A similarity.
   Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 
-  /// Something that a bare rig would lose.
-  [[nodiscard]] bool has_looks() const {
-    return !textures.empty() || !normals.empty() || !materials.empty() || !shapes.empty() ||
-           !colours.empty();
+  /// Nothing that a file without looks would lose.
+  [[nodiscard]] bool is_bare() const {
+    return textures.empty() && normals.empty() && materials.empty() && shapes.empty() &&
+           colours.empty() && to_gltf.matrix().isIdentity(0);
   }
 };
 

@@ -1,9 +1,8 @@
 #include "rig/gltf/dressed_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "rig/gltf/colours.hpp"
 
 namespace curveskel {
 namespace {
@@ -44,13 +43,9 @@ std::int32_t DressedRows::normal(std::size_t vertex, const Eigen::Vector3d& give
   });
 }
 
-std::int32_t DressedRows::colour(const std::array<double, 4>& given) {
-  if (!all_finite(given)) return -1;
-  return row_of(colours_, given, mesh_.colours, [&] {
-    return std::array<float, 4>{linear_from_srgb(given[0]), linear_from_srgb(given[1]),
-                                linear_from_srgb(given[2]),
-                                static_cast<float>(std::clamp(given[3], 0.0, 1.0))};
-  });
+std::int32_t DressedRows::colour(const ColourRow& row) {
+  if (!all_finite(row)) return -1;
+  return row_of(colours_, row, mesh_.colours, [&] { return row; });
 }
 
 }  // namespace curveskel

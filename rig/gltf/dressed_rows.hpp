@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,14 +23,13 @@ class DressedRows {
   /// Of a vertex of the present mesh; `map` as of `normal_maps`.
   [[nodiscard]] std::int32_t normal(std::size_t vertex, const Eigen::Vector3d& given,
                                     const Eigen::Matrix3d& map);
-  /// Of sRGB, with a linear opacity.
-  [[nodiscard]] std::int32_t colour(const std::array<double, 4>& given);
+  [[nodiscard]] std::int32_t colour(const ColourRow& row);
 
  private:
   DressedMesh& mesh_;
   std::map<TextureRow, std::int32_t> textures_;
   std::map<std::tuple<std::size_t, float, float, float>, std::int32_t> normals_;
-  std::map<std::array<double, 4>, std::int32_t> colours_;
+  std::map<ColourRow, std::int32_t> colours_;
 };
 
 }  // namespace curveskel

@@ -77,8 +77,8 @@ void read_colour(TextCursor& text, DressedMesh& mesh) {
   }
   if (count < colour.size()) return;
   mesh.colours.resize(mesh.places.size() / 3 - 1, {1, 1, 1, 1});
-  mesh.colours.push_back(
-      {linear_from_srgb(colour[0]), linear_from_srgb(colour[1]), linear_from_srgb(colour[2]), 1});
+  const auto [r, g, b, a] = linear_colour({colour[0], colour[1], colour[2], 1});
+  mesh.colours.push_back({r, g, b, a});
 }
 
 int number_of(std::vector<std::string>& names, const std::string& name) {

@@ -74,7 +74,7 @@ class PlyLookReader {
     if (has(0) && has(1) && has(2)) colour(made.mesh);
     if (has(4) && has(5) && has(6)) add_normals(made.mesh);
     add_textures(made.mesh);
-    if (!made.mesh.has_looks()) return std::nullopt;
+    if (made.mesh.is_bare()) return std::nullopt;
     made.mesh.material_of_face.assign(soup_.offsets.size() - 1, -1);
     const std::string picture = named_picture(file);
     if (!made.mesh.textures.empty() && !picture.empty()) {
@@ -125,9 +125,8 @@ class PlyLookReader {
 
   void colour(DressedMesh& mesh) const {
     for (const VertexLook& look : vertices_) {
-      mesh.colours.push_back({linear_from_srgb(look[0]), linear_from_srgb(look[1]),
-                              linear_from_srgb(look[2]),
-                              has(3) ? static_cast<float>(std::clamp(look[3], 0.0, 1.0)) : 1.0F});
+      const auto [r, g, b, a] = linear_colour({look[0], look[1], look[2], has(3) ? look[3] : 1});
+      mesh.colours.push_back({r, g, b, a});
     }
     for (DressedCorner& corner : mesh.corners) corner.colour = corner.place;
   }

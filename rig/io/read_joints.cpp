@@ -12,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
 #include "rig/io/rig_formats.hpp"
+#include "surface/read/dae_scene.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
 #include "surface/read/file_bytes.hpp"
@@ -23,8 +24,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* joints_remedy =
-    "give a glTF file with a skin, an FBX file with limbs, the .json or .txt that `curveskel rig` "
-    "writes, or RigNet's .txt";
+    "give a glTF file with a skin, an FBX file with limbs, a COLLADA file with joints, the .json "
+    "or "
+    ".txt that `curveskel rig` writes, or RigNet's .txt";
 
 struct GivenJoint {
   std::string name;
@@ -187,6 +189,24 @@ Rig joints_of_fbx(const FileBytes& file) {
   return rig_of(joints, file);
 }
 
+/// The nodes of the file that say that they are joints, where the scene rests.
+Rig joints_of_dae(const FileBytes& file, const Monitor& monitor) {
+  const XmlElement root = parse_dae(file);
+  const DaeDocument document(file, root);
+  std::vector<GivenJoint> joints;
+  std::vector<int> number;  // of each node its own, or that of the nearest joint above it
+  for (const DaeNode& node : dae_nodes(document, monitor)) {
+    const int above = node.parent < 0 ? -1 : number[idx(node.parent)];
+    const bool is_joint = node.element->attribute("type") == "JOINT";
+    number.push_back(is_joint ? static_cast<int>(joints.size()) : above);
+    if (!is_joint) continue;
+    const std::string_view id = node.element->attribute("id");
+    const std::string name(node.element->attribute("name", id));
+    joints.push_back({name, above, node.frame.translation().transpose(), ""});
+  }
+  return rig_of(joints, file);
+}
+
 }  // namespace
 
 Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
@@ -194,6 +214,7 @@ Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
   const std::size_t first = file.content.find_first_not_of(" \t\r\n");
   const bool is_text = first != std::string::npos && file.content[first] == '{';
   if (is_text && !says_gltf(file.content)) return joints_of_json(file);
+  if (surface_format_of(file) == SurfaceFormat::dae) return joints_of_dae(file, monitor);
   const bool is_fbx = is_binary_fbx(file) || surface_format_of(file) == SurfaceFormat::fbx;
   if (is_fbx) return joints_of_fbx(file);
   if (!is_text && !file.content.starts_with("glTF")) return joints_of_text(file);

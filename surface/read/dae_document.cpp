@@ -52,18 +52,37 @@ const XmlElement& DaeDocument::referred(const XmlElement& from, std::string_view
     fail(from, "the " + std::string(key) + " " + in_quotes(url) + " of <" + from.name + ">",
          "\"#\" and the id of an element of this file");
   }
-  const auto found = by_id_.find(std::string(url.substr(1)));
-  if (found == by_id_.end())
-    fail(from, "no element with the id " + in_quotes(url.substr(1)), "one");
-  return *found->second;
+  const XmlElement* found = find(url.substr(1));
+  if (found == nullptr) fail(from, "no element with the id " + in_quotes(url.substr(1)), "one");
+  return *found;
+}
+
+const XmlElement* DaeDocument::find(std::string_view id) const {
+  const auto found = by_id_.find(std::string(id));
+  return found == by_id_.end() ? nullptr : found->second;
+}
+
+std::size_t DaeDocument::width(const XmlElement& source) const {
+  const XmlElement* common = source.child("technique_common");
+  const XmlElement* accessor = common == nullptr ? nullptr : common->child("accessor");
+  return accessor == nullptr ? 0 : whole_number(accessor->attribute("stride", "1"), 0);
 }
 
 DaeInput DaeDocument::input(const XmlElement& of, std::string_view semantic) const {
+  const std::vector<DaeInput> all = inputs(of, semantic);
+  return all.empty() ? DaeInput() : all.front();
+}
+
+std::vector<DaeInput> DaeDocument::inputs(const XmlElement& of, std::string_view semantic) const {
+  std::vector<DaeInput> all;
   for (const XmlElement* input : of.all("input")) {
     if (input->attribute("semantic") != semantic) continue;
-    return {&referred(*input, "source"), whole_number(input->attribute("offset"), 0)};
+    all.push_back({&referred(*input, "source"), whole_number(input->attribute("offset"), 0),
+                   whole_number(input->attribute("set"), 0)});
   }
-  return {};
+  std::stable_sort(all.begin(), all.end(),
+                   [](const DaeInput& a, const DaeInput& b) { return a.set < b.set; });
+  return all;
 }
 
 std::size_t DaeDocument::indices_per_corner(const XmlElement& of) const {
@@ -117,11 +136,14 @@ std::vector<double> DaeDocument::rows(const XmlElement& source, std::size_t widt
   return result;
 }
 
-std::vector<std::string> DaeDocument::names(const XmlElement& source, bool& are_ids) const {
+std::vector<std::string> DaeDocument::names(const XmlElement& source, std::string_view of,
+                                            bool& are_ids) const {
   const XmlElement* array = source.child("Name_array");
   are_ids = array == nullptr;
   if (array == nullptr) array = source.child("IDREF_array");
-  if (array == nullptr) fail(source, "a source of joints without <Name_array>", "one");
+  if (array == nullptr) {
+    fail(source, "a source of " + std::string(of) + " without <Name_array>", "one");
+  }
   std::vector<std::string> result;
   for_words(array->text, [&](std::string_view word) { result.emplace_back(word); });
   return result;

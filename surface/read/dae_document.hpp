@@ -18,6 +18,7 @@ namespace curveskel {
 struct DaeInput {
   const XmlElement* source = nullptr;
   std::size_t offset = 0;  ///< among the indices of one corner
+  std::size_t set = 0;     ///< of several of one semantic
 };
 
 /// All questions throw Error(Fault::input) with the line.
@@ -27,18 +28,26 @@ class DaeDocument {
   DaeDocument(const FileBytes& file, const XmlElement& root);
 
   [[nodiscard]] const XmlElement& root() const { return root_; }
-  [[nodiscard]] bool has(std::string_view id) const { return by_id_.contains(std::string(id)); }
+  [[nodiscard]] bool has(std::string_view id) const { return find(id) != nullptr; }
+  /// The element with that id, or nullptr.
+  [[nodiscard]] const XmlElement* find(std::string_view id) const;
   /// The element to which an attribute of `from` refers, as "#id".
   [[nodiscard]] const XmlElement& referred(const XmlElement& from, std::string_view key) const;
   /// The input of that semantic among the children of `of`; its source is nullptr if there is none.
   [[nodiscard]] DaeInput input(const XmlElement& of, std::string_view semantic) const;
+  /// All inputs of that semantic, by their sets.
+  [[nodiscard]] std::vector<DaeInput> inputs(const XmlElement& of, std::string_view semantic) const;
+  /// Numbers that the rows of a source have; 0 where it does not say.
+  [[nodiscard]] std::size_t width(const XmlElement& source) const;
   /// Indices of one corner: one more than the largest offset.
   [[nodiscard]] std::size_t indices_per_corner(const XmlElement& of) const;
 
   /// `width` numbers for each row of a source.
   [[nodiscard]] std::vector<double> rows(const XmlElement& source, std::size_t width) const;
-  /// The words of a source's array of names or ids; `are_ids` says which.
-  [[nodiscard]] std::vector<std::string> names(const XmlElement& source, bool& are_ids) const;
+  /// The words of a source's array of names or ids; `are_ids` says which. `of`, for messages:
+  /// "joints".
+  [[nodiscard]] std::vector<std::string> names(const XmlElement& source, std::string_view of,
+                                               bool& are_ids) const;
   /// All numbers in the text of an element.
   [[nodiscard]] std::vector<double> numbers(const XmlElement& of) const;
   /// All numbers in the text of an element, each from 0 to `end` - 1.

@@ -53,6 +53,48 @@ double metres_per_unit(const DaeDocument& document) {
   return error == std::errc() && metres > 0 && std::isfinite(metres) ? metres : 1;
 }
 
+/// <visual_scene>, or nullptr.
+const XmlElement* shown_scene(const DaeDocument& document) {
+  const XmlElement* scene = document.root().child("scene");
+  const XmlElement* instance = scene == nullptr ? nullptr : scene->child("instance_visual_scene");
+  if (instance != nullptr) return &document.referred(*instance, "url");
+  const XmlElement* library = document.root().child("library_visual_scenes");
+  return library == nullptr ? nullptr : library->child("visual_scene");
+}
+
+/// The product of a node's transformations in their order.
+Eigen::Affine3d transform(const DaeDocument& document, const XmlElement& node) {
+  Eigen::Affine3d frame = Eigen::Affine3d::Identity();
+  for (const XmlElement& child : node.children) {
+    const auto numbers = [&](std::size_t count) {
+      std::vector<double> values = document.numbers(child);
+      if (values.size() != count) {
+        document.fail(child, std::to_string(values.size()) + " numbers in <" + child.name + ">",
+                      std::to_string(count));
+      }
+      return values;
+    };
+    if (child.name == "matrix") {
+      frame = frame * document.matrix(child, numbers(16).data());
+    } else if (child.name == "translate") {
+      frame.translate(Eigen::Vector3d(numbers(3).data()));
+    } else if (child.name == "scale") {
+      frame.scale(Eigen::Vector3d(numbers(3).data()));
+    } else if (child.name == "rotate") {
+      const std::vector<double> turn = numbers(4);
+      const Eigen::Vector3d axis(turn.data());
+      if (axis.norm() == 0) continue;
+      frame.rotate(Eigen::AngleAxisd(turn[3] * std::numbers::pi / 180, axis.normalized()));
+    } else if (child.name == "lookat") {
+      frame = frame * looking(numbers(9));
+    } else if (child.name == "skew") {
+      document.fail(child, "<skew>", "a <matrix> instead");
+    }
+  }
+  if (!frame.matrix().allFinite()) document.fail(node, "a transform of no numbers", "numbers");
+  return frame;
+}
+
 class DaeSceneReader {
  public:
   DaeSceneReader(const DaeDocument& document, const Monitor& monitor,
@@ -60,7 +102,7 @@ class DaeSceneReader {
       : document_(document), monitor_(monitor), take_(take) {}
 
   void read() {
-    const XmlElement* scene = shown_scene();
+    const XmlElement* scene = shown_scene(document_);
     if (scene == nullptr) {
       for (const XmlElement* library : document_.root().all("library_geometries")) {
         for (const XmlElement* geometry : library->all("geometry")) {
@@ -69,87 +111,20 @@ class DaeSceneReader {
       }
       return;
     }
-    place_nodes(*scene);
-    for (const auto& [node, frame] : placed_) {
-      for (const XmlElement& child : node->children) {
+    placed_ = dae_nodes(document_, monitor_);
+    for (const DaeNode& node : placed_) frame_of_.emplace(node.element, node.frame);
+    for (const DaeNode& node : placed_) {
+      for (const XmlElement& child : node.element->children) {
         if (child.name == "instance_geometry") {
-          take_({&child, mesh_of(document_.referred(child, "url")), frame, {}, nullptr});
+          take_({&child, mesh_of(document_.referred(child, "url")), node.frame, {}, nullptr});
         } else if (child.name == "instance_controller") {
-          take_controlled(child, frame);
+          take_controlled(child, node.frame);
         }
       }
     }
   }
 
  private:
-  using Placed = std::pair<const XmlElement*, Eigen::Affine3d>;
-
-  [[nodiscard]] const XmlElement* shown_scene() const {
-    const XmlElement* scene = document_.root().child("scene");
-    const XmlElement* instance = scene == nullptr ? nullptr : scene->child("instance_visual_scene");
-    if (instance != nullptr) return &document_.referred(*instance, "url");
-    const XmlElement* library = document_.root().child("library_visual_scenes");
-    return library == nullptr ? nullptr : library->child("visual_scene");
-  }
-
-  /// Depth first, in the file's order; instances of nodes may refer in circles, or multiply.
-  void place_nodes(const XmlElement& scene) {
-    constexpr std::size_t most_nodes = 1000000;
-    std::vector<Placed> open{{&scene, Eigen::Affine3d::Identity()}};
-    while (!open.empty()) {
-      monitor_.report("read", 0.3);
-      const auto [node, parent] = open.back();
-      open.pop_back();
-      const Eigen::Affine3d frame = parent * transform(*node);
-      placed_.emplace_back(node, frame);
-      frame_of_.emplace(node, frame);
-      if (placed_.size() + open.size() > most_nodes) {
-        document_.fail(*node, "more than " + std::to_string(most_nodes) + " nodes in the scene",
-                       "fewer, and no node in itself");
-      }
-      for (std::size_t i = node->children.size(); i-- > 0;) {
-        const XmlElement& child = node->children[i];
-        if (child.name == "node") open.emplace_back(&child, frame);
-        if (child.name == "instance_node") {
-          open.emplace_back(&document_.referred(child, "url"), frame);
-        }
-      }
-    }
-  }
-
-  /// The product of a node's transformations in their order.
-  [[nodiscard]] Eigen::Affine3d transform(const XmlElement& node) const {
-    Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-    for (const XmlElement& child : node.children) {
-      const auto numbers = [&](std::size_t count) {
-        std::vector<double> values = document_.numbers(child);
-        if (values.size() != count) {
-          document_.fail(child, std::to_string(values.size()) + " numbers in <" + child.name + ">",
-                         std::to_string(count));
-        }
-        return values;
-      };
-      if (child.name == "matrix") {
-        frame = frame * document_.matrix(child, numbers(16).data());
-      } else if (child.name == "translate") {
-        frame.translate(Eigen::Vector3d(numbers(3).data()));
-      } else if (child.name == "scale") {
-        frame.scale(Eigen::Vector3d(numbers(3).data()));
-      } else if (child.name == "rotate") {
-        const std::vector<double> turn = numbers(4);
-        const Eigen::Vector3d axis(turn.data());
-        if (axis.norm() == 0) continue;
-        frame.rotate(Eigen::AngleAxisd(turn[3] * std::numbers::pi / 180, axis.normalized()));
-      } else if (child.name == "lookat") {
-        frame = frame * looking(numbers(9));
-      } else if (child.name == "skew") {
-        document_.fail(child, "<skew>", "a <matrix> instead");
-      }
-    }
-    if (!frame.matrix().allFinite()) document_.fail(node, "a transform of no numbers", "numbers");
-    return frame;
-  }
-
   const DaeMesh& mesh_of(const XmlElement& geometry) {
     const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
     if (is_new) entry->second = read_dae_mesh(document_, geometry);
@@ -192,8 +167,8 @@ class DaeSceneReader {
   [[nodiscard]] Eigen::Affine3d joint_frame(const XmlElement& instance, const std::string& joint,
                                             bool is_id) const {
     if (is_id && document_.has(joint)) {
-      for (const auto& [node, frame] : placed_) {
-        if (node->attribute("id") == joint) return frame;
+      for (const DaeNode& node : placed_) {
+        if (node.element->attribute("id") == joint) return node.frame;
       }
     }
     for (const std::string_view key : {"sid", "name", "id"}) {
@@ -202,15 +177,15 @@ class DaeSceneReader {
         const std::size_t begin = root.find_first_not_of(" \t\r\n#");
         if (begin == std::string::npos) continue;
         root = root.substr(begin, root.find_last_not_of(" \t\r\n") + 1 - begin);
-        for (const auto& [node, frame] : placed_) {
-          if (node->attribute("id") != root) continue;
-          const XmlElement* found = below(*node, key, joint);
+        for (const DaeNode& node : placed_) {
+          if (node.element->attribute("id") != root) continue;
+          const XmlElement* found = below(*node.element, key, joint);
           const auto at = found == nullptr ? frame_of_.end() : frame_of_.find(found);
           if (at != frame_of_.end()) return at->second;
         }
       }
-      for (const auto& [node, frame] : placed_) {
-        if (node->attribute(key) == joint) return frame;
+      for (const DaeNode& node : placed_) {
+        if (node.element->attribute(key) == joint) return node.frame;
       }
     }
     document_.fail(instance, "no node that is the joint " + in_quotes(joint), "one in the scene");
@@ -229,12 +204,41 @@ class DaeSceneReader {
   const DaeDocument& document_;
   const Monitor& monitor_;
   const std::function<void(const DaeShownMesh&)>& take_;
-  std::vector<Placed> placed_;
+  std::vector<DaeNode> placed_;
   std::map<const XmlElement*, Eigen::Affine3d> frame_of_;  // where it stands first
   std::map<const XmlElement*, DaeMesh> mesh_of_;
 };
 
 }  // namespace
+
+std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor) {
+  constexpr std::size_t most_nodes = 1000000;  // instances of nodes may refer in circles
+  std::vector<DaeNode> placed;
+  const XmlElement* scene = shown_scene(document);
+  if (scene == nullptr) return placed;
+  std::vector<DaeNode> open{{scene, Eigen::Affine3d::Identity(), -1}};
+  while (!open.empty()) {
+    monitor.report("read", 0.3);
+    DaeNode node = open.back();
+    open.pop_back();
+    node.frame = node.frame * transform(document, *node.element);
+    const auto number = static_cast<int>(placed.size());
+    placed.push_back(node);
+    if (placed.size() + open.size() > most_nodes) {
+      document.fail(*node.element,
+                    "more than " + std::to_string(most_nodes) + " nodes in the scene",
+                    "fewer, and no node in itself");
+    }
+    for (std::size_t i = node.element->children.size(); i-- > 0;) {
+      const XmlElement& child = node.element->children[i];
+      if (child.name == "node") open.push_back({&child, node.frame, number});
+      if (child.name == "instance_node") {
+        open.push_back({&document.referred(child, "url"), node.frame, number});
+      }
+    }
+  }
+  return placed;
+}
 
 void for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor,
                        const std::function<void(const DaeShownMesh&)>& take) {

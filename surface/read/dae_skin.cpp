@@ -15,7 +15,7 @@ void read_joints(const DaeDocument& document, const XmlElement& skin, DaeSkin& r
   if (names == nullptr || binds == nullptr) {
     document.fail(*joints, "joints without names or matrices", "both");
   }
-  result.joints = document.names(*names, result.joints_are_ids);
+  result.joints = document.names(*names, "joints", result.joints_are_ids);
   const std::vector<double> matrices = document.rows(*binds, matrix_size);
   if (matrices.size() != matrix_size * result.joints.size()) {
     document.fail(*joints, std::to_string(matrices.size() / matrix_size) + " matrices",

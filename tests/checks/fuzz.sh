@@ -15,7 +15,7 @@ if ! clang++-14 -fsanitize=fuzzer,address "$work/empty.cpp" -o "$work/empty" 2>"
   exit 77
 fi
 
-fuzzers=(obj off ply stl om gltf vtp vtk 3mf dae fbx gz rig look_fbx look_obj look_ply
+fuzzers=(obj off ply stl om gltf vtp vtk 3mf dae fbx gz rig look_dae look_fbx look_obj look_ply
   skeleton_obj skeleton_ply skeleton_cgal skeleton_swc skeleton_vtp skeleton_graphml skeleton_json)
 cmake --preset fuzz >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 ninja -C build/fuzz -j "$(packages/jobs)" "${fuzzers[@]/%/_fuzzer}"

@@ -488,9 +488,86 @@ TEST_F(DressFbx, BrokenNumbersAreNone) {
   }
 }
 
+/// Of a box without looks in metres; one in centimetres is scaled.
 TEST_F(DressFbx, NothingWhereThereIsNothingToKeep) {
-  EXPECT_FALSE(format_rig_into(written(encodings::fbx_box_scene(), FbxForm::text),
-                               random_rig(8, 3, "bone ")));
+  FbxItems records = encodings::fbx_box_scene();
+  const Rig rig = random_rig(8, 3, "bone ");
+  EXPECT_TRUE(format_rig_into(written(records, FbxForm::text), rig));
+  records.push_back({"GlobalSettings", {}, {properties({{"UnitScaleFactor", {100.0}}})}});
+  EXPECT_FALSE(format_rig_into(written(records, FbxForm::text), rig));
+}
+
+FbxItem colours(const Mapping& mapping) {
+  std::vector<double> values;
+  for (int row = 0; row < mapping.rows; ++row) {
+    values.insert(values.end(), {0.01 * row, 0.5, 1, 0.02 * row});
+  }
+  return {"LayerElementColor",
+          {0},
+          {{"MappingInformationType", {mapping.name}},
+           {"ReferenceInformationType", {"Direct"}},
+           {"Colors", {values}}}};
+}
+
+/// The opacity tells the rows of the first set; the second has one row for all.
+TEST_F(DressFbx, ColoursAreTheFilesHoweverTheyAreGiven) {
+  for (const FbxForm form : all_forms) {
+    for (const Mapping& mapping : mappings) {
+      SCOPED_TRACE(mapping.name);
+      FbxItem box = encodings::fbx_box();
+      box.children.push_back(colours(mapping));
+      box.children.push_back(colours(mappings[3]));
+      const fs::path file = written(scene(box, encodings::fbx_model(2), {material(0, {})}), form);
+      const auto look = read_materials(file);
+      ASSERT_TRUE(look);
+      for (Eigen::Index t = 0; t < 12; ++t) {
+        const int face = face_of(*look, t);
+        for (const int drawn : look->triangles.row(t)) {
+          int corner = 0;
+          while (int(vertex_at(face, corner)) != look->vertices[idx(drawn)]) ++corner;
+          const double row = mapping.place(face, corner);
+          EXPECT_NEAR(look->colours(drawn, 1), 0.21404, 1e-5);  // of .5, IEC 61966-2-1
+          EXPECT_EQ(look->colours(drawn, 2), 1);
+          EXPECT_NEAR(look->colours(drawn, 3), 0.02 * row, 1e-6);
+        }
+      }
+      const Glb glb = glb_of(dressed(file).bytes);
+      const auto second =
+          glb.values<float>(glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_1"]);
+      ASSERT_FALSE(second.empty());
+      for (std::size_t k = 3; k < second.size(); k += 4) EXPECT_EQ(second[k], 0);
+    }
+  }
+}
+
+TEST_F(DressFbx, AllSetsOfTextureCoordinatesAreKeptAndEachPictureHasItsOwn) {
+  (void)folder_.write("skin.png", png);
+  for (const auto& [name, wanted] : {std::pair<std::string, int>{"second", 1}, {"none", 0}}) {
+    FbxItem box = encodings::fbx_box();
+    for (const std::size_t set : {0U, 1U}) {
+      FbxItem layer = Textures{mappings[set], false}.layer();
+      layer.children.push_back({"Name", {std::string(set == 0 ? "first" : "second")}});
+      box.children.push_back(layer);
+    }
+    const FbxItem texture{"Texture",
+                          {std::int64_t{30}, "Texture::t", ""},
+                          {{"RelativeFilename", {"skin.png"}}, properties({{"UVSet", {name}}})}};
+    const std::vector<FbxItem> links{
+        {"C", {"OP", std::int64_t{30}, first_material, "DiffuseColor"}}};
+    const FbxItems records = scene(box, encodings::fbx_model(2), {material(0, {}), texture}, links);
+    const Glb glb = glb_of(dressed(written(records, FbxForm::binary)).bytes);
+    const Json& look = glb.json["materials"][0]["pbrMetallicRoughness"];
+    EXPECT_EQ(look["baseColorTexture"].value("texCoord", 0), wanted);
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    const auto largest = [&](const char* set) {
+      const auto numbers = glb.values<float>(attributes[set]);
+      float most = 0;
+      for (std::size_t k = 0; k < numbers.size(); k += 2) most = std::max(most, numbers[k]);
+      return most;
+    };
+    EXPECT_NEAR(largest("TEXCOORD_0"), 0.23, 1e-6);  // of 24 corners,
+    EXPECT_NEAR(largest("TEXCOORD_1"), 0.07, 1e-6);  // and of 8 vertices
+  }
 }
 
 }  // namespace

@@ -1,0 +1,219 @@
+#include "rig/dae/dae_looks.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/dae/dae_layers.hpp"
+#include "rig/dae/dae_look_materials.hpp"
+#include "rig/gltf/colours.hpp"
+#include "rig/gltf/dressed_rows.hpp"
+#include "rig/gltf/vertex_maps.hpp"
+#include "surface/read/dae_scene.hpp"
+
+namespace curveskel {
+namespace {
+
+/// Of one primitive.
+struct PrimitiveLayers {
+  std::vector<DaeLayer> textures;
+  std::vector<DaeLayer> normals;
+  std::vector<DaeLayer> colours;
+  int material = -1;  ///< of the file's
+};
+
+class DaeLookReader {
+ public:
+  DaeLookReader(const FileBytes& file, const DaeDocument& document, std::vector<std::string>& notes,
+                const Monitor& monitor)
+      : file_(file),
+        document_(document),
+        notes_(notes),
+        monitor_(monitor),
+        meshes_(file, monitor) {}
+
+  std::optional<DressedFile> read() {
+    for_each_dae_mesh(document_, monitor_, [this](const DaeShownMesh& shown) { add(shown); });
+    made_.mesh.to_gltf = dae_to_gltf(document_);
+    if (made_.mesh.is_bare()) return std::nullopt;
+    const PolygonSoup soup = meshes_.soup(SurfaceFormat::dae);
+    made_.mesh.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
+    made_.mesh.offsets = soup.offsets;
+    for (std::size_t c = 0; c < soup.corners.size(); ++c) {
+      made_.mesh.corners[c].place = soup.corners[c];
+    }
+    return std::move(made_);
+  }
+
+ private:
+  void add(const DaeShownMesh& shown) {
+    const PolygonSoup& polygons = shown.mesh.polygons;
+    const std::vector<Eigen::Matrix3d> moving =
+        vertex_maps(shown.skin, shown.frame, static_cast<std::size_t>(polygons.positions.rows()));
+    if (shown.morph != nullptr) add_shapes(*shown.morph, polygons.positions, moving);
+    first_vertex_ += polygons.positions.rows();
+    meshes_.add(polygons, shown.frame, shown.skin);
+    rows_.begin_mesh();
+    const std::vector<Eigen::Matrix3d> maps = normal_maps(moving);
+    const bool mirrored = is_mirrored(shown.frame, shown.skin);
+    std::size_t polygon = 0;
+    for (std::size_t k = 0; k < shown.mesh.primitives.size(); ++k) {
+      const DaePrimitive& primitive = shown.mesh.primitives[k];
+      const bool is_last = k + 1 == shown.mesh.primitives.size();
+      const std::size_t end =
+          is_last ? polygons.corners.size() : shown.mesh.primitives[k + 1].first_corner;
+      const PrimitiveLayers layers = layers_of(shown, primitive);
+      for (; polygon + 1 < polygons.offsets.size() && idx(polygons.offsets[polygon + 1]) <= end;
+           ++polygon) {
+        const auto first = idx(polygons.offsets[polygon]);
+        const auto last = idx(polygons.offsets[polygon + 1]);
+        for (std::size_t at = first; at < last; ++at) {
+          add_corner(shown.mesh, primitive, layers, mirrored ? first + last - 1 - at : at, maps);
+        }
+        made_.mesh.material_of_face.push_back(layers.material);
+      }
+    }
+  }
+
+  PrimitiveLayers layers_of(const DaeShownMesh& shown, const DaePrimitive& primitive) {
+    PrimitiveLayers layers{dae_layers(document_, shown.mesh, primitive, "TEXCOORD", {2, 2}),
+                           dae_layers(document_, shown.mesh, primitive, "NORMAL", {3, 3}),
+                           dae_layers(document_, shown.mesh, primitive, "COLOR", {3, 4}), -1};
+    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, layers.textures.size());
+    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, layers.colours.size());
+    layers.material = material_of(shown.instance, *primitive.element, layers.textures);
+    return layers;
+  }
+
+  void add_corner(const DaeMesh& mesh, const DaePrimitive& primitive, const PrimitiveLayers& layers,
+                  std::size_t corner, const std::vector<Eigen::Matrix3d>& maps) {
+    const std::int32_t tuple = mesh.tuples[corner];
+    const auto row_in = [&](const DaeLayer& layer) { return layer.row_of(primitive, tuple); };
+    DressedCorner made;
+    made.texture = texture_of(layers.textures, row_in);
+    made.colour = colour_of(layers.colours, row_in);
+    const std::int64_t row = layers.normals.empty() ? -1 : row_in(layers.normals.front());
+    if (row >= 0) {
+      const DaeLayer& layer = layers.normals.front();
+      const auto vertex = idx(mesh.polygons.corners[corner]);
+      made.normal = rows_.normal(
+          vertex, {layer.value(row, 0), layer.value(row, 1), layer.value(row, 2)}, maps[vertex]);
+    }
+    made_.mesh.corners.push_back(made);
+  }
+
+  /// -1 where no set has a row for the corner.
+  template <typename RowIn>
+  std::int32_t texture_of(const std::vector<DaeLayer>& sets, const RowIn& row_in) {
+    TextureRow made{};
+    bool is_there = false;
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const std::int64_t row = row_in(sets[set]);
+      if (row < 0) continue;
+      is_there = true;
+      for (std::size_t k = 0; k < 2; ++k) {
+        made[2 * set + k] = static_cast<float>(sets[set].value(row, k));
+      }
+    }
+    return is_there ? rows_.texture(made) : -1;
+  }
+
+  /// White in sets that have no row for the corner; -1 where none has one.
+  template <typename RowIn>
+  std::int32_t colour_of(const std::vector<DaeLayer>& sets, const RowIn& row_in) {
+    ColourRow made{};
+    bool is_there = false;
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const std::int64_t row = row_in(sets[set]);
+      is_there = is_there || row >= 0;
+      std::array<double, 4> srgb{1, 1, 1, 1};
+      for (std::size_t k = 0; k < 4 && row >= 0; ++k) srgb[k] = sets[set].value(row, k);
+      std::ranges::copy(linear_colour(srgb), made.begin() + static_cast<std::ptrdiff_t>(4 * set));
+    }
+    return is_there ? rows_.colour(made) : -1;
+  }
+
+  /// The number in all of the file of the material to which the mesh's instance binds the
+  /// primitive's symbol, else of that with this id; -1 = none.
+  int material_of(const XmlElement* instance, const XmlElement& primitive,
+                  const std::vector<DaeLayer>& textures) {
+    const std::string_view symbol = primitive.attribute("material");
+    if (symbol.empty()) return -1;
+    const XmlElement* binding = binding_of(instance, symbol);
+    std::string_view id = binding == nullptr ? symbol : binding->attribute("target");
+    if (id.starts_with('#')) id.remove_prefix(1);
+    const XmlElement* material = document_.find(id);
+    if (material == nullptr || material->name != "material") return -1;
+    const auto [entry, is_new] =
+        numbers_.try_emplace(material, static_cast<int>(made_.materials.size()));
+    if (is_new) {
+      std::vector<std::size_t> sets;
+      for (const DaeLayer& layer : textures) sets.push_back(layer.set());
+      made_.materials.push_back(dae_look_of(file_, document_, {*material, binding, sets}, notes_));
+      made_.mesh.materials.push_back(made_.materials.back().name);
+    }
+    return entry->second;
+  }
+
+  static const XmlElement* binding_of(const XmlElement* instance, std::string_view symbol) {
+    const XmlElement* bound = instance == nullptr ? nullptr : instance->child("bind_material");
+    const XmlElement* common = bound == nullptr ? nullptr : bound->child("technique_common");
+    if (common == nullptr) return nullptr;
+    for (const XmlElement* one : common->all("instance_material")) {
+      if (one->attribute("symbol") == symbol) return one;
+    }
+    return nullptr;
+  }
+
+  /// The targets of a morph, in full; those of one name are one, as a face's and its teeth's.
+  void add_shapes(const XmlElement& morph, const Positions& base,
+                  const std::vector<Eigen::Matrix3d>& moving) {
+    const XmlElement* targets = morph.child("targets");
+    const XmlElement* source =
+        targets == nullptr ? nullptr : document_.input(*targets, "MORPH_TARGET").source;
+    if (source == nullptr) return;
+    bool are_ids = false;
+    const bool is_relative = morph.attribute("method") == "RELATIVE";
+    for (const std::string& id : document_.names(*source, "morph targets", are_ids)) {
+      const XmlElement* geometry = document_.find(id);
+      if (geometry == nullptr || geometry->name != "geometry") continue;
+      Positions moves = read_dae_mesh(document_, *geometry).polygons.positions;
+      if (moves.rows() != base.rows()) continue;
+      if (!is_relative) moves -= base;
+      const std::string name(geometry->attribute("name", id));
+      const auto [entry, is_new] = shape_numbers_.try_emplace(name, made_.mesh.shapes.size());
+      if (is_new) made_.mesh.shapes.push_back({name, {}});
+      DressedShape& made = made_.mesh.shapes[entry->second];
+      for (Eigen::Index v = 0; v < moves.rows(); ++v) {
+        const Eigen::Vector3d move = moving[idx(v)] * moves.row(v).transpose();
+        const bool is_move = move.allFinite() && !move.isZero(0);
+        if (is_move) made.moves[static_cast<std::int32_t>(first_vertex_ + v)] = move;
+      }
+    }
+  }
+
+  const FileBytes& file_;
+  const DaeDocument& document_;
+  std::vector<std::string>& notes_;
+  const Monitor& monitor_;
+  PlacedMeshes meshes_;
+  DressedFile made_;
+  DressedRows rows_{made_.mesh};
+  std::map<const XmlElement*, int> numbers_;  // of materials
+  std::map<std::string, std::size_t> shape_numbers_;
+  Eigen::Index first_vertex_ = 0;  // of the mesh
+};
+
+}  // namespace
+
+std::optional<DressedFile> read_dae_looks(const FileBytes& file, std::vector<std::string>& notes,
+                                          const Monitor& monitor) {
+  const XmlElement root = parse_dae(file);
+  return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read();
+}
+
+}  // namespace curveskel
