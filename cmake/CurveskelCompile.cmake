@@ -43,7 +43,7 @@ function(curveskel_units target)
   set(units "")
   foreach(heavy IN ITEMS
       "corefinement=CGAL/.*/corefinement" "CGAL=CGAL/" "OpenMesh=OpenMesh/"
-      "nlohmann=(nlohmann/|tiny_gltf)")
+      "nlohmann=(nlohmann/|tiny_gltf)" "stb=stb/")
     string(REGEX MATCH "^[A-Za-z]+" name ${heavy})
     string(REGEX REPLACE "^[A-Za-z]+=" "" heavy ${heavy})
     set(group "")

@@ -4,16 +4,16 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <vector>
+
+#include "base/uri.hpp"
+#include "rig/gltf/picture_places.hpp"
 
 namespace curveskel {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string without_blanks(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
@@ -22,41 +22,11 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(blanks) + 1 - begin));
 }
 
-/// "%20" is a blank; what is no such code stays.
-std::string uri_decoded(std::string_view uri) {
-  std::string text;
-  for (std::size_t at = 0; at < uri.size(); ++at) {
-    unsigned code = 0;
-    const char* const digits = uri.data() + at + 1;
-    const bool is_coded = uri[at] == '%' && at + 2 < uri.size() &&
-                          std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-    text += is_coded ? static_cast<char>(code) : uri[at];
-    if (is_coded) at += 2;
-  }
-  return text;
-}
-
-/// A path of this system, as far as there is one: without "file://", separators as here.
 std::string path_in(std::string_view uri) {
-  std::string path = uri_decoded(uri);
+  std::string path = without_escapes(uri);
   constexpr std::string_view scheme = "file://";
   if (path.starts_with(scheme)) path.erase(0, scheme.size());
-  std::replace(path.begin(), path.end(), '\\', '/');
   return path;
-}
-
-/// As named, else where pictures of such files mostly are, as paths of another machine lead
-/// nowhere.
-fs::path picture_file(const FileBytes& file, const std::string& name) {
-  const fs::path folder = file.path.parent_path();
-  const fs::path alone = fs::path(name).filename();
-  for (const fs::path& path :
-       {folder / name, folder / alone, folder / "textures" / alone, folder / "Textures" / alone,
-        folder / "images" / alone, folder / file.path.stem() / alone}) {
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) return path;
-  }
-  return folder / alone;
 }
 
 /// The first descendant with that name, or nullptr.
@@ -106,7 +76,7 @@ class DaeMaterialReader {
     look.opacity = opacity();
     const auto cutout = picture_in(shader_->child("transparent"));
     look.base_has_alpha = look.base && cutout && cutout->path == look.base->path;
-    const double shine = number_in(shader_->child("shininess")).value_or(0);
+    const double shine = first_number(shader_->child("shininess")).value_or(0);
     look.roughness = 1 - std::sqrt(std::max(shine, 0.0)) / 10;
     const XmlElement* sides = descendant(*effect_, "double_sided");
     const std::string said = sides == nullptr ? "" : without_blanks(sides->text);
@@ -143,7 +113,7 @@ class DaeMaterialReader {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<double> number_in(const XmlElement* property) const {
+  [[nodiscard]] std::optional<double> first_number(const XmlElement* property) const {
     const auto numbers = numbers_in(property);
     return numbers ? std::optional(numbers->front()) : std::nullopt;
   }
@@ -157,7 +127,7 @@ class DaeMaterialReader {
   /// COLLADA 1.4.1 and 1.5, "Determining Transparency (Opacity)". Nobody has a material that is not
   /// seen at all: exporters that say so mean that it is.
   [[nodiscard]] double opacity() const {
-    const double share = number_in(shader_->child("transparency")).value_or(1);
+    const double share = first_number(shader_->child("transparency")).value_or(1);
     const XmlElement* transparent = shader_->child("transparent");
     const auto colour = numbers_in(transparent);
     const std::string_view mode =
@@ -200,7 +170,7 @@ class DaeMaterialReader {
     DressedPicture result;
     result.name = path_in(without_blanks(reference == nullptr ? from->text : reference->text));
     if (result.name.empty()) return std::nullopt;
-    result.path = picture_file(file_, result.name);
+    result.path = picture_place(file_.path, file_.path.parent_path(), result.name);
     result.set = set_of(texture->attribute("texcoord"));
     return result;
   }

@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "base/base64.hpp"
 #include "rig/fbx/fbx_layers.hpp"
+#include "rig/gltf/picture_places.hpp"
 #include "surface/read/fbx_tree.hpp"
 
 namespace curveskel {
@@ -104,7 +104,9 @@ class MaterialLooks {
     if (result.name.empty()) result.name = file_named(texture);
     const FbxRecord* content = named.child("Content");
     if (content != nullptr) result.bytes = bytes_of(*content);
-    result.path = result.bytes.empty() ? found(result.name) : fs::path(result.name);
+    result.path = result.bytes.empty()
+                      ? picture_place(file_.path, file_.path.parent_path(), result.name)
+                      : fs::path(result.name);
     result.set = set_of(texture);
     return result;
   }
@@ -142,21 +144,6 @@ class MaterialLooks {
       append_from_base64(bytes, text, bytes.size() + text.size());
     }
     return bytes;
-  }
-
-  /// As named, else where pictures of such files mostly are, as paths of another machine lead
-  /// nowhere.
-  [[nodiscard]] fs::path found(const std::string& name) const {
-    const fs::path folder = file_.path.parent_path();
-    const fs::path alone = fs::path(name).filename();
-    fs::path own = file_.path.stem();
-    own += ".fbm";
-    for (const fs::path& path : {folder / name, folder / alone, folder / "textures" / alone,
-                                 folder / "Textures" / alone, folder / own / alone}) {
-      std::error_code ignored;
-      if (fs::is_regular_file(path, ignored)) return path;
-    }
-    return folder / alone;
   }
 
   const FileBytes& file_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rig/gltf/gltf_pictures.hpp"
+#include "rig/gltf/picture_as_png.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "surface/read/file_bytes.hpp"
 
@@ -35,14 +36,22 @@ class Pictures {
     std::error_code ignored;
     const bool is_within = !picture.bytes.empty();
     const bool is_there = is_within || fs::is_regular_file(picture.path, ignored);
-    const std::string bytes = is_within  ? picture.bytes
-                              : is_there ? read_file(picture.path, monitor_).content
-                                         : "";
-    const auto type = picture_type(bytes);
+    std::string bytes = is_within  ? picture.bytes
+                        : is_there ? read_file(picture.path, monitor_).content
+                                   : "";
+    auto type = picture_type(bytes);
+    if (!type && is_there) {
+      if (auto png = picture_as_png(bytes)) {
+        bytes = std::move(*png);
+        type = "image/png";
+      }
+    }
     if (type != "image/png" && type != "image/jpeg") {
-      notes_.push_back(
-          "the picture " + in_quotes(picture.name) +
-          (is_there ? " is no PNG or JPEG, the kinds that glTF has; convert it" : " is missing"));
+      notes_.push_back("the picture " + in_quotes(picture.name) +
+                       (is_there
+                            ? " is none that glTF has, or that can be made one: PNG, JPEG, TGA, "
+                              "BMP, GIF or PSD; convert it"
+                            : " is missing"));
       return std::nullopt;
     }
     const std::size_t view = add_view(document_, bytes);

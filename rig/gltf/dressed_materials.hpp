@@ -10,8 +10,8 @@
 
 namespace curveskel {
 
-/// In their order. Pictures are taken in, each once; `notes` has a line for each that is missing or
-/// of another kind than PNG and JPEG.
+/// In their order. Pictures are taken in, each once, TGA, BMP, GIF and PSD as PNG; `notes` has a
+/// line for each that is missing or of another kind.
 void add_materials(GltfDocument& document, const std::vector<DressedMaterial>& materials,
                    std::vector<std::string>& notes, const Monitor& monitor);
 

@@ -1,31 +1,17 @@
 #include "rig/gltf/gltf_pictures.hpp"
 
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <system_error>
 #include <utility>
 
+#include "base/uri.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 
 namespace curveskel {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "a%20b" is "a b".
-std::string without_escapes(std::string_view uri) {
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned byte = 0;
-    const char* digits = uri.data() + i + 1;
-    const bool is_escape = uri[i] == '%' && i + 2 < uri.size() &&
-                           std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
-    path += is_escape ? static_cast<char>(static_cast<unsigned char>(byte)) : uri[i];
-    if (is_escape) i += 2;
-  }
-  return path;
-}
 
 /// Beside the file, as the URI says or as it is spelled.
 std::optional<fs::path> picture_file(const FileBytes& file, const std::string& uri) {

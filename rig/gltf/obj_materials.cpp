@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "rig/gltf/gltf_pictures.hpp"
+#include "rig/gltf/picture_places.hpp"
 
 namespace curveskel {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MtlPicture {
-  fs::path folder;  ///< of the library
+  fs::path library;
   std::string name;
 };
 
@@ -68,7 +69,7 @@ std::string picture_name(std::string text) {
   return text;
 }
 
-void read_line(const std::string& key, const std::string& rest, const fs::path& folder,
+void read_line(const std::string& key, const std::string& rest, const fs::path& library,
                MtlMaterial& material) {
   std::istringstream numbers(rest);
   std::array<double, 3> three{};
@@ -82,7 +83,7 @@ void read_line(const std::string& key, const std::string& rest, const fs::path& 
   if (key == "pr" && is_number) material.roughness = three[0];
   if (key == "pm" && is_number) material.metalness = three[0];
   if (key.starts_with("map_") || key == "norm") {
-    material.pictures[key] = {folder, picture_name(rest)};
+    material.pictures[key] = {library, picture_name(rest)};
   }
 }
 
@@ -97,7 +98,7 @@ void read_library(const fs::path& path, MtlLibrary& library, const Monitor& moni
     if (key == "newmtl") {
       material = &library[rest];
     } else if (material != nullptr && !key.empty()) {
-      read_line(key, rest, path.parent_path(), *material);
+      read_line(key, rest, path, *material);
     }
   }
 }
@@ -112,14 +113,6 @@ std::vector<fs::path> library_files(const fs::path& folder, const std::string& n
     files.push_back(folder / word);
   }
   return files;
-}
-
-/// As named, else beside the library, as paths of another machine lead nowhere.
-DressedPicture found(const MtlPicture& picture) {
-  std::error_code ignored;
-  const fs::path path = picture.folder / picture.name;
-  const bool is_there = fs::is_regular_file(path, ignored);
-  return {is_there ? path : picture.folder / fs::path(picture.name).filename(), picture.name, {}};
 }
 
 double roughness_of(const MtlMaterial& material) {
@@ -139,7 +132,8 @@ MaterialLook look_of(const MtlMaterial& material) {
   const auto picture = [&](const char* key) -> std::optional<DressedPicture> {
     const auto named = material.pictures.find(key);
     if (named == material.pictures.end()) return std::nullopt;
-    return found(named->second);
+    const auto& [library, name] = named->second;
+    return DressedPicture{picture_place(library, library.parent_path(), name), name, {}};
   };
   look.base = picture("map_kd");
   look.normals = picture("norm");

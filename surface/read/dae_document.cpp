@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 #include <system_error>
 
 namespace curveskel {
@@ -25,6 +26,21 @@ void for_words(std::string_view text, const Take& take) {
     take(text.substr(at, end - at));
     at = end;
   }
+}
+
+/// Some exporters write the decimal comma of the country that they run in.
+std::optional<double> number_in(std::string_view word) {
+  std::string with_point;
+  if (const std::size_t comma = word.find(','); comma != std::string_view::npos) {
+    with_point = word;
+    with_point[comma] = '.';
+    word = with_point;
+  }
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [next, error] = fast_float::from_chars(word.data(), end, value);
+  return error == std::errc() && next == end ? std::optional(value) : std::nullopt;
 }
 
 /// A whole number from 0 on; `otherwise` where the text is none.
@@ -153,14 +169,9 @@ std::vector<double> DaeDocument::numbers(const XmlElement& of) const {
   std::vector<double> result;
   result.reserve(of.text.size() / 8);
   for_words(of.text, [&](std::string_view word) {
-    double value = 0;
-    const char* const end = word.data() + word.size();
-    const char* const begin = word.starts_with('+') ? word.data() + 1 : word.data();
-    const auto [next, error] = fast_float::from_chars(begin, end, value);
-    if (error != std::errc() || next != end) {
-      fail(of, in_quotes(word) + " in <" + of.name + ">", "a number");
-    }
-    result.push_back(value);
+    const auto value = number_in(word);
+    if (!value) fail(of, in_quotes(word) + " in <" + of.name + ">", "a number");
+    result.push_back(*value);
   });
   return result;
 }

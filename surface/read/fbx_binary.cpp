@@ -93,14 +93,15 @@ class FbxBinaryReader {
       case 'd':
       case 'l':
       case 'i':
-      case 'b': {
+      case 'b':
+      case 'c': {
         FbxArray array{type, bytes_.take<std::uint32_t>(), bytes_.take<std::uint32_t>() == 1, {}};
         array.bytes = take_text(bytes_.take<std::uint32_t>());
         return array;
       }
       default:
         file_.fail("a value of type " + in_quotes({&type, 1}) + " at byte " + std::to_string(place),
-                   "one of C, Y, I, L, F, D, S, R, f, d, l, i and b", fbx_remedy);
+                   "one of C, Y, I, L, F, D, S, R, f, d, l, i, b and c", fbx_remedy);
     }
   }
 

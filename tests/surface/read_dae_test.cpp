@@ -47,6 +47,15 @@ TEST(ReadDae, TransformsOfANodeApplyFromTheLastToTheFirst) {
   });
 }
 
+TEST(ReadDae, NumbersMayHaveTheDecimalCommaOfTheExportersCountry) {
+  const PolygonSoup soup =
+      read_nodes("<node><translate>1,5 -2,25e1 +3</translate>" + shown + "</node>");
+  expect_corners(soup, 0, [](const auto& p) {
+    return Eigen::RowVector3d(p.x() + 1.5, p.y() - 22.5, p.z() + 3);
+  });
+  EXPECT_THROW(read_nodes("<node><translate>1,5,2 0 0</translate>" + shown + "</node>"), Error);
+}
+
 TEST(ReadDae, SaysWhichAxisIsUp) {
   std::string document = dae(box, dae_box_node);
   EXPECT_TRUE(read(document).z_is_up);

@@ -151,6 +151,13 @@ TEST_P(EveryForm, ASkinFollowsItsJointsAndTheRestItsModel) {
   }
 }
 
+TEST_P(EveryForm, ArraysOfBytesArePassedOver) {
+  FbxItem box = fbx_box();
+  box.children.push_back({"Smoothness", {std::vector<signed char>{1, 0, -1}}});
+  expect_corners(read(fbx_scene({box, fbx_model(2)}, {{2, 0}, {1, 2}})), 0,
+                 [](const auto& p) { return p; });
+}
+
 TEST_P(EveryForm, RefusesWhatIsBroken) {
   const auto message = [](const FbxItems& records) {
     return refusal_of([&] { return read(records); });

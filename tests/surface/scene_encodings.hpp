@@ -88,8 +88,8 @@ inline std::string dae_polygons() {
 
 struct FbxItem;
 using FbxItems = std::vector<FbxItem>;
-using FbxContent =
-    std::variant<int, std::int64_t, double, std::string, std::vector<double>, std::vector<int>>;
+using FbxContent = std::variant<int, std::int64_t, double, std::string, std::vector<double>,
+                                std::vector<int>, std::vector<signed char>>;
 
 /// A record, to be written in either form.
 struct FbxItem {
@@ -179,6 +179,8 @@ inline std::string fbx_binary_value(const FbxContent& content, bool zipped) {
     bytes += *text;
   } else if (const auto* numbers = std::get_if<std::vector<double>>(&content)) {
     bytes = fbx_binary_array('d', *numbers, zipped);
+  } else if (const auto* small = std::get_if<std::vector<signed char>>(&content)) {
+    bytes = fbx_binary_array('c', *small, zipped);
   } else {
     bytes = fbx_binary_array('i', std::get<std::vector<int>>(content), zipped);
   }
