@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/gltf/shown_colours.hpp"
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_pose.hpp"
 
@@ -61,6 +62,8 @@ class MeshReader {
       if (!has_triangles(primitive)) continue;
       shapes_ = std::max(shapes_, primitive.targets.size());
       while (attribute(primitive, map_attribute(made_.maps.size())) >= 0) made_.maps.emplace_back();
+      const int first = attribute(primitive, "COLOR_0");
+      if (first >= 0 && model_.accessors[idx(first)].name == shown_colours) first_colours_ = 1;
       while (attribute(primitive, colour_attribute(made_.colours.size())) >= 0) {
         made_.colours.emplace_back();
       }
@@ -84,8 +87,8 @@ class MeshReader {
     return "TEXCOORD_" + std::to_string(number);
   }
 
-  static std::string colour_attribute(std::size_t number) {
-    return "COLOR_" + std::to_string(number);
+  [[nodiscard]] std::string colour_attribute(std::size_t number) const {
+    return "COLOR_" + std::to_string(number + first_colours_);
   }
 
   void add(const tinygltf::Primitive& primitive) {
@@ -191,6 +194,7 @@ class MeshReader {
   const FileBytes& file_;
   const tinygltf::Model& model_;
   const tinygltf::Mesh& mesh_;
+  std::size_t first_colours_ = 0;  // FBX needs none that only show what pictures leave over
   std::size_t shapes_ = 0;
   bool has_normals_ = true;
   std::map<std::pair<std::map<std::string, int>, std::vector<std::map<std::string, int>>>,

@@ -9,6 +9,7 @@
 #include "rig/gltf/dressed_materials.hpp"
 #include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/seam_normals.hpp"
+#include "rig/gltf/shown_colours.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "surface/mesh/single_precision.hpp"
 #include "surface/read/formats.hpp"
@@ -185,6 +186,17 @@ std::size_t add_shape(GltfDocument& document, const DressedShape& shape, const S
   return accessors.size() - 1;
 }
 
+/// By material, whether it has one for its base colour.
+std::vector<bool> with_pictures(const GltfDocument& document, std::size_t materials) {
+  std::vector<bool> result(materials, false);
+  for (std::size_t k = 0; k < materials; ++k) {
+    const OrderedJson& material = document.json["materials"][k];
+    result[k] = material.contains("pbrMetallicRoughness") &&
+                material["pbrMetallicRoughness"].contains("baseColorTexture");
+  }
+  return result;
+}
+
 Triangles triangles_of(const SplitMesh& split, std::size_t group) {
   PolygonSoup soup;
   soup.positions = split.soup.positions;
@@ -212,14 +224,10 @@ Positions normals_of(const SplitMesh& split, const std::vector<Triangles>& group
 
 }  // namespace
 
-DressedDocument dressed_document(const DressedMesh& mesh,
-                                 const std::vector<DressedMaterial>& materials,
+DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMaterial>& materials,
                                  const FileBytes& file, const std::string& name,
                                  std::vector<std::string>& notes, const Monitor& monitor) {
-  const SplitMesh split = curveskel::split(mesh, file);
-  require_single_precision(split.soup.positions, "glTF");
   DressedDocument made;
-  for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
   GltfDocument& document = made.document;
   const std::string title = as_utf8(name);
   document.json = {{"asset", {{"version", "2.0"}}},
@@ -229,6 +237,10 @@ DressedDocument dressed_document(const DressedMesh& mesh,
                    {"meshes", OrderedJson::array({{{"name", title}}})},
                    {"buffers", OrderedJson::array({OrderedJson::object()})}};
   add_materials(document, materials, notes, monitor);
+  const bool has_shown_colours = show_colours(mesh, with_pictures(document, materials.size()));
+  const SplitMesh split = curveskel::split(mesh, file);
+  require_single_precision(split.soup.positions, "glTF");
+  for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
   std::vector<Triangles> groups;
   for (std::size_t group = 0; group < split.corners.size(); ++group) {
     groups.push_back(triangles_of(split, group));
@@ -239,7 +251,9 @@ DressedDocument dressed_document(const DressedMesh& mesh,
     attributes["TEXCOORD_" + std::to_string(set)] = add_textures(document, mesh, split, set);
   }
   for (std::size_t set = 0; !mesh.colours.empty() && set < mesh.colour_sets; ++set) {
-    attributes["COLOR_" + std::to_string(set)] = add_colours(document, mesh, split, set);
+    const std::size_t colours = add_colours(document, mesh, split, set);
+    attributes["COLOR_" + std::to_string(set)] = colours;
+    if (has_shown_colours && set == 0) document.json["accessors"][colours]["name"] = shown_colours;
   }
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {

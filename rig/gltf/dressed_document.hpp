@@ -21,9 +21,9 @@ struct DressedDocument {
 /// One mesh with a primitive for each material, in their order; all share the vertices: first those
 /// of the file, in its order, then copies for corners that meet in a vertex with other texture
 /// coordinates, normals or colours. Corners without a normal get that of `normals_across_seams`.
-/// Faces are triangulated; one with a vertex that has no place is left out. Throws
-/// Error(Fault::output) where single precision does not do.
-[[nodiscard]] DressedDocument dressed_document(const DressedMesh& mesh,
+/// Faces are triangulated; one with a vertex that has no place is left out. Of colours see
+/// `show_colours`. Throws Error(Fault::output) where single precision does not do.
+[[nodiscard]] DressedDocument dressed_document(DressedMesh mesh,
                                                const std::vector<DressedMaterial>& materials,
                                                const FileBytes& file, const std::string& name,
                                                std::vector<std::string>& notes,

@@ -24,7 +24,7 @@ std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<
   if (obj.mesh.is_bare()) return std::nullopt;
   std::vector<DressedMaterial> materials = read_obj_materials(obj, file, notes, monitor);
   if (!materials.empty()) {
-    obj.mesh.colours.clear();  // of what the materials show, mostly, of which they would be factors
+    obj.mesh.drop_colours();  // of what the materials show, mostly, of which they would be factors
   } else if (!obj.mesh.colours.empty()) {
     materials.push_back({coloured_material, MaterialLook{}});
     obj.mesh.materials.emplace_back(coloured_material);

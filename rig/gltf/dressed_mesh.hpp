@@ -53,6 +53,11 @@ struct DressedMesh {
   /// From the places to glTF's: y up, z ahead, metres. A similarity.
   Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 
+  void drop_colours() {
+    colours.clear();
+    for (DressedCorner& corner : corners) corner.colour = -1;
+  }
+
   /// Nothing that a file without looks would lose.
   [[nodiscard]] bool is_bare() const {
     return textures.empty() && normals.empty() && materials.empty() && shapes.empty() &&

@@ -78,7 +78,7 @@ class PlyLookReader {
     made.mesh.material_of_face.assign(soup_.offsets.size() - 1, -1);
     const std::string picture = named_picture(file);
     if (!made.mesh.textures.empty() && !picture.empty()) {
-      made.mesh.colours.clear();  // a copy of the picture, mostly, of which it would be a factor
+      made.mesh.drop_colours();  // a copy of the picture, mostly, of which it would be a factor
       MaterialLook look;
       look.base = DressedPicture{file.path.parent_path() / picture, picture, {}};
       made.materials.push_back({std::filesystem::path(picture).stem().string(), look});

@@ -540,6 +540,29 @@ TEST_F(DressFbx, ColoursAreTheFilesHoweverTheyAreGiven) {
   }
 }
 
+/// Colours beside pictures are masks, mostly: they must not darken what is drawn. Written as FBX,
+/// they come first again.
+TEST_F(DressFbx, ColoursAreNoFactorsOnPictures) {
+  (void)folder_.write("skin.png", png);
+  FbxItem box = encodings::fbx_box();
+  box.children.push_back(colours(mappings[1]));
+  const FbxItems beside{
+      material(0, {}),
+      {"Texture", {std::int64_t{30}, "Texture::t", ""}, {{"RelativeFilename", {"skin.png"}}}}};
+  const std::vector<FbxItem> links{
+      {"C", {"OP", std::int64_t{30}, first_material, std::string("DiffuseColor")}}};
+  fs::path file = written(scene(box, encodings::fbx_model(2), beside, links), FbxForm::binary);
+  for (int round = 0; round < 2; ++round) {
+    const Glb glb = glb_of(dressed(file).bytes);
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    EXPECT_FALSE(attributes.contains("COLOR_2"));
+    for (const float number : glb.values<float>(attributes["COLOR_0"])) EXPECT_EQ(number, 1);
+    const auto own = glb.values<float>(attributes["COLOR_1"]);
+    for (std::size_t k = 3; k < 32; k += 4) EXPECT_NEAR(own[k], 0.005 * double(k - 3), 1e-6);
+    file = folder_.write("again.fbx", dressed(file, RigFormat::fbx).bytes);
+  }
+}
+
 TEST_F(DressFbx, AllSetsOfTextureCoordinatesAreKeptAndEachPictureHasItsOwn) {
   (void)folder_.write("skin.png", png);
   for (const auto& [name, wanted] : {std::pair<std::string, int>{"second", 1}, {"none", 0}}) {

@@ -1,0 +1,46 @@
+#include "rig/gltf/shown_colours.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+
+namespace curveskel {
+
+bool show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
+  const auto has_picture = [&](std::size_t face) {
+    const int material = mesh.material_of_face[face];
+    return material >= 0 && is_pictured[idx(material)];
+  };
+  bool has_both = false;
+  for (std::size_t face = 0; face < mesh.material_of_face.size() && !has_both; ++face) {
+    has_both = has_picture(face) &&
+               std::any_of(mesh.corners.begin() + mesh.offsets[face],
+                           mesh.corners.begin() + mesh.offsets[face + 1],
+                           [](const DressedCorner& corner) { return corner.colour >= 0; });
+  }
+  if (!has_both) return false;
+  const std::vector<ColourRow> given = std::exchange(mesh.colours, {});
+  mesh.colour_sets = std::min(mesh.colour_sets + 1, most_sets);
+  std::map<std::pair<std::int32_t, bool>, std::int32_t> rows;
+  for (std::size_t face = 0; face < mesh.material_of_face.size(); ++face) {
+    const bool is_white = has_picture(face);
+    for (auto c = mesh.offsets[face]; c < mesh.offsets[face + 1]; ++c) {
+      std::int32_t& colour = mesh.corners[idx(c)].colour;
+      if (colour < 0) continue;
+      const auto [entry, is_new] =
+          rows.try_emplace({colour, is_white}, static_cast<std::int32_t>(mesh.colours.size()));
+      if (is_new) {
+        ColourRow made = given[idx(colour)];
+        std::shift_right(made.begin(), made.end(), 4);
+        if (is_white) std::fill_n(made.begin(), 4, 1.0F);
+        mesh.colours.push_back(made);
+      }
+      colour = entry->second;
+    }
+  }
+  return true;
+}
+
+}  // namespace curveskel
