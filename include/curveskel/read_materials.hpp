@@ -39,8 +39,8 @@ struct SurfaceMaterials {
 };
 
 /// Of glTF the base colours, of OBJ, COLLADA and FBX the diffuse ones, of PLY colours and picture;
-/// nothing for other formats and where a file has neither materials nor colours. Pictures that are missing are left out. Throws
-/// Error(Fault::input) as `read_polygons`. O(bytes of the file).
+/// nothing for other formats and where a file has neither materials nor colours. Pictures that are
+/// missing are left out. Throws Error(Fault::input) as `read_polygons`. O(bytes of the file).
 [[nodiscard]] std::optional<SurfaceMaterials> read_materials(const std::filesystem::path& path,
                                                              const Monitor& monitor = {});
 

@@ -18,10 +18,10 @@ namespace curveskel {
                                           const Monitor& monitor);
 
 /// The joints alone (weights has no rows) of a glTF file with a skin, of an FBX file with
-/// limbs or a COLLADA file with joints (where its nodes rest, in its numbers), of the JSON that `format_rig` writes, or of
-/// RigNet's text; parents before their children, whatever the order in the file. Throws
-/// Error(Fault::input) where there are no joints, where parents lead to no root, or where a name or
-/// number is wrong. Linear in the file.
+/// limbs or a COLLADA file with joints (where its nodes rest, in its numbers), of the JSON that
+/// `format_rig` writes, or of RigNet's text; parents before their children, whatever the order in
+/// the file. Throws Error(Fault::input) where there are no joints, where parents lead to no root,
+/// or where a name or number is wrong. Linear in the file.
 [[nodiscard]] Rig read_joints(const std::filesystem::path& path, const Monitor& monitor);
 
 }  // namespace curveskel
