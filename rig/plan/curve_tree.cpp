@@ -102,30 +102,47 @@ Sampled ways_along(const CurveTree& tree, const std::vector<int>& path) {
   return sampled;
 }
 
+/// Stations along a way; those of a right one are mirrored.
+Course course_along(const CurveTree& tree, const std::vector<int>& path, bool is_left) {
+  constexpr std::size_t samples = 400;
+  Course course{std::vector<Vector3d>(samples), std::vector<double>(samples)};
+  const Sampled along = ways_along(tree, path);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double way = along.whole * static_cast<double>(i) / (samples - 1);
+    while (k + 2 < path.size() && along.way[k + 1] < way) ++k;
+    const std::size_t next = std::min(k + 1, path.size() - 1);
+    const double step = along.way[next] - along.way[k];
+    const double share = step > 0 ? std::clamp((way - along.way[k]) / step, 0.0, 1.0) : 0;
+    Vector3d point = (1 - share) * tree.nodes[idx(path[k])] + share * tree.nodes[idx(path[next])];
+    if (!is_left) point.x() = 2 * tree.middle - point.x();
+    course.points[i] = point;
+    course.radii[i] = (1 - share) * tree.radii[idx(path[k])] + share * tree.radii[idx(path[next])];
+  }
+  return course;
+}
+
 }  // namespace
 
 Course mean_course(const CurveTree& tree, const LimbWay& limb) {
-  constexpr std::size_t samples = 400;
-  Course course{std::vector<Vector3d>(samples, Vector3d::Zero()),
-                std::vector<double>(samples, 0.0)};
-  for (const bool is_left : {true, false}) {
-    const std::vector<int>& path = is_left ? limb.path : limb.mirror;
-    const Sampled along = ways_along(tree, path);
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double way = along.whole * static_cast<double>(i) / (samples - 1);
-      while (k + 2 < path.size() && along.way[k + 1] < way) ++k;
-      const std::size_t next = std::min(k + 1, path.size() - 1);
-      const double step = along.way[next] - along.way[k];
-      const double share = step > 0 ? std::clamp((way - along.way[k]) / step, 0.0, 1.0) : 0;
-      Vector3d point = (1 - share) * tree.nodes[idx(path[k])] + share * tree.nodes[idx(path[next])];
-      if (!is_left) point.x() = 2 * tree.middle - point.x();
-      course.points[i] += 0.5 * point;
-      course.radii[i] +=
-          0.5 * ((1 - share) * tree.radii[idx(path[k])] + share * tree.radii[idx(path[next])]);
-    }
+  Course course = course_along(tree, limb.path, true);
+  const Course image = course_along(tree, limb.mirror, false);
+  for (std::size_t i = 0; i < course.points.size(); ++i) {
+    course.points[i] = 0.5 * course.points[i] + 0.5 * image.points[i];
+    course.radii[i] = 0.5 * course.radii[i] + 0.5 * image.radii[i];
   }
   return course;
+}
+
+double share_within_both(const CurveTree& tree, const LimbWay& limb) {
+  const Course course = course_along(tree, limb.path, true);
+  const Course image = course_along(tree, limb.mirror, false);
+  int within = 0;
+  for (std::size_t i = 0; i < course.points.size(); ++i) {
+    const double off = 0.5 * (course.points[i] - image.points[i]).norm();
+    within += off < std::min(course.radii[i], image.radii[i]) ? 1 : 0;
+  }
+  return within / static_cast<double>(course.points.size());
 }
 
 std::size_t last_shared(const Course& course, const Course& other) {

@@ -62,7 +62,10 @@ struct Limbs {
   std::vector<LimbPair> pairs;  ///< the longest first
 };
 
-[[nodiscard]] Limbs find_limbs(const CurveTree& tree);
+/// Where the mirror images of tips are sought.
+enum class Images { tips, within_limbs };
+
+[[nodiscard]] Limbs find_limbs(const CurveTree& tree, Images images = Images::tips);
 
 /// A limb's course as the mean of both sides, on the left, in equal shares of its length.
 struct Course {
@@ -70,6 +73,9 @@ struct Course {
   std::vector<double> radii;
 };
 [[nodiscard]] Course mean_course(const CurveTree& tree, const LimbWay& limb);
+
+/// How much of the mean course lies within both limbs, which then have their joints on it.
+[[nodiscard]] double share_within_both(const CurveTree& tree, const LimbWay& limb);
 
 /// The last point of `course` that is one of the other's, too; 0 where none is.
 [[nodiscard]] std::size_t last_shared(const Course& course, const Course& other);

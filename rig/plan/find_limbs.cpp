@@ -21,7 +21,7 @@ constexpr double alike = 0.06;  // so near is a mirror image
 
 class LimbFinder {
  public:
-  explicit LimbFinder(const CurveTree& tree) : tree_(tree) {
+  LimbFinder(const CurveTree& tree, Images images) : tree_(tree), images_(images) {
     for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
       if (!tree.is_tip(node)) continue;
       tips_.push_back(node);
@@ -59,11 +59,37 @@ class LimbFinder {
       taken[idx(left)] = taken[idx(right)] = 1;
       mate_[left] = right;
     }
+    if (images_ == Images::within_limbs) pair_with_nodes(taken);
     for (const int tip : tips_) {
       const double aside = std::abs(tree_.aside(tip)) / tree_.size;
       if (aside <= in_plane || (aside <= nearly_in_plane && taken[idx(tip)] == 0)) {
         ends_.push_back(tip);
       }
+    }
+  }
+
+  /// Tips that have no tip for an image, with the node on the other side that is: of a hand that
+  /// holds a weapon, whose tip is the weapon's.
+  void pair_with_nodes(std::vector<char>& taken) {
+    for (const int tip : tips_) {
+      if (taken[idx(tip)] != 0 || std::abs(tree_.aside(tip)) <= in_plane * tree_.size) continue;
+      Vector3d image = tree_.nodes[idx(tip)];
+      image.x() = 2 * tree_.middle - image.x();
+      int nearest = -1;
+      double least = alike * tree_.size;
+      for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
+        const bool is_opposite = tree_.aside(node) * tree_.aside(tip) < 0 &&
+                                 std::abs(tree_.aside(node)) > in_plane * tree_.size;
+        const double off = (image - tree_.nodes[idx(node)]).norm();
+        if (!is_opposite || taken[idx(node)] != 0 || off >= least) continue;
+        nearest = node;
+        least = off;
+      }
+      if (nearest < 0) continue;
+      taken[idx(tip)] = taken[idx(nearest)] = 1;
+      ways_.try_emplace(nearest, ways_from(tree_, nearest));
+      const bool is_left = tree_.aside(tip) > 0;
+      mate_[is_left ? tip : nearest] = is_left ? nearest : tip;
     }
   }
 
@@ -159,6 +185,7 @@ class LimbFinder {
   }
 
   const CurveTree& tree_;
+  Images images_;
   std::vector<int> tips_;
   std::map<int, Ways> ways_;  // by tip
   std::map<int, int> mate_;   // left tip -> right tip
@@ -168,6 +195,6 @@ class LimbFinder {
 
 }  // namespace
 
-Limbs find_limbs(const CurveTree& tree) { return LimbFinder(tree).find(); }
+Limbs find_limbs(const CurveTree& tree, Images images) { return LimbFinder(tree, images).find(); }
 
 }  // namespace curveskel

@@ -176,23 +176,15 @@ struct Outlook {
   PlanFound found;
 };
 
-Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
-             BodyKind wanted) {
-  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}};
-  outlook.limbs = find_limbs(outlook.tree);
-  outlook.found = classify(outlook.tree, outlook.limbs, wanted);
-  return outlook;
-}
-
 /// The mean distance of the curve's mirror image from the curve, of the size.
-double asymmetry(const CurveTree& tree) {
+double asymmetry(const CurveTree& tree, double middle) {
   constexpr std::size_t samples = 300;
   const std::size_t stride = 1 + tree.nodes.size() / samples;
   double sum = 0;
   int count = 0;
   for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
     Vector3d image = tree.nodes[k];
-    image.x() = 2 * tree.middle - image.x();
+    image.x() = 2 * middle - image.x();
     double least = std::numeric_limits<double>::infinity();
     for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
     sum += std::sqrt(least);
@@ -203,8 +195,74 @@ double asymmetry(const CurveTree& tree) {
 
 constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirror image
 
+/// Between tips that may be images of each other, as hands are and feet.
+std::vector<double> middles_of_tips(const CurveTree& tree) {
+  constexpr double alike = 0.06;   // of the size, that tips differ but for their sides
+  constexpr double apart = 0.002;  // of the size: nearer ones are one
+  std::vector<double> middles;
+  const int nodes = static_cast<int>(tree.nodes.size());
+  for (int a = 0; a < nodes; ++a) {
+    if (!tree.is_tip(a)) continue;
+    for (int b = a + 1; b < nodes; ++b) {
+      if (!tree.is_tip(b)) continue;
+      const Vector3d way = tree.nodes[idx(b)] - tree.nodes[idx(a)];
+      if (std::hypot(way.y(), way.z()) > alike * tree.size) continue;
+      middles.push_back(0.5 * (tree.nodes[idx(a)].x() + tree.nodes[idx(b)].x()));
+    }
+  }
+  std::sort(middles.begin(), middles.end());
+  const auto is_near = [&](double x, double y) { return y - x < apart * tree.size; };
+  middles.erase(std::unique(middles.begin(), middles.end(), is_near), middles.end());
+  return middles;
+}
+
+/// That of the least asymmetry; the box's where there is no better one.
+double middle_of_tips(const CurveTree& tree) {
+  double best = tree.middle;
+  double least = asymmetry(tree, best);
+  for (const double middle : middles_of_tips(tree)) {
+    const double off = asymmetry(tree, middle);
+    if (off >= least) continue;
+    least = off;
+    best = middle;
+  }
+  return best;
+}
+
 /// Two pairs of limbs that are where they should be are no accident.
 bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
+
+Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
+             BodyKind wanted) {
+  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}};
+  outlook.limbs = find_limbs(outlook.tree);
+  outlook.found = classify(outlook.tree, outlook.limbs, wanted);
+  return outlook;
+}
+
+/// Joints of both sides are planned as images of each other: of each limb most of the mean lies
+/// within both.
+bool sides_are_alike(const Outlook& outlook) {
+  constexpr double most = 0.5;
+  std::vector<int> limbs = outlook.found.legs;
+  if (outlook.found.arms >= 0) limbs.push_back(outlook.found.arms);
+  return std::all_of(limbs.begin(), limbs.end(), [&](int pair) {
+    return share_within_both(outlook.tree, outlook.limbs.pairs[idx(pair)].ways.front()) > most;
+  });
+}
+
+/// In the usual frame. Where nothing is seen there, a weapon in one hand may have moved the middle
+/// of the box, and the hand's tip.
+Outlook first_look(const Surface& surface, const CurveSkeleton& skeleton,
+                   const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook = look(surface, skeleton, axes, wanted);
+  if (outlook.found.plan != BodyKind::other) return outlook;
+  Outlook moved{axes, outlook.tree, {}, {}};
+  moved.tree.middle = middle_of_tips(moved.tree);
+  moved.limbs = find_limbs(moved.tree, Images::within_limbs);
+  moved.found = classify(moved.tree, moved.limbs, wanted);
+  return is_clear(moved.found.plan) && sides_are_alike(moved) ? moved : outlook;
+}
 
 /// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
 /// No fish and no bird, as any long thing and any cross is one from somewhere.
@@ -219,12 +277,12 @@ bool is_seen_from_aside(const Outlook& outlook, double off) {
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
-  Outlook best = look(surface, skeleton, frames.front(), options.plan);
-  double off = asymmetry(best.tree);
+  Outlook best = first_look(surface, skeleton, frames.front(), options.plan);
+  double off = asymmetry(best.tree, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(surface, skeleton, frames[k], options.plan);
-    const double other_off = asymmetry(other.tree);
+    const double other_off = asymmetry(other.tree, other.tree.middle);
     const bool is_better =
         is_clear(other.found.plan)
             ? !is_clear(best.found.plan) || other_off < off

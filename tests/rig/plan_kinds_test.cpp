@@ -202,6 +202,36 @@ TEST(FindPlan, NamesNoFinOnARod) {
   }
 }
 
+/// The middle of the box is not the body's.
+TEST(FindPlan, AWeaponInOneHandHidesNoHuman) {
+  const RigSubject without = human();
+  const BodyPlan unarmed = find_plan(without.surface, without.skeleton);
+  const auto place_of = [](const BodyPlan& plan, const std::string& role) -> Eigen::RowVector3d {
+    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                    [&](const PlannedJoint& joint) { return joint.role == role; });
+    return found == plan.joints.end() ? Eigen::RowVector3d::Constant(1e9) : found->position;
+  };
+  for (const double length : {3.0, 6.0, 10.0}) {
+    for (const double side : {1.0, -1.0}) {
+      SCOPED_TRACE(side * length);
+      Figure figure;
+      const int chest = add_body_without_arms(figure);
+      for (const double x : {1.0, -1.0}) {
+        int arm = chest;
+        for (const double out : {2.2, 5.5, 8.5}) arm = figure.add({x * out, 15, 0}, 0.5, arm);
+        if (x == side) figure.add({x * (9 + length), 15, 0.5}, 0.3, arm);
+      }
+      const RigSubject armed = subject_of("armed", figure);
+      const BodyPlan plan = find_plan(armed.surface, armed.skeleton);
+      ASSERT_EQ(plan.plan, BodyKind::humanoid);
+      for (const char* role : {"hips", "head", "leftUpperLeg", "rightFoot", "leftUpperArm"}) {
+        const Eigen::RowVector3d off = place_of(plan, role) - place_of(unarmed, role);
+        EXPECT_LT(off.norm(), 0.5) << role;  // of 20
+      }
+    }
+  }
+}
+
 TEST(FindPlan, NamesNoHumanOnATree) {
   for (const RigSubject& subject : {tree(), snake()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
