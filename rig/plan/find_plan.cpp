@@ -197,7 +197,7 @@ constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirr
 
 /// Between tips that may be images of each other, as hands are and feet.
 std::vector<double> middles_of_tips(const CurveTree& tree) {
-  constexpr double alike = 0.06;   // of the size, that tips differ but for their sides
+  constexpr double unlike = 0.06;  // of the size, that tips differ but for their sides
   constexpr double apart = 0.002;  // of the size: nearer ones are one
   std::vector<double> middles;
   const int nodes = static_cast<int>(tree.nodes.size());
@@ -206,7 +206,7 @@ std::vector<double> middles_of_tips(const CurveTree& tree) {
     for (int b = a + 1; b < nodes; ++b) {
       if (!tree.is_tip(b)) continue;
       const Vector3d way = tree.nodes[idx(b)] - tree.nodes[idx(a)];
-      if (std::hypot(way.y(), way.z()) > alike * tree.size) continue;
+      if (std::hypot(way.y(), way.z()) > unlike * tree.size) continue;
       middles.push_back(0.5 * (tree.nodes[idx(a)].x() + tree.nodes[idx(b)].x()));
     }
   }
