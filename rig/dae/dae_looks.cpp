@@ -151,8 +151,8 @@ class DaeLookReader {
     const auto [entry, is_new] =
         numbers_.try_emplace(material, static_cast<int>(made_.materials.size()));
     if (is_new) {
-      std::vector<std::size_t> sets;
-      for (const DaeLayer& layer : textures) sets.push_back(layer.set());
+      std::vector<std::size_t> sets(textures.size());
+      std::ranges::transform(textures, sets.begin(), &DaeLayer::set);
       made_.materials.push_back(dae_look_of(file_, document_, {*material, binding, sets}, notes_));
       made_.mesh.materials.push_back(made_.materials.back().name);
     }

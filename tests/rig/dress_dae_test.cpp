@@ -150,9 +150,8 @@ std::vector<std::vector<float>> wanted_rows(int vertex, int width, float (*made)
   for (int face = 0; face < faces; ++face) {
     for (int corner = 0; corner < 4; ++corner) {
       if (int(encodings::quads[idx(face)][idx(corner)]) != vertex) continue;
-      std::vector<float> row;
-      for (int k = 0; k < width; ++k) row.push_back(made(4 * face + corner, k));
-      rows.push_back(row);
+      std::vector<float>& row = rows.emplace_back(idx(width));
+      for (int k = 0; k < width; ++k) row[idx(k)] = made(4 * face + corner, k);
     }
   }
   std::sort(rows.begin(), rows.end());
@@ -255,11 +254,12 @@ TEST_F(DressDae, NormalsStayNormal) {
       const auto at = [&](std::size_t k) -> Eigen::RowVector3d {
         return soup.positions.row(soup.corners[4 * f + k]);
       };
-      const Eigen::RowVector3d wanted = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+      const Eigen::RowVector3f wanted =
+          (at(1) - at(0)).cross(at(2) - at(0)).normalized().cast<float>();
       for (std::size_t k = 0; k < 4; ++k) {
         const auto found = rows_at(glb, "NORMAL", 3, at(k));
         EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const std::vector<float>& row) {
-          return (Eigen::RowVector3d(row[0], row[1], row[2]) - wanted).norm() < 1e-5;
+          return (Eigen::RowVector3f(row[0], row[1], row[2]) - wanted).norm() < 1e-5F;
         }));
       }
     }
