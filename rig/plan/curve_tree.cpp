@@ -124,9 +124,13 @@ Course course_along(const CurveTree& tree, const std::vector<int>& path, bool is
 
 }  // namespace
 
+Course side_course(const CurveTree& tree, const LimbWay& limb, bool is_left) {
+  return course_along(tree, is_left ? limb.path : limb.mirror, is_left);
+}
+
 Course mean_course(const CurveTree& tree, const LimbWay& limb) {
-  Course course = course_along(tree, limb.path, true);
-  const Course image = course_along(tree, limb.mirror, false);
+  Course course = side_course(tree, limb, true);
+  const Course image = side_course(tree, limb, false);
   for (std::size_t i = 0; i < course.points.size(); ++i) {
     course.points[i] = 0.5 * course.points[i] + 0.5 * image.points[i];
     course.radii[i] = 0.5 * course.radii[i] + 0.5 * image.radii[i];
@@ -135,8 +139,8 @@ Course mean_course(const CurveTree& tree, const LimbWay& limb) {
 }
 
 double share_within_both(const CurveTree& tree, const LimbWay& limb) {
-  const Course course = course_along(tree, limb.path, true);
-  const Course image = course_along(tree, limb.mirror, false);
+  const Course course = side_course(tree, limb, true);
+  const Course image = side_course(tree, limb, false);
   int within = 0;
   for (std::size_t i = 0; i < course.points.size(); ++i) {
     const double off = 0.5 * (course.points[i] - image.points[i]).norm();

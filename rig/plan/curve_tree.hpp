@@ -72,6 +72,9 @@ struct Course {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
 };
+/// Of one side, a right one mirrored.
+[[nodiscard]] Course side_course(const CurveTree& tree, const LimbWay& limb, bool is_left);
+/// Of both.
 [[nodiscard]] Course mean_course(const CurveTree& tree, const LimbWay& limb);
 
 /// How much of the mean course lies within both limbs, which then have their joints on it.

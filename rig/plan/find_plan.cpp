@@ -80,9 +80,13 @@ std::string mirrored(const std::string& role) {
   return role;
 }
 
+/// Of bodies whose sides are not quite images of each other joints lie on their own side's curve.
+enum class Sides { images, own };
+
 class Planner {
  public:
-  Planner(const CurveTree& tree, const Limbs& limbs) : tree_(tree), limbs_(limbs) {}
+  Planner(const CurveTree& tree, const Limbs& limbs, Sides sides)
+      : tree_(tree), limbs_(limbs), sides_(sides) {}
 
   /// Parents before their children.
   std::vector<PlannedJoint> joints(const std::vector<Place>& places, const Eigen::Matrix3d& axes) {
@@ -116,6 +120,7 @@ class Planner {
                                                                            : place.parent);
     }
     Vector3d at = place.at;
+    if (sides_ == Sides::own) at += way_to_own_side(place, is_right);
     if (is_right) at.x() = 2 * tree_.middle - at.x();
     joint.position = (axes.transpose() * at).transpose();
     if (place.on_curve) {
@@ -125,6 +130,23 @@ class Planner {
     }
     number_[role] = static_cast<int>(joints_.size());
     joints_.push_back(std::move(joint));
+  }
+
+  /// From the mean of both sides, of a right one mirrored; in the trunk from the mirror plane.
+  [[nodiscard]] Vector3d way_to_own_side(const Place& place, bool is_right) const {
+    if (place.pair < 0) {
+      const int node = nearest(place, false, place.at);
+      return {node < 0 ? 0 : tree_.nodes[idx(node)].x() - place.at.x(), 0, 0};
+    }
+    const LimbWay& way = limbs_.pairs[idx(place.pair)].ways[place.way];
+    const Course mean = mean_course(tree_, way);
+    const Course own = side_course(tree_, way, !is_right);
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < mean.points.size(); ++k) {
+      const double off = (mean.points[k] - place.at).squaredNorm();
+      if (off < (mean.points[best] - place.at).squaredNorm()) best = k;
+    }
+    return own.points[best] - mean.points[best];
   }
 
   [[nodiscard]] int nearest(const Place& place, bool is_right, const Vector3d& at) const {
@@ -144,6 +166,7 @@ class Planner {
 
   const CurveTree& tree_;
   const Limbs& limbs_;
+  Sides sides_;
   std::map<std::string, int> number_;  // by role
   std::vector<PlannedJoint> joints_;
 };
@@ -174,6 +197,7 @@ struct Outlook {
   CurveTree tree;
   Limbs limbs;
   PlanFound found;
+  Sides sides = Sides::images;
 };
 
 /// The mean distance of the curve's mirror image from the curve, of the size.
@@ -240,8 +264,7 @@ Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen:
   return outlook;
 }
 
-/// Joints of both sides are planned as images of each other: of each limb most of the mean lies
-/// within both.
+/// Joints are planned on the mean of both sides: of each limb most of it lies within both.
 bool sides_are_alike(const Outlook& outlook) {
   constexpr double most = 0.5;
   std::vector<int> limbs = outlook.found.legs;
@@ -257,7 +280,7 @@ Outlook first_look(const Surface& surface, const CurveSkeleton& skeleton,
                    const Eigen::Matrix3d& axes, BodyKind wanted) {
   Outlook outlook = look(surface, skeleton, axes, wanted);
   if (outlook.found.plan != BodyKind::other) return outlook;
-  Outlook moved{axes, outlook.tree, {}, {}};
+  Outlook moved{axes, outlook.tree, {}, {}, Sides::own};
   moved.tree.middle = middle_of_tips(moved.tree);
   moved.limbs = find_limbs(moved.tree, Images::within_limbs);
   moved.found = classify(moved.tree, moved.limbs, wanted);
@@ -296,7 +319,7 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
 
 bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (options.front != Direction::automatic) return false;
-  const auto& [axes, tree, limbs, found] = outlook;
+  const auto& [axes, tree, limbs, found, sides] = outlook;
   if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
   const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
@@ -344,7 +367,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    outlook = look(surface, skeleton, axes, options.plan);
+    outlook = first_look(surface, skeleton, axes, options.plan);
   }
   if (options.plan == BodyKind::automatic &&
       is_put_together(surface, outlook.found.plan, options)) {
@@ -356,7 +379,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   result.axes = outlook.axes.array() + 0.0;  // no -0
   result.plan = outlook.found.plan;
   result.reason = outlook.found.reason;
-  result.joints = Planner(outlook.tree, outlook.limbs).joints(places, result.axes);
+  result.joints = Planner(outlook.tree, outlook.limbs, outlook.sides).joints(places, result.axes);
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {
       if (std::none_of(result.joints.begin(), result.joints.end(),

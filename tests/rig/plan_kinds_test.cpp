@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -230,6 +231,36 @@ TEST(FindPlan, AWeaponInOneHandHidesNoHuman) {
       }
     }
   }
+}
+
+/// One leg stands farther out than the other.
+TEST(FindPlan, JointsOfUnequalSidesLieOnTheirOwn) {
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  figure.add({0, 18.6, 0}, 1.3, figure.add({0, 16.8, 0}, 0.6, chest));
+  for (const double x : {1.6, -2.2}) {
+    int leg = figure.add({x, 9, 0}, 0.6, hips);
+    for (const auto& [y, z] : {std::pair{5.0, 0.0}, {0.6, 0.0}, {0.5, 2.0}}) {
+      leg = figure.add({x, y, z}, 0.6, leg);
+    }
+  }
+  for (const double side : {1.0, -1.0}) {
+    int arm = chest;
+    for (const double x : {2.2, 5.5, 8.5}) arm = figure.add({side * x, 15, 0}, 0.5, arm);
+    if (side > 0) figure.add({15, 15, 0.5}, 0.3, arm);
+  }
+  const RigSubject subject = subject_of("unequal", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid);
+  int found = 0;
+  for (const PlannedJoint& joint : plan.joints) {
+    const bool is_left = joint.role == "leftLowerLeg";
+    if (!is_left && joint.role != "rightLowerLeg") continue;
+    ++found;
+    EXPECT_NEAR(joint.position.x(), is_left ? 1.6 : -2.2, 0.15);
+  }
+  EXPECT_EQ(found, 2);
 }
 
 TEST(FindPlan, NamesNoHumanOnATree) {
