@@ -14,8 +14,8 @@ DaeLayer::DaeLayer(const DaeDocument& document, const DaeInput& input, const Dae
 }
 
 std::int64_t DaeLayer::row_of(const DaePrimitive& primitive, std::int32_t tuple) const {
-  const std::size_t row =
-      primitive.indices[static_cast<std::size_t>(tuple) * primitive.stride + offset_];
+  const auto row = static_cast<std::size_t>(
+      primitive.indices[static_cast<std::size_t>(tuple) * primitive.stride + offset_]);
   return row < values_.size() / width_ ? static_cast<std::int64_t>(row) : -1;
 }
 

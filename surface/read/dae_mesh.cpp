@@ -93,7 +93,8 @@ class DaePrimitiveReader {
     std::vector<std::int32_t> tuples(all.size() / made_.stride);
     std::iota(tuples.begin(), tuples.end(),
               static_cast<std::int32_t>(made_.indices.size() / made_.stride));
-    made_.indices.insert(made_.indices.end(), all.begin(), all.end());
+    made_.indices.reserve(made_.indices.size() + all.size());
+    for (const std::size_t index : all) made_.indices.push_back(static_cast<std::int32_t>(index));
     return tuples;
   }
 
@@ -109,7 +110,7 @@ class DaePrimitiveReader {
     for (std::size_t c = made_.first_corner; c < corners.size(); ++c) {
       mesh_.tuples.push_back(corners[c]);
       const std::size_t at = static_cast<std::size_t>(corners[c]) * made_.stride + offset_;
-      corners[c] = static_cast<std::int32_t>(made_.indices[at]);
+      corners[c] = made_.indices[at];
     }
   }
 

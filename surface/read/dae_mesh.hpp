@@ -15,7 +15,7 @@ struct DaePrimitive {
   const XmlElement* element = nullptr;
   std::size_t first_corner = 0;  ///< of the mesh's
   std::size_t stride = 1;        ///< indices of a tuple
-  std::vector<std::size_t> indices;
+  std::vector<std::int32_t> indices;
 };
 
 struct DaeMesh {
