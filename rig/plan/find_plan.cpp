@@ -219,32 +219,50 @@ double asymmetry(const CurveTree& tree, double middle) {
 
 constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirror image
 
-/// Between tips that may be images of each other, as hands are and feet.
-std::vector<double> middles_of_tips(const CurveTree& tree) {
+std::vector<int> tips_of(const CurveTree& tree) {
+  std::vector<int> tips;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    if (tree.is_tip(node)) tips.push_back(node);
+  }
+  return tips;
+}
+
+/// Between tips that may be images of each other, as hands are and feet: where most pairs agree.
+std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& tips) {
   constexpr double unlike = 0.06;  // of the size, that tips differ but for their sides
   constexpr double apart = 0.002;  // of the size: nearer ones are one
+  constexpr std::size_t most = 20;
   std::vector<double> middles;
-  const int nodes = static_cast<int>(tree.nodes.size());
-  for (int a = 0; a < nodes; ++a) {
-    if (!tree.is_tip(a)) continue;
-    for (int b = a + 1; b < nodes; ++b) {
-      if (!tree.is_tip(b)) continue;
-      const Vector3d way = tree.nodes[idx(b)] - tree.nodes[idx(a)];
-      if (std::hypot(way.y(), way.z()) > unlike * tree.size) continue;
-      middles.push_back(0.5 * (tree.nodes[idx(a)].x() + tree.nodes[idx(b)].x()));
+  for (std::size_t a = 0; a < tips.size(); ++a) {
+    for (std::size_t b = a + 1; b < tips.size(); ++b) {
+      const Vector3d& p = tree.nodes[idx(tips[a])];
+      const Vector3d& q = tree.nodes[idx(tips[b])];
+      if (std::hypot(p.y() - q.y(), p.z() - q.z()) > unlike * tree.size) continue;
+      middles.push_back(0.5 * (p.x() + q.x()));
     }
   }
   std::sort(middles.begin(), middles.end());
-  const auto is_near = [&](double x, double y) { return y - x < apart * tree.size; };
-  middles.erase(std::unique(middles.begin(), middles.end(), is_near), middles.end());
-  return middles;
+  std::vector<std::pair<int, double>> groups;  // minus how many agree, the middle one of them
+  for (std::size_t first = 0; first < middles.size();) {
+    std::size_t end = first + 1;
+    while (end < middles.size() && middles[end] - middles[first] < apart * tree.size) ++end;
+    groups.emplace_back(-static_cast<int>(end - first), middles[(first + end) / 2]);
+    first = end;
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> result;
+  for (const auto& [count, middle] : groups) {
+    if (result.size() < most) result.push_back(middle);
+  }
+  return result;
 }
 
 /// That of the least asymmetry; the box's where there is no better one.
-double middle_of_tips(const CurveTree& tree) {
+double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
   double best = tree.middle;
   double least = asymmetry(tree, best);
-  for (const double middle : middles_of_tips(tree)) {
+  for (const double middle : middles_of(tree, tips)) {
     const double off = asymmetry(tree, middle);
     if (off >= least) continue;
     least = off;
@@ -274,17 +292,19 @@ bool sides_are_alike(const Outlook& outlook) {
   });
 }
 
-/// In the usual frame. Where nothing is seen there, a weapon in one hand may have moved the middle
-/// of the box, and the hand's tip.
-Outlook first_look(const Surface& surface, const CurveSkeleton& skeleton,
-                   const Eigen::Matrix3d& axes, BodyKind wanted) {
-  Outlook outlook = look(surface, skeleton, axes, wanted);
-  if (outlook.found.plan != BodyKind::other) return outlook;
-  Outlook moved{axes, outlook.tree, {}, {}, Sides::own};
-  moved.tree.middle = middle_of_tips(moved.tree);
+/// Where nothing is seen by the middle of the box, which a weapon in one hand moves, as it moves
+/// the hand's tip.
+Outlook second_look(const Surface& surface, const CurveSkeleton& skeleton,
+                    const Eigen::Matrix3d& axes, BodyKind wanted) {
+  constexpr std::size_t most_tips = 1000;  // of a body, with all of its hair
+  Outlook moved{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::own};
+  const std::vector<int> tips = tips_of(moved.tree);
+  if (tips.size() > most_tips) return moved;
+  moved.tree.middle = middle_of_tips(moved.tree, tips);
   moved.limbs = find_limbs(moved.tree, Images::within_limbs);
   moved.found = classify(moved.tree, moved.limbs, wanted);
-  return is_clear(moved.found.plan) && sides_are_alike(moved) ? moved : outlook;
+  if (is_clear(moved.found.plan) && !sides_are_alike(moved)) moved.found.plan = BodyKind::other;
+  return moved;
 }
 
 /// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
@@ -300,7 +320,7 @@ bool is_seen_from_aside(const Outlook& outlook, double off) {
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
-  Outlook best = first_look(surface, skeleton, frames.front(), options.plan);
+  Outlook best = look(surface, skeleton, frames.front(), options.plan);
   double off = asymmetry(best.tree, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -313,6 +333,10 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
     if (!is_better) continue;
     best = std::move(other);
     off = other_off;
+  }
+  for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
+    Outlook other = second_look(surface, skeleton, frames[k], options.plan);
+    if (is_clear(other.found.plan)) best = std::move(other);
   }
   return best;
 }
@@ -367,7 +391,8 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    outlook = first_look(surface, skeleton, axes, options.plan);
+    outlook = outlook.sides == Sides::own ? second_look(surface, skeleton, axes, options.plan)
+                                          : look(surface, skeleton, axes, options.plan);
   }
   if (options.plan == BodyKind::automatic &&
       is_put_together(surface, outlook.found.plan, options)) {

@@ -225,6 +225,9 @@ TEST(FindPlan, AWeaponInOneHandHidesNoHuman) {
       const RigSubject armed = subject_of("armed", figure);
       const BodyPlan plan = find_plan(armed.surface, armed.skeleton);
       ASSERT_EQ(plan.plan, BodyKind::humanoid);
+      const RigSubject turned = standing_in(
+          armed, frame(Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY()));  // as in Blender
+      EXPECT_EQ(find_plan(turned.surface, turned.skeleton).plan, BodyKind::humanoid);
       for (const char* role : {"hips", "head", "leftUpperLeg", "rightFoot", "leftUpperArm"}) {
         const Eigen::RowVector3d off = place_of(plan, role) - place_of(unarmed, role);
         EXPECT_LT(off.norm(), 0.5) << role;  // of 20
