@@ -28,8 +28,8 @@ class DaeLayer {
   /// -1 = none.
   [[nodiscard]] std::int64_t row_of(const DaePrimitive& primitive, std::int32_t tuple) const;
   /// 1 in columns that the source does not have, as colours have no opacity.
-  [[nodiscard]] double value(std::int64_t row, std::size_t column) const {
-    return column < width_ ? values_[width_ * static_cast<std::size_t>(row) + column] : 1;
+  [[nodiscard]] double value(std::size_t row, std::size_t column) const {
+    return column < width_ ? values_[width_ * row + column] : 1;
   }
 
  private:

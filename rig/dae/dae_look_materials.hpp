@@ -9,7 +9,7 @@
 
 namespace curveskel {
 
-/// Where one mesh shows a material.
+/// A material as one mesh shows it.
 struct DaeMaterialUse {
   const XmlElement& material;
   const XmlElement* binding;             ///< <instance_material>, or nullptr

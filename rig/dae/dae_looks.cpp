@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -10,7 +9,6 @@
 #include <curveskel/advanced/indices.hpp>
 #include "rig/dae/dae_layers.hpp"
 #include "rig/dae/dae_look_materials.hpp"
-#include "rig/gltf/colours.hpp"
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/dae_scene.hpp"
@@ -40,12 +38,7 @@ class DaeLookReader {
     for_each_dae_mesh(document_, monitor_, [this](const DaeShownMesh& shown) { add(shown); });
     made_.mesh.to_gltf = dae_to_gltf(document_);
     if (made_.mesh.is_bare()) return std::nullopt;
-    const PolygonSoup soup = meshes_.soup(SurfaceFormat::dae);
-    made_.mesh.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
-    made_.mesh.offsets = soup.offsets;
-    for (std::size_t c = 0; c < soup.corners.size(); ++c) {
-      made_.mesh.corners[c].place = soup.corners[c];
-    }
+    rows_.place(meshes_.soup(SurfaceFormat::dae));
     return std::move(made_);
   }
 
@@ -94,47 +87,13 @@ class DaeLookReader {
     const std::int32_t tuple = mesh.tuples[corner];
     const auto row_in = [&](const DaeLayer& layer) { return layer.row_of(primitive, tuple); };
     DressedCorner made;
-    made.texture = texture_of(layers.textures, row_in);
-    made.colour = colour_of(layers.colours, row_in);
-    const std::int64_t row = layers.normals.empty() ? -1 : row_in(layers.normals.front());
-    if (row >= 0) {
-      const DaeLayer& layer = layers.normals.front();
+    made.texture = rows_.texture_in(layers.textures, row_in);
+    made.colour = rows_.colour_in(layers.colours, row_in);
+    if (!layers.normals.empty()) {
       const auto vertex = idx(mesh.polygons.corners[corner]);
-      made.normal = rows_.normal(
-          vertex, {layer.value(row, 0), layer.value(row, 1), layer.value(row, 2)}, maps[vertex]);
+      made.normal = rows_.normal_in(layers.normals.front(), row_in, vertex, maps[vertex]);
     }
     made_.mesh.corners.push_back(made);
-  }
-
-  /// -1 where no set has a row for the corner.
-  template <typename RowIn>
-  std::int32_t texture_of(const std::vector<DaeLayer>& sets, const RowIn& row_in) {
-    TextureRow made{};
-    bool is_there = false;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-      const std::int64_t row = row_in(sets[set]);
-      if (row < 0) continue;
-      is_there = true;
-      for (std::size_t k = 0; k < 2; ++k) {
-        made[2 * set + k] = static_cast<float>(sets[set].value(row, k));
-      }
-    }
-    return is_there ? rows_.texture(made) : -1;
-  }
-
-  /// White in sets that have no row for the corner; -1 where none has one.
-  template <typename RowIn>
-  std::int32_t colour_of(const std::vector<DaeLayer>& sets, const RowIn& row_in) {
-    ColourRow made{};
-    bool is_there = false;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-      const std::int64_t row = row_in(sets[set]);
-      is_there = is_there || row >= 0;
-      std::array<double, 4> srgb{1, 1, 1, 1};
-      for (std::size_t k = 0; k < 4 && row >= 0; ++k) srgb[k] = sets[set].value(row, k);
-      std::ranges::copy(linear_colour(srgb), made.begin() + static_cast<std::ptrdiff_t>(4 * set));
-    }
-    return is_there ? rows_.colour(made) : -1;
   }
 
   /// The number in all of the file of the material to which the mesh's instance binds the

@@ -2,14 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_layers.hpp"
 #include "rig/fbx/fbx_look_materials.hpp"
-#include "rig/gltf/colours.hpp"
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/fbx_axes.hpp"
@@ -30,12 +28,7 @@ class FbxLookReader {
     for_each_fbx_mesh(file_, scene_, [this](const FbxMesh& mesh) { add(mesh); });
     made_.mesh.to_gltf = fbx_to_gltf(root_);
     if (made_.mesh.is_bare()) return std::nullopt;
-    const PolygonSoup soup = meshes_.soup(SurfaceFormat::fbx);
-    made_.mesh.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
-    made_.mesh.offsets = soup.offsets;
-    for (std::size_t c = 0; c < soup.corners.size(); ++c) {
-      made_.mesh.corners[c].place = soup.corners[c];
-    }
+    rows_.place(meshes_.soup(SurfaceFormat::fbx));
     return std::move(made_);
   }
 
@@ -66,9 +59,11 @@ class FbxLookReader {
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t c = mirrored ? begin + end - 1 - k : k;
         const FbxCorner corner{c, idx(mesh.polygons.corners[c]), p};
-        made_.mesh.corners.push_back({-1, texture_of(textures, corner),
-                                      normal_of(normals, corner, maps[corner.vertex]),
-                                      colour_of(colours, corner)});
+        const auto row_in = [&](const FbxLayer& layer) { return layer.row_of(corner); };
+        made_.mesh.corners.push_back(
+            {-1, rows_.texture_in(textures, row_in),
+             rows_.normal_in(normals, row_in, corner.vertex, maps[corner.vertex]),
+             rows_.colour_in(colours, row_in)});
       }
       const std::int64_t row = materials.row_of({begin, 0, p});
       const double number = row < 0 ? 0 : materials.value(idx(row), 0);
@@ -121,44 +116,6 @@ class FbxLookReader {
       numbers.push_back(entry->second);
     }
     return numbers;
-  }
-
-  /// -1 where no set has a row for the corner.
-  std::int32_t texture_of(const std::vector<FbxLayer>& sets, const FbxCorner& corner) {
-    TextureRow made{};
-    bool is_there = false;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-      const std::int64_t row = sets[set].row_of(corner);
-      if (row < 0) continue;
-      is_there = true;
-      for (std::size_t k = 0; k < 2; ++k) {
-        made[2 * set + k] = static_cast<float>(sets[set].value(idx(row), k));
-      }
-    }
-    return is_there ? rows_.texture(made) : -1;
-  }
-
-  std::int32_t normal_of(const FbxLayer& layer, const FbxCorner& corner,
-                         const Eigen::Matrix3d& map) {
-    const std::int64_t row = layer.row_of(corner);
-    if (row < 0) return -1;
-    return rows_.normal(
-        corner.vertex,
-        {layer.value(idx(row), 0), layer.value(idx(row), 1), layer.value(idx(row), 2)}, map);
-  }
-
-  /// White in sets that have no row for the corner; -1 where none has one.
-  std::int32_t colour_of(const std::vector<FbxLayer>& sets, const FbxCorner& corner) {
-    ColourRow made{};
-    bool is_there = false;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-      const std::int64_t row = sets[set].row_of(corner);
-      is_there = is_there || row >= 0;
-      std::array<double, 4> srgb{1, 1, 1, 1};
-      for (std::size_t k = 0; k < 4 && row >= 0; ++k) srgb[k] = sets[set].value(idx(row), k);
-      std::ranges::copy(linear_colour(srgb), made.begin() + static_cast<std::ptrdiff_t>(4 * set));
-    }
-    return is_there ? rows_.colour(made) : -1;
   }
 
   const FileBytes& file_;

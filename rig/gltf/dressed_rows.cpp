@@ -48,4 +48,10 @@ std::int32_t DressedRows::colour(const ColourRow& row) {
   return row_of(colours_, row, mesh_.colours, [&] { return row; });
 }
 
+void DressedRows::place(const PolygonSoup& soup) {
+  mesh_.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
+  mesh_.offsets = soup.offsets;
+  for (std::size_t c = 0; c < soup.corners.size(); ++c) mesh_.corners[c].place = soup.corners[c];
+}
+
 }  // namespace curveskel

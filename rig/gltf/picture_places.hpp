@@ -1,4 +1,4 @@
-// Where the pictures are that a file names.
+// The places of pictures that a file names.
 #pragma once
 
 #include <filesystem>

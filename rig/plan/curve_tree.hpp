@@ -62,7 +62,7 @@ struct Limbs {
   std::vector<LimbPair> pairs;  ///< the longest first
 };
 
-/// Where the mirror images of tips are sought.
+/// The places in which mirror images of tips are sought.
 enum class Images { tips, within_limbs };
 
 [[nodiscard]] Limbs find_limbs(const CurveTree& tree, Images images = Images::tips);

@@ -292,7 +292,7 @@ bool sides_are_alike(const Outlook& outlook) {
   });
 }
 
-/// Where nothing is seen by the middle of the box, which a weapon in one hand moves, as it moves
+/// For bodies in which nothing is seen by the middle of the box: a weapon in one hand moves it, and
 /// the hand's tip.
 Outlook second_look(const Surface& surface, const CurveSkeleton& skeleton,
                     const Eigen::Matrix3d& axes, BodyKind wanted) {
