@@ -215,21 +215,23 @@ class JointPlacer {
     return entry > first && radii_[lower] > much_larger * thinnest ? entry : last;
   }
 
-  /// The cost of one bone from sample i to sample j.
-  [[nodiscard]] double cost(const Limb& limb, std::size_t i, std::size_t j) const {
+  /// The cost of one bone from sample i to sample j, or any cost over `most` if it is more.
+  [[nodiscard]] double cost(const Limb& limb, std::size_t i, std::size_t j, double most) const {
+    const double length = (limb.samples[j].way - limb.samples[i].way) / options_.bone_length;
+    const double straight = 1 + length * length;
     const Eigen::Vector3d from = limb.samples[i].point;
     const Eigen::Vector3d bone = limb.samples[j].point - from;
     const double squared = std::max(bone.squaredNorm(), std::numeric_limits<double>::min());
-    double deviation = 0;  // in radii, squared
-    for (std::size_t k = i + 1; k < j; ++k) {
+    double bent = straight;
+    for (std::size_t k = i + 1; k < j && bent <= most; ++k) {
       const Eigen::Vector3d arm = limb.samples[k].point - from;
       const double share = std::clamp(arm.dot(bone) / squared, 0.0, 1.0);
       const double off = (arm - share * bone).squaredNorm();
       const double radius = std::max(limb.samples[k].radius, least_radius_);
-      deviation = std::max(deviation, off / (radius * radius));
+      const double deviation = off / (radius * radius);
+      bent = std::max(bent, straight + deviation / (options_.bend * options_.bend));
     }
-    const double length = (limb.samples[j].way - limb.samples[i].way) / options_.bone_length;
-    return 1 + length * length + deviation / (options_.bend * options_.bend);
+    return bent;
   }
 
   /// Samples where joints are, from `first` to `last`.
@@ -246,7 +248,7 @@ class JointPlacer {
         const bool is_whole = i == first && j == last;
         const double chord = (limb.samples[j].point - limb.samples[i].point).norm();
         if (!is_whole && chord < least_length_) continue;
-        const double with = sum[i] + cost(limb, i, j);
+        const double with = sum[i] + cost(limb, i, j, sum[j] - sum[i]);
         if (with < sum[j]) {
           sum[j] = with;
           before[j] = i;

@@ -75,13 +75,33 @@ void BodySoFar::add(int number, const Component& component, int threads) {
   pieces_.push_back(std::move(piece));
 }
 
-BodySoFar::Contact BodySoFar::nearest(const Vector3d& place) const {
+std::vector<BodySoFar::Contact> BodySoFar::contacts(const ProbedPart& part) const {
+  std::vector<const Piece*> near(pieces_.size());
+  std::transform(pieces_.begin(), pieces_.end(), near.begin(), [](const Piece& p) { return &p; });
+  std::vector<Contact> found;
+  found.reserve(part.places.size());
+  for (const Vector3d& place : part.places) {
+    found.push_back(nearest_of(near, place));
+    if (found.size() > 1) continue;
+    // No place of the part is further from the body than the first one and the part's extent.
+    const double most = found.front().distance + part.diagonal();
+    near.erase(std::remove_if(near.begin(), near.end(),
+                              [&](const Piece* piece) {
+                                return part.box.exteriorDistance(piece->box) > most;
+                              }),
+               near.end());
+  }
+  return found;
+}
+
+BodySoFar::Contact BodySoFar::nearest_of(const std::vector<const Piece*>& pieces,
+                                         const Vector3d& place) {
   Contact contact{std::numeric_limits<double>::infinity(), -1, place};
-  for (const Piece& piece : pieces_) {
-    if (piece.box.exteriorDistance(place) >= contact.distance) continue;
-    const SurfaceTree::Nearest nearest = piece.tree.nearest(place, contact.distance);
+  for (const Piece* piece : pieces) {
+    if (piece->box.exteriorDistance(place) >= contact.distance) continue;
+    const SurfaceTree::Nearest nearest = piece->tree.nearest(place, contact.distance);
     if (nearest.triangle < 0) continue;
-    contact = {nearest.distance, piece.number, nearest.point};
+    contact = {nearest.distance, piece->number, nearest.point};
   }
   return contact;
 }

@@ -28,8 +28,9 @@ class BodySoFar {
     int component;
     Eigen::Vector3d point;
   };
-  /// The nearest place of the body. Precondition: it has a component.
-  [[nodiscard]] Contact nearest(const Eigen::Vector3d& place) const;
+  /// For each place of the part the nearest place of the body. Precondition: the body has a
+  /// component.
+  [[nodiscard]] std::vector<Contact> contacts(const ProbedPart& part) const;
 
   /// The radius of the largest inscribed ball of the component about the place.
   [[nodiscard]] double thickness_at(const Contact& contact) const;
@@ -48,6 +49,9 @@ class BodySoFar {
     std::vector<Eigen::Vector3d> places;   // on the surface
     std::vector<SurfaceTree::Ball> balls;  // that touch it there
   };
+  [[nodiscard]] static Contact nearest_of(const std::vector<const Piece*>& pieces,
+                                          const Eigen::Vector3d& place);
+
   std::vector<Piece> pieces_;
   double most_thickness_ = 0;
 };

@@ -102,9 +102,7 @@ class PartFinder {
       part.reach = apart / std::max(body_.most_thickness(), 1e-12 * diagonal_);
       return;
     }
-    std::vector<BodySoFar::Contact> contacts;
-    contacts.reserve(probe.places.size());
-    for (const Vector3d& place : probe.places) contacts.push_back(body_.nearest(place));
+    std::vector<BodySoFar::Contact> contacts = body_.contacts(probe);
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const auto& a, const auto& b) { return a.distance < b.distance; });
     const std::size_t tenth = std::max<std::size_t>(3, contacts.size() / 10);
