@@ -1,17 +1,15 @@
 #include "skeleton/cut/level_set_graph.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/error.hpp>
+#include "skeleton/cut/group_loop.hpp"
+#include "skeleton/cut/sliced_surface.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,15 +17,10 @@ namespace {
 constexpr int most_halvings = 20;
 constexpr Eigen::Index most_sliced_vertices = 4000000;  // after subdivision
 
-/// The measure of ways along edges.
-enum class EdgeMeasure { length, count };
-
 /// Of the shortest ways along edges.
-std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source,
-                                   EdgeMeasure measure) {
+std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
   ShortestPaths paths(surface.positions.rows());
   const auto length = [&](int from, int to, int /*edge*/) {
-    if (measure == EdgeMeasure::count) return 1.0;
     return (surface.positions.row(from) - surface.positions.row(to)).norm();
   };
   paths.search(graph_of(surface.positions.rows(), index.edges), source, ShortestPaths::no_target,
@@ -49,115 +42,22 @@ Eigen::VectorXi components_of_cells(const EdgeIndex& index, const std::vector<Ce
   return group;
 }
 
-/// From -1 to 1, the same for the same number everywhere.
-double scattered(std::uint64_t number) {
-  number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;
-  number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
-  return double((number ^ (number >> 31U)) >> 11U) / 4503599627370496.0 - 1;
-}
-
-/// A surface that is cut where a value passes certain levels, the finer ones only where they are
-/// needed.
-struct Sliced {
-  Surface surface;
-  EdgeIndex index;
-  std::vector<double> value;  ///< of each vertex
-  std::vector<int> group;     ///< of each vertex
-  double first_width = 0;     ///< between two levels, where they are coarsest
-  double width = 0;           ///< where they are finest
-
-  [[nodiscard]] double step(std::size_t edge) const {
-    return std::abs(value[idx(index.edges[edge][0])] - value[idx(index.edges[edge][1])]);
-  }
-  /// Levels lie at half the first width and whole multiples of `width` from there, so that those of
-  /// one width are among those of half of it.
-  [[nodiscard]] long slice(double at_value) const {
-    return std::lround(std::floor((at_value - 0.5 * first_width) / width));
-  }
-};
-
-/// The triangles that those with a vertex on some of their edges (-1 = none) are cut into.
-void append_split(const Sliced& sliced, Eigen::Index t, const std::array<int, 3>& middle,
-                  std::vector<std::array<int, 3>>& triangles) {
-  const auto corner = sliced.surface.triangles.row(t);
-  const auto split = std::count_if(middle.begin(), middle.end(), [](int m) { return m >= 0; });
-  if (split == 0) {
-    triangles.push_back({corner[0], corner[1], corner[2]});
-  } else if (split == 3) {
-    triangles.push_back({corner[0], middle[2], middle[1]});
-    triangles.push_back({middle[2], corner[1], middle[0]});
-    triangles.push_back({middle[1], middle[0], corner[2]});
-    triangles.push_back({middle[0], middle[1], middle[2]});
-  } else {
-    // k is the edge that is alone in being split, or in not being so; a lies opposite to it.
-    std::size_t k = 0;
-    while ((middle[k] >= 0) != (split == 1)) ++k;
-    const int a = corner[static_cast<Eigen::Index>(k)];
-    const int b = corner[static_cast<Eigen::Index>((k + 1) % 3)];
-    const int c = corner[static_cast<Eigen::Index>((k + 2) % 3)];
-    if (split == 1) {
-      triangles.push_back({a, b, middle[k]});
-      triangles.push_back({a, middle[k], c});
-      return;
-    }
-    const int ca = middle[(k + 1) % 3];
-    const int ab = middle[(k + 2) % 3];
-    triangles.push_back({a, ab, ca});
-    const auto& value = sliced.value;
-    if (std::abs(value[idx(b)] - value[idx(ca)]) <= std::abs(value[idx(c)] - value[idx(ab)])) {
-      triangles.push_back({ab, b, ca});
-      triangles.push_back({b, c, ca});
-    } else {
-      triangles.push_back({ab, b, c});
-      triangles.push_back({ab, c, ca});
-    }
-  }
-}
-
 /// Splits the edges with an end in a `wanted` group along which the value changes by more than
-/// `width`, once; whether there were any. The old vertices come first, a new one belongs to the
-/// group of the end that is in its slice of `sliced.width`. Edges that are not split are as steep
-/// as before, so the vertices grow with the range of the values over `width`, not with its square.
-/// New values are off the mean by up to a fifth of `width`: a handle both of whose saddles lie in
-/// one vertex never comes apart otherwise.
+/// `width`, once; whether there were any. A new vertex belongs to the group of the end that is in
+/// its slice of `sliced.width`. Edges that are not split are as steep as before, so the vertices
+/// grow with the range of the values over `width`, not with its square.
 bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) {
-  const Eigen::Index old_vertices = sliced.surface.positions.rows();
-  std::vector<int> middle_of(sliced.index.edges.size(), -1);
-  std::vector<std::size_t> steep;
-  for (std::size_t e = 0; e < middle_of.size(); ++e) {
+  std::vector<EdgeMiddle> middles;
+  for (std::size_t e = 0; e < sliced.index.edges.size(); ++e) {
     const auto& [a, b] = sliced.index.edges[e];
     const bool is_wanted = wanted[idx(sliced.group[idx(a)])] || wanted[idx(sliced.group[idx(b)])];
     if (!is_wanted || sliced.step(e) <= width) continue;
-    middle_of[e] = static_cast<int>(old_vertices) + static_cast<int>(steep.size());
-    steep.push_back(e);
-  }
-  if (steep.empty()) return false;
-  auto& positions = sliced.surface.positions;
-  positions.conservativeResize(old_vertices + static_cast<Eigen::Index>(steep.size()), 3);
-  for (std::size_t i = 0; i < steep.size(); ++i) {
-    const auto& [a, b] = sliced.index.edges[steep[i]];
-    const Eigen::Index m = old_vertices + static_cast<Eigen::Index>(i);
-    positions.row(m) = 0.5 * (positions.row(a) + positions.row(b));
-    const double value = 0.5 * (sliced.value[idx(a)] + sliced.value[idx(b)]) +
-                         0.2 * width * scattered(static_cast<std::uint64_t>(m));
+    const double value = 0.5 * (sliced.value[idx(a)] + sliced.value[idx(b)]);
     const bool with_a = sliced.slice(value) == sliced.slice(sliced.value[idx(a)]);
-    sliced.value.push_back(value);
-    sliced.group.push_back(sliced.group[idx(with_a ? a : b)]);
+    middles.push_back({e, value, sliced.group[idx(with_a ? a : b)]});
   }
-  std::vector<std::array<int, 3>> triangles;
-  triangles.reserve(idx(sliced.surface.triangles.rows()) + 2 * steep.size());
-  for (Eigen::Index t = 0; t < sliced.surface.triangles.rows(); ++t) {
-    const auto edge = sliced.index.edge_of_corner.row(t);
-    append_split(sliced, t,
-                 {middle_of[idx(edge[0])], middle_of[idx(edge[1])], middle_of[idx(edge[2])]},
-                 triangles);
-  }
-  sliced.surface.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    sliced.surface.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1],
-        triangles[t][2];
-  }
-  sliced.index = index_edges(sliced.surface.triangles);
+  if (middles.empty()) return false;
+  split_edges(sliced, middles);
   return true;
 }
 
@@ -172,14 +72,11 @@ PartitionGraph cut(const Sliced& sliced, const std::vector<bool>& wanted) {
 }
 
 /// One group, at values that grow from 0 at one end to the other.
-Sliced uncut(const Surface& surface, EdgeMeasure measure) {
+Sliced uncut(const Surface& surface) {
   Sliced result{surface, index_edges(surface.triangles), {}, {}, 0, 0};
-  const auto from_any = edge_distances(surface, result.index, 0, measure);
+  const auto from_any = edge_distances(surface, result.index, 0);
   const auto end = std::max_element(from_any.begin(), from_any.end()) - from_any.begin();
-  result.value = edge_distances(surface, result.index, static_cast<int>(end), measure);
-  if (measure == EdgeMeasure::count) {  // else no level parts vertices that are as far away
-    for (std::size_t v = 0; v < result.value.size(); ++v) result.value[v] += 0.4 * scattered(v);
-  }
+  result.value = edge_distances(surface, result.index, static_cast<int>(end));
   result.group.assign(result.value.size(), 0);
   for (std::size_t e = 0; e < result.index.edges.size(); ++e) {
     result.first_width = std::max(result.first_width, result.step(e) * 1.0001);
@@ -213,48 +110,92 @@ std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& g
 
 namespace {
 
-/// Nothing if a piece keeps a handle.
-std::optional<LevelSetGraph> graph_by(EdgeMeasure measure, const Surface& surface,
-                                      const Monitor& monitor) {
-  Sliced sliced = uncut(surface, measure);
-  std::vector<bool> wanted{true};
+/// The groups with a handle that levels may yet open: between its saddles, which are vertices of
+/// the input, as values along split edges are linear.
+std::vector<bool> worth_cutting(const Sliced& sliced, const PartitionGraph& graph,
+                                Eigen::Index input_vertices) {
+  const double least_width = std::ldexp(sliced.first_width, -most_halvings);
+  const auto genus = genus_of_groups(sliced.surface, graph);
+  std::vector<double> lowest(genus.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> highest(genus.size(), -std::numeric_limits<double>::infinity());
+  for (Eigen::Index v = 0; v < input_vertices; ++v) {
+    const auto group = idx(graph.group_of_vertex[v]);
+    lowest[group] = std::min(lowest[group], sliced.value[idx(v)]);
+    highest[group] = std::max(highest[group], sliced.value[idx(v)]);
+  }
+  std::vector<bool> wanted(genus.size());
+  for (std::size_t g = 0; g < genus.size(); ++g) {
+    wanted[g] = genus[g] > 0 && highest[g] - lowest[g] > least_width;
+  }
+  return wanted;
+}
+
+/// Until the edges of what is wanted are less steep than the width; false if there are too many.
+bool refine(Sliced& sliced, const std::vector<bool>& wanted, double width) {
+  while (sliced.surface.positions.rows() <= most_sliced_vertices) {
+    if (!split_steep(sliced, wanted, width)) return true;
+  }
+  return false;
+}
+
+/// Some pieces may keep handles.
+PartitionGraph cut_by_levels(Sliced& sliced, const Monitor& monitor) {
+  const Eigen::Index input_vertices = sliced.surface.positions.rows();
+  std::vector<bool> wanted{sliced.first_width > 0};
   for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
     monitor.report("surgery", halvings / (most_halvings + 1.0));
     const double width = std::ldexp(sliced.first_width, -halvings);
-    while (sliced.surface.positions.rows() <= most_sliced_vertices &&
-           split_steep(sliced, wanted, width)) {
-      monitor.report("surgery", halvings / (most_halvings + 1.0));
-    }
-    if (sliced.surface.positions.rows() > most_sliced_vertices) break;
+    if (!refine(sliced, wanted, width)) break;
     sliced.width = width;
-    PartitionGraph graph = cut(sliced, wanted);
-    const auto genus = genus_of_groups(sliced.surface, graph);
-    if (std::all_of(genus.begin(), genus.end(), [](int g) { return g == 0; })) {
-      return LevelSetGraph{
-          std::move(sliced.surface),
-          Eigen::VectorXi::LinSpaced(surface.positions.rows(), 0,
-                                     static_cast<int>(surface.positions.rows()) - 1),
-          std::move(graph)};
-    }
+    const PartitionGraph graph = cut(sliced, wanted);
     sliced.group.assign(graph.group_of_vertex.begin(), graph.group_of_vertex.end());
-    wanted.assign(idx(graph.groups), false);
-    for (std::size_t g = 0; g < genus.size(); ++g) wanted[g] = genus[g] > 0;
+    wanted = worth_cutting(sliced, graph, input_vertices);
   }
-  return std::nullopt;
+  return partition_graph(sliced.surface, Eigen::Map<const Eigen::VectorXi>(
+                                             sliced.group.data(), std::ssize(sliced.group)));
+}
+
+/// Splits the edges at the vertices of the loop, and makes a group of the loop: a ring that the
+/// group it was in lies around on either side.
+void part_along(Sliced& sliced, const std::vector<int>& loop, int new_group) {
+  std::vector<int> after(sliced.value.size(), -1);  // along the loop
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    after[idx(loop[i])] = loop[(i + 1) % loop.size()];
+  }
+  const int group = sliced.group[idx(loop.front())];
+  std::vector<EdgeMiddle> middles;
+  for (std::size_t e = 0; e < sliced.index.edges.size(); ++e) {
+    const auto& [a, b] = sliced.index.edges[e];
+    if (after[idx(a)] < 0 && after[idx(b)] < 0) continue;
+    const bool is_of_loop = after[idx(a)] == b || after[idx(b)] == a;
+    middles.push_back(
+        {e, 0.5 * (sliced.value[idx(a)] + sliced.value[idx(b)]), is_of_loop ? new_group : group});
+  }
+  for (const int v : loop) sliced.group[idx(v)] = new_group;
+  split_edges(sliced, middles);
 }
 
 }  // namespace
 
 LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
-  // A handle whose vertices coincide has no length, but edges.
-  for (const EdgeMeasure measure : {EdgeMeasure::length, EdgeMeasure::count}) {
-    if (auto found = graph_by(measure, surface, monitor)) return std::move(*found);
+  Sliced sliced = uncut(surface);
+  PartitionGraph graph = cut_by_levels(sliced, monitor);
+  while (true) {
+    const auto genus = genus_of_groups(sliced.surface, graph);
+    const auto found = std::find_if(genus.begin(), genus.end(), [](int g) { return g > 0; });
+    if (found == genus.end()) break;
+    monitor.report("surgery", 1);
+    const auto group = static_cast<int>(found - genus.begin());
+    sliced.group.assign(graph.group_of_vertex.begin(), graph.group_of_vertex.end());
+    part_along(sliced, loop_of_handle(sliced.surface, sliced.index, graph.group_of_vertex, group),
+               graph.groups);
+    graph = cut(sliced, std::vector<bool>(idx(graph.groups) + 1, false));
   }
-  throw Error(
-      Fault::solver,
-      "no partition without handles was found; the surface has handles far smaller than its "
-      "edges: raise --resolution, repair the surface or, if it was wrapped, choose a wider "
-      "--wrap-gap");
+  return {std::move(sliced.surface),
+          Eigen::VectorXi::LinSpaced(surface.positions.rows(), 0,
+                                     static_cast<int>(surface.positions.rows()) - 1),
+          std::move(graph)};
 }
 
 }  // namespace curveskel

@@ -5,13 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/cut/group_loop.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
 #include "tests/skeleton/dwindling_rings.hpp"
 
@@ -105,12 +110,72 @@ TEST(LevelSets, HandlesFinerThanASliceAreFoundBySubdividing) {
   EXPECT_EQ(cycle_rank(level_set_graph(torus.surface, {}).graph), 1);
 }
 
-TEST(LevelSets, HandlesWithoutSizeAreFoundByTheirEdges) {
+void expect_right_cut(const Surface& surface, int genus) {
+  const LevelSetGraph level_sets = level_set_graph(surface, {});
+  EXPECT_EQ(cycle_rank(level_sets.graph), genus);
+  const auto of_groups = genus_of_groups(level_sets.surface, level_sets.graph);
+  EXPECT_EQ(std::count(of_groups.begin(), of_groups.end(), 0), level_sets.graph.groups);
+  EXPECT_EQ(level_sets.surface.positions(level_sets.vertex_of_input, Eigen::all),
+            surface.positions);
+  EXPECT_EQ(topology(level_sets.surface).total_genus(), genus);
+}
+
+TEST(LevelSets, HandlesWithoutSizeAreCutAlongTheirEdges) {
   for (const auto& shape : connected_shapes()) {
+    SCOPED_TRACE(shape.name);
     Surface point = shape.surface;
     point.positions.setZero();
-    const LevelSetGraph level_sets = level_set_graph(point, {});
-    EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus) << shape.name;
+    expect_right_cut(point, shape.genus);
+  }
+}
+
+/// Vertices on a coarse grid: many lie in one place or equally far away, so that no level comes
+/// between the saddles of their handles.
+TEST(LevelSets, HandlesWhoseSaddlesShareALevelAreCutAlongTheirEdges) {
+  for (const auto& shape : connected_shapes()) {
+    for (const double step : {1.0, 0.5, 0.2}) {
+      SCOPED_TRACE(shape.name + " " + std::to_string(step));
+      Surface coarse = shape.surface;
+      coarse.positions = step * (coarse.positions / step).array().round().matrix();
+      expect_right_cut(coarse, shape.genus);
+    }
+  }
+}
+
+TEST(LoopOfHandle, PartsNoPieceAndCutsEachCorner) {
+  for (const auto& shape : connected_shapes()) {
+    if (shape.genus == 0) continue;
+    SCOPED_TRACE(shape.name);
+    const EdgeIndex index = index_edges(shape.surface.triangles);
+    const Eigen::Index vertices = shape.surface.positions.rows();
+    const std::vector<int> loop =
+        loop_of_handle(shape.surface, index, Eigen::VectorXi::Zero(vertices), 0);
+    const std::set<int> on_loop(loop.begin(), loop.end());
+    ASSERT_EQ(on_loop.size(), loop.size());
+    std::set<std::array<int, 2>> edges;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto [low, high] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+      EXPECT_TRUE(edges.insert({low, high}).second);
+      EXPECT_TRUE(std::binary_search(index.edges.begin(), index.edges.end(),
+                                     std::array<int, 2>{low, high}));
+    }
+    UnionFind faces(shape.surface.triangles.rows());
+    std::vector<int> first_side(index.edges.size(), -1);
+    int parts = static_cast<int>(shape.surface.triangles.rows());
+    for (int t = 0; t < static_cast<int>(shape.surface.triangles.rows()); ++t) {
+      int of_loop = 0;
+      for (const int e : index.edge_of_corner.row(t)) {
+        if (edges.contains(index.edges[static_cast<std::size_t>(e)])) {
+          ++of_loop;
+          continue;
+        }
+        int& side = first_side[static_cast<std::size_t>(e)];
+        if (side >= 0 && faces.unite(side, t)) --parts;
+        side = t;
+      }
+      EXPECT_LT(of_loop, 2);
+    }
+    EXPECT_EQ(parts, 1);
   }
 }
 
