@@ -190,7 +190,7 @@ Verb add_view(CLI::App& program) {
   extract_options.contraction.program_cache = kernel_cache();
   extract_options.fair.program_cache = kernel_cache();
   add_number(*parser, "--detail", extract_options.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be and stay");
+             "0..1: how small a branch may be");
   add_number(*parser, "--fair", extract_options.fair.iterations, 0, 1000000,
              "iterations of fairing before the contraction, for noisy surfaces");
   add_number(*parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");

@@ -391,8 +391,10 @@ Verb add_extract(CLI::App& program) {
   add_choice(*parser, "--solver", options.contraction.solver, solvers, "least-squares back end");
   add_resolution(*parser, options);
   add_surgery(*parser, options);
-  add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be and stay; below 0.5 levels of one skeleton");
+  add_number(
+      *parser, "--detail", options.embed.detail, 0.0, 1.0,
+      "0..1: how small a branch may be: below 0.5 the clearer ones of the skeleton, above it more "
+      "beside them; nothing moves");
   add_number(*parser, "--levels", arguments->levels, 1, 100,
              "write so many levels, OUT.1.EXT the finest, as the widest gaps between the lives of "
              "the branches have them");

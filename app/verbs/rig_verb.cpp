@@ -393,7 +393,7 @@ Verb add_rig(CLI::App& program) {
   add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
              "how gently the skin goes over from one joint to the next, in radii");
   add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be and stay")
+             "0..1: how small a branch may be")
       ->excludes(skeleton);
   add_number(*parser, "--fair", arguments->fair_iterations, 0, 1000000,
              "iterations of fairing before the contraction, for noisy surfaces")

@@ -46,6 +46,11 @@ struct BranchLevel {
 /// to 4 at 0, where limbs alone stay. Precondition: 0..1.
 [[nodiscard]] double least_life(double detail);
 
+/// Above a detail of .5, where `extract` adds branches for tips that the curve does not show: as
+/// much of its life a tip must lack, from 1.15 at .5 down to .15 at 1, as tips lack that have a
+/// branch. 1.15 below. Precondition: 0..1.
+[[nodiscard]] double least_deficit(double detail);
+
 /// The limits in the middle of the widest gaps between the lives of the branches (their ratios),
 /// ascending, at most `most`, the first of them 0. Fewer where there are fewer different lives.
 [[nodiscard]] std::vector<double> level_limits(const CurveSkeleton& skeleton, int most);

@@ -240,7 +240,8 @@ def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **optio
 
     mesh: a path to a surface file; a pair of arrays, vertices (n, 3) and faces (m, 3), or (m, k)
         for polygons; or an object with `vertices` and `faces`, as trimesh's.
-    detail: 0 to 1, how small a branch may be and stay.
+    detail: 0 to 1, how small a branch may be: below .5 the clearer ones of the skeleton, above it
+        more beside them.
     threads: at most; 0 = one per core. The result does not depend on it.
     progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
     strict: a certificate that does not hold is a SolverError, not a CertificateWarning.

@@ -13,12 +13,13 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
 namespace {
 
-/// The level of detail at which all is there that was extracted, see `least_life`.
-constexpr double everything = 0.5;
+/// The level at which all is there that the surgery and growth make, see `least_life`.
+constexpr double usual_detail = 0.5;
 
 /// Of the area. One vertex of each sheet is known.
 double share_of_sheets(const RepairedSurface& body) {
@@ -35,23 +36,48 @@ double share_of_sheets(const RepairedSurface& body) {
   return area(sheets) / area(body.surface);
 }
 
-/// Given or extracted. Where only a wrap would do, this is what `body` becomes.
-CurveSkeleton skeleton_for(const RigSources& sources, const RigPolygonsOptions& options,
-                           RepairedSurface& body, std::optional<Certificate>& certificate,
-                           const Monitor& monitor) {
+/// Given or extracted.
+struct Curve {
+  CurveSkeleton skeleton;
+  std::optional<Certificate> certificate;
+  std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
+};
+
+/// Where only a wrap would do, this is what `body` becomes. Everything is named first; then what a
+/// coarser level does without goes.
+Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
+                const Monitor& monitor) {
+  Curve curve;
   if (sources.skeleton) {
-    return skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
-                                body.surface.positions.rows());
+    curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
+                                          body.surface.positions.rows());
+    return curve;
   }
-  // Everything is named first; then what a coarser level does without goes.
   ExtractOptions wanted = options.extract;
-  wanted.embed.detail = std::max(wanted.embed.detail, everything);
   wanted.threads = options.threads;
-  RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor);
+  wanted.embed.detail = usual_detail;
+  ExtractionCache cache;
+  RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor, cache);
+  if (options.extract.embed.detail > usual_detail) {
+    curve.usual = std::move(found.extraction.skeleton);
+    wanted.embed.detail = options.extract.embed.detail;
+    found = extract_repaired(body, options.repair, wanted, monitor, cache);
+  }
   if (found.wrapped) body = std::move(*found.wrapped);
-  certificate = found.extraction.certificate;
-  certificate->curve_like = made_of_tubes_but_for_sheets(*certificate, body);
-  return std::move(found.extraction.skeleton);
+  curve.certificate = found.extraction.certificate;
+  curve.certificate->curve_like = made_of_tubes_but_for_sheets(*curve.certificate, body);
+  curve.skeleton = std::move(found.extraction.skeleton);
+  return curve;
+}
+
+/// The plan of a single figure that has one, to be asked for at a finer level: a rabbit's tail
+/// makes no bird of it.
+BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                 const PlanOptions& options) {
+  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  if (!find_figures(body, dense, options).empty()) return options.plan;
+  const BodyKind kind = plan_with_sheets(body, dense, options).plan;
+  return kind == BodyKind::other ? options.plan : kind;
 }
 
 }  // namespace
@@ -79,7 +105,8 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
   RepairedSurface body = body_of(repaired, parts);
   PolygonsRig result;
-  const CurveSkeleton skeleton = skeleton_for(sources, options, body, result.certificate, monitor);
+  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor);
+  result.certificate = certificate;
   const Surface given{soup.positions, triangulate(soup)};
   if (sources.joints) {
     const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
@@ -88,7 +115,10 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
     result.character.follows = followers_of(body.vertex_of_input);
   } else {
-    wanted.plan.made_of_tubes = !result.certificate || result.certificate->curve_like;
+    wanted.plan.made_of_tubes = !certificate || certificate->curve_like;
+    if (usual && wanted.plan.plan == BodyKind::automatic) {
+      wanted.plan.plan = kind_of(body, *usual, wanted.plan);
+    }
     CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                             skeleton, least_life(options.extract.embed.detail));
     result.character = within_budget(std::move(level), given, wanted.joint_budget);

@@ -40,12 +40,6 @@ void require_same_vertices(const PartitionGraph& partition, const InscribedBalls
 
 }  // namespace
 
-double prominence_limit(double detail) {
-  constexpr double most = 3;
-  constexpr double usual = 1.15;
-  return detail < 0.5 ? most - 2 * detail * (most - usual) : 2 * (1 - detail) * usual;
-}
-
 void require_valid(const EmbedOptions& options) {
   constexpr OptionRange radii{0, 1e3};
   const OptionCheck check("EmbedOptions");

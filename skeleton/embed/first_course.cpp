@@ -40,7 +40,7 @@ std::vector<Point> positions_from_balls(const WorkingSurface& working,
 }  // namespace
 
 SkeletonGraph first_course(const Setting& in) {
-  const double limit = prominence_limit(in.options.detail);
+  const double limit = in.tuning.prominence;
   const SkeletonGraph whole =
       skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
   SkeletonGraph graph = whole;

@@ -96,10 +96,9 @@ bool widen_bottlenecks(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool grow(SkeletonGraph& graph, const Setting& in) {
-  const double limit =
-      std::max(in.tuning.growth.least_prominence, prominence_limit(in.options.detail));
-  return change_inside(graph, in, [&in, limit](SkeletonGraph& changed) {
-    return grow_branches(changed, in.working, in.tree, in.partition, limit, in.tuning.growth);
+  return change_inside(graph, in, [&in](SkeletonGraph& changed) {
+    return grow_branches(changed, in.working, in.tree, in.partition, in.tuning.prominence,
+                         in.tuning.growth);
   });
 }
 

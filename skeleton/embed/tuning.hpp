@@ -61,7 +61,6 @@ struct TipTuning {
 
 /// Branches that the surgery did not make. Lengths in inscribed radii where a branch begins.
 struct GrowthTuning {
-  double least_prominence = 1;  ///< that of a half-ball, whatever the level of detail
   double least_branch = 1.5;
   double least_extension = 2;
   double least_branch_ball = 0.12;     ///< at the apex: less is a crease
@@ -88,6 +87,7 @@ struct EmbedTuning {
   TipTuning tips;
   GrowthTuning growth;
   BottleneckTuning bottleneck;
+  double prominence = 1.15;   ///< blunter branches go, and do not grow
   double convex_dent = 0.05;  ///< largest inscribed radii: shallower dents leave a body convex
   double spur = 1;  ///< leaves shorter than this x their junction's inscribed radius are pruned
 };

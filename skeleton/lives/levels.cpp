@@ -292,6 +292,13 @@ double least_life(double detail) {
   return least * std::pow(most / least, (usual - detail) / usual);
 }
 
+double least_deficit(double detail) {
+  constexpr double usual = 0.5;
+  constexpr double most = 1.15;   // of what is more prominent the surgery and growth make branches
+  constexpr double least = 0.15;  // a tip that has its branch lacks as much, see `tip_gap`
+  return least + (most - least) * std::min(1.0, (1 - detail) / usual);
+}
+
 std::vector<double> level_limits(const CurveSkeleton& skeleton, int most) {
   std::vector<double> lives;
   for (const BranchLevel& level : branch_levels(skeleton)) {

@@ -9,6 +9,8 @@
 #include <curveskel/levels.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/embed/embed_tuned.hpp"
+#include "skeleton/embed/place/mirror.hpp"
+#include "skeleton/lives/finer_branches.hpp"
 #include "surface/resample/coarsen_whole.hpp"
 #include "surface/resample/refine.hpp"
 
@@ -88,7 +90,7 @@ class Pipeline {
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
         [](const Cut&) { return std::nullopt; }, monitor_, log));
     const bool is_working = cut.surface.get() == &working->surface;
-    return embedded(*cut.surface, *balls, *cut.balls, cut.graph, *cut.vertex_of_canonical,
+    return embedded(cut, *balls,
                     is_working ? std::move(lives) : std::future<std::vector<TipLife>>());
   }
 
@@ -255,24 +257,39 @@ class Pipeline {
     monitor.curve({"surgery", 0, middles_of_groups(graph, vertices), graph.edges});
   }
 
-  Shared<CurveSkeleton> embedded(const Surface& surface, const WorkingBalls& trees,
-                                 const InscribedBalls& balls, const Shared<PartitionGraph>& graph,
-                                 const Eigen::VectorXi& vertex_of_canonical,
+  Shared<CurveSkeleton> embedded(const Cut& cut, const WorkingBalls& trees,
                                  std::future<std::vector<TipLife>> lives) {
-    return stage_("embed", kept_.skeleton, {graph, options_.embed, extent_}, [&](StepClock& steps) {
-      EmbedTuning tuning;
-      EmbedOptions embedding = options_.embed;  // coarser ones are levels of it
-      embedding.detail = std::max(embedding.detail, EmbedOptions().detail);
-      tuning.spacing = tuning.spacing.of_part(extent_);
-      // Most of the embedding's rays go against the working surface, which fits the cache.
-      CurveSkeleton skeleton = embed_tuned(
-          surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); }, balls, *graph,
-          embedding, tuning, options_.threads, steps, monitor_);
-      steps("lives", [&] {
-        set_lives(skeleton, lives.valid() ? lives.get() : lives_of(surface, monitor_.stop));
-        skeleton = level_of(skeleton, least_life(options_.embed.detail));
-      });
-      return on_model(std::move(skeleton), vertex_of_canonical);
+    EmbedOptions embedding = options_.embed;
+    embedding.detail = EmbedOptions().detail;  // a level is made of it below
+    const Surface& surface = *cut.surface;
+    const Shared<EmbeddedCurve> curve =
+        stage_("embed", kept_.curve, {cut.graph, embedding, extent_}, [&](StepClock& steps) {
+          EmbedTuning tuning;
+          tuning.spacing = tuning.spacing.of_part(extent_);
+          // Most of the embedding's rays go against the working surface, which fits the cache.
+          EmbeddedCurve made;
+          made.skeleton = embed_tuned(
+              surface, trees.rough, [&]() -> const SurfaceTree& { return *fine_.get(); },
+              *cut.balls, *cut.graph, embedding, tuning, options_.threads, steps, monitor_);
+          steps("lives", [&] {
+            made.lives = lives.valid() ? lives.get() : lives_of(surface, monitor_.stop);
+            set_lives(made.skeleton, made.lives);
+          });
+          return made;
+        });
+    const double detail = options_.embed.detail;
+    return stage_("level", kept_.skeleton, {curve, detail}, [&] {
+      CurveSkeleton level = level_of(curve->skeleton, least_life(detail));
+      if (detail > EmbedOptions().detail) {
+        const double tolerance = SpacingTuning().of_part(extent_).least;
+        std::vector<int> mirror_axes;
+        for (const MirrorPlane& plane : mirror_planes(surface, trees.rough, tolerance)) {
+          mirror_axes.push_back(plane.axis);
+        }
+        add_finer_branches(level, surface, *fine_.get(), curve->lives, mirror_axes,
+                           least_deficit(detail));
+      }
+      return on_model(std::move(level), *cut.vertex_of_canonical);
     });
   }
 

@@ -137,8 +137,8 @@ bool has_stage(const std::vector<StageTime>& times, std::string_view stage) {
 
 std::vector<std::string> only_reused(const std::vector<std::string>& taken,
                                      const std::vector<StageTime>& ran) {
-  constexpr std::array stages{"normalise", "fair",    "coarsen", "balls",
-                              "contract",  "surgery", "embed",   "certify"};
+  constexpr std::array stages{"normalise", "fair",  "coarsen", "balls",  "contract",
+                              "surgery",   "embed", "level",   "certify"};
   std::vector<std::string> result;
   for (const char* stage : stages) {
     if (std::find(taken.begin(), taken.end(), stage) == taken.end()) continue;

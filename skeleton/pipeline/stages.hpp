@@ -15,6 +15,7 @@
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/lives.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/cut/as_contracted.hpp"
 #include "skeleton/cut/level_set_graph.hpp"
@@ -87,6 +88,12 @@ struct StagesAsContracted {
   Kept<std::tuple<Shared<SkeletonAsContracted>>, CurveSkeleton> skeleton;
 };
 
+/// All that the surgery and growth make, in the working surface's numbers, with lives.
+struct EmbeddedCurve {
+  CurveSkeleton skeleton;
+  std::vector<TipLife> lives;  ///< of the working surface
+};
+
 /// Of one component, in its canonical frame but for the skeleton, which is in the model's.
 struct ComponentStages {
   Kept<std::monostate, Canonical> canonical;
@@ -97,7 +104,9 @@ struct ComponentStages {
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, LevelSets> level_sets;
   /// The number is the component's extent over the whole's.
-  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions, double>, CurveSkeleton> skeleton;
+  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions, double>, EmbeddedCurve> curve;
+  /// The number is the level of detail.
+  Kept<std::tuple<Shared<EmbeddedCurve>, double>, CurveSkeleton> skeleton;
   StagesAsContracted as_contracted;
 };
 

@@ -79,7 +79,7 @@ void parameters(Workbench& bench) {
   const bool finished = slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
                               "How small a branch may be and stay: 0 = only the main limbs, 1 = "
                               "every bump that makes one. Below the default branches are hidden "
-                              "and shown at once.");
+                              "and shown at once, above it some are added; nothing moves.");
   if (options.embed.detail != detail) bench.show_level();
   const double wanted = std::max(options.embed.detail, standard.embed.detail);
   changed |= finished && wanted != bench.detail_made();

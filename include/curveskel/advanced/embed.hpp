@@ -23,7 +23,8 @@ inline constexpr NameTable<EmbedMethod, 2> embed_methods{{
 
 struct EmbedOptions {
   EmbedMethod method = EmbedMethod::own;  ///< none: `extract` leaves all below aside
-  double detail = 0.5;    ///< 0..1: how blunt a branch may be and stay; 1 keeps nearly all
+  double detail = 0.5;    ///< 0..1: which branches `extract` shows, see `least_life`; `embed` makes
+                          ///< the same ones at any
   double merge = 1;       ///< junctions nearer than this x the inscribed radius become one
   double straight = 0.5;  ///< of a junction's inscribed radius: branches run straight within it
   double straight_at_last = 0.9;  ///< the same, once everything has found its place
@@ -40,9 +41,6 @@ struct EmbedOptions {
 /// Throws Error(Fault::usage) that names the first option out of its range, the value and the
 /// range.
 void require_valid(const EmbedOptions& options);
-
-/// The prominence below which `detail` prunes a branch: 3 at 0, 1.15 at 0.5, 0 at 1.
-[[nodiscard]] double prominence_limit(double detail);
 
 /// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
 /// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge

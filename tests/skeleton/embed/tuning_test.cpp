@@ -70,7 +70,6 @@ constexpr std::array constants{
     CURVESKEL_CONSTANT(tuning.tips.least_radius),
     CURVESKEL_CONSTANT(tuning.tips.leaf_margin),
     CURVESKEL_CONSTANT(tuning.tips.leaf_narrowest),
-    CURVESKEL_CONSTANT(tuning.growth.least_prominence),
     CURVESKEL_CONSTANT(tuning.growth.least_branch),
     CURVESKEL_CONSTANT(tuning.growth.least_extension),
     CURVESKEL_CONSTANT(tuning.growth.least_branch_ball),
@@ -83,6 +82,7 @@ constexpr std::array constants{
     CURVESKEL_CONSTANT(tuning.bottleneck.wider),
     CURVESKEL_CONSTANT(tuning.bottleneck.cheaper),
     CURVESKEL_CONSTANT(tuning.bottleneck.shortest),
+    CURVESKEL_CONSTANT(tuning.prominence),
     CURVESKEL_CONSTANT(tuning.convex_dent),
     CURVESKEL_CONSTANT(tuning.spur),
     CURVESKEL_CONSTANT(options.merge),
@@ -141,6 +141,8 @@ const std::set<Moved> known{
     {"scorpion-6k.obj", "options.merge", 1.1},
     // A short leaf reaches out of its junction's ball, or does not.
     {"spot-3k.obj", "tuning.tips.leaf_narrowest", 1.1},
+    // Its muzzle is hardly more prominent than that.
+    {"spot-3k.obj", "tuning.prominence", 1.1},
 };
 
 TEST(Tuning, ATenthOfAConstantLeavesTheGraphAsItIs) {

@@ -1,0 +1,281 @@
+#include "skeleton/lives/finer_branches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A skeleton that grows.
+struct Growing {
+  explicit Growing(const CurveSkeleton& skeleton)
+      : radii(skeleton.radii.begin(), skeleton.radii.end()),
+        lives(skeleton.lives.begin(), skeleton.lives.end()),
+        node_of_vertex(skeleton.node_of_vertex) {
+    for (const auto& p : skeleton.nodes.rowwise()) nodes.emplace_back(p);
+    for (const auto& e : skeleton.edges.rowwise()) edges.push_back({e[0], e[1]});
+  }
+
+  int add_node(const Vector3d& point, double radius) {
+    nodes.push_back(point);
+    radii.push_back(std::max(0.0, radius));
+    lives.push_back(0);
+    return static_cast<int>(nodes.size()) - 1;
+  }
+
+  [[nodiscard]] CurveSkeleton finished() const {
+    CurveSkeleton skeleton;
+    const auto count = static_cast<Eigen::Index>(nodes.size());
+    skeleton.nodes.resize(count, 3);
+    for (Eigen::Index n = 0; n < count; ++n) skeleton.nodes.row(n) = nodes[idx(n)];
+    skeleton.radii = Eigen::Map<const Eigen::VectorXd>(radii.data(), count);
+    skeleton.lives = Eigen::Map<const Eigen::VectorXd>(lives.data(), count);
+    std::vector<std::array<int, 2>> sorted = edges;
+    for (auto& ends : sorted) std::sort(ends.begin(), ends.end());
+    std::sort(sorted.begin(), sorted.end());
+    skeleton.edges.resize(static_cast<Eigen::Index>(sorted.size()), 2);
+    for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+      skeleton.edges.row(e) << sorted[idx(e)][0], sorted[idx(e)][1];
+    }
+    skeleton.node_of_vertex = node_of_vertex;
+    return skeleton;
+  }
+
+  std::vector<Vector3d> nodes;
+  std::vector<double> radii;
+  std::vector<double> lives;
+  std::vector<std::array<int, 2>> edges;
+  Eigen::VectorXi node_of_vertex;
+};
+
+/// A place on an edge.
+struct Place {
+  std::size_t edge = 0;
+  double share = 0;  ///< of the way from the edge's first node
+  Vector3d point = Vector3d::Zero();
+  double off = 0;  ///< a target's distance from the ball there
+};
+
+struct Tip {
+  const TipLife* life = nullptr;
+  double beyond = std::numeric_limits<double>::infinity();  ///< the curve's balls
+
+  [[nodiscard]] double deficit() const { return std::min(life->life, beyond / life->rim_radius); }
+};
+
+/// A tip, or two that are each other's images.
+using Twins = std::vector<Tip>;
+
+double mean_deficit(const Twins& twins) {
+  double sum = 0;
+  for (const Tip& tip : twins) sum += tip.deficit();
+  return sum / static_cast<double>(twins.size());
+}
+
+class FinerBranches {
+ public:
+  FinerBranches(const CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree)
+      : surface_(surface),
+        tree_(tree),
+        curve_(skeleton),
+        neighbours_(graph_of(surface.positions.rows(), index_edges(surface.triangles).edges)) {
+    double length = 0;
+    for (const auto& [a, b] : curve_.edges) {
+      length += (curve_.nodes[idx(a)] - curve_.nodes[idx(b)]).norm();
+    }
+    spacing_ = length / static_cast<double>(std::max<std::size_t>(1, curve_.edges.size()));
+  }
+
+  int run(const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes, double least) {
+    std::vector<Twins> open = with_images(lives, mirror_axes);
+    look_at_nodes_from(0, open);
+    int drawn = 0;
+    while (!open.empty()) {
+      const auto most = std::max_element(
+          open.begin(), open.end(),
+          [](const Twins& a, const Twins& b) { return mean_deficit(a) < mean_deficit(b); });
+      if (mean_deficit(*most) < least) break;
+      const std::size_t before = curve_.nodes.size();
+      for (const Tip& tip : *most) drawn += draw(*tip.life) ? 1 : 0;
+      open.erase(most);
+      look_at_nodes_from(before, open);
+    }
+    return drawn;
+  }
+
+  [[nodiscard]] CurveSkeleton finished() const { return curve_.finished(); }
+
+ private:
+  [[nodiscard]] Vector3d vertex(int v) const { return surface_.positions.row(v); }
+
+  /// Each tip once: images lie within their rims' radii of each other.
+  [[nodiscard]] std::vector<Twins> with_images(const std::vector<TipLife>& lives,
+                                               const std::vector<int>& mirror_axes) const {
+    std::vector<Twins> found;
+    std::vector<char> taken(lives.size(), 0);
+    for (std::size_t k = 0; k < lives.size(); ++k) {
+      if (taken[k] != 0 || !(lives[k].rim_radius > 0)) continue;
+      found.push_back({{&lives[k]}});
+      double nearest = lives[k].rim_radius;
+      std::size_t twin = k;
+      for (const int axis : mirror_axes) {
+        Vector3d image = vertex(lives[k].vertex);
+        image[axis] = -image[axis];
+        for (std::size_t other = k + 1; other < lives.size(); ++other) {
+          const double distance = (vertex(lives[other].vertex) - image).norm();
+          const double most = std::min(nearest, lives[other].rim_radius);
+          if (taken[other] != 0 || !(distance < most)) continue;
+          nearest = distance;
+          twin = other;
+        }
+      }
+      if (twin == k) continue;
+      taken[twin] = 1;
+      found.back().push_back({&lives[twin]});
+    }
+    return found;
+  }
+
+  void look_at_nodes_from(std::size_t first, std::vector<Twins>& open) const {
+    for (Twins& twins : open) {
+      for (Tip& tip : twins) {
+        const Vector3d end = vertex(tip.life->vertex);
+        for (std::size_t n = first; n < curve_.nodes.size(); ++n) {
+          tip.beyond = std::min(tip.beyond, (curve_.nodes[n] - end).norm() - curve_.radii[n]);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool sees(const Vector3d& from, const Vector3d& to) const {
+    const double distance = (to - from).norm();
+    return !(distance > 0) || tree_.ray(from, (to - from) / distance, distance).triangle < 0;
+  }
+
+  bool draw(const TipLife& tip) {
+    const std::optional<Vector3d> end = end_of(tip);
+    if (!end) return false;
+    const std::optional<Place> base = base_for(tip.rim);
+    if (!base) return false;
+    std::vector<Vector3d> way{*end};
+    if (!sees(base->point, *end)) way.insert(way.begin(), tip.rim);
+    int node = node_at(*base);
+    std::vector<int> made;
+    for (const Vector3d& next : way) {
+      const Vector3d from = curve_.nodes[idx(node)];
+      const int pieces = std::max(1, static_cast<int>((next - from).norm() / spacing_));
+      for (int k = 1; k <= pieces; ++k) {
+        const Vector3d point = from + static_cast<double>(k) / pieces * (next - from);
+        const int added = curve_.add_node(point, tree_.inscribed_radius(point));
+        curve_.edges.push_back({node, added});
+        made.push_back(node = added);
+      }
+    }
+    curve_.lives[idx(node)] = tip.life;
+    hand_over(tip, made);
+    return true;
+  }
+
+  /// The centre of the ball that touches the surface behind the rim, in the direction of the tip;
+  /// half-way there if the rim's centre does not see it.
+  [[nodiscard]] std::optional<Vector3d> end_of(const TipLife& tip) const {
+    const Vector3d way = vertex(tip.vertex) - tip.rim;
+    if (!(way.norm() > 0) || !tree_.inside(tip.rim)) return std::nullopt;
+    const Vector3d ahead = way.normalized();
+    const double reach = tree_.ray(tip.rim, ahead).distance;
+    if (!std::isfinite(reach)) return std::nullopt;
+    const SurfaceTree::Ball ball = tree_.inscribed_ball(tip.rim + reach * ahead, -ahead);
+    const bool fits = ball.radius < reach && sees(tip.rim, ball.centre);
+    return fits ? ball.centre : Vector3d(tip.rim + 0.5 * reach * ahead);
+  }
+
+  /// Of the places that see the target the one whose ball is nearest.
+  [[nodiscard]] std::optional<Place> base_for(const Vector3d& target) const {
+    std::vector<Place> places;
+    for (std::size_t e = 0; e < curve_.edges.size(); ++e) add_places_on(e, target, places);
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.off < b.off; });
+    const auto found = std::find_if(places.begin(), places.end(),
+                                    [&](const Place& place) { return sees(place.point, target); });
+    if (found == places.end()) return std::nullopt;
+    return *found;
+  }
+
+  /// Half an inscribed radius apart, but not nearer than a hundredth of the edge.
+  void add_places_on(std::size_t edge, const Vector3d& target, std::vector<Place>& places) const {
+    const auto [a, b] = curve_.edges[edge];
+    const Vector3d from = curve_.nodes[idx(a)];
+    const Vector3d way = curve_.nodes[idx(b)] - from;
+    const double radius = curve_.radii[idx(a)];
+    const double growth = curve_.radii[idx(b)] - radius;
+    const double step = std::max(0.5 * std::min(radius, radius + growth), 0.01 * way.norm());
+    const int pieces = step > 0 ? static_cast<int>(std::ceil(way.norm() / step)) : 1;
+    for (int k = 0; k <= pieces; ++k) {
+      const double share = static_cast<double>(k) / std::max(1, pieces);
+      const Vector3d point = from + share * way;
+      const double off = (point - target).norm() - (radius + share * growth);
+      places.push_back({edge, share, point, off});
+    }
+  }
+
+  int node_at(const Place& place) {
+    const auto [a, b] = curve_.edges[place.edge];
+    if (place.share <= 0) return a;
+    if (place.share >= 1) return b;
+    const int node = curve_.add_node(place.point, tree_.inscribed_radius(place.point));
+    curve_.edges[place.edge] = {a, node};
+    curve_.edges.push_back({node, b});
+    return node;
+  }
+
+  /// The vertices from the tip to the plane through the rim go to the nearest of the new nodes.
+  void hand_over(const TipLife& tip, const std::vector<int>& made) {
+    const Vector3d ahead = vertex(tip.vertex) - tip.rim;
+    std::vector<int> part{tip.vertex};
+    std::vector<char> seen(idx(surface_.positions.rows()), 0);
+    seen[idx(tip.vertex)] = 1;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vector3d at = vertex(part[i]);
+      curve_.node_of_vertex[part[i]] =
+          *std::min_element(made.begin(), made.end(), [&](int a, int b) {
+            return (curve_.nodes[idx(a)] - at).squaredNorm() <
+                   (curve_.nodes[idx(b)] - at).squaredNorm();
+          });
+      for (const int next : neighbours_.neighbours(part[i])) {
+        if (seen[idx(next)] != 0 || !((vertex(next) - tip.rim).dot(ahead) > 0)) continue;
+        seen[idx(next)] = 1;
+        part.push_back(next);
+      }
+    }
+  }
+
+  const Surface& surface_;
+  const SurfaceTree& tree_;
+  Growing curve_;
+  Graph neighbours_;    // of vertices
+  double spacing_ = 0;  // the mean length of an edge at first
+};
+
+}  // namespace
+
+int add_finer_branches(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
+                       const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes,
+                       double least) {
+  if (skeleton.edges.rows() == 0) return 0;
+  FinerBranches finer(skeleton, surface, tree);
+  const int drawn = finer.run(lives, mirror_axes, least);
+  if (drawn > 0) skeleton = finer.finished();
+  return drawn;
+}
+
+}  // namespace curveskel
