@@ -59,6 +59,7 @@ class JointPlacer {
                       options.bone_length) {
     joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
     planned_at_.assign(idx(skeleton.nodes.rows()), -1);
+    find_reach();
     above_ = tree_.parent;
     for (std::size_t k = 0; k < tree_.roots.size(); ++k)
       above_[idx(tree_.roots[k])] = tree_.above[k];
@@ -104,6 +105,66 @@ class JointPlacer {
     }
   }
 
+  /// The node and all below it, parents before their children.
+  [[nodiscard]] std::vector<int> subtree(int node) const {
+    std::vector<int> nodes{node};
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const std::vector<int>& children = tree_.children[idx(nodes[k])];
+      nodes.insert(nodes.end(), children.begin(), children.end());
+    }
+    return nodes;
+  }
+
+  void find_reach() {
+    reach_.assign(tree_.children.size(), 0);
+    for (const int root : tree_.roots) {
+      const std::vector<int> nodes = subtree(root);
+      for (std::size_t k = nodes.size(); k-- > 0;) {
+        for (const int child : tree_.children[idx(nodes[k])]) {
+          reach_[idx(nodes[k])] = std::max(reach_[idx(nodes[k])], way_by(nodes[k], child));
+        }
+      }
+    }
+  }
+
+  /// The longest way down from a node by this child.
+  [[nodiscard]] double way_by(int node, int child) const {
+    return (point(child) - point(node)).norm() + reach_[idx(child)];
+  }
+
+  /// Too short for a bone, with all that hangs from it, and without a planned joint.
+  [[nodiscard]] bool is_stub(int node, int child) const {
+    if (way_by(node, child) >= least_length_) return false;
+    const std::vector<int> nodes = subtree(child);
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](int at) { return joints_.joint_of_node[at] < 0; });
+  }
+
+  /// The child in which the limb goes on: the only one that is no stub, or else the longest; -1
+  /// where the limb ends or divides.
+  [[nodiscard]] int child_beyond(int node) const {
+    int beyond = -1;
+    int longest = -1;
+    for (const int child : tree_.children[idx(node)]) {
+      if (longest < 0 || way_by(node, child) > way_by(node, longest)) longest = child;
+      if (is_stub(node, child)) continue;
+      if (beyond >= 0) return -1;
+      beyond = child;
+    }
+    return beyond >= 0 ? beyond : longest;
+  }
+
+  /// A stub beside a limb moves with what it hangs from.
+  void give_stubs(const Limb& limb) {
+    for (std::size_t k = 1; k + 1 < limb.nodes.size(); ++k) {
+      const int joint = joints_.joint_of_node[limb.nodes[k]];
+      for (const int child : tree_.children[idx(limb.nodes[k])]) {
+        if (child == limb.nodes[k + 1]) continue;
+        for (const int node : subtree(child)) joints_.joint_of_node[node] = joint;
+      }
+    }
+  }
+
   void place_component(int root, int above) {
     if (joints_.joint_of_node[root] < 0) joints_.joint_of_node[root] = joint_of_root(root, above);
     std::vector<int> open{root};  // upper ends of limbs yet to be placed
@@ -115,7 +176,9 @@ class JointPlacer {
           open.push_back(child);
           continue;
         }
-        const int lower = place_limb(limb_from(upper, child));
+        const Limb limb = limb_from(upper, child);
+        const int lower = place_limb(limb);
+        give_stubs(limb);
         if (!tree_.children[idx(lower)].empty()) open.push_back(lower);
       }
     }
@@ -138,8 +201,8 @@ class JointPlacer {
   [[nodiscard]] Limb limb_from(int upper, int child) const {
     Limb limb;
     limb.nodes = {upper, child};
-    while (tree_.children[idx(limb.nodes.back())].size() == 1) {
-      limb.nodes.push_back(tree_.children[idx(limb.nodes.back())].front());
+    for (int next = child_beyond(child); next >= 0; next = child_beyond(next)) {
+      limb.nodes.push_back(next);
     }
     for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
       limb.length += (point(limb.nodes[k]) - point(limb.nodes[k - 1])).norm();
@@ -323,6 +386,7 @@ class JointPlacer {
   const JointOptions& options_;
   const RootedTree tree_;
   std::vector<int> above_;       // by node: towards the root, across components
+  std::vector<double> reach_;    // by node: of the longest way down from it
   std::vector<int> planned_at_;  // by node: the planned joint that lies there, -1 = none
   const Eigen::VectorXd radii_;
   const double least_length_;  // of a bone

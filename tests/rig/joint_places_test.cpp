@@ -1,6 +1,8 @@
 // Where joints are: on chains, corners, stars, heads and rings, for which it is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -222,6 +224,37 @@ CurveSkeleton chain_with_head(double length, double head) {
     chain.radii[node] = std::max(1.0, head - (length - chain.nodes(node, 0)));
   }
   return chain;
+}
+
+/// A twig too short for a bone does not divide its limb: at the middle, near the end, at both.
+TEST(JointPlaces, AreThoseOfALimbWithoutItsTwigs) {
+  for (const double length : {1.5, 20.0}) {
+    const CurveSkeleton limb = chain_through({{0, 0, 0}, {length, 0, 0}}, 0.5, 0.05);
+    const Joints without = place_joints(limb, {.root = 0, .least_bone = 1 / length});
+    for (const std::vector<double>& places :
+         {std::vector{0.5 * length}, {length - 0.7}, {0.3 * length, length - 0.7}}) {
+      CurveSkeleton with = limb;
+      for (const double place : places) {
+        const auto node = static_cast<Eigen::Index>(std::lround(place / 0.05));
+        const Eigen::Index twig = with.nodes.rows();
+        with.nodes.conservativeResize(twig + 1, 3);
+        with.nodes.row(twig) = with.nodes.row(node) + Eigen::RowVector3d(0, 0.6, 0);
+        with.radii.conservativeResize(twig + 1);
+        with.radii[twig] = 0.3;
+        with.edges.conservativeResize(with.edges.rows() + 1, 2);
+        with.edges.bottomRows(1) << static_cast<int>(node), static_cast<int>(twig);
+      }
+      std::vector<std::array<int, 2>> rows;
+      for (const auto& edge : with.edges.rowwise()) rows.push_back({edge[0], edge[1]});
+      std::sort(rows.begin(), rows.end());
+      for (std::size_t e = 0; e < rows.size(); ++e) {
+        with.edges.row(static_cast<Eigen::Index>(e)) << rows[e][0], rows[e][1];
+      }
+      const Joints found = place_joints(with, {.root = 0, .least_bone = 1 / length});
+      EXPECT_EQ(found.positions, without.positions) << length << ", " << places.size();
+      EXPECT_TRUE((found.joint_of_node.array() >= 0).all());
+    }
+  }
 }
 
 TEST(JointPlaces, LetAHeadTurnOnItsNeck) {

@@ -39,16 +39,16 @@ struct Joints {
 ///
 /// The root is the junction with the least sum of ways to the whole curve, each piece weighted by
 /// length times radius; without junctions the end with the larger ball, or the middle if other
-/// components hang from it. A cycle is cut where the ways from the root meet. Along a limb the
-/// joints minimise, over all choices (dynamic programming), the sum over bones of 1 + (length /
-/// (bone_length r))^2 + (deviation / (bend r))^2, lengths measured in the radius r where they are
-/// (or in that of which straight_bone is so many), deviation the largest distance of the curve from
-/// the bone. Components hang from each other where they overlap or are nearest, in a tree from the
-/// heaviest (length times radius) or that of a wanted root, so that there is one root for what
-/// belongs together; each is rooted where it hangs. Bodies that stand apart (by more than a quarter
-/// of the larger one's diagonal) have roots of their own. Throws Error(Fault::input) where the root
-/// is no node, or there is none. O(#N log #N), a hundred times as much where there are many
-/// junctions.
+/// components hang from it. A cycle is cut where the ways from the root meet. Twigs shorter than a
+/// bone do not divide a limb, and move with where they hang. Along a limb the joints minimise, over
+/// all choices (dynamic programming), the sum over bones of 1 + (length / (bone_length r))^2 +
+/// (deviation / (bend r))^2, lengths measured in the radius r where they are (or in that of which
+/// straight_bone is so many), deviation the largest distance of the curve from the bone. Components
+/// hang from each other where they overlap or are nearest, in a tree from the heaviest (length
+/// times radius) or that of a wanted root, so that there is one root for what belongs together;
+/// each is rooted where it hangs. Bodies that stand apart (by more than a quarter of the larger
+/// one's diagonal) have roots of their own. Throws Error(Fault::input) where the root is no node,
+/// or there is none. O(#N log #N), a hundred times as much where there are many junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
 
 /// The same with the planned joints first, under the names of their roles, from the first of them
