@@ -117,7 +117,8 @@ TEST(FinerBranches, ReachEachBump) {
     EXPECT_EQ(graph_topology(at(shape.surface, 0.5).skeleton).tips, 2);
     const CurveSkeleton finest = at(shape.surface, 1).skeleton;
     const std::vector<int> degree = degrees(finest.nodes.rows(), finest.edges);
-    for (const auto& way : shapes::star(bumps, 1, 1).nodes.rowwise()) {
+    const CurveSkeleton ways = shapes::star(bumps, 1, 1);
+    for (const auto& way : ways.nodes.rowwise()) {
       if (way.norm() < 0.5) continue;  // the middle
       bool reached = false;
       for (Eigen::Index node = 0; node < finest.nodes.rows(); ++node) {
