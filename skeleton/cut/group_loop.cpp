@@ -87,11 +87,11 @@ std::vector<int> loop_of_handle(const Surface& surface, const EdgeIndex& index,
     if (paths.before(a) == b || paths.before(b) == a) continue;
     closing.emplace_back(paths.distance(a) + paths.distance(b) + length(a, b, 0), k);
   }
-  std::sort(closing.begin(), closing.end());
+  std::sort(closing.rbegin(), closing.rend());  // the longest first
   std::size_t shortest = 0;
-  for (auto loop = closing.rbegin(); loop != closing.rend(); ++loop) {
-    const auto& [one, other] = sides[idx(edges[loop->second])];
-    if (!faces.unite(one, other)) shortest = loop->second;
+  for (const auto& [loop_length, k] : closing) {
+    const auto& [one, other] = sides[idx(edges[k])];
+    if (!faces.unite(one, other)) shortest = k;
   }
   std::vector<int> loop = loop_through(paths, ends[shortest]);
   cut_corners(loop, surface);
