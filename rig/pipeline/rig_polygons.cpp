@@ -19,7 +19,7 @@ namespace curveskel {
 namespace {
 
 /// The level at which all is there that the surgery and growth make, see `least_life`.
-constexpr double usual_detail = 0.5;
+constexpr double usual_detail = EmbedOptions().detail;
 
 /// Of the area. One vertex of each sheet is known.
 double share_of_sheets(const RepairedSurface& body) {
@@ -43,7 +43,7 @@ struct Curve {
   std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
 };
 
-/// Where only a wrap would do, this is what `body` becomes. Everything is named first; then what a
+/// `body` becomes its wrap where only a wrap would do. Everything is named first; then what a
 /// coarser level does without goes.
 Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
                 const Monitor& monitor) {

@@ -52,9 +52,9 @@ bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) 
     const auto& [a, b] = sliced.index.edges[e];
     const bool is_wanted = wanted[idx(sliced.group[idx(a)])] || wanted[idx(sliced.group[idx(b)])];
     if (!is_wanted || sliced.step(e) <= width) continue;
-    const double value = 0.5 * (sliced.value[idx(a)] + sliced.value[idx(b)]);
-    const bool with_a = sliced.slice(value) == sliced.slice(sliced.value[idx(a)]);
-    middles.push_back({e, value, sliced.group[idx(with_a ? a : b)]});
+    const long slice = sliced.slice(sliced.middle_value(e));
+    const bool with_a = slice == sliced.slice(sliced.value[idx(a)]);
+    middles.push_back({e, sliced.group[idx(with_a ? a : b)]});
   }
   if (middles.empty()) return false;
   split_edges(sliced, middles);
@@ -169,8 +169,7 @@ void part_along(Sliced& sliced, const std::vector<int>& loop, int new_group) {
     const auto& [a, b] = sliced.index.edges[e];
     if (after[idx(a)] < 0 && after[idx(b)] < 0) continue;
     const bool is_of_loop = after[idx(a)] == b || after[idx(b)] == a;
-    middles.push_back(
-        {e, 0.5 * (sliced.value[idx(a)] + sliced.value[idx(b)]), is_of_loop ? new_group : group});
+    middles.push_back({e, is_of_loop ? new_group : group});
   }
   for (const int v : loop) sliced.group[idx(v)] = new_group;
   split_edges(sliced, middles);

@@ -54,7 +54,7 @@ void split_edges(Sliced& sliced, const std::vector<EdgeMiddle>& middles) {
   for (const EdgeMiddle& made : middles) {
     const auto& [a, b] = sliced.index.edges[made.edge];
     positions.row(middle) = 0.5 * (positions.row(a) + positions.row(b));
-    sliced.value.push_back(made.value);
+    sliced.value.push_back(sliced.middle_value(made.edge));
     sliced.group.push_back(made.group);
     middle_of[made.edge] = middle++;
   }

@@ -24,6 +24,10 @@ struct Sliced {
   [[nodiscard]] double step(std::size_t edge) const {
     return std::abs(value[idx(index.edges[edge][0])] - value[idx(index.edges[edge][1])]);
   }
+  /// At the middle of an edge.
+  [[nodiscard]] double middle_value(std::size_t edge) const {
+    return 0.5 * (value[idx(index.edges[edge][0])] + value[idx(index.edges[edge][1])]);
+  }
   /// Levels lie at half the first width and whole multiples of `width` from there, so that those of
   /// one width are among those of half of it.
   [[nodiscard]] long slice(double at_value) const {
@@ -34,7 +38,6 @@ struct Sliced {
 /// A vertex in the middle of an edge, to be.
 struct EdgeMiddle {
   std::size_t edge = 0;
-  double value = 0;
   int group = 0;
 };
 

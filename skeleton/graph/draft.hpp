@@ -29,10 +29,17 @@ class Draft {
   [[nodiscard]] std::vector<int> neighbours(int node) const;
   [[nodiscard]] Eigen::Vector3d position(int node) const;
   [[nodiscard]] double radius(int node) const;  ///< 0 where there are none
+  [[nodiscard]] int nodes() const { return static_cast<int>(heir_.size()); }  ///< with those gone
+  /// The lower node first.
+  [[nodiscard]] const std::set<std::pair<int, int>>& edges() const { return edges_; }
 
   /// `without_tree` is the radius where there is no tree; a skeleton without radii stays so.
   void place(int node, const Eigen::Vector3d& point, double without_tree, const SurfaceTree* tree);
   int add(const Eigen::Vector3d& point, double without_tree, const SurfaceTree* tree);
+  /// Precondition: the skeleton has lives.
+  void set_life(int node, double life) { skeleton_.lives[node] = life; }
+  /// Precondition: the skeleton has node_of_vertex.
+  void hand_vertex(int vertex, int node) { skeleton_.node_of_vertex[vertex] = node; }
   /// Edges and vertices of `node` go to `heir`, then it is gone.
   void dissolve(int node, int heir);
 

@@ -1,7 +1,6 @@
 #include "skeleton/lives/finer_branches.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,57 +9,16 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/surface_partition.hpp>
+#include "skeleton/graph/draft.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A skeleton that grows.
-struct Growing {
-  explicit Growing(const CurveSkeleton& skeleton)
-      : radii(skeleton.radii.begin(), skeleton.radii.end()),
-        lives(skeleton.lives.begin(), skeleton.lives.end()),
-        node_of_vertex(skeleton.node_of_vertex) {
-    for (const auto& p : skeleton.nodes.rowwise()) nodes.emplace_back(p);
-    for (const auto& e : skeleton.edges.rowwise()) edges.push_back({e[0], e[1]});
-  }
-
-  int add_node(const Vector3d& point, double radius) {
-    nodes.push_back(point);
-    radii.push_back(std::max(0.0, radius));
-    lives.push_back(0);
-    return static_cast<int>(nodes.size()) - 1;
-  }
-
-  [[nodiscard]] CurveSkeleton finished() const {
-    CurveSkeleton skeleton;
-    const auto count = static_cast<Eigen::Index>(nodes.size());
-    skeleton.nodes.resize(count, 3);
-    for (Eigen::Index n = 0; n < count; ++n) skeleton.nodes.row(n) = nodes[idx(n)];
-    skeleton.radii = Eigen::Map<const Eigen::VectorXd>(radii.data(), count);
-    skeleton.lives = Eigen::Map<const Eigen::VectorXd>(lives.data(), count);
-    std::vector<std::array<int, 2>> sorted = edges;
-    for (auto& ends : sorted) std::sort(ends.begin(), ends.end());
-    std::sort(sorted.begin(), sorted.end());
-    skeleton.edges.resize(static_cast<Eigen::Index>(sorted.size()), 2);
-    for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
-      skeleton.edges.row(e) << sorted[idx(e)][0], sorted[idx(e)][1];
-    }
-    skeleton.node_of_vertex = node_of_vertex;
-    return skeleton;
-  }
-
-  std::vector<Vector3d> nodes;
-  std::vector<double> radii;
-  std::vector<double> lives;
-  std::vector<std::array<int, 2>> edges;
-  Eigen::VectorXi node_of_vertex;
-};
-
 /// A place on an edge.
 struct Place {
-  std::size_t edge = 0;
+  std::pair<int, int> edge;
   double share = 0;  ///< of the way from the edge's first node
   Vector3d point = Vector3d::Zero();
   double off = 0;  ///< a target's distance from the ball there
@@ -90,10 +48,10 @@ class FinerBranches {
         curve_(skeleton),
         neighbours_(graph_of(surface.positions.rows(), index_edges(surface.triangles).edges)) {
     double length = 0;
-    for (const auto& [a, b] : curve_.edges) {
-      length += (curve_.nodes[idx(a)] - curve_.nodes[idx(b)]).norm();
+    for (const auto& [a, b] : curve_.edges()) {
+      length += (curve_.position(a) - curve_.position(b)).norm();
     }
-    spacing_ = length / static_cast<double>(std::max<std::size_t>(1, curve_.edges.size()));
+    spacing_ = length / static_cast<double>(curve_.edges().size());
   }
 
   int run(const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes, double least) {
@@ -105,7 +63,7 @@ class FinerBranches {
           open.begin(), open.end(),
           [](const Twins& a, const Twins& b) { return mean_deficit(a) < mean_deficit(b); });
       if (mean_deficit(*most) < least) break;
-      const std::size_t before = curve_.nodes.size();
+      const int before = curve_.nodes();
       for (const Tip& tip : *most) drawn += draw(*tip.life) ? 1 : 0;
       open.erase(most);
       look_at_nodes_from(before, open);
@@ -113,7 +71,7 @@ class FinerBranches {
     return drawn;
   }
 
-  [[nodiscard]] CurveSkeleton finished() const { return curve_.finished(); }
+  [[nodiscard]] CurveSkeleton finished() const { return curve_.finish(); }
 
  private:
   [[nodiscard]] Vector3d vertex(int v) const { return surface_.positions.row(v); }
@@ -146,12 +104,13 @@ class FinerBranches {
     return found;
   }
 
-  void look_at_nodes_from(std::size_t first, std::vector<Twins>& open) const {
+  void look_at_nodes_from(int first, std::vector<Twins>& open) const {
     for (Twins& twins : open) {
       for (Tip& tip : twins) {
         const Vector3d end = vertex(tip.life->vertex);
-        for (std::size_t n = first; n < curve_.nodes.size(); ++n) {
-          tip.beyond = std::min(tip.beyond, (curve_.nodes[n] - end).norm() - curve_.radii[n]);
+        for (int node = first; node < curve_.nodes(); ++node) {
+          const double off = (curve_.position(node) - end).norm() - curve_.radius(node);
+          tip.beyond = std::min(tip.beyond, off);
         }
       }
     }
@@ -172,18 +131,23 @@ class FinerBranches {
     int node = node_at(*base);
     std::vector<int> made;
     for (const Vector3d& next : way) {
-      const Vector3d from = curve_.nodes[idx(node)];
-      const int pieces = std::max(1, static_cast<int>((next - from).norm() / spacing_));
+      const Vector3d from = curve_.position(node);
+      const int pieces = pieces_of((next - from).norm());
       for (int k = 1; k <= pieces; ++k) {
         const Vector3d point = from + static_cast<double>(k) / pieces * (next - from);
-        const int added = curve_.add_node(point, tree_.inscribed_radius(point));
-        curve_.edges.push_back({node, added});
+        const int added = curve_.add(point, 0, &tree_);
+        curve_.connect(node, added);
         made.push_back(node = added);
       }
     }
-    curve_.lives[idx(node)] = tip.life;
+    curve_.set_life(node, tip.life);
     hand_over(tip, made);
     return true;
+  }
+
+  /// Edges about as long as the curve's; one where its own have no length.
+  [[nodiscard]] int pieces_of(double length) const {
+    return spacing_ > 0 ? std::max(1, static_cast<int>(length / spacing_)) : 1;
   }
 
   /// The centre of the ball that touches the surface behind the rim, in the direction of the tip;
@@ -202,7 +166,7 @@ class FinerBranches {
   /// Of the places that see the target the one whose ball is nearest.
   [[nodiscard]] std::optional<Place> base_for(const Vector3d& target) const {
     std::vector<Place> places;
-    for (std::size_t e = 0; e < curve_.edges.size(); ++e) add_places_on(e, target, places);
+    for (const auto& edge : curve_.edges()) add_places_on(edge, target, places);
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& a, const Place& b) { return a.off < b.off; });
     const auto found = std::find_if(places.begin(), places.end(),
@@ -212,12 +176,12 @@ class FinerBranches {
   }
 
   /// Half an inscribed radius apart, but not nearer than a hundredth of the edge.
-  void add_places_on(std::size_t edge, const Vector3d& target, std::vector<Place>& places) const {
-    const auto [a, b] = curve_.edges[edge];
-    const Vector3d from = curve_.nodes[idx(a)];
-    const Vector3d way = curve_.nodes[idx(b)] - from;
-    const double radius = curve_.radii[idx(a)];
-    const double growth = curve_.radii[idx(b)] - radius;
+  void add_places_on(const std::pair<int, int>& edge, const Vector3d& target,
+                     std::vector<Place>& places) const {
+    const Vector3d from = curve_.position(edge.first);
+    const Vector3d way = curve_.position(edge.second) - from;
+    const double radius = curve_.radius(edge.first);
+    const double growth = curve_.radius(edge.second) - radius;
     const double step = std::max(0.5 * std::min(radius, radius + growth), 0.01 * way.norm());
     const int pieces = step > 0 ? static_cast<int>(std::ceil(way.norm() / step)) : 1;
     for (int k = 0; k <= pieces; ++k) {
@@ -229,12 +193,13 @@ class FinerBranches {
   }
 
   int node_at(const Place& place) {
-    const auto [a, b] = curve_.edges[place.edge];
+    const auto [a, b] = place.edge;
     if (place.share <= 0) return a;
     if (place.share >= 1) return b;
-    const int node = curve_.add_node(place.point, tree_.inscribed_radius(place.point));
-    curve_.edges[place.edge] = {a, node};
-    curve_.edges.push_back({node, b});
+    const int node = curve_.add(place.point, 0, &tree_);
+    curve_.disconnect(a, b);
+    curve_.connect(a, node);
+    curve_.connect(node, b);
     return node;
   }
 
@@ -246,11 +211,10 @@ class FinerBranches {
     seen[idx(tip.vertex)] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const Vector3d at = vertex(part[i]);
-      curve_.node_of_vertex[part[i]] =
-          *std::min_element(made.begin(), made.end(), [&](int a, int b) {
-            return (curve_.nodes[idx(a)] - at).squaredNorm() <
-                   (curve_.nodes[idx(b)] - at).squaredNorm();
-          });
+      const auto nearest = std::min_element(made.begin(), made.end(), [&](int a, int b) {
+        return (curve_.position(a) - at).squaredNorm() < (curve_.position(b) - at).squaredNorm();
+      });
+      curve_.hand_vertex(part[i], *nearest);
       for (const int next : neighbours_.neighbours(part[i])) {
         if (seen[idx(next)] != 0 || !((vertex(next) - tip.rim).dot(ahead) > 0)) continue;
         seen[idx(next)] = 1;
@@ -261,7 +225,7 @@ class FinerBranches {
 
   const Surface& surface_;
   const SurfaceTree& tree_;
-  Growing curve_;
+  Draft curve_;
   Graph neighbours_;    // of vertices
   double spacing_ = 0;  // the mean length of an edge at first
 };

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
 namespace {
+
+constexpr double usual_detail = EmbedOptions().detail;
 
 /// Depth-first trees, with what Tarjan (1974) needs to find bridges. Cycles live for ever.
 class LifeTree {
@@ -285,18 +288,16 @@ CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
 }
 
 double least_life(double detail) {
-  constexpr double usual = 0.5;
   constexpr double least = 0.3;
   constexpr double most = 4;
-  if (detail >= usual) return 0;
-  return least * std::pow(most / least, (usual - detail) / usual);
+  if (detail >= usual_detail) return 0;
+  return least * std::pow(most / least, (usual_detail - detail) / usual_detail);
 }
 
 double least_deficit(double detail) {
-  constexpr double usual = 0.5;
   constexpr double most = 1.15;   // of what is more prominent the surgery and growth make branches
   constexpr double least = 0.15;  // a tip that has its branch lacks as much, see `tip_gap`
-  return least + (most - least) * std::min(1.0, (1 - detail) / usual);
+  return least + (most - least) * std::min(1.0, (1 - detail) / (1 - usual_detail));
 }
 
 std::vector<double> level_limits(const CurveSkeleton& skeleton, int most) {

@@ -16,7 +16,7 @@
 namespace curveskel::gunzip_laws {
 namespace {
 
-/// Whether the upper halves of the vector registers are in use; nothing where that cannot be asked.
+/// True if the upper halves of the vector registers are in use; nothing where that cannot be asked.
 std::optional<bool> upper_halves_in_use() {
 #ifdef __x86_64__
   constexpr unsigned state_leaf = 0xd;
