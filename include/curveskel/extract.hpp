@@ -34,11 +34,11 @@ struct ExtractOptions {
   /// the curve goes on to it, see `reach_rims`.
   std::vector<std::vector<std::int32_t>> rims;
   FairOptions fair;
-  /// If the certificate finds too much outside: extract once more with thirty iterations of
-  /// fairing, and keep the better one.
+  /// If the certificate finds too much outside: make the components that the curve leaves once
+  /// more, with thirty iterations of fairing, and keep the better ones.
   bool fair_if_outside = true;
-  /// If the topology is wrong, a component was coarsened and there are 50,000 vertices at most:
-  /// extract once more with all of them, and keep the better one.
+  /// If the topology is wrong: make the components where it is, if they were coarsened and have
+  /// 50,000 vertices at most, once more with all of them, and keep the better ones.
   bool all_vertices_if_failed = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;

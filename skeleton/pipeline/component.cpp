@@ -350,7 +350,8 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
   GrowingTree fine(canonical, stages, stage.keeps(), options.threads);
   result.skeleton = Pipeline(canonical, part, options, within, stages, stage, fine)
                         .run(result.record, log, {part.number, part_of, true});
-  result.tree = fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale);
+  result.tree = std::make_shared<const SurfaceTree>(
+      fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale));
   return result;
 }
 

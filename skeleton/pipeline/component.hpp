@@ -24,12 +24,19 @@ struct Part {
 
 /// The result of one component.
 struct ComponentResult {
-  Shared<CurveSkeleton> skeleton;   ///< node_of_vertex by the component's own vertices
-  std::optional<SurfaceTree> tree;  ///< in the model's frame
+  Shared<CurveSkeleton> skeleton;  ///< node_of_vertex by the component's own vertices
+  Shared<SurfaceTree> tree;        ///< in the model's frame
   ComponentRecord record;
   std::vector<StageTime> times;     ///< of the stages that ran
   std::vector<std::string> reused;  ///< the other ones, maybe repeatedly
+  std::vector<int> tries;           ///< numbers of those that led to it
 };
+
+/// A component's result as a later try takes it over, which has not made it.
+[[nodiscard]] ComponentResult taken_over(const ComponentResult& made);
+
+/// The components with their working sizes. Refers to `whole`.
+[[nodiscard]] std::vector<Part> parts_of(const Parts& whole, const ExtractOptions& options);
 
 /// From the component to its skeleton in the model's frame; so are the monitor's frames. Takes what
 /// it can from `kept` and leaves there what it made; without it, nothing outlives its use. The
@@ -39,13 +46,14 @@ struct ComponentResult {
                                                const Monitor& monitor, ComponentStages* kept,
                                                TryLog& log, int part_of);
 
-/// All components. Each of the larger ones has all threads to itself; the small ones, of which
-/// there may be many, go side by side with one thread each. Trees are there of a single one only.
-/// Tries are written down in the components' order.
-[[nodiscard]] std::vector<ComponentResult> component_results(const Parts& whole,
-                                                             const ExtractOptions& options,
-                                                             const Monitor& monitor,
-                                                             std::vector<ComponentStages>* kept,
-                                                             TryLog& log, int part_of);
+/// The results of components that an earlier try made; empty if none did.
+using StandingResults = std::vector<std::optional<ComponentResult>>;
+
+/// All components, but for those whose results stand. Each of the larger ones has all threads to
+/// itself; the small ones, of which there may be many, go side by side with one thread each. Trees
+/// are there of a single one only. Tries are written down in the components' order.
+[[nodiscard]] std::vector<ComponentResult> component_results(
+    const Parts& whole, const ExtractOptions& options, const Monitor& monitor,
+    std::vector<ComponentStages>* kept, TryLog& log, int part_of, StandingResults standing);
 
 }  // namespace curveskel

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "skeleton/pipeline/component.hpp"
@@ -76,27 +78,51 @@ std::vector<std::size_t> order_of(const Topology& counted, bool smallest_first) 
   return order;
 }
 
+/// Puts the components' tries one after the other, and tells each component its own.
+void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<ComponentResult>& all) {
+  for (std::size_t c = 0; c < logs.size(); ++c) {
+    for (const Try& one : logs[c].tries) {
+      if (one.outcome == Outcome::kept) all[c].tries.push_back(log.next());
+      log.tries.push_back(one);
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<Part> parts_of(const Parts& whole, const ExtractOptions& options) {
+  const Topology& counted = whole.counted;
+  const std::vector<double> extents = extents_over_whole(whole.components);
+  std::vector<Part> parts;
+  parts.reserve(extents.size());
+  for (std::size_t c = 0; c < extents.size(); ++c) {
+    parts.push_back(
+        {whole.components[c], static_cast<int>(c), counted.genus[c],
+         working_size(options, counted.vertices[c], counted.genus[c], extents[c], counted),
+         extents[c]});
+  }
+  return parts;
+}
+
+ComponentResult taken_over(const ComponentResult& made) {
+  return {made.skeleton, nullptr, made.record, {}, {}, made.tries};
+}
 
 std::vector<ComponentResult> component_results(const Parts& whole, const ExtractOptions& options,
                                                const Monitor& monitor,
                                                std::vector<ComponentStages>* kept, TryLog& log,
-                                               int part_of) {
+                                               int part_of, StandingResults standing) {
   constexpr int small = 2000;  // working vertices that leave nothing to share out
   const Topology& counted = whole.counted;
   const bool several = whole.components.size() > 1;
   if (kept != nullptr) kept->resize(whole.components.size());
-  const std::vector<double> extents = extents_over_whole(whole.components);
+  standing.resize(whole.components.size());
+  const std::vector<Part> parts = parts_of(whole, options);
   std::vector<ComponentResult> all(whole.components.size());
   std::vector<TryLog> logs(whole.components.size());
   std::vector<std::size_t> side_by_side;
-  const auto part = [&](std::size_t c) {
-    return Part{whole.components[c], static_cast<int>(c), counted.genus[c],
-                working_size(options, counted.vertices[c], counted.genus[c], extents[c], counted),
-                extents[c]};
-  };
   const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
-    all[c] = component_result(part(c), its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],
+    all[c] = component_result(parts[c], its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],
                               part_of);
     if (several) all[c].tree.reset();
   };
@@ -105,7 +131,11 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   const bool watched = monitor.frame || monitor.curve;
   int next = log.next();  // what is shown has the number that it is written down with
   for (const std::size_t c : order_of(counted, options.fairing && !watched)) {
-    const WorkingSize size = part(c).size;
+    if (standing[c]) {
+      all[c] = std::move(*standing[c]);
+      continue;
+    }
+    const WorkingSize size = parts[c].size;
     if (on_host && !options.fairing && !watched &&
         std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
       side_by_side.push_back(c);
@@ -126,9 +156,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
     const bool here = std::this_thread::get_id() == caller;
     contribute(side_by_side[i], alone, here ? monitor : silent);
   });
-  for (TryLog& own : logs) {
-    log.tries.insert(log.tries.end(), own.tries.begin(), own.tries.end());
-  }
+  write_down(logs, log, all);
   return all;
 }
 

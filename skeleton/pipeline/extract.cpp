@@ -147,8 +147,9 @@ std::vector<std::string> only_reused(const std::vector<std::string>& taken,
   return result;
 }
 
-Extraction extract_once(const Surface& surface, const ExtractOptions& options,
-                        const Monitor& monitor, SurfaceStages* kept, TryLog& log, int part_of) {
+Assembled extract_once(const Surface& surface, const ExtractOptions& options,
+                       const Monitor& monitor, SurfaceStages* kept, TryLog& log, int part_of,
+                       StandingResults standing) {
   Extraction result;
   require_memory(least_memory_bytes(surface, options), available_memory_bytes(), "the extraction",
                  Fault::input,
@@ -166,14 +167,15 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
     return Parts{std::move(counted), std::move(components), std::move(overlaps)};
   });
   TreeOfAll tree_of_all(surface, *parts, kept, options.threads);
-  auto results = component_results(*parts, options, monitor,
-                                   kept != nullptr ? &kept->components : nullptr, log, part_of);
+  auto results =
+      component_results(*parts, options, monitor, kept != nullptr ? &kept->components : nullptr,
+                        log, part_of, std::move(standing));
   for (ComponentResult& one : results) {
     for (const StageTime& time : one.times) stage.clock.add(time);
     taken.insert(taken.end(), one.reused.begin(), one.reused.end());
     one.record.inside_component = parts->overlaps.around[result.components.size()];
     one.record.overlaps = parts->overlaps.met[result.components.size()];
-    result.components.push_back(std::move(one.record));
+    result.components.push_back(one.record);
   }
   const Shared<CertifiedSkeleton> certified =
       stage("certify", stages.certified, certified_from(results, options), [&] {
@@ -189,7 +191,8 @@ Extraction extract_once(const Surface& surface, const ExtractOptions& options,
   result.skeleton = certified->skeleton;
   result.certificate = certified->certificate;
   result.reused = only_reused(taken, result.times);
-  return result;
+  for (ComponentResult& one : results) one = taken_over(one);
+  return {std::move(result), parts, std::move(results)};
 }
 
 void require_valid(const ExtractOptions& options) {

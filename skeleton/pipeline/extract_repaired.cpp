@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/pipeline/extraction_plans.hpp"
@@ -86,7 +87,8 @@ Plan<Attempt> wrap_plan(const FailingComponent& failing, double gap,
             auto wrapped = made ? made : wrap_solid(failing.surface, gap, budget, room.monitor);
             if (!wrapped) throw GaveUp("the wrap encloses next to nothing");
             const Extraction found = extract_once(wrapped->surface, options, room.monitor, nullptr,
-                                                  room.log, room.number);
+                                                  room.log, room.number)
+                                         .extraction;
             // Its own skeleton only tells how good the wrap is.
             for (int n = room.number + 1; n < room.log.next(); ++n) room.log.drop(n);
             if (found.certificate.correct()) {
@@ -152,6 +154,17 @@ std::vector<FailingComponent> failing_of(const Surface& surface, const Extractio
                             component_by_map(extraction.skeleton, counted), options, monitor);
 }
 
+/// The results of the components that are not wrapped, as the surface with the wraps numbers them.
+StandingResults beside_wraps(const Extracted& before, const std::vector<ComponentWrap>& wraps) {
+  StandingResults standing;
+  for (const ComponentResult& one : before.components) standing.emplace_back(taken_over(one));
+  for (auto one = wraps.rbegin(); one != wraps.rend(); ++one) {
+    const auto place = standing.erase(standing.begin() + one->component);
+    standing.insert(place, idx(topology(one->wrap.surface).components()), std::nullopt);
+  }
+  return standing;
+}
+
 Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOptions& as_repaired,
                                const ExtractOptions& options, const Plan<Extracted>::Room& given) {
   const auto start = std::chrono::steady_clock::now();
@@ -166,19 +179,20 @@ Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOpti
   auto wrapped = with_wraps(repaired, wraps, silent);
   ExtractOptions from_wraps = options;
   from_wraps.rims = wrapped.rims;
-  RepairedExtraction found{
-      extract_once(wrapped.surface, from_wraps, silent, nullptr, room.log, room.number),
-      std::move(wrapped)};
+  Assembled whole = extract_once(wrapped.surface, from_wraps, silent, nullptr, room.log,
+                                 room.number, beside_wraps(*given.so_far.best, wraps));
+  RepairedExtraction found{std::move(whole.extraction), std::move(wrapped)};
   if (!wraps_hold(found, wraps, options.certificate, silent)) {
     throw GaveUp("the wraps fail beside the other components: " +
                  failures(found.extraction.certificate, options.certificate));
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   found.extraction.times = {{"wrap", taken.count()}};
-  return {std::move(found), "the certificate failed (" +
-                                failures(failed.certificate, options.certificate) + "), so " +
-                                which_were(wraps.size(), failing.size()) +
-                                ", and the skeleton extracted again"};
+  return {std::move(found),
+          "the certificate failed (" + failures(failed.certificate, options.certificate) +
+              "), so " + which_were(wraps.size(), failing.size()) +
+              ", and the skeleton extracted again",
+          std::move(whole.parts), std::move(whole.components)};
 }
 
 RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOptions& as_repaired,

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
+
+#include "skeleton/pipeline/extract_again.hpp"
 
 namespace curveskel {
 namespace {
@@ -21,10 +24,20 @@ void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
   }
 }
 
-bool was_coarsened(const Extraction& extraction) {
-  return std::any_of(
-      extraction.components.begin(), extraction.components.end(),
-      [](const ComponentRecord& one) { return one.working_vertices < one.vertices; });
+bool has_vertices_to_spare(const ComponentRecord& one) {
+  constexpr int most = 50000;
+  return one.working_vertices < one.vertices && one.vertices <= most;
+}
+
+/// "it was extracted again", or how many of the components were in that try.
+std::string again(const Extracted& made, int number) {
+  const std::size_t all = made.components.size();
+  if (all == 1) return "it was extracted again";
+  const auto anew = std::count_if(
+      made.components.begin(), made.components.end(),
+      [&](const ComponentResult& one) { return !one.tries.empty() && one.tries.front() > number; });
+  return std::to_string(anew) + " of the " + std::to_string(all) + " components " +
+         (anew == 1 ? "was" : "were") + " extracted again";
 }
 
 /// A wrap is only made of what fails, and comes to nothing unless it holds there.
@@ -36,8 +49,7 @@ bool takes(const Extracted& other, const Extracted* best) {
     return std::pair(a.topology_correct(), a.inside_enough) >=
            std::pair(b.topology_correct(), b.inside_enough);
   }
-  return std::pair(a.topology_correct(), a.inside_fraction) >
-         std::pair(b.topology_correct(), b.inside_fraction);
+  return better_than(a, b);
 }
 
 /// Of all tries that led to something, whatever was kept.
@@ -56,21 +68,24 @@ Plan<Extracted> as_asked(const Surface& surface, const ExtractOptions& options,
   return {try_as_asked, [](const SoFar&) { return std::string(); },
           [&surface, &options, kept](const Room& room) {
             SurfaceStages* const stages = kept != nullptr ? &kept->as_asked : nullptr;
-            return Extracted{
-                {extract_once(surface, options, room.monitor, stages, room.log, room.number), {}},
-                {}};
+            Assembled whole =
+                extract_once(surface, options, room.monitor, stages, room.log, room.number);
+            return Extracted{{std::move(whole.extraction), {}},
+                             {},
+                             std::move(whole.parts),
+                             std::move(whole.components)};
           }};
 }
 
 /// Parts as thin as the coarsened triangles are long have other handles there.
 Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
                                   ExtractionCache::Implementation* kept) {
-  const auto why = [&surface, &options](const SoFar& so_far) -> std::optional<std::string> {
-    constexpr Eigen::Index most = 50000;
+  const auto why = [&options](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
     const Extraction& found = so_far.best->found.extraction;
-    const bool helps = !found.certificate.topology_correct() && was_coarsened(found) &&
-                       surface.positions.rows() <= most;
+    const bool helps =
+        !found.certificate.topology_correct() &&
+        std::any_of(found.components.begin(), found.components.end(), has_vertices_to_spare);
     if (!helps) return std::nullopt;
     return failures(found.certificate, options.certificate);
   };
@@ -78,10 +93,14 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
     ExtractOptions finest = options;
     finest.resolution = 0;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    SurfaceStages* const stages = kept != nullptr ? &kept->all_vertices : nullptr;
-    return Extracted{
-        {extract_once(surface, finest, room.monitor, stages, room.log, room.number), {}},
-        "the certificate failed, so the skeleton was extracted again from all vertices"};
+    const AnotherWay way{try_all_vertices, finest,
+                         [](const ComponentResult& one, const Certificate& own) {
+                           return !own.topology_correct() && has_vertices_to_spare(one.record);
+                         }};
+    Extracted made =
+        extract_again(surface, way, kept != nullptr ? &kept->all_vertices : nullptr, room);
+    made.note = "the certificate failed, so " + again(made, room.number) + " from all vertices";
+    return made;
   };
   return {try_all_vertices, why, make};
 }
@@ -101,11 +120,13 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
     gentler.fairing = true;
     gentler.fair.iterations = 30;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->faired);
-    SurfaceStages* const stages = kept != nullptr ? &kept->faired : nullptr;
-    return Extracted{
-        {extract_once(surface, gentler, room.monitor, stages, room.log, room.number), {}},
-        "the curve left the surface, so it was extracted again from the faired surface (30 "
-        "iterations)"};
+    const AnotherWay way{try_faired, gentler, [](const ComponentResult&, const Certificate& own) {
+                           return own.topology_correct() && !own.inside_enough;
+                         }};
+    Extracted made = extract_again(surface, way, kept != nullptr ? &kept->faired : nullptr, room);
+    made.note = "the curve left the surface, so " + again(made, room.number) +
+                " from the faired surface (30 iterations)";
+    return made;
   };
   return {try_faired, why, make};
 }
@@ -142,6 +163,10 @@ RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
   result.reused =
       best.found.wrapped ? std::vector<std::string>() : only_reused(spent.reused, spent.times);
   result.times = std::move(spent.times);
+  // A component that a later try took over is part of the result, its try of the whole is not.
+  for (const ComponentResult& one : best.components) {
+    for (const int number : one.tries) log[number].outcome = Outcome::kept;
+  }
   result.history = std::move(log.tries);
   if (!best.note.empty()) monitor.say(best.note);
   return std::move(best.found);

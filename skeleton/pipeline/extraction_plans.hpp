@@ -6,15 +6,25 @@
 #include <vector>
 
 #include <curveskel/extract_repaired.hpp>
+#include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/stages.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
 
 namespace curveskel {
 
+/// One extraction, and the components it was put together from.
+struct Assembled {
+  Extraction extraction;  ///< without history
+  Shared<Parts> parts;
+  std::vector<ComponentResult> components;
+};
+
 /// The outcome of one try of a whole surface.
 struct Extracted {
   RepairedExtraction found;
   std::string note;  ///< for the user, if it is the result
+  Shared<Parts> parts;
+  std::vector<ComponentResult> components;
 };
 
 /// As asked, from all vertices, and faired, see ExtractOptions. All refer to what is given; `kept`
@@ -28,11 +38,11 @@ struct Extracted {
 [[nodiscard]] RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
                                                  const Monitor& monitor);
 
-/// One extraction, as the options say, without another try of the whole; without history. The
-/// tries within it are part of try `part_of`.
-[[nodiscard]] Extraction extract_once(const Surface& surface, const ExtractOptions& options,
-                                      const Monitor& monitor, SurfaceStages* kept, TryLog& log,
-                                      int part_of);
+/// One extraction, as the options say, without another try of the whole. What stands of its
+/// components is not made again. The tries within it are part of try `part_of`.
+[[nodiscard]] Assembled extract_once(const Surface& surface, const ExtractOptions& options,
+                                     const Monitor& monitor, SurfaceStages* kept, TryLog& log,
+                                     int part_of, StandingResults standing = {});
 
 /// Of the stages in `taken` those that never ran, in order, each once.
 [[nodiscard]] std::vector<std::string> only_reused(const std::vector<std::string>& taken,

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/repair.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/skeleton/measure/tubes.hpp"
 #include "tests/skeleton/shortfalls.hpp"
 #include "tests/soups.hpp"
 
@@ -160,6 +162,34 @@ TEST(Damaged, NoiseThatTheCurveLeavesIsSmoothedAway) {
     // Otherwise this shape would show nothing.
     EXPECT_FALSE(extract(star, as_it_is, {}).certificate.inside_enough);
   }
+}
+
+// A single part that could not be faired took the time of all, and what had been won for the
+// others.
+TEST(Damaged, NoiseOnOnePartLeavesTheOthersAsTheyAre) {
+  const Surface star = furry_star(0.0125, 16);
+  const Surface ring = shapes::translated(shapes::torus(1, 0.3, 24), {0, 0, 8}).surface;
+  const Surface both = together(star, ring);
+  ExtractOptions once;
+  once.fair_if_outside = once.all_vertices_if_failed = false;
+  const Extraction first = extract(both, once, {});
+  ASSERT_FALSE(first.certificate.inside_enough) << "else this shape shows nothing";
+  const Extraction found = extract(both, {}, {});
+  EXPECT_TRUE(found.certificate.inside_enough);
+  EXPECT_TRUE(is_kept(found.history, try_faired));
+  const auto ring_of = [&](const Extraction& of) {
+    const int from = of.skeleton.node_of_vertex.tail(ring.positions.rows()).minCoeff();
+    return Positions(of.skeleton.nodes.bottomRows(of.skeleton.nodes.rows() - from));
+  };
+  EXPECT_EQ(ring_of(found), ring_of(first));
+  int tries_of_ring = 0;
+  for (const Try& one : found.history) {
+    if (one.component != 1) continue;
+    ++tries_of_ring;
+    EXPECT_EQ(one.outcome, Outcome::kept);
+    EXPECT_EQ(found.history[idx(one.part_of)].name, try_as_asked);
+  }
+  EXPECT_EQ(tries_of_ring, 1);
 }
 
 }  // namespace
