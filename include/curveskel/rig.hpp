@@ -26,6 +26,9 @@ struct Rig {
   /// j, in the surface's coordinates, about each joint: from the surface as it is to where it
   /// rests. Empty = it rests as it is.
   std::vector<Eigen::Quaterniond> turns = {};
+  /// j, the names in readable words, with ".L" and ".R" for sides, where `names` are in other ones.
+  /// Empty where they are not.
+  std::vector<std::string> readable = {};
 };
 
 }  // namespace curveskel

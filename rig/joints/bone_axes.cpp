@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/joints/limb_name.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,7 +21,10 @@ char side_of(std::string_view name) {
 class BoneWays {
  public:
   explicit BoneWays(const Rig& rig)
-      : rig_(rig), children_(idx(rig.parents.size())), lengths_(children_.size(), 0) {
+      : rig_(rig),
+        names_(readable_names(rig)),
+        children_(idx(rig.parents.size())),
+        lengths_(children_.size(), 0) {
     const auto count = static_cast<int>(children_.size());
     for (int joint = 0; joint < count; ++joint) {
       if (rig.parents[joint] >= 0) children_[idx(rig.parents[joint])].push_back(joint);
@@ -69,9 +74,9 @@ class BoneWays {
     std::vector<Target> middle;
     for (const int child : children_[idx(joint)]) {
       all.push_back({way(joint, child), lengths_[idx(child)]});
-      if (side_of(rig_.names[idx(child)]) == 0) middle.push_back(all.back());
+      if (side_of(names_[idx(child)]) == 0) middle.push_back(all.back());
     }
-    if (all.size() < 2 || side_of(rig_.names[idx(joint)]) != 0) return all;
+    if (all.size() < 2 || side_of(names_[idx(joint)]) != 0) return all;
     if (middle.empty()) middle = pairs_of(joint);
     return middle.empty() ? all : middle;
   }
@@ -81,9 +86,9 @@ class BoneWays {
     constexpr double apart = 0.1;
     std::vector<Target> pairs;
     for (const int left : children_[idx(joint)]) {
-      if (side_of(rig_.names[idx(left)]) != 'L') continue;
+      if (side_of(names_[idx(left)]) != 'L') continue;
       for (const int right : children_[idx(joint)]) {
-        if (!are_pair(rig_.names[idx(left)], rig_.names[idx(right)])) continue;
+        if (!are_pair(names_[idx(left)], names_[idx(right)])) continue;
         const Eigen::Vector3d a = way(joint, left);
         const Eigen::Vector3d b = way(joint, right);
         const bool is_far = (a + b).norm() > apart * (a.norm() + b.norm());
@@ -100,6 +105,7 @@ class BoneWays {
   }
 
   const Rig& rig_;
+  const std::vector<std::string>& names_;
   std::vector<std::vector<int>> children_;
   std::vector<double> lengths_;  // by joint: of all bones below it and its own from its parent
 };

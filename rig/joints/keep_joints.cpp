@@ -36,6 +36,7 @@ Rig keep_joints(const Rig& rig, const std::vector<int>& number) {
     result.parents[static_cast<Eigen::Index>(k)] = parent < 0 ? -1 : stands_for[idx(parent)];
     result.names.push_back(rig.names[idx(kept[k])]);
     if (!rig.roles.empty()) result.roles.push_back(rig.roles[idx(kept[k])]);
+    if (!rig.readable.empty()) result.readable.push_back(rig.readable[idx(kept[k])]);
     if (!rig.turns.empty()) result.turns.push_back(rig.turns[idx(kept[k])]);
   }
   std::vector<Eigen::Triplet<float>> entries;

@@ -3,11 +3,19 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <curveskel/rig.hpp>
 
 namespace curveskel {
 
 [[nodiscard]] inline bool ends_with_side(std::string_view name) {
   return name.ends_with(".L") || name.ends_with(".R");
+}
+
+/// The names that tell the sides, whatever program the others are for.
+[[nodiscard]] inline const std::vector<std::string>& readable_names(const Rig& rig) {
+  return rig.readable.empty() ? rig.names : rig.readable;
 }
 
 /// "part3_limb4_2.L" taken apart.

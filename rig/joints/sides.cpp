@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include "rig/joints/limb_name.hpp"
 #include "rig/joints/mirror_images.hpp"
 
 namespace curveskel {
@@ -64,10 +65,11 @@ void name_sides(Rig& rig, bool faces_minus_z) {
 
 std::vector<int> twins_of(const Rig& rig) {
   std::map<std::string_view, int> number;
-  for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
-    number[rig.names[joint]] = static_cast<int>(joint);
+  const std::vector<std::string>& names = readable_names(rig);
+  for (std::size_t joint = 0; joint < names.size(); ++joint) {
+    number[names[joint]] = static_cast<int>(joint);
   }
-  std::vector<int> twins(rig.names.size(), -1);
+  std::vector<int> twins(names.size(), -1);
   for (const auto& [name, joint] : number) {
     if (!name.ends_with(".L")) continue;
     const auto found = number.find(std::string(name.substr(0, name.size() - 2)) + ".R");

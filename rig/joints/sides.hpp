@@ -22,8 +22,8 @@ namespace curveskel {
 /// names stay so. O(limbs^2 depth); nothing is done for more than 1,000 limbs.
 void name_sides(Rig& rig, bool faces_minus_z = false);
 
-/// By joint the one that is its mirror image by name, ".L" or ".R" instead of the other; -1 = none.
-/// O(joints log joints).
+/// By joint the one that is its mirror image by readable name, ".L" or ".R" instead of the other;
+/// -1 = none. O(joints log joints).
 [[nodiscard]] std::vector<int> twins_of(const Rig& rig);
 
 }  // namespace curveskel

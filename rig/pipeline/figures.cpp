@@ -10,6 +10,7 @@
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/limb_name.hpp"
 
 namespace curveskel {
 namespace {
@@ -130,6 +131,11 @@ void append(Rig& all, const Rig& more) {
   all.weights.swap(weights);
   append_rows(all.joints, more.joints);
   append_rows(all.parents, shifted(more.parents, joints));
+  if (!all.readable.empty() || !more.readable.empty()) {
+    const std::vector<std::string>& added = readable_names(more);
+    all.readable = readable_names(all);
+    all.readable.insert(all.readable.end(), added.begin(), added.end());
+  }
   all.names.insert(all.names.end(), more.names.begin(), more.names.end());
   all.roles.insert(all.roles.end(), more.names.size(), "");
 }
@@ -176,8 +182,8 @@ RiggedBody side_by_side(std::vector<RiggedBody> figures) {
   RiggedBody all = std::move(figures.front());
   all.rig.roles.resize(all.rig.names.size());
   for (std::size_t k = 1; k < figures.size(); ++k) {
-    for (std::string& name : figures[k].rig.names) {
-      name.insert(0, "figure" + std::to_string(k + 1) + "_");
+    for (auto* const names : {&figures[k].rig.names, &figures[k].rig.readable}) {
+      for (std::string& name : *names) name.insert(0, "figure" + std::to_string(k + 1) + "_");
     }
     append(all, figures[k]);
     append(all.rig, figures[k].rig);

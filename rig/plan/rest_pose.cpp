@@ -99,6 +99,7 @@ Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVec
   };
   const bool taken = std::find(rig.names.begin(), rig.names.end(), "root") != rig.names.end();
   result.names = before(rig.names, std::string(taken ? "ground_root" : "root"));
+  result.readable = before(rig.readable, std::string(taken ? "ground_root" : "root"));
   result.roles = before(rig.roles, std::string());
   result.turns = before(rig.turns, Quaterniond::Identity());
   std::vector<Eigen::Triplet<float>> entries;

@@ -209,25 +209,46 @@ bool has_words(NameStyle style, BodyKind kind) {
   return kind == BodyKind::humanoid;
 }
 
-void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
-  if (style == NameStyle::neutral) {
-    for (std::size_t k = 0; k < rig.names.size(); ++k) rig.names[k] = numbered(k + 1);
-    return;
+namespace {
+
+/// The plan's joints in the style's words; the others keep theirs.
+void name_plan(std::vector<std::string>& names, const BodyPlan& plan, NameStyle words) {
+  std::set<std::string> taken;
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    names[k] = name_of_role(plan.joints[k].role, plan.plan, words);
+    taken.insert(names[k]);
   }
-  const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
+  for (std::size_t k = plan.joints.size(); k < names.size(); ++k) {
+    while (!taken.insert(names[k]).second) names[k].insert(0, "extra_");
+  }
+}
+
+/// One joint's role is another. The namesake, if there is one, gets the name that it had.
+void rename(std::vector<std::string>& names, std::size_t at, const std::string& name) {
+  const auto namesake = std::find(names.begin(), names.end(), name);
+  if (namesake != names.end()) *namesake = names[at];
+  names[at] = name;
+}
+
+}  // namespace
+
+void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
   std::vector<std::string> readable;
   for (const PlannedJoint& joint : plan.joints) {
     readable.push_back(name_of_role(joint.role, plan.plan, NameStyle::automatic));
   }
   name_limbs(rig, plan, readable);
-  std::set<std::string> taken;
-  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
-    rig.names[k] = name_of_role(plan.joints[k].role, plan.plan, words);
-    taken.insert(rig.names[k]);
+  std::vector<std::string> styled = rig.names;
+  name_plan(rig.names, plan, NameStyle::automatic);
+  rig.readable.clear();
+  if (style == NameStyle::automatic) return;
+  rig.readable = std::move(rig.names);
+  if (style == NameStyle::neutral) {
+    for (std::size_t k = 0; k < styled.size(); ++k) styled[k] = numbered(k + 1);
+  } else {
+    name_plan(styled, plan, has_words(style, plan.plan) ? style : NameStyle::automatic);
   }
-  for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {
-    while (!taken.insert(rig.names[k]).second) rig.names[k].insert(0, "extra_");
-  }
+  rig.names = std::move(styled);
 }
 
 std::vector<std::string> roles_of(BodyKind kind) {
@@ -267,19 +288,19 @@ void assign_role(Rig& rig, BodyPlan& plan, int joint, const std::string& role, N
   };
   if (rig.roles[at] == role) return;
   const std::size_t holder = role.empty() ? rig.roles.size() : with(rig.roles, role);
+  const bool has_other_names = style != NameStyle::neutral;
   if (holder < rig.roles.size()) {
     std::swap(rig.roles[at], rig.roles[holder]);
-    if (style != NameStyle::neutral) std::swap(rig.names[at], rig.names[holder]);
+    if (has_other_names) std::swap(rig.names[at], rig.names[holder]);
+    if (!rig.readable.empty()) std::swap(rig.readable[at], rig.readable[holder]);
   } else {
     rig.roles[at] = role;
     const NameStyle words = has_words(style, plan.plan) ? style : NameStyle::automatic;
-    if (style != NameStyle::neutral) {
-      const std::string name =
-          role.empty() ? numbered(at + 1) : name_of_role(role, plan.plan, words);
-      const std::size_t namesake = with(rig.names, name);
-      if (namesake < rig.names.size()) rig.names[namesake] = rig.names[at];
-      rig.names[at] = name;
-    }
+    const auto name_in = [&](NameStyle its) {
+      return role.empty() ? numbered(at + 1) : name_of_role(role, plan.plan, its);
+    };
+    if (has_other_names) rename(rig.names, at, name_in(words));
+    if (!rig.readable.empty()) rename(rig.readable, at, name_in(NameStyle::automatic));
   }
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     if (plan.joints[k].role != rig.roles[k]) plan.joints[k].reason = "chosen by hand";

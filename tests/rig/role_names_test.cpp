@@ -11,6 +11,8 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/make_rig.hpp>
+#include "rig/joints/bone_axes.hpp"
+#include "rig/joints/sides.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::role_name_laws {
@@ -56,6 +58,26 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
       });
       EXPECT_EQ(says_limb, plan.joints.empty() && style.value != NameStyle::neutral)
           << subject.name << ' ' << style.name;
+    }
+  }
+}
+
+// Axes and twins were those of the sides in the names, which other programs' words do not have.
+TEST(RoleNames, LeaveAxesAndTwinsAsTheyAre) {
+  for (const RigSubject& subject : {human(), human_with_hands(3), beast(1), tree()}) {
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    name_roles(rig, plan, NameStyle::automatic);
+    const auto axes = bone_axes(rig);
+    const std::vector<int> twins = twins_of(rig);
+    for (const auto& style : name_styles) {
+      Rig other = make_planned_rig(subject.surface, subject.skeleton, plan);
+      name_roles(other, plan, style.value);
+      EXPECT_EQ(twins_of(other), twins) << subject.name << ' ' << style.name;
+      const auto its = bone_axes(other);
+      for (std::size_t joint = 0; joint < axes.size(); ++joint) {
+        EXPECT_EQ(its[joint].coeffs(), axes[joint].coeffs()) << subject.name << ' ' << style.name;
+      }
     }
   }
 }
