@@ -93,7 +93,9 @@ void write_in_place(const fs::path& file, std::string_view bytes) {
 
 /// A new file beside `file`; the name that was free.
 int create_beside(const fs::path& file, fs::path& name) {
-  const std::string stem = std::string(".").append(file.filename().string()).append(".part");
+  constexpr std::size_t most = 200;  // of the name's bytes: file systems allow 255 in all
+  const std::string stem =
+      std::string(".").append(file.filename().string().substr(0, most)).append(".part");
   for (int attempt = 0;; ++attempt) {
     name = file.parent_path() / (stem + std::to_string(::getpid()) + "-" + std::to_string(attempt));
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -41,7 +41,8 @@ struct TipLife {
 /// count where the part is a disc of eight vertices or more and at most half of the surface, from
 /// a fifth of the way down on. Births and deaths change by no more than f does (Cohen-Steiner,
 /// Edelsbrunner and Harer 2007); no junction, ball or triangle enters.
-/// Precondition: closed manifold, one component. Throws Cancelled on a stop. O(samples n log n).
+/// Precondition: closed manifold, one component. Throws Cancelled on a stop. O(samples n), and
+/// for each tip O(m log m) of the m vertices of its part, at most half of them all.
 [[nodiscard]] std::vector<TipLife> tip_lives(const Surface& surface,
                                              const LifeOptions& options = {},
                                              const Monitor& monitor = {});

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <map>
 #include <set>
 #include <string>
@@ -13,13 +12,6 @@
 
 namespace curveskel {
 namespace {
-
-template <typename Number>
-std::string shortest(Number value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), static_cast<std::size_t>(end - text.data())};
-}
 
 std::string by_rule(std::string name, NameRule rule) {
   for (char& c : name) {
@@ -33,9 +25,6 @@ std::string by_rule(std::string name, NameRule rule) {
 }
 
 }  // namespace
-
-std::string number_text(double value) { return shortest(value); }
-std::string number_text(float value) { return shortest(value); }
 
 std::vector<std::string> names_by(const Rig& rig, NameRule rule) {
   std::vector<std::string> names;

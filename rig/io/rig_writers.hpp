@@ -8,6 +8,7 @@
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/surface.hpp>
+#include "base/decimal.hpp"
 
 namespace curveskel {
 
@@ -22,8 +23,12 @@ namespace curveskel {
                                           const std::string& name, const std::string& provenance);
 
 /// The shortest text that reads back as the same number.
-[[nodiscard]] std::string number_text(double value);
-[[nodiscard]] std::string number_text(float value);
+template <typename Number>
+[[nodiscard]] std::string number_text(Number value) {
+  std::string text;
+  append_decimal(text, value);
+  return text;
+}
 
 enum class NameRule {
   word,       ///< without blanks, for formats that part words by these

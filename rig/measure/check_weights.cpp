@@ -4,32 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include "rig/measure/turned_joints.hpp"
 #include "rig/skin/weight_pieces.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-/// n x j, by columns: the share of each vertex that turns when the joint does.
-Eigen::SparseMatrix<double> turning_shares(const Rig& rig) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (!(it.value() > 0)) continue;
-      for (auto joint = static_cast<int>(it.col()); joint >= 0; joint = rig.parents[joint]) {
-        entries.emplace_back(static_cast<int>(vertex), joint, it.value());
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> shares(rig.weights.rows(), rig.weights.cols());
-  shares.setFromTriplets(entries.begin(), entries.end());  // adds up
-  return shares;
-}
 
 class WeightChecker {
  public:
@@ -149,20 +134,14 @@ class WeightChecker {
     WeightChecks::Pose worst{joint};
     const Vector3d place = rig_.joints.row(joint).transpose();
     const Vector3d bone = place - rig_.joints.row(rig_.parents[joint]).transpose();
-    const Vector3d along = bone.norm() > 0 ? Vector3d(bone.normalized()) : Vector3d::UnitY();
-    const Vector3d across = along.unitOrthogonal();
-    for (const Vector3d& axis : {across, Vector3d(along.cross(across))}) {
-      for (const double sign : {1.0, -1.0}) {
-        const Eigen::Matrix3d turn =
-            Eigen::AngleAxisd(sign * std::numbers::pi / 4, axis).toRotationMatrix();
-        for (const int v : turning) {
-          const Vector3d p = surface_.positions.row(v).transpose();
-          moved_.row(v) = (p + share_[idx(v)] * (turn * (p - place) + place - p)).transpose();
-        }
-        worst.stretch = std::max(worst.stretch, stretch(turning));
-        const double changed = volume_change(turning);
-        if (std::abs(changed) > std::abs(worst.volume - 1)) worst.volume = 1 + changed;
+    for (const Eigen::Matrix3d& turn : turns_across(bone)) {
+      for (const int v : turning) {
+        const Vector3d p = surface_.positions.row(v).transpose();
+        moved_.row(v) = (p + share_[idx(v)] * (turn * (p - place) + place - p)).transpose();
       }
+      worst.stretch = std::max(worst.stretch, stretch(turning));
+      const double changed = volume_change(turning);
+      if (std::abs(changed) > std::abs(worst.volume - 1)) worst.volume = 1 + changed;
     }
     return worst;
   }

@@ -3,32 +3,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
-#include <numbers>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/measure/turned_joints.hpp"
 
 namespace curveskel {
 namespace {
 
-/// n x j: the share of each vertex that turns when the joint does, with all joints below it.
 using MovedShares = Eigen::SparseMatrix<double>;
-
-MovedShares moved_shares(const Rig& rig) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (!(it.value() > 0)) continue;
-      for (auto joint = static_cast<int>(it.col()); joint >= 0; joint = rig.parents[joint]) {
-        entries.emplace_back(static_cast<int>(vertex), joint, it.value());
-      }
-    }
-  }
-  MovedShares shares(rig.weights.rows(), rig.weights.cols());
-  shares.setFromTriplets(entries.begin(), entries.end());  // adds up
-  return shares;
-}
 
 /// t x j: the sum over the vertices of the smaller share.
 Eigen::MatrixXd common_shares(const MovedShares& truth, const MovedShares& rig) {
@@ -66,25 +49,13 @@ Eigen::Vector3d bone_of(const RiggedSurface& truth, const MovedShares& shares, i
   return (sum / count - place).transpose();
 }
 
-/// By 45 degrees, either way, about two axes that are normal to the bone.
-std::array<Eigen::Matrix3d, 4> turns_across(const Eigen::Vector3d& bone) {
-  const Eigen::Vector3d along =
-      bone.norm() > 0 ? Eigen::Vector3d(bone.normalized()) : Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d one = along.unitOrthogonal();
-  const Eigen::Vector3d two = along.cross(one);
-  const auto turn = [](const Eigen::Vector3d& axis, double sign) {
-    return Eigen::AngleAxisd(sign * std::numbers::pi / 4, axis).toRotationMatrix();
-  };
-  return {turn(one, 1), turn(one, -1), turn(two, 1), turn(two, -1)};
-}
-
 class PosedLimbs {
  public:
   PosedLimbs(const Rig& rig, const RiggedSurface& truth)
       : rig_(rig),
         truth_(truth),
-        ours_(moved_shares(rig)),
-        theirs_(moved_shares(truth.rig)),
+        ours_(turning_shares(rig)),
+        theirs_(turning_shares(truth.rig)),
         common_(common_shares(theirs_, ours_)),
         our_sums_(ours_.transpose() * Eigen::VectorXd::Ones(ours_.rows())),
         their_sums_(theirs_.transpose() * Eigen::VectorXd::Ones(theirs_.rows())) {}

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -21,11 +22,10 @@ constexpr double alike = 0.06;  // so near is a mirror image
 
 class LimbFinder {
  public:
-  LimbFinder(const CurveTree& tree, Images images) : tree_(tree), images_(images) {
+  LimbFinder(const CurveTree& tree, Images images)
+      : tree_(tree), images_(images), from_first_(ways_from(tree, 0)) {
     for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-      if (!tree.is_tip(node)) continue;
-      tips_.push_back(node);
-      ways_.emplace(node, ways_from(tree, node));
+      if (tree.is_tip(node)) tips_.push_back(node);
     }
   }
 
@@ -87,26 +87,48 @@ class LimbFinder {
       }
       if (nearest < 0) continue;
       taken[idx(tip)] = taken[idx(nearest)] = 1;
-      ways_.try_emplace(nearest, ways_from(tree_, nearest));
       const bool is_left = tree_.aside(tip) > 0;
       mate_[is_left ? tip : nearest] = is_left ? nearest : tip;
     }
   }
 
+  /// In a tree it is the ways from any node to both, but for what these share.
+  [[nodiscard]] std::vector<int> path_between(int from, int to) const {
+    const std::vector<int> there = from_first_.path(from);
+    const std::vector<int> on = from_first_.path(to);
+    const auto [fork, fork_on] = std::mismatch(there.begin(), there.end(), on.begin(), on.end());
+    if (fork == there.begin()) return {to};
+    std::vector<int> path(there.rbegin(), std::make_reverse_iterator(fork - 1));
+    path.insert(path.end(), fork_on, on.end());
+    return path;
+  }
+
+  /// The length of the path up to each of its nodes.
+  template <typename Iterator>
+  [[nodiscard]] std::vector<double> walked(Iterator begin, Iterator end) const {
+    std::vector<double> lengths{0};
+    for (Iterator next = begin + 1; next < end; ++next) {
+      lengths.push_back(lengths.back() +
+                        (tree_.nodes[idx(*next)] - tree_.nodes[idx(*(next - 1))]).norm());
+    }
+    return lengths;
+  }
+
   /// Where the way from a tip to its image crosses the mirror plane: of what lies near the plane
   /// the node that is as far from both.
   [[nodiscard]] int crossing(int left, int right) const {
-    const Ways& from_left = ways_.at(left);
-    const Ways& from_right = ways_.at(right);
-    const std::vector<int> path = from_left.path(right);
+    const std::vector<int> path = path_between(left, right);
+    const std::vector<double> from_left = walked(path.begin(), path.end());
+    const std::vector<double> from_right = walked(path.rbegin(), path.rend());
     double least = std::numeric_limits<double>::infinity();
     for (const int node : path) least = std::min(least, std::abs(tree_.aside(node)));
     const double near = std::max(0.01 * tree_.size, 1.5 * least);
     int best = path.front();
     double best_off = std::numeric_limits<double>::infinity();
-    for (const int node : path) {
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      const int node = path[k];
       if (std::abs(tree_.aside(node)) >= near && std::abs(tree_.aside(node)) > least) continue;
-      const double off = std::abs(from_left.distance[idx(node)] - from_right.distance[idx(node)]);
+      const double off = std::abs(from_left[k] - from_right[path.size() - 1 - k]);
       if (off >= best_off) continue;
       best_off = off;
       best = node;
@@ -154,6 +176,9 @@ class LimbFinder {
   }
 
   void add_pair(const std::vector<int>& part) {
+    if (std::none_of(part.begin(), part.end(), [&](int node) { return mate_.count(node) > 0; })) {
+      return;
+    }
     LimbPair pair;
     for (const int node : part) {
       for (const int next : tree_.neighbours[idx(node)]) {
@@ -187,9 +212,9 @@ class LimbFinder {
   const CurveTree& tree_;
   Images images_;
   std::vector<int> tips_;
-  std::map<int, Ways> ways_;  // by tip
-  std::map<int, int> mate_;   // left tip -> right tip
-  std::vector<int> ends_;     // of the trunk
+  Ways from_first_;          // node, to all
+  std::map<int, int> mate_;  // left tip -> right tip
+  std::vector<int> ends_;    // of the trunk
   Limbs limbs_;
 };
 

@@ -46,12 +46,15 @@ void cut_corners(std::vector<int>& loop, const Surface& surface) {
   }
   std::sort(triangles.begin(), triangles.end());
   const auto at = [&](std::size_t i) { return loop[i % loop.size()]; };
-  for (std::size_t i = 0, since = 0; since < loop.size(); ++i, ++since) {
+  for (std::size_t i = 0; i < loop.size();) {
     std::array<int, 3> corners{at(i), at(i + 1), at(i + 2)};
     std::sort(corners.begin(), corners.end());
-    if (!std::binary_search(triangles.begin(), triangles.end(), corners)) continue;
+    if (!std::binary_search(triangles.begin(), triangles.end(), corners)) {
+      ++i;
+      continue;
+    }
     loop.erase(loop.begin() + static_cast<std::ptrdiff_t>((i + 1) % loop.size()));
-    i = since = 0;
+    i = 0;
   }
 }
 

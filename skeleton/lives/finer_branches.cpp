@@ -46,7 +46,8 @@ class FinerBranches {
       : surface_(surface),
         tree_(tree),
         curve_(skeleton),
-        neighbours_(graph_of(surface.positions.rows(), index_edges(surface.triangles).edges)) {
+        neighbours_(graph_of(surface.positions.rows(), index_edges(surface.triangles).edges)),
+        seen_(idx(surface.positions.rows()), 0) {
     double length = 0;
     for (const auto& [a, b] : curve_.edges()) {
       length += (curve_.position(a) - curve_.position(b)).norm();
@@ -207,8 +208,7 @@ class FinerBranches {
   void hand_over(const TipLife& tip, const std::vector<int>& made) {
     const Vector3d ahead = vertex(tip.vertex) - tip.rim;
     std::vector<int> part{tip.vertex};
-    std::vector<char> seen(idx(surface_.positions.rows()), 0);
-    seen[idx(tip.vertex)] = 1;
+    seen_[idx(tip.vertex)] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const Vector3d at = vertex(part[i]);
       const auto nearest = std::min_element(made.begin(), made.end(), [&](int a, int b) {
@@ -216,18 +216,20 @@ class FinerBranches {
       });
       curve_.hand_vertex(part[i], *nearest);
       for (const int next : neighbours_.neighbours(part[i])) {
-        if (seen[idx(next)] != 0 || !((vertex(next) - tip.rim).dot(ahead) > 0)) continue;
-        seen[idx(next)] = 1;
+        if (seen_[idx(next)] != 0 || !((vertex(next) - tip.rim).dot(ahead) > 0)) continue;
+        seen_[idx(next)] = 1;
         part.push_back(next);
       }
     }
+    for (const int v : part) seen_[idx(v)] = 0;
   }
 
   const Surface& surface_;
   const SurfaceTree& tree_;
   Draft curve_;
-  Graph neighbours_;    // of vertices
-  double spacing_ = 0;  // the mean length of an edge at first
+  Graph neighbours_;        // of vertices
+  std::vector<char> seen_;  // by vertex, of the part that is handed over; else 0
+  double spacing_ = 0;      // the mean length of an edge at first
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace curveskel {
 /// Preconditions: one component with lives and radii; `node_of_vertex` and `lives` are by vertices
 /// of `surface`; `tree` is over that surface or a finer one; planes through the origin and normal
 /// to `mirror_axes` take the surface to itself. Returns the number of branches.
-/// O(tips x nodes + branches x nodes log nodes).
+/// O(tips x nodes + branches x their nodes x nodes).
 int add_finer_branches(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
                        const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes,
                        double least);

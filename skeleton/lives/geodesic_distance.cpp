@@ -94,12 +94,13 @@ class GeodesicDistance::Front {
   }
 
   void push(float distance, std::int32_t vertex) {
-    std::int32_t& first = first_[idx(number(distance)) % first_.size()];
+    // Across an edge of an obtuse triangle a wave may come to a step that is over.
+    std::int32_t& first = first_[idx(std::max(at_, number(distance))) % first_.size()];
     entries_.push_back({vertex, first});
     first = static_cast<std::int32_t>(entries_.size()) - 1;
     ++count_;
   }
-  /// The next vertex that is reached in this step by `distance`, -1 at the end.
+  /// The next vertex that is reached by `distance`, maybe one that was there before; -1 at the end.
   [[nodiscard]] std::int32_t pop(const Eigen::VectorXf& distance) {
     while (count_ > 0) {
       std::int32_t& first = first_[idx(at_) % first_.size()];
@@ -110,7 +111,7 @@ class GeodesicDistance::Front {
       const Entry entry = entries_[idx(first)];
       first = entry.next;
       --count_;
-      if (number(distance[entry.vertex]) == at_) return entry.vertex;  // else reached sooner
+      if (number(distance[entry.vertex]) <= at_) return entry.vertex;
     }
     return -1;
   }
@@ -156,8 +157,8 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
       const Wedge& wedge = wedges_around_.values[idx(i)];
       const Corner& at_next = wedge.at_next;
       const Corner& at_last = wedge.at_last;
-      // A wave that comes from here reaches nothing sooner than this. It goes on across an edge
-      // once both of the edge's ends are reached: the last of the two asks.
+      // A wave goes on across an edge once both of the edge's ends are reached: the last of the two
+      // asks.
       if (distance[wedge.last] > reached) {
         float found = reached + at_next.length;
         if (is_done[idx(wedge.next)] != 0) {

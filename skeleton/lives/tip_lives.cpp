@@ -49,7 +49,8 @@ class Lives {
             surface.triangles.size(), surface.positions.rows(),
             [&](std::int64_t i) { return surface.triangles(i / 3, i % 3); },
             [](std::int64_t i) { return static_cast<std::int32_t>(i / 3); })),
-        is_in_(around_.size(), 0) {}
+        is_in_(around_.size(), 0),
+        queued_(around_.size(), 0) {}
 
   std::vector<TipLife> find(double least_height, const Monitor& monitor) {
     merge();
@@ -176,7 +177,6 @@ class Lives {
     const auto lower = [&](int a, int b) { return is_above(b, a); };
     std::priority_queue<int, std::vector<int>, decltype(lower)> open(lower);
     std::vector<int> part;
-    queued_.assign(around_.size(), 0);
     open.push(tip.vertex);
     queued_[idx(tip.vertex)] = 1;
     double area = 0;
@@ -210,7 +210,8 @@ class Lives {
       }
       ++level;
     }
-    for (const int v : part) is_in_[idx(v)] = 0;
+    for (const int v : part) is_in_[idx(v)] = queued_[idx(v)] = 0;
+    for (; !open.empty(); open.pop()) queued_[idx(open.top())] = 0;
   }
 
   /// Returns the change of the part's Euler characteristic.

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "base/buckets.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/half_edges.hpp"
 
@@ -47,15 +49,36 @@ bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
          double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
 }
 
-Surface component(const ClosedParts& closed, const Orientation& orientation, std::size_t number) {
-  std::vector<std::int32_t> rows;
-  for (std::size_t f = 0; f < orientation.component_of_face.size(); ++f) {
-    if (idx(orientation.component_of_face[f]) == number) {
-      rows.push_back(static_cast<std::int32_t>(f));
+/// Components one by one, each with its own vertices alone.
+class ComponentsApart {
+ public:
+  ComponentsApart(const Surface& whole, const Orientation& orientation)
+      : whole_(whole),
+        faces_(bucket<std::int32_t>(
+            whole.triangles.rows(), orientation.components,
+            [&](std::int64_t f) { return orientation.component_of_face[idx(f)]; },
+            [](std::int64_t f) { return static_cast<std::int32_t>(f); })) {}
+
+  [[nodiscard]] Surface operator[](std::size_t number) const {
+    const std::vector<std::int32_t> rows(faces_.values.begin() + faces_.offsets[number],
+                                         faces_.values.begin() + faces_.offsets[number + 1]);
+    Surface own{{}, whole_.triangles(rows, Eigen::all)};
+    const auto corners = own.triangles.reshaped();
+    std::vector<std::int32_t> used(corners.begin(), corners.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    own.positions = whole_.positions(used, Eigen::all);
+    for (std::int32_t& corner : own.triangles.reshaped()) {
+      corner = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), corner) -
+                                         used.begin());
     }
+    return own;
   }
-  return {closed.surface.positions, closed.surface.triangles(rows, Eigen::all)};
-}
+
+ private:
+  const Surface& whole_;
+  Buckets<std::int32_t> faces_;
+};
 
 /// A car's body without its floor and windows, a mask, a dome: a flat sheet has no volume, the cap
 /// of a sphere up to 45 degrees .039 area^1.5, half a sphere .072, a cube .068.
@@ -67,7 +90,7 @@ bool is_roomy(const ComponentSums& part) {
 }  // namespace
 
 JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
-                        const RepairOptions& options, int threads) {
+                        const RepairOptions& options, int threads, const Monitor& monitor) {
   const auto vertices = static_cast<std::int32_t>(closed.surface.positions.rows());
   JudgedParts judged;
   judged.orientation =
@@ -87,14 +110,16 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
   constexpr double more_if_roomy = 4.0 / 3;
   const auto sums = component_sums(closed.surface, judged.orientation, threads);
   const bool one_sided = is_one_sided(joined, closed.vertices_copied);
+  const ComponentsApart components(closed.surface, judged.orientation);
   for (std::size_t c = 0; c < judged.parts.size(); ++c) {
+    if (monitor.stop.stop_requested()) throw Cancelled();
     JudgedPart& part = judged.parts[c];
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;
     part.is_body =
         !one_sided && sums[c].encloses_something() &&
         (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&
-                                     !crosses_itself(component(closed, judged.orientation, c))));
+                                     !crosses_itself(components[c])));
   }
   return judged;
 }

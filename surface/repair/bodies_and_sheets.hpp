@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <curveskel/monitor.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/surface.hpp>
 #include "surface/repair/close_surface.hpp"
@@ -29,9 +30,10 @@ struct JudgedParts {
 
 /// A body encloses something and is mostly given: closing it added no more than
 /// `most_added_area`, a third more where it encloses much and does not cross itself. No part of a
-/// one-sided surface is one. `closed` comes from `joined`.
+/// one-sided surface is one. `closed` comes from `joined`. Throws Cancelled on a stop.
 [[nodiscard]] JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
-                                      const RepairOptions& options, int threads);
+                                      const RepairOptions& options, int threads,
+                                      const Monitor& monitor);
 
 /// The bodies alone, outward; every vertex keeps its number in the closed parts. Adds the faces and
 /// components that were turned to `changes`.

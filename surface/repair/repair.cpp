@@ -235,7 +235,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;
-  const JudgedParts judged = judge_parts(closed, joined, options, threads);
+  const JudgedParts judged = judge_parts(closed, joined, options, threads, monitor);
   result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
   const auto number = drop_unused_vertices(result.surface);
   count_holes(closed, judged, number, result);

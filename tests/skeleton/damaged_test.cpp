@@ -110,6 +110,8 @@ TEST(Damaged, EveryArmOfAnOpenStarReachesItsRim) {
     const Eigen::RowVector3d middle = repaired.surface.positions(rim, Eigen::all).colwise().mean();
     int tip = -1;
     EXPECT_LT(nearest_tip(found.skeleton, middle, tip), 0.1);
+    ASSERT_GE(tip, 0);
+    EXPECT_GT(found.skeleton.lives[tip], 3) << "the closed arm's life goes on with it";
   }
 }
 

@@ -50,6 +50,14 @@ class WriteFile : public testing::Test {
   fs::path folder = own_.path();
 };
 
+// The unfinished file's name was longer than the file's, and than file systems allow.
+TEST_F(WriteFile, WritesNamesAsLongAsTheFileSystemAllows) {
+  const std::string name(255, 'n');
+  write_file(folder / name, "bytes");
+  EXPECT_EQ(content(folder / name), "bytes");
+  EXPECT_EQ(files(), 1);
+}
+
 TEST_F(WriteFile, PutsExactlyTheseBytesThere) {
   std::string bytes(300000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i >> 3U);

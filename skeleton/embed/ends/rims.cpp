@@ -47,12 +47,16 @@ bool way_is_inside(const SurfaceTree& tree, const Eigen::Vector3d& from,
 }
 
 void add_node(CurveSkeleton& skeleton, int neighbour, const Eigen::Vector3d& position,
-              double radius) {
+              double radius, double life) {
   const Eigen::Index node = skeleton.nodes.rows();
   skeleton.nodes.conservativeResize(node + 1, 3);
   skeleton.nodes.row(node) = position;
   skeleton.radii.conservativeResize(node + 1);
   skeleton.radii[node] = radius;
+  if (skeleton.lives.size() > 0) {
+    skeleton.lives.conservativeResize(node + 1);
+    skeleton.lives[node] = life;
+  }
   const Eigen::Index edges = skeleton.edges.rows();
   // The new node has the highest number: among the edges of its neighbour its own comes last.
   Eigen::Index place = 0;
@@ -60,6 +64,13 @@ void add_node(CurveSkeleton& skeleton, int neighbour, const Eigen::Vector3d& pos
   skeleton.edges.conservativeResize(edges + 1, 2);
   for (Eigen::Index e = edges; e > place; --e) skeleton.edges.row(e) = skeleton.edges.row(e - 1);
   skeleton.edges.row(place) << neighbour, static_cast<int>(node);
+}
+
+/// Leads a tip on, which hands its life to the new one.
+void lengthen(CurveSkeleton& skeleton, int tip, const Eigen::Vector3d& position, double radius) {
+  const bool has_life = skeleton.lives.size() > 0;
+  add_node(skeleton, tip, position, radius, has_life ? skeleton.lives[tip] : 0);
+  if (has_life) skeleton.lives[tip] = 0;
 }
 
 /// A tip's branch from the tip inwards.
@@ -162,8 +173,8 @@ class Reaching {
     const Eigen::Vector3d b = end_of(rims_[second], rims_[first].middle);
     if (tree_.inscribed_radius((a + b) / 2) < least_room * skeleton_.radii[widest(limb)]) return;
     place_between(limb, limb.size(), a, b);
-    add_node(skeleton_, limb.front(), a, rims_[first].least_radius);
-    add_node(skeleton_, limb.back(), b, rims_[second].least_radius);
+    lengthen(skeleton_, limb.front(), a, rims_[first].least_radius);
+    lengthen(skeleton_, limb.back(), b, rims_[second].least_radius);
     reached_[first] = reached_[second] = true;
     for (std::size_t other = 0; other < limbs_.size(); ++other) {
       if (limbs_[other].front() == limb.back()) taken_[other] = true;
@@ -222,7 +233,7 @@ class Reaching {
       const Eigen::Vector3d from = skeleton_.nodes.row(limb[idx(moved)]);
       const Eigen::Vector3d end = end_of(rims_[o], from);
       place_between(limb, idx(moved), end, from);
-      add_node(skeleton_, limb.front(), end, rims_[o].least_radius);
+      lengthen(skeleton_, limb.front(), end, rims_[o].least_radius);
     }
   }
 
@@ -246,7 +257,9 @@ class Reaching {
         nearest = cost;
       }
       if (best < 0) continue;
-      add_node(skeleton_, best, end_of(rims_[o], skeleton_.nodes.row(best)), rims_[o].least_radius);
+      const Eigen::Vector3d end = end_of(rims_[o], skeleton_.nodes.row(best));
+      const double length = (end - skeleton_.nodes.row(best).transpose()).norm();
+      add_node(skeleton_, best, end, rims_[o].least_radius, length / skeleton_.radii[best]);
     }
   }
 

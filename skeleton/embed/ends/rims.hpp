@@ -20,9 +20,9 @@ namespace curveskel {
 /// within one ball (1.5 of its radii) has no direction: between two rims its nodes move onto the
 /// straight line, if that is no narrower half-way (0.7). A rim that no tip leads to and that is 0.7
 /// as wide as the ball of a node 1.1 radii away or more gets a branch from there, from a junction
-/// by preference: the waist of trousers. Other nodes stay. `rims` name
-/// vertices of `surface`; `tree` is over it, or over the component that has skeleton and rims.
-/// O(nodes x rims).
+/// by preference: the waist of trousers; its life is its length over the ball's radius. A tip that
+/// is led on hands its life to the new one. Other nodes stay. `rims` name vertices of `surface`;
+/// `tree` is over it, or over the component that has skeleton and rims. O(nodes x rims).
 void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
                 const std::vector<std::vector<std::int32_t>>& rims);
 

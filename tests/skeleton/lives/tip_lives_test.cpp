@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/lives/geodesic_distance.hpp"
 
 namespace curveskel::life_laws {
 namespace {
@@ -42,6 +46,44 @@ std::vector<TipLife> clear_tips(const Surface& surface) {
   std::vector<TipLife> lives = tip_lives(surface);
   std::erase_if(lives, [](const TipLife& life) { return life.life < 1; });
   return lives;
+}
+
+/// Along edges; slow.
+std::vector<double> distances_along_edges(const Surface& surface, int from) {
+  const auto count = static_cast<std::size_t>(surface.positions.rows());
+  std::vector<std::vector<int>> neighbours(count);
+  for (const auto& t : surface.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) neighbours[idx(t[k])].push_back(t[(k + 1) % 3]);
+  }
+  std::vector<double> distance(count, std::numeric_limits<double>::infinity());
+  std::set<std::pair<double, int>> front{{distance[idx(from)] = 0, from}};
+  while (!front.empty()) {
+    const int v = front.extract(front.begin()).value().second;
+    for (const int next : neighbours[idx(v)]) {
+      const double found =
+          distance[idx(v)] + (surface.positions.row(next) - surface.positions.row(v)).norm();
+      if (found >= distance[idx(next)]) continue;
+      distance[idx(next)] = found;
+      front.emplace(found, next);
+    }
+  }
+  return distance;
+}
+
+// Where needles let a wave come back to a step that was over, it ended there.
+TEST(GeodesicDistances, AreNotLongerThanWaysAlongEdges) {
+  for (const double shear : {0.0, 2.0, 20.0}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      SCOPED_TRACE(testing::Message() << "shear " << shear << " seed " << seed);
+      Surface surface = shapes::noisy(shapes::box({8, 4, 1}, 8), 0.15, seed).surface;
+      surface.positions.col(0) += shear * surface.positions.col(1);
+      const Eigen::VectorXf found = GeodesicDistance(surface).from(0);
+      const std::vector<double> along = distances_along_edges(surface, 0);
+      for (std::size_t v = 0; v < along.size(); ++v) {
+        EXPECT_LE(found[static_cast<Eigen::Index>(v)], 1.03 * along[v]) << "at " << v;
+      }
+    }
+  }
 }
 
 TEST(TipLives, AreTheTipsOfKnownShapes) {
