@@ -1,7 +1,6 @@
 #include "rig/gltf/add_gltf_rig.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -14,38 +13,8 @@
 namespace curveskel {
 namespace {
 
-double scale_of(const Eigen::Affine3d& place) {
-  return std::cbrt(std::max(place.linear().determinant(), 0.0));
-}
-
-bool is_similarity(const Eigen::Affine3d& place) {
-  constexpr double rounding = 1e-5;
-  const double scale = scale_of(place);
-  const Eigen::Matrix3d gram = place.linear().transpose() * place.linear();
-  return scale > 0 && (gram / (scale * scale) - Eigen::Matrix3d::Identity()).norm() < rounding;
-}
-
-/// What takes most vertices to the scene, if joints can be placed by it: Blender takes joints for
-/// at rest only where they are so in the frame of the mesh.
-Eigen::Affine3d place_of_joints(const std::vector<GltfPart>& parts) {
-  const GltfPart* largest = nullptr;
-  for (const GltfPart& part : parts) {
-    if (part.in_soup && (largest == nullptr || part.count > largest->count)) largest = &part;
-  }
-  return largest != nullptr && is_similarity(largest->move) ? largest->move
-                                                            : Eigen::Affine3d::Identity();
-}
-
-/// The rig and its axes in the frame of `place`.
-Rig rig_within(const Rig& rig, const Eigen::Affine3d& place) {
-  Rig inside{rig.joints, rig.parents, rig.names, {}, {}, rig.turns};
-  const Eigen::Affine3d back = place.inverse();
-  for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
-    inside.joints.row(joint) = (back * rig.joints.row(joint).transpose()).transpose();
-  }
-  const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale_of(place)));
-  for (Eigen::Quaterniond& rests : inside.turns) rests = turn.conjugate() * rests * turn;
-  return inside;
+bool is_identity(const Eigen::Affine3d& place) {
+  return place.matrix() == Eigen::Matrix4d::Identity();
 }
 
 std::string free_name(const OrderedJson& nodes, const std::string& name) {
@@ -56,20 +25,11 @@ std::string free_name(const OrderedJson& nodes, const std::string& name) {
   return free;
 }
 
-/// In the scene, placed there by a similarity.
-std::size_t add_holder(OrderedJson& file, const std::string& name, const Eigen::Affine3d& place) {
+/// In the scene, at its origin.
+std::size_t add_holder(OrderedJson& file, const std::string& name) {
   OrderedJson& nodes = array_in(file, "nodes");
   const std::size_t holder = nodes.size();
-  OrderedJson node = {{"name", free_name(nodes, as_utf8(name))}};
-  if (!place.isApprox(Eigen::Affine3d::Identity(), 0)) {
-    const double scale = scale_of(place);
-    const Eigen::Vector3d at = place.translation();
-    const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale));
-    node["translation"] = {at.x(), at.y(), at.z()};
-    node["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};
-    node["scale"] = {scale, scale, scale};
-  }
-  nodes.push_back(std::move(node));
+  nodes.push_back({{"name", free_name(nodes, as_utf8(name))}});
   if (file.contains("scenes")) {
     OrderedJson& scene = file["scenes"].at(file.value("scene", std::size_t{0}));
     array_in(scene, "nodes").push_back(holder);
@@ -127,17 +87,9 @@ void add_missing_nodes(GltfDocument& document) {
 void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, const Rig& rig,
                   const std::string& name, int holder) {
   require_gltf_joints(rig);
-  const Eigen::Affine3d place = place_of_joints(parts);
-  const bool is_moved = !place.isApprox(Eigen::Affine3d::Identity(), 0);
-  const Rig inside = is_moved ? rig_within(rig, place) : rig;
-  std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
-  if (is_moved) {
-    const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale_of(place)));
-    for (Eigen::Quaterniond& axis : axes) axis = (turn.conjugate() * axis).normalized();
-  }
-  const std::size_t above =
-      holder >= 0 && !is_moved ? idx(holder) : add_holder(document.json, name, place);
-  const std::size_t first = add_joint_nodes(document.json["nodes"], inside, axes, above);
+  const std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
+  const std::size_t above = holder >= 0 ? idx(holder) : add_holder(document.json, name);
+  const std::size_t first = add_joint_nodes(document.json["nodes"], rig, axes, above);
   std::map<std::vector<double>, std::size_t> skin_of_move;
   std::map<int, const GltfPart*> first_part;  // by node; rather of the soup
   for (const GltfPart& part : parts) {
@@ -148,13 +100,15 @@ void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, co
     const auto numbers = move.matrix().reshaped();
     const auto [skin, is_new] =
         skin_of_move.try_emplace(std::vector<double>(numbers.begin(), numbers.end()));
-    if (is_new) {
-      const Eigen::Affine3d within = is_moved ? place.inverse() * move : move;
-      skin->second = add_skin(document, inside, axes, within, first, above);
-    }
+    if (is_new) skin->second = add_skin(document, rig, axes, move, first, above);
     return skin->second;
   };
-  if (is_moved) (void)skin_for(place);  // the first, which Blender looks at
+  for (const auto& [node, first_of_node] : first_part) {
+    if (!is_identity(first_of_node->move)) (void)skin_for(first_of_node->move);
+  }
+  // By the last skin Blender tells where joints are at rest; by that of a mesh that is moved or
+  // scaled on its way to the scene they would be elsewhere, and maybe too near each other for it.
+  (void)skin_for(Eigen::Affine3d::Identity());
   for (const auto& [node, first_of_node] : first_part) {
     document.json["nodes"][idx(node)]["skin"] = skin_for(first_of_node->move);
   }

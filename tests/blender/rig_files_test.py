@@ -99,6 +99,9 @@ for number in range(len(list(folder.glob("*.before.*")))):
     armatures = [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
     basis = max(numpy.abs(numpy.array(bone.matrix_basis) - numpy.eye(4)).max()
                 for bone in armatures[0].pose.bones)
+    along = min((bone.tail_local - bone.head_local).normalized().dot(
+                    (bone.children[0].head_local - bone.head_local).normalized())
+                for bone in armatures[0].data.bones if len(bone.children) == 1)
     random.seed(1)
     for bone in armatures[0].pose.bones:
         bone.rotation_mode = "XYZ"
@@ -115,7 +118,7 @@ for number in range(len(list(folder.glob("*.before.*")))):
     result[before.name] = {
         "same looks": looks() == kept, "looks": kept, "armatures": len(armatures),
         "rest": max(numpy.abs(new_low - low).max(), numpy.abs(new_high - high).max()) / size,
-        "poses": off, "moved": moved, "basis": basis}
+        "poses": off, "moved": moved, "basis": basis, "along": along}
 (folder / "result.json").write_text(json.dumps(result))
 """
 
@@ -125,6 +128,8 @@ def rigged_files():
     if os.environ.get("CURVESKEL_COLLECTION"):
         folder = pathlib.Path(os.environ["CURVESKEL_COLLECTION"]) / "characters"
         files += sorted(folder.glob("*.glb"))
+        # Its old armature is scaled by 100, so that joints lay too near each other for Blender.
+        files += sorted((folder.parent / "real").glob("quaternius-Swat.glb"))
     return files
 
 
@@ -160,6 +165,7 @@ class RigFiles(unittest.TestCase):
                 self.assertEqual(result["armatures"], 1)
                 self.assertLess(result["rest"], 1e-4)
                 self.assertLess(result["basis"], 1e-4, "its pose at first is no rest")
+                self.assertGreater(result["along"], 0.99, "a bone points past its joint")
                 self.assertLess(result["poses"], 1e-4)
                 self.assertGreater(result["moved"], 0.02)
                 print(f"{file.name}: rest {result['rest']:.1e} D, poses {result['poses']:.1e} D")
