@@ -103,6 +103,28 @@ class JointPlacer {
       }
       joints_.joint_of_node[joint.node] = planned_at_[idx(joint.node)] = static_cast<int>(k);
     }
+    for (std::size_t k = 0; k < planned_.size(); ++k) {
+      if (planned_[k].role == "head" && planned_[k].parent >= 0) begin_head(static_cast<int>(k));
+    }
+  }
+
+  /// Ears, horns and jaws that leave the last bone of the neck are the head's, with the curve from
+  /// the first of them on.
+  void begin_head(int head) {
+    const int neck = planned_[idx(head)].parent;
+    int first = -1;
+    for (int node = above_[idx(planned_[idx(head)].node)];
+         node >= 0 && joints_.joint_of_node[node] == neck; node = above_[idx(node)]) {
+      for (const int child : tree_.children[idx(node)]) {
+        if (joints_.joint_of_node[child] < 0 && !is_stub(node, child)) first = node;
+      }
+    }
+    if (first < 0) return;
+    for (int node = above_[idx(planned_[idx(head)].node)]; node != first;
+         node = above_[idx(node)]) {
+      joints_.joint_of_node[node] = head;
+    }
+    joints_.joint_of_node[first] = head;
   }
 
   /// The node and all below it, parents before their children.

@@ -151,6 +151,18 @@ void place_tail(const CurveTree& tree, int hips, std::vector<Place>& places) {
   }
 }
 
+/// To where ears or jaws branch off, if that is in the upper half of the neck as artists make it,
+/// of .6 of the way to the nose; else to the end of that.
+double way_to_skull(const CurveTree& tree, const std::vector<int>& path, const Along& neck) {
+  constexpr double longest = 0.6;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const double share = neck.way[k] / neck.whole();
+    if (share > longest) break;
+    if (share > longest / 2 && tree.neighbours[idx(path[k])].size() > 2) return neck.way[k];
+  }
+  return longest * neck.whole();
+}
+
 /// From the hips to the front legs, and on to the head.
 void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>& places) {
   const std::string share = "at its share of the way along the trunk";
@@ -162,10 +174,12 @@ void place_trunk(const CurveTree& tree, int hips, int front, std::vector<Place>&
   const Ways ways = ways_from(tree, front);
   const int nose = nose_of(tree, front, ways);
   if (nose == front) return;
-  const Along neck = along(tree, ways.path(nose));
-  places.push_back({"neck", "chest", neck.at(0.2 * neck.whole()), true, -1, share});
-  places.push_back({"neck.001", "neck", neck.at(0.37 * neck.whole()), true, -1, share});
-  places.push_back({"head", "neck.001", neck.at(0.6 * neck.whole()), true, -1, share});
+  const std::vector<int> path = ways.path(nose);
+  const Along neck = along(tree, path);
+  const double skull = way_to_skull(tree, path, neck);
+  places.push_back({"neck", "chest", neck.at(skull / 3), true, -1, share});
+  places.push_back({"neck.001", "neck", neck.at(0.62 * skull), true, -1, share});
+  places.push_back({"head", "neck.001", neck.at(skull), true, -1, share});
 }
 
 /// Where arms leave the trunk, but no nearer to the hips than .4 of the way to the nose: wings
