@@ -123,6 +123,20 @@ inline RigSubject beast(double front) {
   return subject_of("beast", figure);
 }
 
+/// Its ears leave the neck at that share of the way to the nose.
+inline RigSubject beast_with_ears(double share) {
+  Figure figure;
+  const int rump = figure.add({0, 8, -6}, 1.4);
+  const int withers = figure.add({0, 8, 5}, 1.4, rump);
+  const int poll = figure.add({0, 8 + 5 * share, 5 + 8 * share}, 0.8, withers);
+  figure.add({0, 13, 13}, 0.8, poll);
+  figure.add({0, 7, -11}, 0.5, rump);
+  figure.add_pair(rump, {{1.5, 6, -6.5}, {1.5, 3, -7.5}, {1.5, 0.5, -7}}, 0.5);
+  figure.add_pair(withers, {{1.5, 6, 5}, {1.5, 3, 5}, {1.5, 0.5, 5}}, 0.5);
+  figure.add_pair(poll, {{1.5, 11 + 5 * share, 5 + 8 * share}}, 0.3);
+  return subject_of("beast with ears", figure);
+}
+
 /// On two legs, leaning far ahead of a tail, with short arms.
 inline RigSubject t_rex() {
   Figure figure;

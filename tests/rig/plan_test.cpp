@@ -144,6 +144,29 @@ TEST(FindPlan, TailsHaveFourBonesOfOneLength) {
   }
 }
 
+// Turned, a head left its ears and jaws behind: they hung from the neck.
+TEST(PlannedJoints, EarsHangFromTheHead) {
+  for (const double share : {0.4, 0.5, 0.7}) {
+    SCOPED_TRACE(share);
+    const RigSubject subject = beast_with_ears(share);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    ASSERT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    name_roles(rig, plan, NameStyle::automatic);
+    const auto joint = [&](const std::string& name) {
+      return std::find(rig.names.begin(), rig.names.end(), name) - rig.names.begin();
+    };
+    for (const char* ear : {"ear_1.L", "ear_1.R"}) {
+      ASSERT_LT(joint(ear), rig.parents.size()) << ear;
+      int above = rig.parents[joint(ear)];
+      while (above >= static_cast<int>(plan.joints.size())) above = rig.parents[above];
+      EXPECT_EQ(rig.names[idx(above)], "head");
+    }
+    const double ahead = rig.joints(joint("ear_1.L"), 2) - rig.joints(joint("head"), 2);
+    EXPECT_LT(std::abs(ahead), 1.5) << "the head turns about where they begin";
+  }
+}
+
 TEST(FindPlan, BothSidesAreAlike) {
   for (const RigSubject& subject : {human(), beast(1)}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
