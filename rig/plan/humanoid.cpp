@@ -22,7 +22,14 @@ class Humanoid {
         arm_(limbs.pairs[idx(found.arms)]),
         leg_pair_(found.legs.front()),
         arm_pair_(found.arms) {
-    for (const int node : limbs.trunk) trunk_.push_back(tree.nodes[idx(node)]);
+    // Without what hangs from it in the mirror plane: a rucksack, a lace.
+    const auto is_lower = [&](int a, int b) {
+      return tree.nodes[idx(a)].y() < tree.nodes[idx(b)].y();
+    };
+    const int top = *std::max_element(limbs.trunk.begin(), limbs.trunk.end(), is_lower);
+    for (const int node : ways_from(tree, leg_.root).path(top)) {
+      trunk_.push_back(tree.nodes[idx(node)]);
+    }
     std::sort(trunk_.begin(), trunk_.end(),
               [](const Vector3d& a, const Vector3d& b) { return a.y() < b.y(); });
   }
@@ -151,9 +158,16 @@ class Humanoid {
     const double ground = tree_.ground;
     const double head = neck_height() + 0.004 * tree_.height;
     const double hips = ground + 0.984 * (hip_height_ - ground);
+    // A spine bends no more than from joint to joint: the mean of the curve as far as the next
+    // ones.
     const auto at = [&](double share) -> Vector3d {
-      const double y = hips + share * (head - hips);
-      return {tree_.middle, y, depth_at(y)};
+      constexpr double next = 0.2;
+      constexpr int steps = 4;
+      double depth = 0;
+      for (int k = -steps; k <= steps; ++k) {
+        depth += depth_at(hips + (share + k * next / steps) * (head - hips)) / (2 * steps + 1);
+      }
+      return {tree_.middle, hips + share * (head - hips), depth};
     };
     add("hips", "", {tree_.middle, hips, hip_.z()}, -1, "between the upper legs");
     const std::vector<std::pair<const char*, double>> spine{

@@ -144,6 +144,24 @@ TEST(FindPlan, TailsHaveFourBonesOfOneLength) {
   }
 }
 
+// The upper chest lay in the rucksack, and neck and arms hung from it.
+TEST(FindPlan, ARucksackBendsNoSpine) {
+  Figure figure;
+  const int chest = add_body_without_arms(figure);
+  figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
+  figure.add({0, 13, -3}, 0.8, chest);
+  const RigSubject subject = subject_of("human with rucksack", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  for (const PlannedJoint& joint : plan.joints) {
+    const bool is_spine = joint.role == "spine" || joint.role == "chest" ||
+                          joint.role == "upperChest" || joint.role == "neck";
+    if (is_spine) {
+      EXPECT_LT(std::abs(joint.position.z()), 0.5) << joint.role;
+    }
+  }
+}
+
 // Turned, a head left its ears and jaws behind: they hung from the neck.
 TEST(PlannedJoints, EarsHangFromTheHead) {
   for (const double share : {0.4, 0.5, 0.7}) {
