@@ -135,9 +135,11 @@ Rig joints_for(const fs::path& file, const PolygonSoup& soup, const Monitor& mon
 }
 
 /// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
-void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, Session& session) {
+void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
+                     Session& session) {
   if (plan.plan != BodyKind::humanoid) return;
-  const double ahead = soup.z_is_up ? -plan.axes(2, 1) : plan.axes(2, 2);
+  const double ahead =
+      soup.z_is_up ? -plan.axes(2, 1) : (to_y_up * plan.axes.row(2).transpose()).z();
   const auto place = [&](const char* role) -> Eigen::RowVector3d {
     const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
                                     [&](const PlannedJoint& joint) { return joint.role == role; });
@@ -275,7 +277,9 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!sources.joints) warn_of_names(plan, arguments.names, session);
   const Surface given{soup.positions, triangulate(soup)};
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
-    if (arguments.pose == RestPose::input) warn_of_posture(soup, plan, session);
+    if (arguments.pose == RestPose::input) {
+      warn_of_posture(soup, plan, found.character.rig.to_y_up, session);
+    }
   }
   const Rig written = rig_for_export(
       found.character.rig, plan, given,
@@ -362,9 +366,9 @@ Verb add_rig(CLI::App& program) {
                    "plan, roles, parts, joints and checks of the weights, as JSON")
       ->type_name("FILE.json");
   add_choice(*parser, "--plan", arguments->plan.plan, body_kinds, "how the body is built");
-  add_choice(*parser, "--up", arguments->plan.up, directions, "the body's up; auto = y");
+  add_choice(*parser, "--up", arguments->plan.up, directions, "the body's up; auto = found");
   add_choice(*parser, "--front", arguments->plan.front, directions,
-             "where the body looks; auto = of quadrupeds where their heads are, else z");
+             "where the body looks; auto = found");
   add_choice(*parser, "--names", arguments->names, name_styles, "what joints are called");
   add_choice(*parser, "--pose", arguments->pose, rest_poses,
              "in which the rig rests; vertices stay as they are")

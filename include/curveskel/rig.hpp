@@ -29,6 +29,9 @@ struct Rig {
   /// j, the names in readable words, with ".L" and ".R" for sides, where `names` are in other ones.
   /// Empty where they are not.
   std::vector<std::string> readable = {};
+  /// From the surface's coordinates to those with y up, as glTF, USD and FBX files have them: a
+  /// turn. Formats that have joints alone keep the surface's.
+  Eigen::Matrix3d to_y_up = Eigen::Matrix3d::Identity();
 };
 
 }  // namespace curveskel

@@ -2,7 +2,6 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -27,6 +26,7 @@
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_formats.hpp"
+#include "rig/joints/placed_rig.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/placed_vertices.hpp"
@@ -183,23 +183,13 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   return edited;
 }
 
-/// The rig as the scene places it.
-Rig placed(Rig rig, const Eigen::Affine3d& place) {
-  if (place.matrix() == Eigen::Matrix4d::Identity()) return rig;
-  rig.joints =
-      (rig.joints * place.linear().transpose()).rowwise() + place.translation().transpose();
-  const double scale = std::cbrt(place.linear().determinant());
-  const Eigen::Quaterniond turn(Eigen::Matrix3d(place.linear() / scale));
-  for (Eigen::Quaterniond& rests : rig.turns) rests = turn * rests * turn.conjugate();
-  return rig;
-}
-
 /// Nothing: the file has no more than a bare rig has.
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
-  const auto dressed = read_dressed_file(file, edited.notes, monitor);
+  auto dressed = read_dressed_file(file, edited.notes, monitor);
   if (!dressed) return std::nullopt;
+  dressed->mesh.to_gltf = dressed->mesh.to_gltf * Eigen::Affine3d(rig.to_y_up);
   require_rows(static_cast<Eigen::Index>(dressed->mesh.places.size() / 3), rig, file);
   DressedDocument made = dressed_document(dressed->mesh, dressed->materials, file,
                                           file.path.stem().string(), edited.notes, monitor);

@@ -4,11 +4,23 @@
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_writers.hpp"
+#include "rig/joints/placed_rig.hpp"
 
 namespace curveskel {
+namespace {
+
+/// The format says which axis is up.
+bool has_y_up(RigFormat format) { return keeps_the_file(format) || format == RigFormat::usda; }
+
+}  // namespace
 
 std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                        const std::string& name, const std::string& provenance, const VrmMeta& vrm) {
+  if (has_y_up(format) && !rig.to_y_up.isIdentity(0)) {
+    const Surface turned{surface.positions * rig.to_y_up.transpose(), surface.triangles};
+    return format_rig(turned, placed(rig, Eigen::Affine3d(rig.to_y_up)), format, name, provenance,
+                      vrm);
+  }
   switch (format) {
     case RigFormat::vrm:
       require_vrm(rig, vrm);

@@ -29,6 +29,7 @@ Rig keep_joints(const Rig& rig, const std::vector<int>& number) {
     stands_for[idx(joint)] = stays ? number[idx(joint)] : stands_for[idx(rig.parents[joint])];
   }
   Rig result;
+  result.to_y_up = rig.to_y_up;
   result.joints = rig.joints(kept, Eigen::all);
   result.parents.resize(static_cast<Eigen::Index>(kept.size()));
   for (std::size_t k = 0; k < kept.size(); ++k) {

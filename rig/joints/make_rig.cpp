@@ -101,7 +101,8 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
                                   " parents, needed one parent for each of at least one joint");
   }
   monitor.report("joints", 0);
-  Rig rig{given.joints, given.parents, given.names, {}, given.roles, {}, given.readable};
+  Rig rig{given.joints, given.parents,  given.names,  {}, given.roles,
+          {},           given.readable, given.to_y_up};
   const std::vector<Bone> bones = bones_of_given(surface, given, options.threads);
   rig.weights = skin_weights(surface, fully_mapped(surface, skeleton, options.threads, monitor),
                              joints_of_nodes(skeleton, bones), bones,

@@ -165,8 +165,8 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
       following.follow(follower, [&](int v, const WeightRow& row) { rows[idx(v)] = row; });
     }
   }
-  Rig result{rig.joints, rig.parents, rig.names,   SkinWeights(count, rig.weights.cols()),
-             rig.roles,  rig.turns,   rig.readable};
+  Rig result{rig.joints, rig.parents, rig.names,    SkinWeights(count, rig.weights.cols()),
+             rig.roles,  rig.turns,   rig.readable, rig.to_y_up};
   result.weights.reserve(Eigen::VectorXi::Constant(count, static_cast<int>(most_joints)));
   for (Eigen::Index v = 0; v < count; ++v) {
     for (const auto& [joint, share] : rows[idx(v)]) {

@@ -80,6 +80,21 @@ BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
   return kind == BodyKind::other ? options.plan : kind;
 }
 
+bool states_up(SurfaceFormat format) {
+  return format == SurfaceFormat::gltf || format == SurfaceFormat::glb ||
+         format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
+}
+
+/// Where no plan and no option tells which way is up, it stays. Of z up, as Blender and scanners
+/// have it, z ahead is -y there.
+Eigen::Matrix3d turn_to_y_up(const BodyPlan& plan, Direction asked) {
+  const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
+  const Eigen::RowVector3d up = plan.axes.row(1);
+  if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
+  if (up != Eigen::RowVector3d::UnitZ()) return plan.axes;
+  return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
+}
+
 }  // namespace
 
 RepairOptions repair_for_rigs() {
@@ -122,6 +137,9 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                             skeleton, least_life(options.extract.embed.detail));
     result.character = within_budget(std::move(level), given, wanted.joint_budget);
+  }
+  if (!states_up(soup.format)) {
+    result.character.rig.to_y_up = turn_to_y_up(result.character.plan, wanted.plan.up);
   }
   result.character.parts = std::move(parts);
   return result;

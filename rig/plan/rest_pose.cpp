@@ -84,6 +84,7 @@ void rest_in_t_pose(Rig& rig, const BodyPlan& plan) {
 
 Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVector3d& up) {
   Rig result;
+  result.to_y_up = rig.to_y_up;
   const Eigen::Index count = rig.joints.rows();
   const double ground = (surface.positions * up.transpose()).minCoeff();
   const auto roots = std::find(rig.parents.begin(), rig.parents.end(), -1);

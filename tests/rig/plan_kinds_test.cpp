@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -11,7 +12,11 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/rig_files.hpp>
+#include <curveskel/rig_polygons.hpp>
+#include "rig/joints/placed_rig.hpp"
 #include "tests/rig/plan_subjects.hpp"
+#include "tests/soups.hpp"
 
 namespace curveskel::plan_kind_laws {
 namespace {
@@ -88,6 +93,29 @@ TEST(FindPlan, UpAndFrontAreFound) {
       }
     }
   }
+}
+
+// Of a scan with z up the file lay down, as glTF has y up.
+TEST(Upright, IsTheFileOfASurfaceWithZUp) {
+  const Surface standing = human().surface;
+  Surface scan = standing;
+  scan.positions << standing.positions.col(0), -standing.positions.col(2),
+      standing.positions.col(1);
+  for (const SurfaceFormat format : {SurfaceFormat::stl, SurfaceFormat::obj, SurfaceFormat::glb}) {
+    PolygonSoup soup = soup_of(scan);
+    soup.format = format;
+    const PolygonsRig found = rig_polygons(soup);
+    ASSERT_EQ(found.character.plan.plan, BodyKind::humanoid) << found.character.plan.reason;
+    const Eigen::Matrix3d& turn = found.character.rig.to_y_up;
+    const bool states_up = format == SurfaceFormat::glb;
+    const Surface& wanted = states_up ? scan : standing;
+    EXPECT_LT((scan.positions * turn.transpose() - wanted.positions).norm(), 1e-12);
+    EXPECT_EQ(format_rig(scan, found.character.rig, RigFormat::glb, "a", "b"),
+              format_rig(wanted, placed(found.character.rig, Eigen::Affine3d(turn)), RigFormat::glb,
+                         "a", "b"));
+  }
+  PolygonSoup upright = soup_of(standing);
+  EXPECT_TRUE(rig_polygons(upright).character.rig.to_y_up.isIdentity(0));
 }
 
 TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {
