@@ -2,9 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/error.hpp>
@@ -74,7 +77,8 @@ int run(const Verb& verb, Terminal& terminal) {
 std::string options_of(const CLI::App& parser) {
   std::string names;
   for (const CLI::Option* option : parser.get_options()) {
-    if (!option->get_positional()) names += (names.empty() ? "" : ", ") + option->get_name();
+    const bool is_shown = !option->get_positional() && !option->get_group().empty();
+    if (is_shown) names += (names.empty() ? "" : ", ") + option->get_name();
   }
   return names;
 }
@@ -87,6 +91,51 @@ std::string verbs_of(const CLI::App& program) {
   return names;
 }
 
+/// The least number of letters put in, left out or changed (Levenshtein 1965).
+std::size_t letters_apart(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// The option that was meant, or nothing.
+std::string nearest_option(const CLI::App& verb, const std::string& given) {
+  constexpr std::size_t most = 2;
+  std::size_t least = most + 1;
+  std::string nearest;
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->get_positional() || option->get_group().empty()) continue;
+    const std::size_t apart = letters_apart(option->get_name(), given);
+    if (apart >= least) continue;
+    least = apart;
+    nearest = option->get_name();
+  }
+  return nearest;
+}
+
+/// Of an option that there is not, or of a second surface.
+std::string what_is_too_much(const CLI::App& verb) {
+  const std::vector<std::string> rest = verb.remaining();
+  const auto option = std::find_if(rest.begin(), rest.end(),
+                                   [](const std::string& text) { return text.starts_with("-"); });
+  if (option == rest.end()) {
+    return fmt::format("{} is one too many; one call is for one surface, ./run batch for many",
+                       rest.empty() ? "an argument" : rest.front());
+  }
+  const std::string name = option->substr(0, option->find('='));
+  const std::string nearest = nearest_option(verb, name);
+  if (!nearest.empty()) return name + " is no option; " + nearest + " is";
+  return name + " is no option; the options are: " + options_of(verb);
+}
+
 /// The fault in the arguments, and the right form.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
@@ -96,10 +145,9 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
     return found + "; the verbs are: " + verbs_of(program);
   }
   const CLI::App& verb = *chosen.front();
-  std::string message = verb.get_name() + ": " + error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    message += "; the options are: " + options_of(verb);
-  }
+  const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const std::string message =
+      verb.get_name() + ": " + (has_extras ? what_is_too_much(verb) : error.what());
   return message + "\nsee curveskel " + verb.get_name() + " --help";
 }
 

@@ -25,8 +25,9 @@ template <typename Format, std::size_t Count>
   const auto found = choice_of(table, extension.empty() ? extension : extension.substr(1));
   if (found) return *found;
   throw UsageError(name + ": " +
-                   (extension.empty() ? "no extension" : "the extension " + extension) +
-                   " is none of: " + names_in(table));
+                   (extension.empty() ? "has no extension, needed one of: "
+                                      : "the extension " + extension + " is none of: ") +
+                   names_in(table));
 }
 
 /// The format of each output; `format` is that of "-". Throws UsageError where one is missing.

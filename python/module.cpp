@@ -49,13 +49,20 @@ const char* class_of(Fault fault) {
   return "Error";
 }
 
+/// "detail is 2, ..." of "EmbedOptions::detail is 2, ...".
+std::string in_python(const std::string& message) {
+  const std::size_t colons = message.find("Options::");
+  const bool is_first = colons != std::string::npos && message.find(' ') > colons;
+  return is_first ? message.substr(colons + std::string_view("Options::").size()) : message;
+}
+
 // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11's signature
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {
     const py::object type = py::module_::import("curveskel.errors").attr(class_of(error.fault()));
-    PyErr_SetString(type.ptr(), error.what());
+    PyErr_SetString(type.ptr(), in_python(error.what()).c_str());
   }
 }
 
@@ -288,6 +295,12 @@ void bind_extraction(py::module_& module) {
       .def_property_readonly("triangles", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.surface.triangles;
                              }))
+      .def_property_readonly("given_positions", view_of([](const Owner& one) -> const auto& {
+                               return one.soup.positions;
+                             }))
+      .def_property_readonly(
+          "given_polygons",
+          [](const Owner& one) { return std::pair(one.soup.corners, one.soup.offsets); })
       .def_property_readonly("vertex_of_input", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.vertex_of_input;
                              }))
@@ -342,6 +355,17 @@ void bind_skeleton(py::module_& module) {
       .def_property_readonly("node_of_vertex", view_of([](const Owner& one) -> const auto& {
                                return one.node_of_vertex;
                              }))
+      .def(py::pickle(
+          [](const Owner& one) {
+            return py::make_tuple(one.nodes, one.edges, one.radii, one.lives, one.node_of_vertex);
+          },
+          [](const py::tuple& state) {
+            return Owner{.nodes = state[0].cast<Positions>(),
+                         .edges = state[1].cast<Edges>(),
+                         .radii = state[2].cast<Eigen::VectorXd>(),
+                         .node_of_vertex = state[4].cast<Eigen::VectorXi>(),
+                         .lives = state[3].cast<Eigen::VectorXd>()};
+          }))
       .def("branches", &nodes_of_branches)
       .def("branch_table",
            [](const Owner& one, int root) { return branch_table(one, nullptr, root); })

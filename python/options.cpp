@@ -28,7 +28,12 @@ void set_options(const py::dict& options, const OptionSetters& setters) {
 }
 
 OptionSetters repair_setters(RepairOptions& options) {
-  return {{"components", sets(options.components)},
+  const auto set_components = [&options](const py::handle& value) {
+    const bool is_word = py::isinstance<py::str>(value);
+    const auto word = is_word ? value.cast<std::string>() : std::string();
+    options.components = word == "all" ? 0 : word == "largest" ? 1 : value.cast<int>();
+  };
+  return {{"components", set_components},
           {"least_sheet", sets(options.least_sheet)},
           {"merge_overlapping", sets(options.merge_overlapping)},
           {"min_size", sets(options.least_area)},
@@ -40,6 +45,12 @@ OptionSetters extract_setters(ExtractOptions& options) {
   const auto set_resolution = [&options](const py::handle& value) {
     const bool is_full = py::isinstance<py::str>(value) && value.cast<std::string>() == "full";
     options.resolution = is_full ? 0 : value.cast<int>();
+    if (!is_full && options.resolution < options.least_resolution) {
+      throw Error(
+          Fault::usage,
+          fmt::format("resolution: needs \"full\" or a number of vertices from {} up, not {}",
+                      options.least_resolution, options.resolution));
+    }
   };
   return {{"detail", sets(options.embed.detail)},
           {"fair", sets(options.fair.iterations)},

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/make_rig.hpp>
@@ -90,10 +91,26 @@ CurveSkeleton skeleton_for(const RigArguments& arguments, const PolygonSoup& sou
                           arguments.skeleton, map, soup.positions.rows()));
 }
 
-std::ptrdiff_t count_tips(const Rig& rig) {
-  return std::count_if(rig.names.begin(), rig.names.end(), [](const std::string& name) {
-    return name.find("_end") != std::string::npos;
-  });
+/// "49 joints, 12 of them tips that move nothing".
+std::string joints_in_words(const Rig& rig) {
+  std::vector<bool> moves(rig.names.size(), false);
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (it.value() > 0) moves[static_cast<std::size_t>(it.col())] = true;
+    }
+  }
+  int tips = 0;
+  int others = 0;
+  for (std::size_t joint = 0; joint < moves.size(); ++joint) {
+    if (moves[joint]) continue;
+    const bool is_tip = std::find(rig.parents.begin(), rig.parents.end(),
+                                  static_cast<int>(joint)) == rig.parents.end();
+    ++(is_tip ? tips : others);
+  }
+  std::string text =
+      fmt::format("{} joints, {} of them tips that move nothing", moves.size(), tips);
+  if (others > 0) text += fmt::format(", and {} more joints", others);
+  return text;
 }
 
 std::string parts_in_words(const RigParts& parts) {
@@ -115,23 +132,43 @@ Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
   std::optional<Rig> rig = read_rig(mesh, monitor);
   if (rig) return std::move(*rig);
   throw Error(Fault::input, mesh.string() +
-                                ": found no rig, needed one for --keep-rig, in a glTF file; "
-                                "leave out --keep-rig to have joints made");
+                                ": found no rig, needed one for --keep-rig, in a glTF, FBX or "
+                                "COLLADA file; leave out --keep-rig to have joints made");
+}
+
+/// Of the joints, times a factor, those within the surface's box.
+Eigen::Index joints_within(const Rig& rig, const PolygonSoup& soup, double factor) {
+  const Eigen::Array3d low = soup.positions.colwise().minCoeff().transpose();
+  const Eigen::Array3d high = soup.positions.colwise().maxCoeff().transpose();
+  Eigen::Index within = 0;
+  for (const auto& joint : rig.joints.rowwise()) {
+    const Eigen::Array3d place = factor * joint.transpose();
+    within += (place >= low).all() && (place <= high).all() ? 1 : 0;
+  }
+  return within;
 }
 
 /// Of an artist's rig some joints may lie outside: a root on the ground, handles.
-Rig joints_for(const fs::path& file, const PolygonSoup& soup, const Monitor& monitor) {
-  Rig rig = read_joints(file, monitor);
-  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
-  for (const auto& joint : rig.joints.rowwise()) {
-    if ((joint.array() >= low.array()).all() && (joint.array() <= high.array()).all()) return rig;
+Rig joints_for(const fs::path& file, const PolygonSoup& soup, Session& session) {
+  Rig rig = read_joints(file, session.monitor());
+  const Eigen::Index count = rig.joints.rows();
+  const Eigen::Index within = joints_within(rig, soup, 1);
+  if (2 * within >= count) return rig;
+  std::string remedy =
+      "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
+  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(soup.positions);
+  for (const double factor : {0.01, 100.0}) {
+    constexpr double alike = 3;  // a skeleton is about as large as its body
+    const bool fits = factor * sizes < alike && factor * sizes > 1 / alike;
+    if (!fits || 2 * joints_within(rig, soup, factor) < count) continue;
+    remedy = fmt::format("times {} they would: export both in one unit", factor);
   }
-  throw Error(Fault::input,
-              fmt::format("{}: none of {} joints lies within the box of the surface; needed are "
-                          "joints in its coordinates (glTF has y up, Blender z: export both the "
-                          "same way)",
-                          file.string(), rig.joints.rows()));
+  const std::string found =
+      fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
+                  within == 0 ? "none" : std::to_string(within), count, remedy);
+  if (within == 0) throw Error(Fault::input, found);
+  session.terminal.warn(found);
+  return rig;
 }
 
 /// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
@@ -263,8 +300,13 @@ int run_rig(RigArguments arguments, Session& session) {
   const Monitor monitor = session.monitor();
   const PolygonSoup soup = read_to_rig(arguments, monitor, session);
   std::optional<Rig> old_rig;
+  if (arguments.keep_rig &&
+      (soup.format == SurfaceFormat::fbx || soup.format == SurfaceFormat::dae)) {
+    arguments.keep_rig = false;  // such a file becomes another one, with the joints that it had
+    arguments.joints = arguments.mesh.string();
+  }
   if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
-  if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, monitor);
+  if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, session);
   RigSources sources;
   if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments, soup);
   sources.joints = std::move(old_rig);
@@ -275,6 +317,10 @@ int run_rig(RigArguments arguments, Session& session) {
     if (!failed.empty()) session.terminal.warn(failed);
   }
   if (!sources.joints) warn_of_names(plan, arguments.names, session);
+  const bool is_asked_for = arguments.plan.plan != BodyKind::automatic &&
+                            arguments.plan.plan != BodyKind::other &&
+                            arguments.plan.plan != BodyKind::none;
+  if (is_asked_for && plan.plan == BodyKind::other) session.terminal.warn(plan.reason);
   const Surface given{soup.positions, triangulate(soup)};
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
     if (arguments.pose == RestPose::input) {
@@ -296,10 +342,8 @@ int run_rig(RigArguments arguments, Session& session) {
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  std::string text =
-      fmt::format("{}: {} vertices\nrig: {} joints, {} of them tips that move nothing\n",
-                  arguments.mesh.filename().string(), soup.positions.rows(), written.joints.rows(),
-                  count_tips(written));
+  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", arguments.mesh.filename().string(),
+                                 soup.positions.rows(), joints_in_words(written));
   if (found.character.joints_left_out > 0) {
     text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",
                         found.character.joints_left_out);
@@ -345,14 +389,16 @@ Verb add_rig(CLI::App& program) {
                    "instead of the file itself with the rig in it");
   CLI::Option* keep =
       parser->add_flag("--keep-rig", arguments->keep_rig,
-                       "make no joints, but weights for those that the glTF file has");
-  parser
-      ->add_option("--joints", arguments->joints,
-                   "make no joints, but weights for these: glTF with a skin, FBX, DAE, .json of "
-                   "this program, "
-                   "RigNet's .txt; in the surface's coordinates")
-      ->type_name("FILE")
-      ->excludes(keep);
+                       "make no joints, but weights for those that the glTF, FBX or DAE file has");
+  CLI::Option* given =
+      parser
+          ->add_option(
+              "--joints", arguments->joints,
+              "make no joints, but weights for these: glTF with a skin, FBX, DAE, .json of "
+              "this program, "
+              "RigNet's .txt; in the surface's coordinates")
+          ->type_name("FILE")
+          ->excludes(keep);
   parser->add_option("--vrm-name", arguments->vrm.name, "of the figure, for .vrm")
       ->type_name("TEXT");
   parser->add_option("--vrm-author", arguments->vrm.author, "of the figure, for .vrm")
@@ -365,11 +411,15 @@ Verb add_rig(CLI::App& program) {
       ->add_option("--report", arguments->report,
                    "plan, roles, parts, joints and checks of the weights, as JSON")
       ->type_name("FILE.json");
-  add_choice(*parser, "--plan", arguments->plan.plan, body_kinds, "how the body is built");
+  add_choice(*parser, "--plan", arguments->plan.plan, body_kinds, "how the body is built")
+      ->excludes(keep)
+      ->excludes(given);
   add_choice(*parser, "--up", arguments->plan.up, directions, "the body's up; auto = found");
   add_choice(*parser, "--front", arguments->plan.front, directions,
              "where the body looks; auto = found");
-  add_choice(*parser, "--names", arguments->names, name_styles, "what joints are called");
+  add_choice(*parser, "--names", arguments->names, name_styles, "what joints are called")
+      ->excludes(keep)
+      ->excludes(given);
   add_choice(*parser, "--pose", arguments->pose, rest_poses,
              "in which the rig rests; vertices stay as they are")
       ->excludes(keep);
@@ -384,16 +434,24 @@ Verb add_rig(CLI::App& program) {
   JointOptions& joints = arguments->rig.joints;
   add_number(*parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
              "node of the skeleton, counted from 0 as in its JSON file, that all hangs from, "
-             "without a plan; -1 = chosen");
+             "without a plan; -1 = chosen")
+      ->excludes(keep)
+      ->excludes(given);
   add_number(*parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
-             "of straight limbs, in their radius: smaller gives more joints");
+             "of straight limbs, in their radius: smaller gives more joints")
+      ->excludes(keep)
+      ->excludes(given);
   add_number(
       *parser, "--joint-budget", arguments->joint_budget, 0, 1000000,
-      "of a figure, at most: joints that move the least of the surface are left out; 0 = all");
+      "of a figure, at most: joints that move the least of the surface are left out; 0 = all")
+      ->excludes(keep)
+      ->excludes(given);
   add_number(
       *parser, "--follow", arguments->parts.follow, 0.0, 100.0,
       "parts that reach out of the body no farther than this, in its thickness there, follow "
-      "it without joints of their own; 0 = none");
+      "it without joints of their own; 0 = none")
+      ->excludes(keep)
+      ->excludes(given);
   add_number(*parser, "--softness", arguments->rig.skin.softness, 0.05, 20.0,
              "how gently the skin goes over from one joint to the next, in radii");
   add_number(*parser, "--detail", arguments->extract.embed.detail, 0.0, 1.0,

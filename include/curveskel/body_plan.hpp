@@ -87,12 +87,15 @@ struct BodyPlan {
   std::vector<std::string> missing;                    ///< required roles that have no joint
 };
 
+/// Throws Error(Fault::usage) where up and front are one direction.
+void require_valid(const PlanOptions& options);
+
 /// Tips that are each other's mirror images make pairs of limbs; what lies between their crossings
 /// and the tips in the mirror plane is the trunk. Pairs that reach the ground are legs. Places
 /// along limbs are shares of their height or length, means over artists' rigs, and features of the
 /// curve: where legs part, where an arm leaves the trunk, the narrowest place of a wrist and of a
 /// neck. docs/rigging.md has the rules. Precondition: node_of_vertex is the surface's. O(#V + #N
-/// times the number of tips).
+/// times the number of tips). Throws as `require_valid`.
 [[nodiscard]] BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                                  const PlanOptions& options = {});
 

@@ -57,7 +57,7 @@ def match(a, b, *, by_shape=False, threads=0, progress=None, **options):
     for side in (a, b):
         if not isinstance(side, Skeleton):
             side = extract(side, threads=threads, progress=progress, **options)
-        if side._extraction is None:
+        if not hasattr(side._extraction, "picture"):  # of a file, or pickled
             raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
         sides.append(side)
     with shown(progress) as callback:

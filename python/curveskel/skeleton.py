@@ -11,6 +11,33 @@ from .errors import CertificateWarning, Error, SolverError, UsageError
 from .inputs import shown, soup_of
 
 
+class _Kept:
+    """What goes through pickle of an extraction: arrays, numbers and tables."""
+
+    def __init__(self, extraction):
+        for name in ("positions", "triangles", "given_positions", "given_polygons",
+                     "vertex_of_input", "certificate", "holds", "shortcomings", "changes"):
+            value = getattr(extraction, name)
+            setattr(self, name, numpy.array(value) if isinstance(value, numpy.ndarray) else value)
+        self._table = extraction.branch_table(-1)
+        self._labels = extraction.labels()
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+        for value in state.values():
+            if isinstance(value, numpy.ndarray):
+                value.flags.writeable = False
+
+    def branch_table(self, root):
+        if root != -1:
+            raise UsageError("orders from another root are of the surface, which a skeleton that was "
+                             "pickled has not; make the table before, or extract it again")
+        return self._table
+
+    def labels(self):
+        return self._labels
+
+
 class Skeleton:
     """A curve skeleton: a graph of nodes with radii. Its arrays are views, and read-only.
 
@@ -60,6 +87,26 @@ class Skeleton:
         if self._extraction is None:
             return None
         return self._extraction.positions, self._extraction.triangles
+
+    @property
+    def given(self):
+        """Vertices (v, 3) and faces of the surface as it was given; None of a file.
+
+        `mesh_map`, `vertex_labels` and `face_labels` are of these. Faces are an array (f, k), or a
+        list of arrays where their numbers of corners differ.
+        """
+        if self._extraction is None:
+            return None
+        corners, offsets = (numpy.array(part) for part in self._extraction.given_polygons)
+        sizes = numpy.diff(offsets)
+        if len(sizes) and (sizes == sizes[0]).all():
+            return self._extraction.given_positions, corners.reshape(-1, sizes[0])
+        return self._extraction.given_positions, numpy.split(corners, offsets[1:-1])
+
+    @property
+    def vertex_map(self):
+        """(v,) int32: the vertex of `mesh` that each vertex given is, or was merged with; -1 = none."""
+        return None if self._extraction is None else self._extraction.vertex_of_input
 
     @property
     def certificate(self):
@@ -144,7 +191,7 @@ class Skeleton:
 
     def save_labelled(self, path):
         """Writes the surface given with its branches as labels and colours: PLY, VTP or GLB."""
-        self._need_surface("labels")
+        self._need_surface("labelled surfaces")
         self._extraction.save_labelled(pathlib.Path(path),
                                        pathlib.Path(path).suffix.lower().lstrip("."))
 
@@ -153,13 +200,31 @@ class Skeleton:
         self._need_surface("pages")
         self._extraction.save_page(pathlib.Path(path))
 
+    def __copy__(self):
+        return self  # as nothing of it changes
+
+    def __deepcopy__(self, memo):
+        return self
+
+    def __reduce__(self):
+        kept = self._extraction
+        if kept is not None and not isinstance(kept, _Kept):
+            kept = _Kept(kept)
+        return Skeleton, (self._graph, kept)
+
     def _need_surface(self, things):
+        if isinstance(self._extraction, _Kept) and things != "labels":
+            raise UsageError(f"{things} are of the surface, which a skeleton that was pickled has "
+                             "not; make them before, or extract it again")
         if self._extraction is None:
             raise UsageError(f"{things} are of the surface, which a skeleton from a file has not; "
                              "extract it, or use evaluate")
 
     def to_networkx(self):
-        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` and `branch` of edges."""
+        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` and `branch` of edges.
+
+        networkx writes no tuples as GraphML; `save("x.graphml")` does it.
+        """
         import networkx
 
         graph = networkx.Graph()
@@ -212,7 +277,7 @@ class Skeleton:
         self._save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."))
 
     def _save(self, path, format):
-        if self._extraction is not None:
+        if hasattr(self._extraction, "save"):
             self._extraction.save(path, format)
         else:
             _core.save_skeleton(self._graph, path, format)
@@ -229,7 +294,7 @@ class Skeleton:
         import html
 
         words = f"<p>{html.escape(repr(self)[1:-1])}</p>"
-        if self._extraction is None:
+        if not hasattr(self._extraction, "picture"):
             return words
         picture = self._extraction.picture()
         return f"<div style='max-width:480px'>{picture[picture.index('<svg'):]}{words}</div>"
@@ -280,8 +345,13 @@ def evaluate(mesh, skeleton, *, threads=0, progress=None, **options):
             skeleton = (skeleton.vertices, skeleton.edges)
         try:
             nodes, edges = skeleton
-            graph = _core.skeleton_of_arrays(numpy.asarray(nodes, dtype=numpy.float64),
-                                             numpy.asarray(edges, dtype=numpy.int64))
+            nodes = numpy.asarray(nodes, dtype=numpy.float64)
+            edges = numpy.asarray(edges)
+            if nodes.ndim != 2 or nodes.shape[1] != 3:
+                raise UsageError(f"nodes: needs shape (n, 3), not {nodes.shape}")
+            if edges.size and not numpy.issubdtype(edges.dtype, numpy.integer):
+                raise UsageError(f"edges: needs integers, not {edges.dtype}")
+            graph = _core.skeleton_of_arrays(nodes, edges.astype(numpy.int64))
         except (TypeError, ValueError) as error:
             if isinstance(error, Error):
                 raise

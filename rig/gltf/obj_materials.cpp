@@ -83,7 +83,9 @@ void read_line(const std::string& key, const std::string& rest, const fs::path& 
   if (key == "pr" && is_number) material.roughness = three[0];
   if (key == "pm" && is_number) material.metalness = three[0];
   if (key.starts_with("map_") || key == "norm") {
-    material.pictures[key] = {library, picture_name(rest)};
+    const std::string name = picture_name(rest);
+    const bool is_none = name.empty() || name == ".";  // as Blender writes
+    if (!is_none) material.pictures[key] = {library, name};
   }
 }
 

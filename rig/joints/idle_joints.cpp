@@ -14,19 +14,48 @@
 namespace curveskel {
 namespace {
 
+/// By joint: it moves some of the vertices.
+std::vector<char> moving_joints(const Rig& rig, const Eigen::VectorXi& vertices) {
+  std::vector<char> moves(rig.names.size(), 0);
+  for (const int vertex : vertices) {
+    if (vertex < 0) continue;
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      if (it.value() > 0) moves[idx(it.col())] = 1;
+    }
+  }
+  return moves;
+}
+
 /// By joint: it moves some of the vertices, is a tip, or a root.
 std::vector<char> needed_joints(const Rig& rig, const Eigen::VectorXi& vertices) {
   std::vector<char> needed(rig.names.size(), 1);
   for (const int parent : rig.parents) {
     if (parent >= 0) needed[idx(parent)] = rig.parents[parent] < 0 ? 1 : 0;
   }
-  for (const int vertex : vertices) {
-    if (vertex < 0) continue;
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (it.value() > 0) needed[idx(it.col())] = 1;
-    }
-  }
+  const std::vector<char> moves = moving_joints(rig, vertices);
+  for (std::size_t joint = 0; joint < needed.size(); ++joint) needed[joint] |= moves[joint];
   return needed;
+}
+
+/// A tip that moves nothing shows how long the bone above it is, and where it leads; a planned
+/// joint from which another one goes on shows that without.
+void drop_ends_beside_planned(const Rig& rig, std::size_t planned, const Eigen::VectorXi& vertices,
+                              std::vector<char>& stays) {
+  std::vector<char> goes_on(planned, 0);
+  for (std::size_t joint = 0; joint < planned; ++joint) {
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    if (parent >= 0) goes_on[idx(parent)] = 1;
+  }
+  const std::vector<char> moves = moving_joints(rig, vertices);
+  std::vector<char> is_above(stays.size(), 0);
+  for (const int parent : rig.parents) {
+    if (parent >= 0) is_above[idx(parent)] = 1;
+  }
+  for (std::size_t joint = planned; joint < stays.size(); ++joint) {
+    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
+    const bool is_beside = parent >= 0 && idx(parent) < planned && goes_on[idx(parent)] != 0;
+    if (is_beside && moves[joint] == 0 && is_above[joint] == 0) stays[joint] = 0;
+  }
 }
 
 /// "limb2_4.L" becomes "limb2_3.L", if it is the third that is left.
@@ -45,6 +74,7 @@ void count_anew(std::vector<std::string>& names) {
 
 Rig without_idle_joints(const Rig& rig, std::size_t planned, const Eigen::VectorXi& vertices) {
   std::vector<char> stays = needed_joints(rig, vertices);
+  drop_ends_beside_planned(rig, planned, vertices, stays);
   std::fill_n(stays.begin(), std::min(planned, stays.size()), 1);
   const std::vector<int> twins = twins_of(rig);
   for (std::size_t joint = 0; joint < stays.size(); ++joint) {

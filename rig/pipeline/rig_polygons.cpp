@@ -116,6 +116,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   wanted.plan.z_is_up = soup.z_is_up;
   if (sources.joints || sources.skeleton) wanted.parts.follow = 0;
 
+  require_valid(wanted.plan);
   const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
   RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
   RepairedSurface body = body_of(repaired, parts);

@@ -127,7 +127,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
     return found;
   }
   if (legs == 0) {
-    found.reason = "no pair of limbs reaches the ground";
+    found.reason = "no pair of limbs that mirror each other reaches the ground";
     return found;
   }
   if (legs >= 3) {
@@ -146,7 +146,6 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
                     (legs == 1 && wanted != BodyKind::quadruped && wanted != BodyKind::other &&
                      (wanted != BodyKind::humanoid || found.arms >= 0));
   if (!fits) {
-    found.reason = "asked for another plan, for which the curve has not the limbs; " + found.reason;
     found.plan = BodyKind::other;
   } else if (wanted != BodyKind::automatic && wanted != found.plan) {
     found.reason = "as asked; " + found.reason;

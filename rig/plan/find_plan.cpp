@@ -376,6 +376,8 @@ bool is_put_together(const Surface& surface, BodyKind plan, const PlanOptions& o
 
 }  // namespace
 
+void require_valid(const PlanOptions& options) { (void)frames_of(options); }
+
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
   BodyPlan result;
@@ -404,6 +406,11 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   result.axes = outlook.axes.array() + 0.0;  // no -0
   result.plan = outlook.found.plan;
   result.reason = outlook.found.reason;
+  if (result.plan == BodyKind::other && options.plan != BodyKind::automatic &&
+      options.plan != BodyKind::other) {
+    result.reason.insert(
+        0, "no " + std::string(name_of(body_kinds, options.plan)) + ", which was asked for: ");
+  }
   result.joints = Planner(outlook.tree, outlook.limbs, outlook.sides).joints(places, result.axes);
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {

@@ -66,6 +66,7 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(len(last), 1, result.err)
         self.assertEqual(result.out, b"")
         self.assertEqual(self.files(), before)
+        return result
 
 
 def write_torus(path, around, across):

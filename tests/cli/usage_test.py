@@ -44,7 +44,14 @@ class WrongArguments(CommandLineTest):
 
     def test_list_the_right_options(self):
         self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "--flwo", "medial",
-                     says=["--flwo", "--flow", "--resolution"], cwd=self.folder)
+                     says=["--flwo", "--flow is"], cwd=self.folder)
+        result = self.refused(USAGE, "extract", TORUS, "-o", "x.obj", "--unheard-of", "medial",
+                              says=["--unheard-of", "--flow", "--resolution"], cwd=self.folder)
+        self.assertNotIn(", ,", result.err)
+
+    def test_take_one_surface(self):
+        self.refused(USAGE, "extract", TORUS, TORUS, "-o", "x.obj", says=["one surface", "batch"],
+                     cwd=self.folder)
 
     def test_list_the_right_flows(self):
         for verb, output in (("extract", "x.obj"), ("contract", "x.ply")):

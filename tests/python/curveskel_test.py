@@ -1,11 +1,13 @@
 """`import curveskel`: the same results as the program's, as arrays, tables and exceptions."""
 
+import copy
 import csv
 import ctypes
 import json
 import math
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -98,6 +100,32 @@ class Arrays(Folder):
         for node, vertices in enumerate(skeleton.skel_map):
             self.assertTrue((skeleton.mesh_map[vertices] == node).all())
         self.assertEqual(sum(map(len, skeleton.skel_map)), (skeleton.mesh_map >= 0).sum())
+
+    def test_maps_and_labels_are_of_the_surface_given(self):
+        places, faces = numpy.array(curveskel.extract(TORUS).mesh[0]), curveskel.extract(TORUS).mesh[1]
+        apart = places[faces].reshape(-1, 3), numpy.arange(3 * len(faces)).reshape(-1, 3)
+        skeleton = curveskel.extract(apart)
+        vertices, given = skeleton.given
+        self.assertTrue((vertices == apart[0]).all() and (given == apart[1]).all())
+        self.assertEqual(len(skeleton.mesh_map), len(vertices))
+        self.assertEqual(len(skeleton.face_labels()), len(given))
+        self.assertTrue((skeleton.mesh[0][skeleton.vertex_map] == vertices).all())
+
+    def test_a_skeleton_goes_through_pickle_and_copies(self):
+        skeleton = curveskel.extract(Y)
+        for again in (pickle.loads(pickle.dumps(skeleton)), copy.deepcopy(skeleton)):
+            for name in ("vertices", "edges", "radii", "lives", "mesh_map", "vertex_map"):
+                self.assertTrue((getattr(again, name) == getattr(skeleton, name)).all(), name)
+            self.assertEqual(again.certificate, skeleton.certificate)
+            self.assertEqual(repr(again), repr(skeleton))
+            self.assertTrue((again.vertex_labels() == skeleton.vertex_labels()).all())
+        again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(skeleton))))
+        self.assertFalse(again.mesh[0].flags.writeable)
+        for of_the_surface in (again.profiles, lambda: again.save_labelled("no.ply"),
+                               lambda: again.save_html("no.html"),
+                               lambda: curveskel.match(again, Y)):
+            with self.assertRaisesRegex(curveskel.UsageError, "extract"):
+                of_the_surface()
 
     def test_views_outlive_the_skeleton_and_are_read_only(self):
         places = curveskel.extract(Y).vertices
