@@ -213,6 +213,7 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
   Json parameters = {{"preset", name_of(presets, record.preset)},
                      {"repair", to_json(record.repair_options)}};
   parameters.update(to_json(record.options));
+  const SkeletonLevel& level = record.level;
   return {{"program", program_and_version()},
           {"input",
            {{"file", record.soup.file.filename().string()},
@@ -233,6 +234,7 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"skeleton",
            {{"nodes", record.extraction.skeleton.nodes.rows()},
             {"edges", record.extraction.skeleton.edges.rows()}}},
+          {"level", {{"number", level.number}, {"of", level.of}, {"least_life", level.least_life}}},
           {"certificate", to_json(record.extraction.certificate)}};
 }
 

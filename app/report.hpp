@@ -15,6 +15,13 @@ namespace curveskel {
 /// "curveskel 0.1.0".
 [[nodiscard]] std::string program_and_version();
 
+/// One level of a skeleton of which several are written.
+struct SkeletonLevel {
+  int number = 1;  ///< 1 = the finest
+  int of = 1;
+  double least_life = 0;  ///< of its branches
+};
+
 /// The values of one extraction that its reports show.
 struct ExtractionRecord {
   const PolygonSoup& soup;
@@ -24,6 +31,7 @@ struct ExtractionRecord {
   const Extraction& extraction;
   const std::vector<std::string>& notes;  ///< notes of the stages on the way
   Preset preset = Preset::standard;       ///< that the options started from
+  SkeletonLevel level = {};               ///< that the extraction's skeleton is
 };
 
 /// Values that depend on the run and not on input and options.

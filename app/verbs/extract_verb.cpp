@@ -168,41 +168,71 @@ std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& r
       arguments.options.threads);
 }
 
-std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
-                                       const std::vector<SkeletonFormat>& formats,
-                                       const ExtractionRecord& record,
-                                       const CurveSkeleton& skeleton, Session& session) {
+/// The extraction as it is at a level, with the level's own certificate.
+Extraction at_level(const ExtractionRecord& record, double least_life, const Monitor& monitor) {
+  Extraction level = record.extraction;
+  level.skeleton = level_of(record.extraction.skeleton, least_life);
+  if (level.skeleton.edges.rows() == record.extraction.skeleton.edges.rows()) return level;
+  level.certificate =
+      evaluate(record.repaired.surface, level.skeleton, record.options.certificate, monitor);
+  level.certificate.wrap_followed = record.extraction.certificate.wrap_followed;
+  return level;
+}
+
+/// One file in each of the formats.
+void format_one(const ExtractionRecord& record, const std::vector<SkeletonFormat>& formats,
+                const std::vector<std::string>& names, const ExtractArguments& arguments,
+                std::vector<OutputFile>& files) {
+  const Surface& surface = record.repaired.surface;
+  const CurveSkeleton& skeleton = record.extraction.skeleton;
   SkeletonContext context;
-  context.surface = &record.repaired.surface;
+  context.surface = &surface;
   context.provenance = provenance_of(arguments);
   context.report_json = result_json(record);
-  const auto format_level = [&](double limit, SkeletonFormat format) {
-    if (format != SkeletonFormat::csv) {
-      return format_skeleton(level_of(skeleton, limit), format, context);
-    }
-    const BranchTerritories territories =
-        branch_territories(record.repaired.surface, level_of(record.extraction.skeleton, limit));
-    context.territories = &territories;
-    return format_skeleton(level_of(skeleton, limit), format, context);
-  };
-  std::vector<OutputFile> files;
-  std::vector<double> limits{0};
-  if (arguments.levels > 1) limits = level_limits(skeleton, arguments.levels);
-  for (std::size_t i = 0; i < formats.size(); ++i) {
-    session.monitor().report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
-    const std::string& output = arguments.outputs[i];
-    if (arguments.levels == 1) {
-      files.push_back({output, format_level(0, formats[i])});
-      continue;
-    }
-    for (std::size_t k = 0; k < limits.size(); ++k) {
-      files.push_back(
-          {name_of_level(output, static_cast<int>(k) + 1), format_level(limits[k], formats[i])});
-    }
+  const CurveSkeleton of_input = on_input_vertices(record.repaired, skeleton);
+  std::optional<BranchTerritories> territories;
+  if (std::count(formats.begin(), formats.end(), SkeletonFormat::csv) > 0) {
+    territories = branch_territories(surface, skeleton);
+    context.territories = &*territories;
   }
-  if (static_cast<int>(limits.size()) < arguments.levels) {
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    files.push_back({names[i], format_skeleton(of_input, formats[i], context)});
+  }
+}
+
+std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
+                                       const std::vector<SkeletonFormat>& formats,
+                                       const ExtractionRecord& record, Session& session) {
+  std::vector<OutputFile> files;
+  const Monitor monitor = session.monitor();
+  monitor.report("write", 0);
+  if (arguments.levels == 1) {
+    format_one(record, formats, arguments.outputs, arguments, files);
+    return files;
+  }
+  const std::vector<double> limits = level_limits(record.extraction.skeleton, arguments.levels);
+  const auto count = static_cast<int>(limits.size());
+  for (int number = 1; number <= count; ++number) {
+    monitor.report("write", double(number - 1) / double(count));
+    const double limit = limits[static_cast<std::size_t>(number) - 1];
+    const Extraction level = at_level(record, limit, monitor);
+    std::vector<std::string> names;
+    for (const std::string& output : arguments.outputs) {
+      names.push_back(name_of_level(output, number));
+    }
+    format_one({record.soup,
+                record.repaired,
+                record.repair_options,
+                record.options,
+                level,
+                record.notes,
+                record.preset,
+                {number, count, limit}},
+               formats, names, arguments, files);
+  }
+  if (count < arguments.levels) {
     session.terminal.warn(fmt::format("the skeleton has {} levels, fewer than the {} of --levels",
-                                      limits.size(), arguments.levels));
+                                      count, arguments.levels));
   }
   return files;
 }
@@ -254,6 +284,10 @@ int run_extract(ExtractArguments arguments, Session& session) {
   take_labelled(arguments);
   const auto formats = formats_of(arguments.outputs, arguments.format);
   check_names(arguments, session);
+  const EmbedOptions& embed = arguments.options.embed;
+  if (embed.method == EmbedMethod::none && embed.detail != EmbedOptions().detail) {
+    session.terminal.warn("--detail has no effect without embedding, as branches have no lives");
+  }
   arguments.options.fairing = arguments.options.fair.iterations > 0;
   session.interruption.limit(arguments.time_limit_seconds);
 
@@ -273,11 +307,12 @@ int run_extract(ExtractArguments arguments, Session& session) {
   const Extraction& extraction = found.extraction;
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());
 
-  const CurveSkeleton skeleton = on_input_vertices(repaired, extraction.skeleton);
   const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
-                                extraction, notes,    arguments.preset};
+                                extraction, notes,    arguments.preset, {}};
+  std::vector<std::string> skeleton_files;
   auto files = timed(times, "write", [&] {
-    auto formatted = format_outputs(arguments, formats, record, skeleton, session);
+    auto formatted = format_outputs(arguments, formats, record, session);
+    for (const OutputFile& file : formatted) skeleton_files.push_back(file.name);
     format_tables(arguments, record, session, formatted);
     if (!arguments.html.empty()) {
       formatted.push_back({arguments.html, page_of(arguments, record)});
@@ -286,7 +321,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   });
   if (!arguments.report.empty()) {
     files.push_back(
-        {arguments.report, report_json(record, {times, seconds_since(begin), arguments.outputs})});
+        {arguments.report, report_json(record, {times, seconds_since(begin), skeleton_files})});
   }
   write_outputs(files, session);
 
@@ -336,7 +371,8 @@ void add_files(CLI::App& parser, ExtractArguments& arguments) {
                       "sections of the surface across the branches, at each node, as CSV")
           ->type_name("FILE.csv");
   add_number(parser, "--spacing", arguments.spacing, 0.0, std::numeric_limits<double>::max(),
-             "of the sections along a branch, in units of the model; 0 = at each node")
+             "of the sections along a branch, or the next smaller that divides it, in units of the "
+             "model; 0 = at each node")
       ->needs(profiles);
   parser
       .add_option("--junctions", arguments.junctions,
@@ -397,7 +433,7 @@ Verb add_extract(CLI::App& program) {
       "beside them; nothing moves");
   add_number(*parser, "--levels", arguments->levels, 1, 100,
              "write so many levels, OUT.1.EXT the finest, as the widest gaps between the lives of "
-             "the branches have them");
+             "the branches have them; tables and report are of the finest");
   add_number(
       *parser, "--fair", options.fair.iterations, 0, 1000000,
       "iterations of fairing before the contraction, for noisy surfaces: about ten times the "

@@ -64,6 +64,27 @@ class Levels(CommandLineTest):
             self.assertLess(coarser, finer)
             finer = coarser
 
+    # Each had the certificate and the counts of the finest, and the report names of no file.
+    def test_have_their_own_certificates(self):
+        self.run_ok("extract", self.SPOT, "-o", "cow.json", "--levels", "3", "--report", "report",
+                    cwd=self.folder)
+        written = json.loads((self.folder / "report").read_text())["outputs"]
+        self.assertEqual(written, ["cow.1.json", "cow.2.json", "cow.3.json"])
+        for number, name in enumerate(written, 1):
+            level = json.loads((self.folder / name).read_text())
+            self.assertEqual(level["level"]["number"], number)
+            self.assertEqual(level["skeleton"], {"nodes": len(level["nodes"]),
+                                                 "edges": len(level["edges"])})
+            self.run_ok("evaluate", self.SPOT, name, "--json", "own.json", cwd=self.folder)
+            own = json.loads((self.folder / "own.json").read_text())["certificate"]
+            for key in ("tips", "junctions", "length", "coverage", "inside_fraction"):
+                self.assertAlmostEqual(level["certificate"][key], own[key], 9, name + " " + key)
+
+    def test_detail_without_embedding_is_said_to_have_no_effect(self):
+        done = self.run_ok("extract", Y, "-o", "y.obj", "--embed", "none", "--detail", "0",
+                           cwd=self.folder)
+        self.assertIn("--detail has no effect", done.err)
+
     def test_less_detail_is_a_part_of_more(self):
         finer = None
         for detail in ("0.5", "0.3", "0.1", "0"):

@@ -37,8 +37,9 @@ def row_of(surface, work):
     row["vertices"] = report["input"]["vertices"]
     row["faces"] = report["input"]["polygons"]
     row["repairs"] = sum(value for value in report["repairs"].values() if type(value) is int)
-    with open(work / f"{name}.csv", newline="") as file:
-        branches = list(csv.DictReader(file))
+    tables = (work / f"{name}.csv", work / f"{name}.1.csv")  # the finest of several --levels
+    table = next((table for table in tables if table.exists()), None)
+    branches = list(csv.DictReader(table.read_text().splitlines())) if table else []
     row["branches"] = len(branches)
     return row, branches, report.get("seconds", "")
 
