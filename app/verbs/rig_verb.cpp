@@ -107,10 +107,10 @@ std::string joints_in_words(const Rig& rig) {
                                   static_cast<int>(joint)) == rig.parents.end();
     ++(is_tip ? tips : others);
   }
-  std::string text =
-      fmt::format("{} joints, {} of them tips that move nothing", moves.size(), tips);
-  if (others > 0) text += fmt::format(", and {} more joints", others);
-  return text;
+  if (others == 0) {
+    return fmt::format("{} joints, {} of them tips that move nothing", moves.size(), tips);
+  }
+  return fmt::format("{} joints; {} tips and {} others move nothing", moves.size(), tips, others);
 }
 
 std::string parts_in_words(const RigParts& parts) {

@@ -47,6 +47,8 @@ class DaeLookReader {
     const PolygonSoup& polygons = shown.mesh.polygons;
     const std::vector<Eigen::Matrix3d> moving =
         vertex_maps(shown.skin, shown.frame, static_cast<std::size_t>(polygons.positions.rows()));
+    made_.mesh.parts.push_back({std::string(shown.name), static_cast<std::size_t>(first_vertex_),
+                                made_.mesh.material_of_face.size()});
     if (shown.morph != nullptr) add_shapes(*shown.morph, polygons.positions, moving);
     first_vertex_ += polygons.positions.rows();
     meshes_.add(polygons, shown.frame, shown.skin);

@@ -36,6 +36,8 @@ class FbxLookReader {
   void add(const FbxMesh& mesh) {
     const std::vector<Eigen::Matrix3d> moving = vertex_maps(
         mesh.skin, mesh.frame, static_cast<std::size_t>(mesh.polygons.positions.rows()));
+    made_.mesh.parts.push_back({fbx_name(mesh.model), static_cast<std::size_t>(first_vertex_),
+                                made_.mesh.material_of_face.size()});
     add_shapes(mesh, moving);
     first_vertex_ += mesh.polygons.positions.rows();
     meshes_.add(mesh.polygons, mesh.frame, mesh.skin);

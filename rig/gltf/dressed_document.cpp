@@ -29,10 +29,11 @@ struct SplitMesh {
 /// Of each corner the vertex: the file's own for the first corner there and those like it.
 class Splitting {
  public:
-  explicit Splitting(std::size_t vertices) : split_(vertices), named_(vertices, false) {}
+  Splitting(std::size_t first_place, std::size_t places)
+      : first_(static_cast<std::int32_t>(first_place)), split_(places), named_(places, false) {}
 
   std::int32_t vertex_of(const DressedCorner& corner) {
-    const auto own = idx(corner.place);
+    const auto own = idx(corner.place - first_);
     if (!named_[own]) {
       named_[own] = true;
       split_[own] = corner;
@@ -41,7 +42,7 @@ class Splitting {
       return other.texture == corner.texture && other.normal == corner.normal &&
              other.colour == corner.colour;
     };
-    if (is_same(split_[own])) return corner.place;
+    if (is_same(split_[own])) return corner.place - first_;
     const std::array<std::int32_t, 4> key{corner.place, corner.texture, corner.normal,
                                           corner.colour};
     const auto [copy, is_new] = copies_.try_emplace(key, static_cast<std::int32_t>(split_.size()));
@@ -50,27 +51,53 @@ class Splitting {
   }
 
   std::vector<DressedCorner> take() {
-    for (std::size_t v = 0; v < named_.size(); ++v) split_[v].place = static_cast<std::int32_t>(v);
+    for (std::size_t v = 0; v < named_.size(); ++v) {
+      split_[v].place = first_ + static_cast<std::int32_t>(v);
+    }
     return std::move(split_);
   }
 
  private:
+  std::int32_t first_;
   std::vector<DressedCorner> split_;
   std::vector<bool> named_;
   std::map<std::array<std::int32_t, 4>, std::int32_t> copies_;
 };
 
-SplitMesh split(const DressedMesh& mesh, const FileBytes& file) {
+/// Places and faces of one part of a mesh.
+struct PartRange {
+  std::string name;
+  std::size_t first_place;
+  std::size_t end_place;
+  std::size_t first_face;
+  std::size_t end_face;
+};
+
+std::vector<PartRange> ranges_of(const DressedMesh& mesh, const std::string& name) {
+  std::vector<DressedPart> parts = mesh.parts;
+  if (parts.empty()) parts.push_back({name, 0, 0});
+  std::vector<PartRange> ranges;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const bool is_last = k + 1 == parts.size();
+    ranges.push_back({parts[k].name.empty() ? name : parts[k].name, parts[k].first_place,
+                      is_last ? mesh.places.size() / 3 : parts[k + 1].first_place,
+                      parts[k].first_face,
+                      is_last ? mesh.material_of_face.size() : parts[k + 1].first_face});
+  }
+  return ranges;
+}
+
+SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes& file) {
   SplitMesh result;
   const std::size_t materials = mesh.materials.size();
   result.corners.resize(materials + 1);
   result.offsets.resize(materials + 1, {0});
-  Splitting splitting(mesh.places.size() / 3);
+  Splitting splitting(part.first_place, part.end_place - part.first_place);
   const auto is_placed = [&](const DressedCorner& corner) {
     const double* place = mesh.places.data() + 3 * idx(corner.place);
     return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
   };
-  for (std::size_t face = 0; face < mesh.material_of_face.size(); ++face) {
+  for (std::size_t face = part.first_face; face < part.end_face; ++face) {
     const auto begin = mesh.corners.begin() + mesh.offsets[face];
     const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
     if (!std::all_of(begin, end, is_placed)) continue;
@@ -222,29 +249,9 @@ Positions normals_of(const SplitMesh& split, const std::vector<Triangles>& group
   return normals_across_seams(whole);
 }
 
-}  // namespace
-
-DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMaterial>& materials,
-                                 const FileBytes& file, const std::string& name,
-                                 std::vector<std::string>& notes, const Monitor& monitor) {
-  DressedDocument made;
-  GltfDocument& document = made.document;
-  const std::string title = as_utf8(name);
-  document.json = {{"asset", {{"version", "2.0"}}},
-                   {"scene", 0},
-                   {"scenes", OrderedJson::array({{{"nodes", {0}}}})},
-                   {"nodes", OrderedJson::array({{{"name", title}, {"mesh", 0}}})},
-                   {"meshes", OrderedJson::array({{{"name", title}}})},
-                   {"buffers", OrderedJson::array({OrderedJson::object()})}};
-  add_materials(document, materials, notes, monitor);
-  const bool has_shown_colours = show_colours(mesh, with_pictures(document, materials.size()));
-  const SplitMesh split = curveskel::split(mesh, file);
-  require_single_precision(split.soup.positions, "glTF");
-  for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
-  std::vector<Triangles> groups;
-  for (std::size_t group = 0; group < split.corners.size(); ++group) {
-    groups.push_back(triangles_of(split, group));
-  }
+/// All accessors that the primitives of a part share.
+OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
+                          const std::vector<Triangles>& groups, bool has_shown_colours) {
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
   for (std::size_t set = 0; !mesh.textures.empty() && set < mesh.texture_sets; ++set) {
@@ -255,23 +262,77 @@ DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMate
     attributes["COLOR_" + std::to_string(set)] = colours;
     if (has_shown_colours && set == 0) document.json["accessors"][colours]["name"] = shown_colours;
   }
+  return attributes;
+}
+
+/// The targets of the shapes that move a place of the part, which get names and sliders in it.
+OrderedJson targets_of(GltfDocument& document, const DressedMesh& mesh, const PartRange& part,
+                       const SplitMesh& split, OrderedJson& written) {
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {
+    const auto first = shape.moves.lower_bound(static_cast<std::int32_t>(part.first_place));
+    const bool is_elsewhere = first == shape.moves.end() || idx(first->first) >= part.end_place;
+    if (is_elsewhere && mesh.parts.size() > 1) continue;
     targets.push_back({{"POSITION", add_shape(document, shape, split)}});
-    OrderedJson& written = document.json["meshes"][0];
     array_in(written, "weights").push_back(0);
     written["extras"]["targetNames"].push_back(as_utf8(shape.name));
   }
+  return targets;
+}
+
+/// A node with a mesh, a primitive for each material; nothing of a part without faces.
+void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& part,
+              const FileBytes& file, bool has_shown_colours) {
+  GltfDocument& document = made.document;
+  const SplitMesh split = curveskel::split(mesh, part, file);
+  require_single_precision(split.soup.positions, "glTF");
+  std::vector<Triangles> groups;
+  Eigen::Index triangles = 0;
+  for (std::size_t group = 0; group < split.corners.size(); ++group) {
+    groups.push_back(triangles_of(split, group));
+    triangles += groups.back().rows();
+  }
+  if (triangles == 0 && mesh.parts.size() > 1) return;
+  const auto first_vertex = static_cast<std::int64_t>(made.row_of_vertex.size());
+  for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
+  OrderedJson written{{"name", as_utf8(part.name)}};
+  const OrderedJson attributes = attributes_of(document, mesh, split, groups, has_shown_colours);
+  const OrderedJson targets = targets_of(document, mesh, part, split, written);
+  const auto number = static_cast<int>(array_in(document.json, "meshes").size());
+  OrderedJson primitives = OrderedJson::array();
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (groups[group].rows() == 0) continue;
     OrderedJson primitive{{"attributes", attributes},
                           {"indices", add_triangles(document, groups[group])}};
     if (group < mesh.materials.size()) primitive["material"] = group;
     if (!targets.empty()) primitive["targets"] = targets;
-    OrderedJson& primitives = array_in(document.json["meshes"][0], "primitives");
-    made.parts.push_back({0, 0, static_cast<int>(primitives.size()), true, 0,
+    made.parts.push_back({number, number, static_cast<int>(primitives.size()), true, first_vertex,
                           split.soup.positions.rows(), mesh.to_gltf});
     primitives.push_back(std::move(primitive));
+  }
+  written["primitives"] = std::move(primitives);
+  array_in(document.json, "meshes").push_back(std::move(written));
+  array_in(document.json, "nodes").push_back({{"name", as_utf8(part.name)}, {"mesh", number}});
+  array_in(document.json["scenes"][0], "nodes").push_back(number);
+}
+
+}  // namespace
+
+DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMaterial>& materials,
+                                 const FileBytes& file, const std::string& name,
+                                 std::vector<std::string>& notes, const Monitor& monitor) {
+  DressedDocument made;
+  GltfDocument& document = made.document;
+  document.json = {{"asset", {{"version", "2.0"}}},
+                   {"scene", 0},
+                   {"scenes", OrderedJson::array({OrderedJson::object()})},
+                   {"nodes", OrderedJson::array()},
+                   {"meshes", OrderedJson::array()},
+                   {"buffers", OrderedJson::array({OrderedJson::object()})}};
+  add_materials(document, materials, notes, monitor);
+  const bool has_shown_colours = show_colours(mesh, with_pictures(document, materials.size()));
+  for (const PartRange& part : ranges_of(mesh, name)) {
+    add_part(made, mesh, part, file, has_shown_colours);
   }
   return made;
 }

@@ -18,9 +18,10 @@ struct DressedDocument {
   std::vector<int> row_of_vertex;  ///< of each vertex written the vertex of the file
 };
 
-/// One mesh with a primitive for each material, in their order; all share the vertices: first those
-/// of the file, in its order, then copies for corners that meet in a vertex with other texture
-/// coordinates, normals or colours. Corners without a normal get that of `normals_across_seams`.
+/// A node with a mesh for each part, of a file without parts one named `name`; a primitive for each
+/// material, in their order. All of a mesh share its vertices: first those of the file, in its
+/// order, then copies for corners that meet in a vertex with other texture coordinates, normals or
+/// colours. Corners without a normal get that of `normals_across_seams`.
 /// Faces are triangulated; one with a vertex that has no place is left out. Of colours see
 /// `show_colours`. Throws Error(Fault::output) where single precision does not do.
 [[nodiscard]] DressedDocument dressed_document(DressedMesh mesh,

@@ -37,6 +37,13 @@ struct DressedShape {
   std::map<std::int32_t, Eigen::Vector3d> moves;  ///< by place
 };
 
+/// A mesh of a file that has several: places and faces from its first ones to the next mesh's.
+struct DressedPart {
+  std::string name;
+  std::size_t first_place = 0;
+  std::size_t first_face = 0;
+};
+
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
 struct DressedMesh {
   std::vector<double> places;  ///< x y z x y z ...
@@ -50,6 +57,7 @@ struct DressedMesh {
   std::vector<int> material_of_face;   ///< -1 = none
   std::vector<std::string> materials;  ///< their names
   std::vector<DressedShape> shapes;
+  std::vector<DressedPart> parts;  ///< in their order; empty = all is one
   /// From the places to glTF's: y up, z ahead, metres. A similarity.
   Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 

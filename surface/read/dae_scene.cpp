@@ -106,7 +106,12 @@ class DaeSceneReader {
     if (scene == nullptr) {
       for (const XmlElement* library : document_.root().all("library_geometries")) {
         for (const XmlElement* geometry : library->all("geometry")) {
-          take_({nullptr, mesh_of(*geometry), Eigen::Affine3d::Identity(), {}, nullptr});
+          take_({nullptr,
+                 mesh_of(*geometry),
+                 Eigen::Affine3d::Identity(),
+                 {},
+                 nullptr,
+                 geometry->attribute("name")});
         }
       }
       return;
@@ -116,9 +121,14 @@ class DaeSceneReader {
     for (const DaeNode& node : placed_) {
       for (const XmlElement& child : node.element->children) {
         if (child.name == "instance_geometry") {
-          take_({&child, mesh_of(document_.referred(child, "url")), node.frame, {}, nullptr});
+          take_({&child,
+                 mesh_of(document_.referred(child, "url")),
+                 node.frame,
+                 {},
+                 nullptr,
+                 node.element->attribute("name")});
         } else if (child.name == "instance_controller") {
-          take_controlled(child, node.frame);
+          take_controlled(child, node);
         }
       }
     }
@@ -132,7 +142,8 @@ class DaeSceneReader {
   }
 
   /// Morphs stand for their base mesh: the weights of a scene at rest are zero.
-  void take_controlled(const XmlElement& instance, const Eigen::Affine3d& frame) {
+  void take_controlled(const XmlElement& instance, const DaeNode& node) {
+    const std::string_view name = node.element->attribute("name");
     constexpr int deepest_controller = 10;
     const XmlElement* target = &document_.referred(instance, "url");
     const XmlElement* skin = nullptr;
@@ -151,7 +162,7 @@ class DaeSceneReader {
       target = &document_.referred(*inner, "source");
     }
     const DaeMesh& mesh = mesh_of(*target);
-    if (skin == nullptr) return take_({&instance, mesh, frame, {}, morph});
+    if (skin == nullptr) return take_({&instance, mesh, node.frame, {}, morph, name});
     const DaeSkin read =
         read_dae_skin(document_, *skin, static_cast<std::size_t>(mesh.polygons.positions.rows()));
     MeshSkin posed{{}, read.weights};
@@ -159,7 +170,7 @@ class DaeSceneReader {
       posed.joints.push_back(joint_frame(instance, read.joints[j], read.joints_are_ids) *
                              read.to_joint[j]);
     }
-    take_({&instance, mesh, frame * read.bind_shape, std::move(posed), morph});
+    take_({&instance, mesh, node.frame * read.bind_shape, std::move(posed), morph, name});
   }
 
   /// Of the node with that sid below the instance's skeletons, or with that id; exporters that

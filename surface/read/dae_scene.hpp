@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include <curveskel/monitor.hpp>
@@ -30,6 +31,7 @@ struct DaeShownMesh {
   Eigen::Affine3d frame;  ///< from the mesh to the world
   MeshSkin skin;
   const XmlElement* morph;  ///< <morph> of the mesh, or nullptr
+  std::string_view name;    ///< of the node that shows it, or its own; may be empty
 };
 
 /// Each mesh as often as the scene shows it, in the order in which `read_polygons` has them. Throws

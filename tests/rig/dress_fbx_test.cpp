@@ -203,6 +203,43 @@ TEST_F(DressFbx, FacesHaveTheMaterialThatTheLayerGivesThem) {
 }
 
 /// A box whose corners have the normals of their faces, turned, stretched and mirrored.
+// Hair, belt and body came out as one mesh, and their names were lost.
+TEST_F(DressFbx, EachMeshStaysOneOfItsOwn) {
+  const FbxItems beside{material(0, {}), encodings::fbx_model(20)};
+  const auto link = [](std::int64_t child, std::int64_t parent) {
+    return FbxItem{"C", {"OO", child, parent}};
+  };
+  for (const FbxForm form : all_forms) {
+    FbxItem box = encodings::fbx_box();
+    box.children.push_back(Textures{mappings[0], false}.layer());
+    const fs::path file =
+        written(scene(box, encodings::fbx_model(2), beside, {link(20, 0), link(1, 20)}), form);
+    const PolygonSoup soup = read_polygons(file);
+    ASSERT_EQ(soup.positions.rows(), 16);
+    const Glb glb = glb_of(dressed(file).bytes);
+    ASSERT_EQ(glb.json["meshes"].size(), 2U);
+    std::set<Json> places;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Json& node = glb.json["nodes"][k];
+      EXPECT_EQ(node["mesh"], k);
+      EXPECT_TRUE(node.contains("skin"));
+      EXPECT_EQ(node["name"], glb.json["meshes"][k]["name"]);
+      const Json& primitive = glb.json["meshes"][k]["primitives"][0];
+      for (const char* name : {"POSITION", "JOINTS_0", "WEIGHTS_0"}) {
+        places.insert(primitive["attributes"][name]);
+        EXPECT_EQ(glb.json["accessors"][primitive["attributes"][name].get<std::size_t>()]["count"],
+                  24);
+      }
+    }
+    EXPECT_EQ(places.size(), 6U) << "each has its own numbers";
+    const PolygonSoup again = read_polygons(folder_.write("again.glb", dressed(file).bytes));
+    const auto extent = [](const Positions& of) {
+      return (of.colwise().maxCoeff() - of.colwise().minCoeff()).eval();
+    };
+    EXPECT_LT((0.01 * extent(soup.positions) - extent(again.positions)).norm(), 1e-6);
+  }
+}
+
 TEST_F(DressFbx, NormalsStayNormal) {
   FbxItem box = encodings::fbx_box();
   std::vector<double> normals;
