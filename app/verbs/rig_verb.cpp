@@ -1,6 +1,5 @@
 // curveskel rig: a surface file in, the same surface with joints and skin weights out.
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,14 +15,12 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
-#include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/role_names.hpp>
-#include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
@@ -31,6 +28,8 @@
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/rig_report.hpp"
+#include "app/verbs/rig_sources.hpp"
+#include "app/verbs/rig_summary.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -62,114 +61,6 @@ struct RigArguments {
   int joint_budget = CharacterOptions{}.joint_budget;
   std::string report;  ///< empty = none
 };
-
-/// A skeleton of this surface is not mostly elsewhere.
-void require_nodes_nearby(const CurveSkeleton& skeleton, const PolygonSoup& soup,
-                          const RigArguments& arguments) {
-  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
-  Eigen::Index within = 0;
-  for (const auto& node : skeleton.nodes.rowwise()) {
-    within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
-  }
-  if (2 * within >= skeleton.nodes.rows()) return;
-  throw Error(Fault::input,
-              fmt::format("{}: {} of {} nodes lie within the box of {}; needed is a skeleton of "
-                          "this surface, in its coordinates",
-                          arguments.skeleton, within, skeleton.nodes.rows(),
-                          arguments.mesh.filename().string()));
-}
-
-CurveSkeleton skeleton_for(const RigArguments& arguments, const PolygonSoup& soup) {
-  CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
-  require_nodes_nearby(skeleton, soup, arguments);
-  const Eigen::Index map = skeleton.node_of_vertex.size();
-  if (map == 0 || map == soup.positions.rows()) return skeleton;
-  throw Error(Fault::input,
-              fmt::format("{}: the skeleton has a node for each of {} vertices, needed one for "
-                          "each of the surface's {}; extract it again, from this surface",
-                          arguments.skeleton, map, soup.positions.rows()));
-}
-
-/// "49 joints, 12 of them tips that move nothing".
-std::string joints_in_words(const Rig& rig) {
-  std::vector<bool> moves(rig.names.size(), false);
-  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (it.value() > 0) moves[static_cast<std::size_t>(it.col())] = true;
-    }
-  }
-  int tips = 0;
-  int others = 0;
-  for (std::size_t joint = 0; joint < moves.size(); ++joint) {
-    if (moves[joint]) continue;
-    const bool is_tip = std::find(rig.parents.begin(), rig.parents.end(),
-                                  static_cast<int>(joint)) == rig.parents.end();
-    ++(is_tip ? tips : others);
-  }
-  if (others == 0) {
-    return fmt::format("{} joints, {} of them tips that move nothing", moves.size(), tips);
-  }
-  return fmt::format("{} joints; {} tips and {} others move nothing", moves.size(), tips, others);
-}
-
-std::string parts_in_words(const RigParts& parts) {
-  const auto followers = std::count_if(parts.parts.begin(), parts.parts.end(),
-                                       [](const RigPart& part) { return part.follows; });
-  if (followers == 0) return "";
-  return fmt::format("parts: {} of the body, {} that follow it (--follow 0: joints for all)\n",
-                     parts.parts.size() - static_cast<std::size_t>(followers), followers);
-}
-
-std::string plan_in_words(const BodyPlan& plan) {
-  if (plan.plan == BodyKind::none) return "";
-  std::string text = fmt::format("plan: {} ({})\n", name_of(body_kinds, plan.plan), plan.reason);
-  if (!plan.missing.empty()) text += fmt::format("missing: {}\n", fmt::join(plan.missing, ", "));
-  return text;
-}
-
-Rig rig_in(const fs::path& mesh, const Monitor& monitor) {
-  std::optional<Rig> rig = read_rig(mesh, monitor);
-  if (rig) return std::move(*rig);
-  throw Error(Fault::input, mesh.string() +
-                                ": found no rig, needed one for --keep-rig, in a glTF, FBX or "
-                                "COLLADA file; leave out --keep-rig to have joints made");
-}
-
-/// Of the joints, times a factor, those within the surface's box.
-Eigen::Index joints_within(const Rig& rig, const PolygonSoup& soup, double factor) {
-  const Eigen::Array3d low = soup.positions.colwise().minCoeff().transpose();
-  const Eigen::Array3d high = soup.positions.colwise().maxCoeff().transpose();
-  Eigen::Index within = 0;
-  for (const auto& joint : rig.joints.rowwise()) {
-    const Eigen::Array3d place = factor * joint.transpose();
-    within += (place >= low).all() && (place <= high).all() ? 1 : 0;
-  }
-  return within;
-}
-
-/// Of an artist's rig some joints may lie outside: a root on the ground, handles.
-Rig joints_for(const fs::path& file, const PolygonSoup& soup, Session& session) {
-  Rig rig = read_joints(file, session.monitor());
-  const Eigen::Index count = rig.joints.rows();
-  const Eigen::Index within = joints_within(rig, soup, 1);
-  if (2 * within >= count) return rig;
-  std::string remedy =
-      "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
-  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(soup.positions);
-  for (const double factor : {0.01, 100.0}) {
-    constexpr double alike = 3;  // a skeleton is about as large as its body
-    const bool fits = factor * sizes < alike && factor * sizes > 1 / alike;
-    if (!fits || 2 * joints_within(rig, soup, factor) < count) continue;
-    remedy = fmt::format("times {} they would: export both in one unit", factor);
-  }
-  const std::string found =
-      fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
-                  within == 0 ? "none" : std::to_string(within), count, remedy);
-  if (within == 0) throw Error(Fault::input, found);
-  session.terminal.warn(found);
-  return rig;
-}
 
 /// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
 void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
@@ -208,6 +99,22 @@ void warn_of_looks(const RigArguments& arguments, Session& session) {
   }
 }
 
+/// Unless hardly anything moves by it.
+void warn_of_bind_pose(const RigArguments& arguments, const PolygonSoup& bound,
+                       const Monitor& monitor, Session& session) {
+  constexpr double visible = 1e-3;
+  const PolygonSoup shown = read_polygons(arguments.mesh, monitor);
+  const double farthest =
+      (shown.positions - bound.positions).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
+  const double share = farthest / bounding_box_diagonal(shown.positions);
+  if (share < visible) return;
+  session.terminal.warn(
+      fmt::format("the joints rest in another pose than they were bound in, by up to {:.2g} % of "
+                  "the size; the new rig rests in the pose in which the old one was bound (--bare "
+                  "keeps the pose at rest, without materials)",
+                  100 * share));
+}
+
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
   if (!arguments.bare) {
@@ -216,11 +123,7 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
   }
   const bool as_bound = !arguments.bare && !arguments.keep_rig;
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
-  if (as_bound && soup.posed) {
-    session.terminal.warn(
-        "the joints rest in another pose than they were bound in; the new rig rests in the pose "
-        "in which the old one was bound (--bare keeps the pose at rest)");
-  }
+  if (as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
   return soup;
 }
 
@@ -308,7 +211,7 @@ int run_rig(RigArguments arguments, Session& session) {
   if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
   if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, session);
   RigSources sources;
-  if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments, soup);
+  if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments.skeleton, soup);
   sources.joints = std::move(old_rig);
   PolygonsRig found = rig_polygons(soup, sources, options_of(arguments), monitor);
   const BodyPlan& plan = found.character.plan;

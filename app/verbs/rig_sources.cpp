@@ -1,0 +1,88 @@
+#include "app/verbs/rig_sources.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/read_rig.hpp>
+#include <curveskel/skeleton_files.hpp>
+
+namespace curveskel {
+namespace {
+
+/// A skeleton of this surface is not mostly elsewhere.
+void require_nodes_nearby(const CurveSkeleton& skeleton, const PolygonSoup& soup,
+                          const std::string& file) {
+  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
+  Eigen::Index within = 0;
+  for (const auto& node : skeleton.nodes.rowwise()) {
+    within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
+  }
+  if (2 * within >= skeleton.nodes.rows()) return;
+  throw Error(Fault::input,
+              fmt::format("{}: {} of {} nodes lie within the box of {}; needed is a skeleton of "
+                          "this surface, in its coordinates",
+                          file, within, skeleton.nodes.rows(), soup.file.filename().string()));
+}
+
+/// Of the joints, times a factor, those within the surface's box.
+Eigen::Index joints_within(const Rig& rig, const PolygonSoup& soup, double factor) {
+  const Eigen::Array3d low = soup.positions.colwise().minCoeff().transpose();
+  const Eigen::Array3d high = soup.positions.colwise().maxCoeff().transpose();
+  Eigen::Index within = 0;
+  for (const auto& joint : rig.joints.rowwise()) {
+    const Eigen::Array3d place = factor * joint.transpose();
+    within += (place >= low).all() && (place <= high).all() ? 1 : 0;
+  }
+  return within;
+}
+
+}  // namespace
+
+CurveSkeleton skeleton_for(const std::string& file, const PolygonSoup& soup) {
+  CurveSkeleton skeleton = read_skeleton(file);
+  require_nodes_nearby(skeleton, soup, file);
+  const Eigen::Index map = skeleton.node_of_vertex.size();
+  if (map == 0 || map == soup.positions.rows()) return skeleton;
+  throw Error(Fault::input,
+              fmt::format("{}: the skeleton has a node for each of {} vertices, needed one for "
+                          "each of the surface's {}; extract it again, from this surface",
+                          file, map, soup.positions.rows()));
+}
+
+Rig rig_in(const std::filesystem::path& mesh, const Monitor& monitor) {
+  std::optional<Rig> rig = read_rig(mesh, monitor);
+  if (rig) return std::move(*rig);
+  throw Error(Fault::input, mesh.string() +
+                                ": found no rig, needed one for --keep-rig, in a glTF, FBX or "
+                                "COLLADA file; leave out --keep-rig to have joints made");
+}
+
+Rig joints_for(const std::filesystem::path& file, const PolygonSoup& soup, Session& session) {
+  Rig rig = read_joints(file, session.monitor());
+  const Eigen::Index count = rig.joints.rows();
+  const Eigen::Index within = joints_within(rig, soup, 1);
+  if (2 * within >= count) return rig;
+  std::string remedy =
+      "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
+  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(soup.positions);
+  for (const double factor : {0.01, 100.0}) {
+    constexpr double alike = 3;  // a skeleton is about as large as its body
+    const bool fits = factor * sizes < alike && factor * sizes > 1 / alike;
+    if (!fits || 2 * joints_within(rig, soup, factor) < count) continue;
+    remedy = fmt::format("times {} they would: export both in one unit", factor);
+  }
+  const std::string found =
+      fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
+                  within == 0 ? "none" : std::to_string(within), count, remedy);
+  if (within == 0) throw Error(Fault::input, found);
+  session.terminal.warn(found);
+  return rig;
+}
+
+}  // namespace curveskel
