@@ -7,7 +7,7 @@
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/rig.hpp>
-#include "app/command_line.hpp"
+#include "app/verbs/verbs.hpp"
 
 namespace curveskel {
 

@@ -38,23 +38,28 @@ std::vector<char> needed_joints(const Rig& rig, const Eigen::VectorXi& vertices)
 }
 
 /// A tip that moves nothing shows how long the bone above it is, and where it leads; a planned
-/// joint from which another one goes on shows that without.
+/// joint from which another one goes on as far shows that without.
 void drop_ends_beside_planned(const Rig& rig, std::size_t planned, const Eigen::VectorXi& vertices,
                               std::vector<char>& stays) {
-  std::vector<char> goes_on(planned, 0);
-  for (std::size_t joint = 0; joint < planned; ++joint) {
+  const auto length = [&](std::size_t joint) {
+    const auto row = static_cast<Eigen::Index>(joint);
+    const int parent = rig.parents[row];
+    return parent < 0 ? 0.0 : (rig.joints.row(row) - rig.joints.row(parent)).norm();
+  };
+  std::vector<double> longest(planned, 0);  // of the planned bones below
+  std::vector<char> is_above(stays.size(), 0);
+  for (std::size_t joint = 0; joint < stays.size(); ++joint) {
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
-    if (parent >= 0) goes_on[idx(parent)] = 1;
+    if (parent < 0) continue;
+    is_above[idx(parent)] = 1;
+    if (joint < planned) longest[idx(parent)] = std::max(longest[idx(parent)], length(joint));
   }
   const std::vector<char> moves = moving_joints(rig, vertices);
-  std::vector<char> is_above(stays.size(), 0);
-  for (const int parent : rig.parents) {
-    if (parent >= 0) is_above[idx(parent)] = 1;
-  }
   for (std::size_t joint = planned; joint < stays.size(); ++joint) {
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
-    const bool is_beside = parent >= 0 && idx(parent) < planned && goes_on[idx(parent)] != 0;
-    if (is_beside && moves[joint] == 0 && is_above[joint] == 0) stays[joint] = 0;
+    const bool hangs_from_planned = parent >= 0 && idx(parent) < planned;
+    if (!hangs_from_planned || moves[joint] != 0 || is_above[joint] != 0) continue;
+    if (length(joint) <= longest[idx(parent)]) stays[joint] = 0;
   }
 }
 

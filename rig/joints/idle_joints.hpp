@@ -11,8 +11,8 @@ namespace curveskel {
 /// Without the joints amid a limb that move none of `vertices` (-1 = none at all): what hangs from
 /// one hangs from its parent then, and the joints of each limb are counted anew ("limb2_1",
 /// "limb2_2"). The first `planned` stay, so do roots, a joint whose mirror image moves something,
-/// and tips, but for those at a planned joint from which another planned one goes on. O(weights +
-/// joints log joints).
+/// and tips, but for those at a planned joint from which another planned one goes on as far.
+/// O(weights + joints log joints).
 [[nodiscard]] Rig without_idle_joints(const Rig& rig, std::size_t planned,
                                       const Eigen::VectorXi& vertices);
 

@@ -51,6 +51,18 @@ TEST(IdleJoints, GoAndTheLimbIsCountedAnew) {
   EXPECT_EQ(without.weights.coeff(2, 1), 1);
 }
 
+/// Hips with a spine 2 long, and with an end beside it.
+TEST(IdleJoints, EndsBesideLongerPlannedBonesGo) {
+  for (const double length : {1.0, 3.0}) {
+    Rig rig = chain_of({"hips", "spine", "limb1_end"}, {});
+    rig.joints(1, 0) = 2;
+    rig.joints.row(2) << 0, -length, 0;
+    rig.parents[2] = 0;
+    const Rig without = without_idle_joints(rig, 2, all_vertices(rig));
+    EXPECT_EQ(without.names.size(), length > 2 ? 3U : 2U);
+  }
+}
+
 TEST(IdleJoints, StayWhereTheyArePlannedOrMoveSomething) {
   const Rig busy = chain_of(limb, {});
   EXPECT_EQ(without_idle_joints(busy, 0, all_vertices(busy)).names, limb);
