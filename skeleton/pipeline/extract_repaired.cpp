@@ -158,9 +158,9 @@ std::vector<FailingComponent> failing_of(const Surface& surface, const Extractio
 StandingResults beside_wraps(const Extracted& before, const std::vector<ComponentWrap>& wraps) {
   StandingResults standing;
   for (const ComponentResult& one : before.components) standing.emplace_back(taken_over(one));
-  for (auto one = wraps.rbegin(); one != wraps.rend(); ++one) {
-    const auto place = standing.erase(standing.begin() + one->component);
-    standing.insert(place, idx(topology(one->wrap.surface).components()), std::nullopt);
+  for (std::size_t k = wraps.size(); k-- > 0;) {
+    const auto place = standing.erase(standing.begin() + wraps[k].component);
+    standing.insert(place, idx(topology(wraps[k].wrap.surface).components()), std::nullopt);
   }
   return standing;
 }
