@@ -12,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/plan/roles.hpp"
+#include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
 namespace {
@@ -354,13 +355,7 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
 /// Of the area that is no sheet's.
 double share_of_largest_component(const Surface& surface, const std::vector<std::int32_t>& sheets) {
   const Topology counted = topology(surface);
-  std::vector<double> areas(idx(counted.components()), 0);
-  for (const auto& t : surface.triangles.rowwise()) {
-    const Vector3d a = surface.positions.row(t(0));
-    const Vector3d b = surface.positions.row(t(1));
-    const Vector3d c = surface.positions.row(t(2));
-    areas[idx(counted.component_of_vertex[t(0)])] += (b - a).cross(c - a).norm();
-  }
+  std::vector<double> areas = component_areas(surface, counted);
   for (const std::int32_t v : sheets) areas[idx(counted.component_of_vertex[v])] = 0;
   const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
   return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;

@@ -11,23 +11,13 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/mesh/component_areas.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
 namespace {
-
-std::vector<double> areas(const Surface& surface, const Topology& counted) {
-  std::vector<double> result(idx(counted.components()), 0);
-  for (const auto& t : surface.triangles.rowwise()) {
-    const Eigen::RowVector3d a = surface.positions.row(t(0));
-    const Eigen::RowVector3d ab = surface.positions.row(t(1)) - a;
-    const Eigen::RowVector3d ac = surface.positions.row(t(2)) - a;
-    result[idx(counted.component_of_vertex[t(0)])] += ab.cross(ac).norm() / 2;
-  }
-  return result;
-}
 
 /// The vertices' groups of each component, ascending; vertices that lie within the distance are of
 /// one group. Of components that have as many vertices and faces as another; empty of others.
@@ -98,7 +88,7 @@ std::vector<Fate> choose_components(const Surface& surface, const Topology& coun
   std::vector<Fate> fates(idx(counted.components()), Fate::kept);
   if (counted.components() < 2) return fates;
   mark_copies(surface, counted, rules.copy_distance, fates);
-  const auto area = areas(surface, counted);
+  const auto area = component_areas(surface, counted);
   if (rules.least_crumb > 0) mark_crumbs(surface, counted, area, rules.least_crumb, fates);
   const double least = rules.least_area * *std::max_element(area.begin(), area.end());
   std::vector<int> by_area;
