@@ -1,4 +1,4 @@
-// What `curveskel rig` says of its result, in lines.
+// The lines in which `curveskel rig` tells of its result.
 #pragma once
 
 #include <string>

@@ -27,19 +27,18 @@ std::vector<char> moving_joints(const Rig& rig, const Eigen::VectorXi& vertices)
 }
 
 /// By joint: it moves some of the vertices, is a tip, or a root.
-std::vector<char> needed_joints(const Rig& rig, const Eigen::VectorXi& vertices) {
+std::vector<char> needed_joints(const Rig& rig, const std::vector<char>& moves) {
   std::vector<char> needed(rig.names.size(), 1);
   for (const int parent : rig.parents) {
     if (parent >= 0) needed[idx(parent)] = rig.parents[parent] < 0 ? 1 : 0;
   }
-  const std::vector<char> moves = moving_joints(rig, vertices);
   for (std::size_t joint = 0; joint < needed.size(); ++joint) needed[joint] |= moves[joint];
   return needed;
 }
 
 /// A tip that moves nothing shows how long the bone above it is, and where it leads; a planned
 /// joint from which another one goes on as far shows that without.
-void drop_ends_beside_planned(const Rig& rig, std::size_t planned, const Eigen::VectorXi& vertices,
+void drop_ends_beside_planned(const Rig& rig, std::size_t planned, const std::vector<char>& moves,
                               std::vector<char>& stays) {
   const auto length = [&](std::size_t joint) {
     const auto row = static_cast<Eigen::Index>(joint);
@@ -54,7 +53,6 @@ void drop_ends_beside_planned(const Rig& rig, std::size_t planned, const Eigen::
     is_above[idx(parent)] = 1;
     if (joint < planned) longest[idx(parent)] = std::max(longest[idx(parent)], length(joint));
   }
-  const std::vector<char> moves = moving_joints(rig, vertices);
   for (std::size_t joint = planned; joint < stays.size(); ++joint) {
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
     const bool hangs_from_planned = parent >= 0 && idx(parent) < planned;
@@ -78,8 +76,9 @@ void count_anew(std::vector<std::string>& names) {
 }  // namespace
 
 Rig without_idle_joints(const Rig& rig, std::size_t planned, const Eigen::VectorXi& vertices) {
-  std::vector<char> stays = needed_joints(rig, vertices);
-  drop_ends_beside_planned(rig, planned, vertices, stays);
+  const std::vector<char> moves = moving_joints(rig, vertices);
+  std::vector<char> stays = needed_joints(rig, moves);
+  drop_ends_beside_planned(rig, planned, moves, stays);
   std::fill_n(stays.begin(), std::min(planned, stays.size()), 1);
   const std::vector<int> twins = twins_of(rig);
   for (std::size_t joint = 0; joint < stays.size(); ++joint) {

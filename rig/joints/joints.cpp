@@ -104,7 +104,8 @@ class JointPlacer {
       joints_.joint_of_node[joint.node] = planned_at_[idx(joint.node)] = static_cast<int>(k);
     }
     for (std::size_t k = 0; k < planned_.size(); ++k) {
-      if (planned_[k].role == "head" && planned_[k].parent >= 0) begin_head(static_cast<int>(k));
+      const bool has_neck = planned_[k].parent >= 0 && planned_[k].node >= 0;
+      if (planned_[k].role == "head" && has_neck) begin_head(static_cast<int>(k));
     }
   }
 
@@ -112,16 +113,16 @@ class JointPlacer {
   /// the first of them on.
   void begin_head(int head) {
     const int neck = planned_[idx(head)].parent;
+    const int last = above_[idx(planned_[idx(head)].node)];
     int first = -1;
-    for (int node = above_[idx(planned_[idx(head)].node)];
-         node >= 0 && joints_.joint_of_node[node] == neck; node = above_[idx(node)]) {
+    for (int node = last; node >= 0 && joints_.joint_of_node[node] == neck;
+         node = above_[idx(node)]) {
       for (const int child : tree_.children[idx(node)]) {
         if (joints_.joint_of_node[child] < 0 && !is_stub(node, child)) first = node;
       }
     }
     if (first < 0) return;
-    for (int node = above_[idx(planned_[idx(head)].node)]; node != first;
-         node = above_[idx(node)]) {
+    for (int node = last; node != first; node = above_[idx(node)]) {
       joints_.joint_of_node[node] = head;
     }
     joints_.joint_of_node[first] = head;

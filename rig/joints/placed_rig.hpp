@@ -7,7 +7,7 @@
 
 namespace curveskel {
 
-/// The rig where the similarity takes it, with which it is done: `to_y_up` is the identity then.
+/// The rig moved by a similarity. Its `to_y_up` is spent then, the identity.
 [[nodiscard]] Rig placed(Rig rig, const Eigen::Affine3d& place);
 
 }  // namespace curveskel

@@ -85,7 +85,7 @@ bool states_up(SurfaceFormat format) {
          format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
 }
 
-/// Where no plan and no option tells which way is up, it stays. Of z up, as Blender and scanners
+/// None where neither a plan nor an option tells which way is up. Of z up, as Blender and scanners
 /// have it, z ahead is -y there.
 Eigen::Matrix3d turn_to_y_up(const BodyPlan& plan, Direction asked) {
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;

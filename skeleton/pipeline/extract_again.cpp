@@ -6,36 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include <curveskel/advanced/tree.hpp>
+#include "skeleton/pipeline/failing_components.hpp"
 
 namespace curveskel {
 namespace {
-
-/// Judges components alone. D is the whole surface's for all.
-class ComponentJudge {
- public:
-  ComponentJudge(const Surface& surface, const Parts& parts, const CertificateOptions& options,
-                 const Monitor& monitor)
-      : diagonal_(bounding_box_diagonal(surface.positions)),
-        parts_(parts),
-        options_(options),
-        monitor_(monitor) {}
-
-  [[nodiscard]] Certificate judge(std::size_t c, const ComponentResult& result) const {
-    const Surface& own = parts_.components[c].surface;
-    const SurfaceTree tree(own);
-    return evaluate({own, tree, diagonal_, 1, parts_.counted.genus[c]}, *result.skeleton, options_,
-                    monitor_);
-  }
-
- private:
-  double diagonal_;
-  const Parts& parts_;
-  const CertificateOptions& options_;
-  const Monitor& monitor_;
-};
 
 /// Makes components another way, each in a try that is part of one of the whole.
 class OtherTries {
@@ -100,7 +75,11 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
   SurfaceStages& stages = kept != nullptr ? *kept : passing;
   stages.parts.value = before.parts;
   const bool single = before.components.size() == 1;
-  const ComponentJudge judge(surface, *before.parts, way.options.certificate, room.monitor);
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  const auto judged = [&](std::size_t c, const ComponentResult& result) {
+    return certificate_alone(before.parts->components[c].surface, before.parts->counted.genus[c],
+                             diagonal, *result.skeleton, way.options.certificate, room.monitor);
+  };
   OtherTries tries(way, *before.parts, stages, kept != nullptr, room);
   StandingResults standing;
   bool any = false;
@@ -108,12 +87,12 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
     standing.emplace_back(taken_over(before.components[c]));
     std::optional<Certificate> was;
     if (!single) {
-      was = judge.judge(c, before.components[c]);
+      was = judged(c, before.components[c]);
       if (!way.may_help(before.components[c], *was)) continue;
     }
     auto made = tries.make(c);
     if (!made) continue;
-    if (was && !better_than(judge.judge(c, *made), *was)) {
+    if (was && !better_than(judged(c, *made), *was)) {
       tries.drop(*made);
       continue;
     }

@@ -135,6 +135,13 @@ std::vector<CurveSkeleton> divided(const CurveSkeleton& skeleton,
   return parts;
 }
 
+Certificate certificate_alone(const Surface& component, int genus, double diagonal,
+                              const CurveSkeleton& skeleton, const CertificateOptions& options,
+                              const Monitor& monitor) {
+  const SurfaceTree tree(component);
+  return evaluate({component, tree, diagonal, 1, genus}, skeleton, options, monitor);
+}
+
 std::vector<FailingComponent> failing_components(const Surface& surface, const Topology& counted,
                                                  const CurveSkeleton& skeleton,
                                                  const std::vector<int>& component_of_node,
@@ -147,8 +154,8 @@ std::vector<FailingComponent> failing_components(const Surface& surface, const T
   for (int c = 0; c < counted.components(); ++c) {
     Surface& part = parts[idx(c)].surface;
     const int genus = counted.genus[idx(c)];
-    const CertifiedSurface own{part, SurfaceTree(part), diagonal, 1, genus};
-    if (evaluate(own, curves[idx(c)], options, monitor).correct()) continue;
+    const CurveSkeleton& curve = curves[idx(c)];
+    if (certificate_alone(part, genus, diagonal, curve, options, monitor).correct()) continue;
     failing.push_back({c, std::move(part), genus, std::move(curves[idx(c)])});
   }
   return failing;

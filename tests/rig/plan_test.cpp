@@ -144,6 +144,18 @@ TEST(FindPlan, TailsHaveFourBonesOfOneLength) {
   }
 }
 
+TEST(PlannedJoints, AHeadBetweenNodesIsOneToo) {
+  const RigSubject subject = human();
+  std::vector<PlannedJoint> planned = find_plan(subject.surface, subject.skeleton).joints;
+  const auto head = std::find_if(planned.begin(), planned.end(),
+                                 [](const PlannedJoint& joint) { return joint.role == "head"; });
+  ASSERT_NE(head, planned.end());
+  head->node = -1;
+  const Joints joints = place_planned_joints(subject.skeleton, planned);
+  EXPECT_EQ(joints.names[idx(head - planned.begin())], "head");
+  EXPECT_GE(joints.joint_of_node.minCoeff(), 0);
+}
+
 // The upper chest lay in the rucksack, and neck and arms hung from it.
 TEST(FindPlan, ARucksackBendsNoSpine) {
   Figure figure;

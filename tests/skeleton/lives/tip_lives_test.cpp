@@ -70,7 +70,7 @@ std::vector<double> distances_along_edges(const Surface& surface, int from) {
   return distance;
 }
 
-// Where needles let a wave come back to a step that was over, it ended there.
+// A wave that came back, across needles, to a step that was over ended there.
 TEST(GeodesicDistances, AreNotLongerThanWaysAlongEdges) {
   for (const double shear : {0.0, 2.0, 20.0}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
