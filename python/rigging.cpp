@@ -32,7 +32,8 @@ struct PythonRig {
   PolygonSoup soup;
   Surface given;  ///< the same in triangles
   CharacterRig character;
-  Rig exported;  ///< as it is written
+  Rig exported;          ///< as it is written
+  bool as_bound = true;  ///< the soup was read so
 };
 
 struct RigSettings {
@@ -72,11 +73,13 @@ RigSettings settings_of(const py::dict& options) {
   return settings;
 }
 
-PythonRig rig_in_background(PolygonSoup soup, const std::optional<CurveSkeleton>& skeleton,
+PythonRig rig_in_background(PolygonSoup soup, bool as_bound,
+                            const std::optional<CurveSkeleton>& skeleton,
                             const std::optional<std::filesystem::path>& joints,
                             const py::dict& options, const py::object& progress) {
   RigSettings settings = settings_of(options);
   PythonRig result;
+  result.as_bound = as_bound;
   run_beside_interpreter(progress, [&](const Monitor& monitor) {
     RigSources sources;
     sources.skeleton = skeleton;
@@ -108,9 +111,9 @@ void save_rig(const PythonRig& rig, const std::filesystem::path& output, const s
   if (file.extension() == ".gz") name = name.stem();
   std::optional<EditedFile> edited;
   if (!file.empty()) {
-    edited = format_rig_into(
-        file, rig.exported,
-        {*chosen, OldRig::replaced, name.string() + " rig", program_and_version(), vrm});
+    edited = format_rig_into(file, rig.exported,
+                             {*chosen, OldRig::replaced, name.string() + " rig",
+                              program_and_version(), vrm, rig.as_bound});
   }
   write_file(output, edited ? edited->bytes
                             : format_rig(rig.given, rig.exported, *chosen, name.string(),

@@ -44,6 +44,7 @@ struct RigArguments {
   bool quiet = false;
   bool bare = false;
   bool keep_rig = false;
+  bool as_shown = false;
   std::string joints;  ///< empty = made
   VrmMeta vrm;
   RestPose pose = RestPose::input;
@@ -110,8 +111,8 @@ void warn_of_bind_pose(const RigArguments& arguments, const PolygonSoup& bound,
   if (share < visible) return;
   session.terminal.warn(
       fmt::format("the joints rest in another pose than they were bound in, by up to {:.2g} % of "
-                  "the size; the new rig rests in the pose in which the old one was bound (--bare "
-                  "keeps the pose at rest, without materials)",
+                  "the size; the new rig rests in the pose in which the old one was bound "
+                  "(--as-shown: in the one at rest)",
                   100 * share));
 }
 
@@ -121,7 +122,7 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
     warn_of_looks(arguments, session);
   }
-  const bool as_bound = !arguments.bare && !arguments.keep_rig;
+  const bool as_bound = !arguments.bare && !arguments.keep_rig && !arguments.as_shown;
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
   if (as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
   return soup;
@@ -141,7 +142,7 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     if (!arguments.bare) {
       edited = format_rig_into(arguments.mesh, rig,
                                {formats[i], old_rig_in(arguments), name.string() + " rig",
-                                program_and_version(), arguments.vrm},
+                                program_and_version(), arguments.vrm, !arguments.as_shown},
                                monitor);
     }
     if (!edited) {
@@ -293,6 +294,11 @@ Verb add_rig(CLI::App& program) {
   CLI::Option* keep =
       parser->add_flag("--keep-rig", arguments->keep_rig,
                        "make no joints, but weights for those that the glTF, FBX or DAE file has");
+  parser
+      ->add_flag("--as-shown", arguments->as_shown,
+                 "rig a glTF file whose old joints rest in another pose than they were bound in as "
+                 "viewers show it; its vertices are written anew")
+      ->excludes(keep);
   CLI::Option* given =
       parser
           ->add_option(

@@ -67,6 +67,10 @@ struct EditOptions {
   std::string name;        ///< of the node that holds all joints
   std::string provenance;  ///< `asset.extras.rigged_by`; the generator of what was no glTF
   VrmMeta vrm = {};
+  /// glTF whose old joints rest in another pose than they were bound in: the new rig rests as the
+  /// old one was bound, where the file's numbers stay as they are; false = as the file is shown,
+  /// for which positions, normals and tangents are written anew.
+  bool as_bound = true;
 };
 
 struct EditedFile {
@@ -84,8 +88,8 @@ struct EditedFile {
 /// coordinates or normals becomes glTF that has them: the vertices of the file in their order, then
 /// copies for corners with other texture coordinates or normals. Nothing for all other files, for
 /// which `format_rig` loses nothing.
-/// Precondition: weights have a row for each vertex that `read_polygons` finds in the file (read
-/// `as_bound` where the old rig is replaced).
+/// Precondition: weights have a row for each vertex that `read_polygons` finds in the file, read
+/// with the same `as_bound` (false where the old rig is kept).
 /// Throws Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as
 /// `format_rig`. O(bytes of the file).
 [[nodiscard]] std::optional<EditedFile> format_rig_into(const std::filesystem::path& input,

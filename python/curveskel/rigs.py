@@ -70,12 +70,14 @@ class Rig:
         return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
 
 
-def rig(mesh, *, skeleton=None, joints=None, threads=0, progress=None, **options):
+def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress=None, **options):
     """Joints and skin weights for a surface, as `curveskel rig` makes them.
 
     mesh: as of `extract`; a path lets `Rig.save` edit the file itself.
     skeleton: rig this one, a Skeleton of the same surface or a path, instead of extracting one.
     joints: a path to a rig: its joints get new weights, and no others are made.
+    as_shown: a glTF file whose old joints rest in another pose than they were bound in is rigged
+        as viewers show it, not as it was bound.
     threads, progress: as of `extract`.
     options: the program's, with _ for -: bone_length, components, detail, ends (False for
         --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
@@ -90,7 +92,7 @@ def rig(mesh, *, skeleton=None, joints=None, threads=0, progress=None, **options
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
     with shown(progress) as callback:
-        soup = soup_of(mesh, callback, as_bound=True)
-        return Rig(_core.rig(soup, None if skeleton is None else skeleton._graph,
+        soup = soup_of(mesh, callback, as_bound=not as_shown)
+        return Rig(_core.rig(soup, not as_shown, None if skeleton is None else skeleton._graph,
                              None if joints is None else os.fspath(joints),
                              dict(options, threads=threads), callback))

@@ -76,8 +76,10 @@ void write_model(FbxRecords& records, const LocalMove& move) {
 class SceneWriter {
  public:
   SceneWriter(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor)
-      : file_(file), model_(model), scene_(read_gltf_scene(file, model, monitor)) {
-    is_joint_.resize(model.nodes.size(), false);
+      : file_(file),
+        model_(model),
+        scene_(read_gltf_scene(file, model, monitor)),
+        is_joint_(model.nodes.size(), false) {
     for (const tinygltf::Skin& skin : model.skins) {
       for (const int node : skin.joints) is_joint_[idx(node)] = true;
     }

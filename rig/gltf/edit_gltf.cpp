@@ -17,6 +17,7 @@
 #include <curveskel/rig_files.hpp>
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
+#include "rig/gltf/bent_vertices.hpp"
 #include "rig/gltf/dressed_document.hpp"
 #include "rig/gltf/dressed_file.hpp"
 #include "rig/gltf/gltf_decoded.hpp"
@@ -112,8 +113,9 @@ std::vector<bool> shown_nodes(const GltfDocument& document, const GltfScene& sce
   return shown;
 }
 
-RemovedRig replace_gltf_rig(GltfDocument& document, const FileBytes& file, const GltfScene& scene,
-                            const Rig& rig, const GltfWeights& weights, const std::string& name) {
+RemovedRig replace_gltf_rig(GltfDocument& document, const FileBytes& file,
+                            const tinygltf::Model& model, const GltfScene& scene, const Rig& rig,
+                            const GltfWeights& weights, const EditOptions& options) {
   add_missing_nodes(document);
   const std::vector<bool> shown = shown_nodes(document, scene);
   RemovedRig removed = remove_gltf_rig(document, shown, file);
@@ -121,10 +123,11 @@ RemovedRig replace_gltf_rig(GltfDocument& document, const FileBytes& file, const
   for (GltfPart& part : parts) part.node = removed.new_node[idx(part.node)];
   write_gltf_weights(document, parts, weights,
                      std::vector<GltfSkinJoints>(parts.size(), GltfSkinJoints{-1, {}}));
+  if (!options.as_bound) write_bent_vertices(document, parts, file, model, scene);
   const int holder = removed.holder;
   const bool stays = holder >= 0 && shown[idx(holder)] &&
                      scene.frames[idx(holder)].matrix() == Eigen::Matrix4d::Identity();
-  add_gltf_rig(document, parts, rig, name, stays ? removed.new_node[idx(holder)] : -1);
+  add_gltf_rig(document, parts, rig, options.name, stays ? removed.new_node[idx(holder)] : -1);
   return removed;
 }
 
@@ -159,7 +162,8 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
                      const Monitor& monitor) {
   const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
   const bool replaces = options.old_rig == OldRig::replaced;
-  const GltfScene scene = read_gltf_scene(file, model, monitor, {replaces, true});
+  const GltfScene scene =
+      read_gltf_scene(file, model, monitor, {replaces && options.as_bound, true});
   require_rows(scene.soup.positions.rows(), rig, file);
   EditedFile edited;
   GltfDocument document = read_gltf_document(file, model, edited.notes, monitor);
@@ -169,7 +173,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
     decode_gltf(document, model);
     if (replaces) {
       const RemovedRig removed =
-          replace_gltf_rig(document, file, scene, rig, weights, options.name);
+          replace_gltf_rig(document, file, model, scene, rig, weights, options);
       edited.joints_replaced = removed.joints;
       edited.channels_removed = removed.channels;
     } else {

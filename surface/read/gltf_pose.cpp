@@ -16,10 +16,7 @@ namespace {
 
 constexpr std::string_view pose_remedy = "export the file again";
 
-/// Sums of joints' moves: of affine ones they are not affine while the weights' sum is not one.
-using Blend = Eigen::Matrix<double, 3, 4>;
-
-Eigen::Vector3d moved(const Blend& blend, const Eigen::Vector3d& point) {
+Eigen::Vector3d moved(const GltfMove& blend, const Eigen::Vector3d& point) {
   return blend.leftCols<3>() * point + blend.col(3);
 }
 
@@ -57,7 +54,7 @@ class Blending {
   Blending(const FileBytes& file, const tinygltf::Model& model,
            const tinygltf::Primitive& primitive, const GltfSkinPose& skin, std::size_t vertices)
       : skin_(skin),
-        blends_(vertices, Blend::Zero()),
+        blends_(vertices, GltfMove::Zero()),
         sums_(vertices, 0),
         first_joints_(vertices, none),
         has_weights_(skin.joints.size(), false) {
@@ -94,7 +91,7 @@ class Blending {
     return differs(Eigen::Affine3d::Identity()) ? move : Eigen::Affine3d::Identity();
   }
 
-  [[nodiscard]] Blend of(std::size_t vertex) const {
+  [[nodiscard]] GltfMove of(std::size_t vertex) const {
     if (sums_[vertex] > 0) return blends_[vertex] / sums_[vertex];
     const std::size_t joint = first_joints_[vertex];
     return (joint == none ? skin_.without_weights : skin_.joints[joint]).matrix().topRows<3>();
@@ -104,7 +101,7 @@ class Blending {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   const GltfSkinPose& skin_;
-  std::vector<Blend> blends_;  // of each vertex, over the sum of its weights
+  std::vector<GltfMove> blends_;  // of each vertex, over the sum of its weights
   std::vector<double> sums_;
   std::vector<std::size_t> first_joints_;
   std::vector<bool> has_weights_;  // per joint
@@ -124,7 +121,7 @@ void bend(GltfPlaced& placed, const Blending& blending) {
   placed.positions.resize(count);
   std::size_t mirrored = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Blend blend = blending.of(i);
+    const GltfMove blend = blending.of(i);
     if (blend.leftCols<3>().determinant() < 0) ++mirrored;
     placed.positions[i] = moved(blend, placed.modelled[i]);
   }
@@ -217,6 +214,16 @@ GltfPlaced placed_positions(const FileBytes& file, const tinygltf::Model& model,
     bend(placed, blending);
   }
   return placed;
+}
+
+std::vector<GltfMove> vertex_moves(const FileBytes& file, const tinygltf::Model& model,
+                                   const tinygltf::Primitive& primitive, const GltfSkinPose& skin,
+                                   std::size_t vertices) {
+  const Blending blending(file, model, primitive, skin, vertices);
+  std::vector<GltfMove> moves;
+  moves.reserve(vertices);
+  for (std::size_t vertex = 0; vertex < vertices; ++vertex) moves.push_back(blending.of(vertex));
+  return moves;
 }
 
 std::vector<int> accessors_of_positions(const tinygltf::Primitive& primitive) {

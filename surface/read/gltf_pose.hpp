@@ -24,6 +24,10 @@ struct GltfSkinPose {
   Eigen::Affine3d topmost;              ///< that of the joint with the fewest nodes above it
 };
 
+/// By columns a linear map and a shift; sums of joints' moves are none of the kinds that have
+/// names.
+using GltfMove = Eigen::Matrix<double, 3, 4>;
+
 struct GltfPlaced {
   std::vector<Eigen::Vector3d> modelled;  ///< morphed, not yet moved
   std::vector<Eigen::Vector3d> positions;
@@ -48,6 +52,13 @@ struct GltfPlaced {
                                           const std::vector<double>& morph_weights,
                                           const Eigen::Affine3d& frame, const GltfSkinPose* skin,
                                           const Monitor& monitor);
+
+/// The move of each vertex, also where one is the same for all.
+/// Throws Error(Fault::input) as `placed_positions`.
+[[nodiscard]] std::vector<GltfMove> vertex_moves(const FileBytes& file,
+                                                 const tinygltf::Model& model,
+                                                 const tinygltf::Primitive& primitive,
+                                                 const GltfSkinPose& skin, std::size_t vertices);
 
 /// All that the places of the primitive's vertices in its mesh depend on: primitives for which this
 /// is equal share their vertices.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,7 +52,6 @@ class SceneReader {
     }
     if (any_bent_) rejoin_seams(std::move(seams_), coordinates_);
     scene_.soup.positions = positions_from(coordinates_);
-    scene_.soup.posed = any_bent_ || parts_apart_;
     scene_.loose = positions_from(loose_);
     return std::move(scene_);
   }
@@ -156,6 +156,7 @@ class SceneReader {
     const tinygltf::Mesh& mesh = gltf_element(file_, model_.meshes, node.mesh, "mesh");
     // Primitives with the same accessors share their vertices; others meet in coincident ones.
     std::map<std::vector<int>, Run> runs;
+    const std::size_t first_part = scene_.parts.size();
     for (std::size_t number = 0; number < mesh.primitives.size(); ++number) {
       const tinygltf::Primitive& primitive = mesh.primitives[number];
       const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -170,24 +171,28 @@ class SceneReader {
       Run& run = entry->second;
       if (is_new) run = append_positions(primitive, node, mesh, frame, in_soup);
       scene_.parts.push_back({index, node.mesh, static_cast<int>(number), in_soup, run.first,
-                              static_cast<std::int64_t>(run.count), run.move});
+                              static_cast<std::int64_t>(run.count), run.move, run.bent});
       if (in_soup) append_triangles(vertices_of(primitive, run.count), mode, run);
     }
-    if (node.skin >= 0) compare_moves(index);
+    if (node.skin >= 0) mark_bent(first_part);
   }
 
-  /// A mesh has one skin, so one bind pose.
-  void compare_moves(int node) {
+  /// A mesh has one skin, so one bind pose: where joints move its primitives in different ways, all
+  /// are bent. `first_part` and those behind it are the mesh's.
+  void mark_bent(std::size_t first_part) {
     constexpr double alike = 1e-5;  // as for joints, see `placed_positions`
+    const std::span parts = std::span(scene_.parts).subspan(first_part);
     const auto first =
-        std::find_if(scene_.parts.begin(), scene_.parts.end(),
-                     [&](const GltfPart& part) { return part.node == node && part.in_soup; });
-    for (auto part = first; part != scene_.parts.end(); ++part) {
-      if (!part->in_soup) continue;
-      const Eigen::Matrix4d difference = part->move.matrix() - first->move.matrix();
-      const double size = std::max(first->move.linear().norm(), first->move.translation().norm());
-      parts_apart_ = parts_apart_ || difference.norm() > alike * size;
-    }
+        std::find_if(parts.begin(), parts.end(), [](const GltfPart& part) { return part.in_soup; });
+    if (first == parts.end()) return;
+    const double size = std::max(first->move.linear().norm(), first->move.translation().norm());
+    const bool apart = std::any_of(parts.begin(), parts.end(), [&](const GltfPart& part) {
+      const Eigen::Matrix4d difference = part.move.matrix() - first->move.matrix();
+      return part.in_soup && (part.bent || difference.norm() > alike * size);
+    });
+    if (!apart) return;
+    scene_.soup.posed = true;
+    for (GltfPart& part : parts) part.bent = true;
   }
 
   /// Vertices first, first + 1, ... of the soup.
@@ -196,6 +201,7 @@ class SceneReader {
     std::size_t count = 0;
     bool mirrored = false;
     Eigen::Affine3d move = unmoved();
+    bool bent = false;
   };
 
   /// Skinned ones as bound: as their topmost joint moves them.
@@ -230,7 +236,7 @@ class SceneReader {
         seams_.push_back({first + static_cast<std::int64_t>(i), placed.modelled[i]});
       }
     }
-    return {first, count, placed.mirrored, placed.move};
+    return {first, count, placed.mirrored, placed.move, placed.bent};
   }
 
   /// Null: not skinned.
@@ -294,7 +300,6 @@ class SceneReader {
   std::map<int, GltfSkinPose> poses_;  // by skin
   std::vector<GltfSeamVertex> seams_;  // all vertices that skins move
   bool any_bent_ = false;
-  bool parts_apart_ = false;  // primitives of one mesh that joints move in different ways
   GltfScene scene_;
 };
 

@@ -32,6 +32,7 @@ struct GltfPart {
   std::int64_t count;
   Eigen::Affine3d move;  ///< from the (morphed) positions in the file to the scene; the identity
                          ///< where joints bend it
+  bool bent = false;     ///< no one move takes all of the node's mesh there
 };
 
 struct GltfReading {

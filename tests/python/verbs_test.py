@@ -85,6 +85,16 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(curveskel.UsageError):
             rig.save(self.folder / "h.vrm")
 
+    def test_rig_of_a_file_as_it_is_shown_or_as_it_was_bound(self):
+        rex = MESHES / "free" / "rigs" / "quaternius-trex-1k.glb"  # rests as it runs
+        made = []
+        for as_shown, arguments in ((False, ()), (True, ("--as-shown",))):
+            self.program("rig", rex, "-o", self.folder / "r.glb", *arguments)
+            curveskel.rig(rex, as_shown=as_shown).save(self.folder / "m.glb")
+            made.append((self.folder / "m.glb").read_bytes())
+            self.assertEqual(made[-1], (self.folder / "r.glb").read_bytes())
+        self.assertNotEqual(*made)
+
     @unittest.skipUnless(has("scipy"), "no scipy")
     def test_rig_takes_a_skeleton_or_joints(self):
         skeleton = curveskel.extract(Y)

@@ -27,6 +27,7 @@ struct EditCase {
   bool morphed = false;      ///< two targets, one of them with a weight
   bool instanced = false;    ///< one mesh under three nodes, one of them in another scene
   bool rich = false;         ///< materials, pictures, extras, extensions, UV, colours
+  bool shaded = false;       ///< normals and tangents, of morph targets, too
   bool loose = false;        ///< points and lines beside the triangles
   int old_rig = 0;           ///< joints of a rig that is there
   double old_turn = 0;       ///< of its joints against their bind pose
@@ -180,10 +181,15 @@ class EditSubject {
     const Eigen::MatrixXf places = torus.positions.cast<float>();
     Json attributes = add_places(places);
     if (case_.old_rig > 0) add_old_weights(attributes, places);
+    if (case_.shaded) add_shades(attributes, places);
     Json targets = Json::array();
-    if (case_.morphed) {
-      targets.push_back({{"POSITION", add_floats(0.1F * places, "VEC3", true)}});
-      targets.push_back({{"POSITION", add_floats(-0.2F * places, "VEC3", true)}});
+    for (const float factor : {0.1F, -0.2F}) {
+      if (!case_.morphed) break;
+      targets.push_back({{"POSITION", add_floats(factor * places, "VEC3", true)}});
+      if (!case_.shaded) continue;
+      const Eigen::MatrixXf tilts = factor * places.rowwise().reverse();
+      targets.back()["NORMAL"] = add_floats(tilts, "VEC3");
+      targets.back()["TANGENT"] = add_floats(-tilts, "VEC3");
     }
     Json primitives = Json::array();
     const Eigen::Index half = torus.triangles.rows() / 2;
@@ -202,6 +208,17 @@ class EditSubject {
     json_["meshes"].push_back({{"name", "body"}, {"primitives", primitives}});
     if (case_.morphed) json_["meshes"][0]["weights"] = {0.5, 0};
     add_small_mesh();
+  }
+
+  void add_shades(Json& attributes, const Eigen::MatrixXf& places) {
+    attributes["NORMAL"] = add_floats(places.rowwise().normalized(), "VEC3");
+    Eigen::MatrixXf tangents(places.rows(), 4);
+    for (Eigen::Index v = 0; v < places.rows(); ++v) {
+      const Eigen::Vector3f place = places.row(v).transpose();
+      tangents.row(v) << place.cross(Eigen::Vector3f::UnitZ()).normalized().transpose(),
+          v % 2 == 0 ? 1 : -1;
+    }
+    attributes["TANGENT"] = add_floats(tangents, "VEC4");
   }
 
   void add_small_mesh() {

@@ -24,9 +24,13 @@ class GltfByTheRule {
     Eigen::Vector3d modelled;  ///< morphed
     Eigen::Vector3d placed;
     bool is_weighted;  ///< the rule says nothing of a skinned vertex without weights
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< as placed, of length 1; zero: none
+    Eigen::Vector4d tangent = Eigen::Vector4d::Zero();  ///< likewise
   };
 
-  explicit GltfByTheRule(const std::filesystem::path& file) {
+  /// `weights` of morph targets; empty: each mesh has the file's own.
+  explicit GltfByTheRule(const std::filesystem::path& file, std::vector<double> weights = {})
+      : weights_(std::move(weights)) {
     std::ifstream stream(file, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(stream), {});
     std::string embedded;
@@ -191,19 +195,45 @@ class GltfByTheRule {
     return moves;
   }
 
-  void append(std::vector<Vertex>& all, const nlohmann::json& primitive, const nlohmann::json& mesh,
-              const nlohmann::json& node, const Eigen::Matrix4d& frame) const {
-    const auto& attributes = primitive["attributes"];
-    auto points = rows(attributes["POSITION"]);
-    const std::vector<double> none;
-    const auto weights = node.value("weights", mesh.value("weights", none));
+  /// Of positions, normals or tangents; empty: there are none.
+  [[nodiscard]] std::vector<std::vector<double>> morphed(const nlohmann::json& primitive,
+                                                         const std::vector<double>& weights,
+                                                         const char* name) const {
+    if (!primitive["attributes"].contains(name)) return {};
+    auto points = rows(primitive["attributes"][name]);
     for (std::size_t target = 0; target < weights.size(); ++target) {
-      if (!primitive["targets"][target].contains("POSITION")) continue;
-      const auto shifts = rows(primitive["targets"][target]["POSITION"]);
+      if (!primitive["targets"][target].contains(name)) continue;
+      const auto shifts = rows(primitive["targets"][target][name]);
       for (std::size_t v = 0; v < points.size(); ++v) {
         for (std::size_t k = 0; k < 3; ++k) points[v][k] += weights[target] * shifts[v][k];
       }
     }
+    return points;
+  }
+
+  /// Normals as planes move, tangents as directions do.
+  static void shade(Vertex& vertex, const Eigen::Matrix3d& linear,
+                    const std::vector<double>* normal, const std::vector<double>* tangent) {
+    if (normal != nullptr) {
+      const Eigen::Map<const Eigen::Vector3d> given(normal->data());
+      vertex.normal = (linear.inverse().transpose() * given).normalized();
+    }
+    if (tangent != nullptr) {
+      const Eigen::Map<const Eigen::Vector3d> given(tangent->data());
+      vertex.tangent << (linear * given).normalized(),
+          (*tangent)[3] * (linear.determinant() < 0 ? -1 : 1);
+    }
+  }
+
+  void append(std::vector<Vertex>& all, const nlohmann::json& primitive, const nlohmann::json& mesh,
+              const nlohmann::json& node, const Eigen::Matrix4d& frame) const {
+    const auto& attributes = primitive["attributes"];
+    const std::vector<double> none;
+    auto weights = node.value("weights", mesh.value("weights", none));
+    if (!weights.empty() && !weights_.empty()) weights = weights_;
+    const auto points = morphed(primitive, weights, "POSITION");
+    const auto normals = morphed(primitive, weights, "NORMAL");
+    const auto tangents = morphed(primitive, weights, "TANGENT");
     std::vector<Eigen::Matrix4d> moves(points.size(), frame);
     std::vector<double> sums(points.size(), 1);
     if (node.contains("skin") && attributes.contains("JOINTS_0")) {
@@ -224,8 +254,10 @@ class GltfByTheRule {
     }
     for (std::size_t v = 0; v < points.size(); ++v) {
       const Eigen::Vector3d point(points[v][0], points[v][1], points[v][2]);
-      const Eigen::Vector4d placed = moves[v] * point.homogeneous() / (sums[v] > 0 ? sums[v] : 1);
-      all.push_back({point, placed.head<3>(), sums[v] > 0});
+      const Eigen::Matrix4d move = moves[v] / (sums[v] > 0 ? sums[v] : 1);
+      all.push_back({point, (move * point.homogeneous()).head<3>(), sums[v] > 0});
+      shade(all.back(), move.topLeftCorner<3, 3>(), normals.empty() ? nullptr : &normals[v],
+            tangents.empty() ? nullptr : &tangents[v]);
     }
   }
 
@@ -233,6 +265,7 @@ class GltfByTheRule {
   std::vector<std::string> buffers_;
   std::vector<Eigen::Matrix4d> frames_;
   std::vector<std::size_t> shown_;  // nodes
+  std::vector<double> weights_;
 };
 
 }  // namespace curveskel

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -16,7 +18,9 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
+#include "tests/rig/edit_subjects.hpp"
 #include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer::rigging_laws {
@@ -100,6 +104,27 @@ TEST_F(Rigging, GoesWithTheSkeletonItWasMadeOf) {
   bench.start(false);
   ASSERT_TRUE(wait([&] { return !bench.busy(); }));
   EXPECT_FALSE(bench.has_rig()) << "the skeleton is a new one";
+}
+
+/// It was saved without its materials, as its numbers are those of another pose.
+TEST_F(Rigging, OfAFileThatRestsInAnotherPoseIsSavedIntoTheFile) {
+  const EditSubject subject(folder.path(),
+                            {.name = "posed", .rich = true, .old_rig = 4, .old_turn = 0.4});
+  bench.open({subject.path()});
+  ASSERT_TRUE(wait([&] { return bench.scene->document.has_surface() && !bench.busy(); }));
+  bench.start(false);
+  ASSERT_TRUE(wait([&] { return bench.result() != nullptr && !bench.busy(); }));
+  make_rig();
+  const std::filesystem::path saved = folder.path() / "saved.glb";
+  bench.save(saved);
+  EXPECT_TRUE(last_said().ends_with("saved.glb")) << last_said();
+  const Positions shown = read_polygons(subject.path()).positions;
+  const Positions found = read_polygons(saved).positions;
+  ASSERT_EQ(found.rows(), shown.rows());
+  EXPECT_LT((found - shown).rowwise().norm().maxCoeff(), 1e-5);
+  std::ifstream stream(saved, std::ios::binary);
+  const Glb glb = glb_of(std::string(std::istreambuf_iterator<char>(stream), {}));
+  EXPECT_EQ(glb.json["materials"], subject.json()["materials"]);
 }
 
 TEST_F(Rigging, HangsFromTheRootThatWasSet) {

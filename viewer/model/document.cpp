@@ -45,7 +45,6 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   document.format = soup.format;
   document.faces_minus_z = soup.faces_minus_z;
   document.z_is_up = soup.z_is_up;
-  document.posed = soup.posed;
   document.surface.triangles = triangulate(soup);
   if (has_same_triangles(soup, document.surface.triangles)) {
     document.surface.positions = std::move(soup.positions);

@@ -25,7 +25,6 @@ struct Document {
   SurfaceFormat format = SurfaceFormat::obj;  ///< of the mesh's file
   bool faces_minus_z = false;                 ///< as in PolygonSoup
   bool z_is_up = false;                       ///< likewise
-  bool posed = false;                         ///< the same
   Surface surface;                            ///< the file's triangles, nothing repaired
   std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one
   std::optional<CurveSkeleton> skeleton;      ///< node_of_vertex by the file's vertices, or empty

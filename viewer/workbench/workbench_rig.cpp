@@ -158,10 +158,10 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   std::optional<EditedFile> edited;
   std::string without;  // why the file's own content is not in what is saved
   try {
-    // The file's numbers are those of the bind pose, the rig's those of the pose that is shown.
-    if (document.posed) without = "the file rests in another pose than its joints were bound in";
-    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(), {}};
-    if (without.empty()) edited = format_rig_into(document.mesh_file, rig, options);
+    constexpr bool as_bound = false;  // the viewer's surface rests as shown
+    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(),
+                              {},     as_bound};
+    edited = format_rig_into(document.mesh_file, rig, options);
   } catch (const Error& error) {
     without = error.what();
   }
