@@ -63,6 +63,7 @@ class JointPlacer {
     above_ = tree_.parent;
     for (std::size_t k = 0; k < tree_.roots.size(); ++k)
       above_[idx(tree_.roots[k])] = tree_.above[k];
+    begin_limbs_below_forks();
   }
 
   Joints place() {
@@ -88,6 +89,28 @@ class JointPlacer {
     parents_.push_back(parent);
     joints_.names.push_back(std::move(name));
     return static_cast<int>(points_.size()) - 1;
+  }
+
+  /// The node of a fork is the fork's: joints that hang from it with others and are as near to no
+  /// other node begin with the next one on their limb.
+  void begin_limbs_below_forks() {
+    std::vector<int> hanging(planned_.size(), 0);
+    for (const PlannedJoint& joint : planned_) {
+      if (joint.parent >= 0) ++hanging[idx(joint.parent)];
+    }
+    for (std::size_t k = 0; k < planned_.size(); ++k) {
+      PlannedJoint& joint = planned_[k];
+      const bool shares_fork = joint.parent >= 0 && hanging[idx(joint.parent)] > 1 &&
+                               joint.node >= 0 && planned_[idx(joint.parent)].node == joint.node;
+      if (!shares_fork) continue;
+      const auto below = std::find_if(planned_.begin(), planned_.end(), [&](const auto& other) {
+        return other.parent == static_cast<int>(k) && other.node >= 0;
+      });
+      if (below == planned_.end()) continue;
+      int node = below->node;
+      while (node >= 0 && above_[idx(node)] != joint.node) node = above_[idx(node)];
+      if (node >= 0) joint.node = node;
+    }
   }
 
   /// Each node up to the next planned joint belongs to the last one before it on the way from the
@@ -405,7 +428,7 @@ class JointPlacer {
   }
 
   const CurveSkeleton& skeleton_;
-  const std::vector<PlannedJoint>& planned_;
+  std::vector<PlannedJoint> planned_;
   const JointOptions& options_;
   const RootedTree tree_;
   std::vector<int> above_;       // by node: towards the root, across components

@@ -19,21 +19,27 @@ constexpr Eigen::Index most_balls = 1000;  // of a component
 
 // A ball is about a place if that lies in it or nearly so: balls touch the surface at some places
 // only.
-constexpr double about = 1.25;  // radii
+constexpr double about_radii = 1.25;
 
 Eigen::Index stride_of(Eigen::Index vertices, Eigen::Index most) {
   return std::max<Eigen::Index>(1, vertices / most);
 }
 
-/// The largest ball about the point; 0 if there is none.
+/// The radius of the largest ball about the point; where none is, as at the edge of a flat end, of
+/// the nearest for its size. 0 if there are no balls.
 double largest_about(const std::vector<SurfaceTree::Ball>& balls, const Vector3d& point) {
   double largest = 0;
+  double of_nearest = 0;
+  double least_squared_radii = std::numeric_limits<double>::infinity();
   for (const SurfaceTree::Ball& ball : balls) {
     if (ball.radius <= largest) continue;
-    const double reach = about * ball.radius;
-    if ((ball.centre - point).squaredNorm() <= reach * reach) largest = ball.radius;
+    const double squared_radii = (ball.centre - point).squaredNorm() / (ball.radius * ball.radius);
+    if (squared_radii <= about_radii * about_radii) largest = ball.radius;
+    if (squared_radii >= least_squared_radii) continue;
+    least_squared_radii = squared_radii;
+    of_nearest = ball.radius;
   }
-  return largest;
+  return largest > 0 ? largest : of_nearest;
 }
 
 }  // namespace
