@@ -25,7 +25,8 @@ RepairedContraction contract_repaired(const RepairedSurface& repaired,
     }
     Positions centres;
     if (options.flow == Flow::medial) {
-      centres = inscribed_balls(surface, SurfaceTree(surface), options.threads).centres;
+      centres =
+          inscribed_balls(surface, SurfaceTree(surface), options.threads, monitor.stop).centres;
     }
     Contraction contraction = contract(surface, centres, options, with_number);
     for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {

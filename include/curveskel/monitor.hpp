@@ -41,6 +41,11 @@ struct CurveFrame {
   ShownTry made_in{};
 };
 
+/// Throws Cancelled if a stop was requested: for loops that have no progress to tell.
+inline void throw_if_stopped(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Cancelled();
+}
+
 /// Callbacks, all optional, called from the thread that runs the stage. A stage calls `report` at
 /// least once per 100 ms of work, so a requested stop takes effect within that time.
 struct Monitor {
@@ -57,7 +62,7 @@ struct Monitor {
 
   /// Throws Cancelled if a stop was requested, then passes the progress on.
   void report(std::string_view stage, double fraction) const {
-    if (stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(stop);
     if (progress) progress(stage, fraction);
   }
   void say(std::string_view line) const {

@@ -1,10 +1,13 @@
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"
+#include "rig/joints/bone_axes.hpp"
 
 namespace curveskel {
 namespace {
@@ -19,14 +22,48 @@ std::string lines(Eigen::Index count, const Row& row) {
   return text + "\n]";
 }
 
-std::string joint_line(const Rig& rig, Eigen::Index joint) {
-  const auto place = rig.joints.row(joint);
-  Json line = {{"name", as_utf8(rig.names[idx(joint)])},
-               {"parent", rig.parents[joint]},
-               {"position", {place.x(), place.y(), place.z()}}};
-  if (!rig.roles.empty() && !rig.roles[idx(joint)].empty()) line["role"] = rig.roles[idx(joint)];
-  return line.dump();
+Json direction(const Eigen::Vector3d& unit) {
+  constexpr double digits = 1e6;
+  Json numbers = Json::array();
+  for (const double number : unit) numbers.push_back(std::round(number * digits) / digits + 0.0);
+  return numbers;
 }
+
+/// At tips, which show how long the last bone is.
+std::vector<bool> moves_nothing(const Rig& rig) {
+  std::vector<bool> nothing(idx(rig.parents.size()), true);
+  for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
+    for (SkinWeights::InnerIterator it(rig.weights, v); it; ++it) nothing[idx(it.col())] = false;
+  }
+  for (const int parent : rig.parents) {
+    if (parent >= 0) nothing[idx(parent)] = false;
+  }
+  return nothing;
+}
+
+class JointLines {
+ public:
+  explicit JointLines(const Rig& rig)
+      : rig_(rig), axes_(bone_axes(rig)), is_end_(moves_nothing(rig)) {}
+
+  [[nodiscard]] std::string line(Eigen::Index joint) const {
+    const auto place = rig_.joints.row(joint);
+    Json line = {{"name", as_utf8(rig_.names[idx(joint)])},
+                 {"parent", rig_.parents[joint]},
+                 {"position", {place.x(), place.y(), place.z()}},
+                 {"axis", direction(axes_[idx(joint)] * Eigen::Vector3d::UnitY())}};
+    if (is_end_[idx(joint)]) line["end"] = true;
+    if (!rig_.roles.empty() && !rig_.roles[idx(joint)].empty()) {
+      line["role"] = rig_.roles[idx(joint)];
+    }
+    return line.dump();
+  }
+
+ private:
+  const Rig& rig_;
+  const std::vector<Eigen::Quaterniond> axes_;
+  const std::vector<bool> is_end_;
+};
 
 }  // namespace
 
@@ -44,9 +81,10 @@ std::string format_json_rig(const Rig& rig, const std::string& provenance) {
     }
     return text + "]";
   };
+  const JointLines joints(rig);
   return "{\"format\": \"curveskel-rig\", \"version\": 1, \"generator\": " +
          Json(as_utf8(provenance)).dump() + ",\n\"joints\": " +
-         lines(rig.joints.rows(), [&](Eigen::Index k) { return joint_line(rig, k); }) +
+         lines(rig.joints.rows(), [&](Eigen::Index k) { return joints.line(k); }) +
          ",\n\"vertices\": " + std::to_string(vertices) + ",\n\"weights\": {\"joints\": " +
          lines(vertices,
                [&](Eigen::Index v) { return row_of(four_weights(rig.weights, v).joints); }) +

@@ -67,13 +67,14 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
   const std::vector<MirrorPlane> planes =
       clock("mirror planes", [&] { return mirror_planes(surface, tree, tuning.spacing.least); });
   SkeletonGraph graph;
-  embed_in_working_surface(
-      graph, {working, tree, tree, partition, options, tuning, spacing, threads, guard, planes},
-      clock, monitor);
+  embed_in_working_surface(graph,
+                           {working, tree, tree, partition, options, tuning, spacing, threads,
+                            guard, planes, monitor.stop},
+                           clock, monitor);
   const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
   graph.forget_radii();
-  const Setting at_last{working, *full,   tree,    partition, options,
-                        tuning,  spacing, threads, guard,     planes};
+  const Setting at_last{working, *full,   tree,  partition, options,     tuning,
+                        spacing, threads, guard, planes,    monitor.stop};
   embed_in_full_surface(graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);

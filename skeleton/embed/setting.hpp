@@ -1,6 +1,7 @@
 // The surface and all else that a SkeletonGraph is held against while it is embedded.
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/advanced/embed.hpp>
@@ -26,6 +27,7 @@ struct Setting {
   int threads;
   HomologyGuard& guard;
   std::vector<MirrorPlane> mirror_planes;  ///< of the surface
+  std::stop_token stop = {};               ///< asked in all loops that may take long
 };
 
 }  // namespace curveskel

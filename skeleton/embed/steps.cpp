@@ -58,6 +58,7 @@ RelaxOptions relaxing(const Setting& in, int rounds) {
   options.keep = in.options.keep_radius;
   options.tuning = in.tuning.relax;
   options.section = in.tuning.section;
+  options.stop = in.stop;
   return options;
 }
 
@@ -77,7 +78,7 @@ bool prune(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool stay_inside(SkeletonGraph& graph, const Setting& in) {
-  return keep_inside(graph, in.working, in.partition, in.tree, in.guard) == 0;
+  return keep_inside(graph, in.working, in.partition, in.tree, in.guard, in.stop) == 0;
 }
 
 /// Takes a change only if it makes something to which a way inside is found.
@@ -91,14 +92,15 @@ bool change_inside(SkeletonGraph& graph, const Setting& in, const Change& change
 
 bool widen_bottlenecks(SkeletonGraph& graph, const Setting& in) {
   return change_inside(graph, in, [&in](SkeletonGraph& changed) {
-    return reroute_bottlenecks(changed, in.working, in.partition, in.tree, in.tuning.bottleneck);
+    return reroute_bottlenecks(changed, in.working, in.partition, in.tree, in.tuning.bottleneck,
+                               in.stop);
   });
 }
 
 bool grow(SkeletonGraph& graph, const Setting& in) {
   return change_inside(graph, in, [&in](SkeletonGraph& changed) {
     return grow_branches(changed, in.working, in.tree, in.partition, in.tuning.prominence,
-                         in.tuning.growth);
+                         in.tuning.growth, in.stop);
   });
 }
 
@@ -140,10 +142,10 @@ bool keep_handles(SkeletonGraph& graph, const Setting& in, const Change& change)
 bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
   constexpr int times_spaced = 3;  // the radii change as the points move
   SettleOptions settling;
-  settling.rounds = in.options.relax_rounds / times_spaced;
   settling.keep = in.options.keep_radius;
   settling.tuning = in.tuning.relax;
   settling.section = in.tuning.section;
+  settling.stop = in.stop;
   const auto projections = project_on_arcs(graph, in.working, in.partition);
   settling.is_own = [&](int triangle, int arc) {
     const auto corners = in.working.surface().triangles.row(triangle);
@@ -155,6 +157,10 @@ bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
       space_by_radius(graph, in.tree, in.spacing);
       return true;
     });
+    const auto rounds_until = [&](int times) {
+      return in.options.relax_rounds * times / times_spaced;
+    };
+    settling.rounds = rounds_until(spaced + 1) - rounds_until(spaced);
     settle(graph, in.tree, settling, in.guard, in.threads);
   }
   return true;
@@ -316,7 +322,7 @@ int points_outside(const SkeletonGraph& graph, const SurfaceTree& tree) {
 
 bool run_step(const EmbedStep& one, SkeletonGraph& graph, const Setting& in, StepClock& clock,
               const Monitor& monitor) {
-  if (monitor.stop.stop_requested()) throw Cancelled();
+  throw_if_stopped(in.stop);
   const bool goes_on = clock(one.name, [&] {
     return one.guarded ? step::keep_handles(graph, in, [&] { return one.apply(graph, in); })
                        : one.apply(graph, in);

@@ -165,9 +165,11 @@ int homology_rank(SeenLoops& loops, const CurveSkeleton& skeleton) {
 }
 
 int homology_rank(const Surface& surface, const CurveSkeleton& skeleton) {
-  if (SeenLoops loops(surface); loops.handles.components == 1)
-    return homology_rank(loops, skeleton);
   const Topology counted = topology(surface);
+  if (counted.components() == 1) {
+    SeenLoops loops(surface);
+    return homology_rank(loops, skeleton);
+  }
   const auto parts = with_cycles(skeleton);
   std::vector<Eigen::Matrix<double, 2, 3>> boxes(parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -72,11 +73,34 @@ class Grid {
     const auto last = [this](std::int64_t high, std::int64_t origin) {
       return high < origin ? -1 : std::min(side_ - 1, (high - origin) / cell_);
     };
-    for (std::int64_t y = first(y_low, low_[1]); y <= last(y_high, low_[1]); ++y) {
-      for (std::int64_t x = first(x_low, low_[0]); x <= last(x_high, low_[0]); ++x) {
+    const std::int64_t x_first = first(x_low, low_[0]);
+    const std::int64_t x_last = last(x_high, low_[0]);
+    const std::int64_t y_last = last(y_high, low_[1]);
+    for (std::int64_t y = first(y_low, low_[1]); y <= y_last; ++y) {
+      const auto [from, to] = columns_passed(segment, y);
+      for (std::int64_t x = std::max(from, x_first); x <= std::min(to, x_last); ++x) {
         visit(cells_[idx(y * side_ + x)]);
       }
     }
+  }
+
+  /// The first and the last cell that the segment passes in a row of cells, and one more on either
+  /// side for rounding: a long segment's box has far more.
+  [[nodiscard]] std::array<std::int64_t, 2> columns_passed(const Segment& segment,
+                                                           std::int64_t row) const {
+    const auto [lower, upper] =
+        std::minmax(segment[0], segment[1], [](const Seen& a, const Seen& b) { return a.y < b.y; });
+    if (lower.y == upper.y) return {0, side_ - 1};
+    const double slope =
+        static_cast<double>(upper.x - lower.x) / static_cast<double>(upper.y - lower.y);
+    const auto column_at = [&](std::int64_t line) {
+      const std::int64_t y = std::clamp(low_[1] + line * cell_, lower.y, upper.y);
+      const double x =
+          static_cast<double>(lower.x - low_[0]) + slope * static_cast<double>(y - lower.y);
+      return static_cast<std::int64_t>(std::floor(x / static_cast<double>(cell_)));
+    };
+    const auto [least, most] = std::minmax({column_at(row), column_at(row + 1)});
+    return {least - 1, most + 1};
   }
 
   std::vector<Segment> segments_;

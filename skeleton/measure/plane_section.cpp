@@ -153,7 +153,7 @@ std::optional<PlaneSection> section_around(const Surface& surface, const Surface
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (areas[k] >= 0) continue;
     if (innermost(loops, areas, loops[k].corners.col(0), k) == outer) {
-      section.boundary.push_back(std::move(loops[k]));
+      section.boundary.push_back(loops[k]);
     }
   }
   return section;

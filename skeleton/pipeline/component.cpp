@@ -174,7 +174,8 @@ class Pipeline {
     return stage_("balls", kept_.balls, {working}, [&] {
       SurfaceTree rough(working->surface, options_.threads);
       SurfaceTree near = plant_near();
-      InscribedBalls balls = inscribed_balls(working->surface, near, options_.threads);
+      InscribedBalls balls =
+          inscribed_balls(working->surface, near, options_.threads, monitor_.stop);
       Positions targets = smoothed_centres(
           working->surface, balls,
           working->surface.positions.rows() < source.positions.rows() ? target_rounds : 0);
@@ -211,7 +212,7 @@ class Pipeline {
       LevelSets made;
       made.cut = level_set_graph(working.surface, monitor);
       made.vertex_of_input = made.cut.vertex_of_input(working.vertex_of_input);
-      made.balls = inscribed_balls(made.cut.surface, balls->near, options_.threads);
+      made.balls = inscribed_balls(made.cut.surface, balls->near, options_.threads, monitor_.stop);
       if (monitor.curve) show_curve(made.cut.graph, made.cut.surface.positions, monitor);
       return made;
     });

@@ -4,6 +4,7 @@
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 
 namespace curveskel {
@@ -43,7 +44,8 @@ void fill_invalid(const Surface& surface, std::vector<char>& valid, InscribedBal
 
 }  // namespace
 
-InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, int threads) {
+InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, int threads,
+                               const std::stop_token& stop) {
   require_sound(surface, "inscribed_balls");
   const Eigen::Index vertices = surface.positions.rows();
   const Positions normals = vertex_normals(surface);
@@ -54,6 +56,7 @@ InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, 
   parallel_for(static_cast<std::size_t>(vertices), 256, threads,
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t i = begin; i < end; ++i) {
+                   throw_if_stopped(stop);
                    const auto v = static_cast<Eigen::Index>(i);
                    const Eigen::Vector3d inward = -normals.row(v);
                    if (inward.squaredNorm() == 0) continue;

@@ -256,6 +256,26 @@ TEST(PlannedJoints, ASpikeHasBonesAboutAsLongAsThePlans) {
   }
 }
 
+// A robot's chest went with its right leg.
+TEST(PlannedJoints, TheNodeOfAForkIsTheForks) {
+  CurveSkeleton skeleton;  // a trunk up along y with two legs down from its lower end
+  skeleton.nodes.resize(7, 3);
+  skeleton.nodes << 0, 0, 0, 0, 1, 0, 0, 2, 0, -1, -1, 0, -1, -2, 0, 1, -1, 0, 1, -2, 0;
+  skeleton.edges.resize(6, 2);
+  skeleton.edges << 0, 1, 0, 3, 0, 5, 1, 2, 3, 4, 5, 6;
+  skeleton.radii = Eigen::VectorXd::Constant(7, 0.2);
+  const auto at = [&](const char* role, int parent, int node) {
+    return PlannedJoint{role, parent, node, skeleton.nodes.row(node), "", false};
+  };
+  const std::vector<PlannedJoint> planned{at("hips", -1, 0),        at("spine", 0, 0),
+                                          at("chest", 1, 2),        at("leftUpperLeg", 0, 0),
+                                          at("leftLowerLeg", 3, 4), at("rightUpperLeg", 0, 0),
+                                          at("rightLowerLeg", 5, 6)};
+  const Joints joints = place_planned_joints(skeleton, planned);
+  const Eigen::VectorXi expected = (Eigen::VectorXi(7) << 0, 1, 2, 3, 4, 5, 6).finished();
+  EXPECT_EQ(joints.joint_of_node, expected);
+}
+
 std::string refusal_of(const CurveSkeleton& skeleton, int root, Fault fault = Fault::input) {
   try {
     (void)place_joints(skeleton, {.root = root});

@@ -70,6 +70,18 @@ TEST(FindParts, ButtonsFollowAndLimbsDoNot) {
   EXPECT_FALSE(found.all_body());
 }
 
+// No inscribed ball is about the rim of a flat end: a robot's rivets had joints of their own.
+TEST(FindParts, RivetsOnARimFollow) {
+  for (const double x : {-6.0, 6.0}) {
+    for (const double z : {-1.0, 1.0}) {
+      const Shape shape = together(with_body({ball_at(0.05, {x, 0, z})}));
+      const RigParts found = find_parts(shape.surface);
+      EXPECT_TRUE(found.parts[1].follows) << x << " " << z << " " << found.parts[1].reach;
+      EXPECT_LT(found.parts[1].reach, 0.2);
+    }
+  }
+}
+
 TEST(FindParts, ReachIsInRadiiOfTheBody) {
   for (const double scale : {0.01, 1.0, 300.0}) {
     for (const double out : {0.3, 0.8, 2.0, 4.0}) {  // the farthest place, from the body's surface

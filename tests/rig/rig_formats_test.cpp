@@ -18,6 +18,7 @@
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
+#include "rig/joints/bone_axes.hpp"
 #include "surface/read/zip_archive.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
@@ -134,6 +135,22 @@ TEST_F(RigFormats, JsonHasFourWeightsOfSumOneForEachVertex) {
         EXPECT_NEAR(value, rig.weights.coeff(static_cast<Eigen::Index>(vertex), number), 1e-6F);
       }
       EXPECT_NEAR(sum, 1, 1e-6);
+    }
+  }
+}
+
+TEST_F(RigFormats, JsonHasTheAxesOfBonesAndSaysWhatIsAnEnd) {
+  for (const WrittenCase& one : written_cases()) {
+    const Rig rig = random_rig_of(one);
+    const Json json = Json::parse(formatted(rig, RigFormat::json));
+    const auto axes = bone_axes(rig);
+    for (int joint = 0; joint < static_cast<int>(axes.size()); ++joint) {
+      const Json& line = json["joints"][idx(joint)];
+      const Eigen::Vector3d axis(line["axis"][0], line["axis"][1], line["axis"][2]);
+      EXPECT_LT((axis - axes[idx(joint)] * Eigen::Vector3d::UnitY()).norm(), 2e-6);
+      const bool has_children = (rig.parents.array() == joint).any();
+      const bool moves = Eigen::MatrixXf(rig.weights).col(joint).any();
+      EXPECT_EQ(line.value("end", false), !has_children && !moves);
     }
   }
 }

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include <curveskel/certificate.hpp>
@@ -127,6 +130,35 @@ TEST(HomologyRank, OfCopiedLoopsNeedsNoSource) {
   linking::SeenLoops copy = *source;
   source.reset();
   EXPECT_EQ(homology_rank(copy, closed({once_round()})), 1);
+}
+
+// Long segments were kept in every cell of their box.
+TEST(LinkingGrid, FindsWhatEachSegmentCrossesOver) {
+  std::mt19937_64 random(7);
+  const auto up_to = [&](std::uint64_t most) { return static_cast<std::int64_t>(random() % most); };
+  const auto segment = [&](std::int64_t reach) {
+    const linking::Seen from{up_to(1000000), up_to(1000000), static_cast<double>(up_to(100))};
+    linking::Seen to{from.x + up_to(2 * reach) - reach, from.y + up_to(2 * reach) - reach,
+                     static_cast<double>(up_to(100))};
+    if (up_to(8) == 0) to.y = from.y;
+    if (up_to(8) == 0) to.x = from.x;
+    return linking::Segment{from, to};
+  };
+  std::vector<linking::Segment> segments;
+  for (int k = 0; k < 300; ++k) segments.push_back(segment(k % 2 == 0 ? 2000000 : 30000));
+  linking::Grid grid(segments);
+  for (int k = 0; k < 300; ++k) {
+    const linking::Segment asked = segment(k % 2 == 0 ? 2000000 : 30000);
+    std::vector<int> found;
+    grid.crossed_by(asked, [&](int s) { found.push_back(s); });
+    std::sort(found.begin(), found.end());
+    std::vector<int> expected;
+    for (int s = 0; s < 300; ++s) {
+      if (linking::crosses_over(asked, segments[static_cast<std::size_t>(s)]))
+        expected.push_back(s);
+    }
+    EXPECT_EQ(found, expected);
+  }
 }
 
 TEST(IndependentRows, AreThoseThatAreNoSumOfOthers) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stop_token>
 
 #include <curveskel/advanced/coarsen.hpp>
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
 
 namespace curveskel::inscribed_balls_laws {
@@ -29,6 +31,15 @@ TEST(InscribedBalls, OfACoarsenedTubeReachItsAxis) {
     off += from_axis > 0.1 || std::abs(from_vertex - balls.radii[v]) > 0.05 ? 1 : 0;
   }
   EXPECT_LT(off, coarse.positions.rows() / 50);  // a tilted normal here and there
+}
+
+TEST(InscribedBalls, StopWhenAsked) {
+  const auto ring = shapes::torus(3, 0.5, 24);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(
+      (void)inscribed_balls(ring.surface, SurfaceTree(ring.surface), 0, source.get_token()),
+      Cancelled);
 }
 
 TEST(InscribedBalls, SmoothedCentresStayOnAnAxis) {

@@ -66,7 +66,8 @@ class SurfaceTree {
 
   struct Ball {
     Eigen::Vector3d centre;
-    double radius = 0;  ///< infinity if no surface point bounds the ball to less than D
+    double radius = 0;  ///< infinity if no surface point bounds the ball to less than D or a
+                        ///< little more, 2 D at most
   };
   /// Distance to the surface, positive inside and negative outside.
   [[nodiscard]] double inscribed_radius(const Eigen::Vector3d& point) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "skeleton/embed/arc_projection.hpp"
 #include "skeleton/embed/branches/prominence.hpp"
 
@@ -25,12 +26,13 @@ struct Apex {
 class Growth {
  public:
   Growth(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
-         const PartitionGraph& partition, const GrowthTuning& tuning)
+         const PartitionGraph& partition, const GrowthTuning& tuning, const std::stop_token& stop)
       : graph_(graph),
         working_(working),
         tree_(tree),
         partition_(partition),
         tuning_(tuning),
+        stop_(stop),
         sweep_(working),
         projections_(idx(working.vertices())),
         grown_(projections_.size(), 0) {}
@@ -157,6 +159,7 @@ class Growth {
   [[nodiscard]] std::vector<Apex> apices(double limit) {
     std::vector<Apex> found;
     for (const int v : farthest_around()) {
+      throw_if_stopped(stop_);
       const double radius = tree_.inscribed_radius(projections_[idx(v)].place);
       if (height(v) < tuning_.least_branch * radius) continue;
       const int node = node_at(projections_[idx(v)], radius);
@@ -196,6 +199,7 @@ class Growth {
   const SurfaceTree& tree_;
   const PartitionGraph& partition_;
   const GrowthTuning& tuning_;
+  const std::stop_token& stop_;
   ProminenceSweep sweep_;
   std::vector<ArcProjection> projections_;  // per vertex
   std::vector<char> grown_;                 // per vertex: it has had its branch
@@ -205,8 +209,9 @@ class Growth {
 }  // namespace
 
 int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
-                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning) {
-  return Growth(graph, working, tree, partition, tuning).run(limit);
+                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning,
+                  const std::stop_token& stop) {
+  return Growth(graph, working, tree, partition, tuning, stop).run(limit);
 }
 
 }  // namespace curveskel

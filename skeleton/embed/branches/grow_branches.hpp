@@ -1,6 +1,8 @@
 // Branches that the surgery did not make, and limbs that it left short.
 #pragma once
 
+#include <stop_token>
+
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
@@ -19,6 +21,7 @@ namespace curveskel {
 /// corner that the apex of a blunt end is. The new points may lie outside.
 /// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
 int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
-                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning = {});
+                  const PartitionGraph& partition, double limit, const GrowthTuning& tuning = {},
+                  const std::stop_token& stop = {});
 
 }  // namespace curveskel

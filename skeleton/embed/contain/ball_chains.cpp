@@ -63,19 +63,27 @@ std::vector<int> BallChains::way(int from, int to, const std::vector<int>& group
   return paths_.path_to(to);
 }
 
-std::vector<double> BallChains::costs(const Point& p, const std::vector<Point>& places,
-                                      const std::vector<int>& groups) {
+std::vector<int> BallChains::holders(const std::vector<Point>& places,
+                                     const std::vector<int>& groups) {
   prepare();
+  std::vector<int> holders;
+  holders.reserve(places.size());
+  for (const Point& place : places) holders.push_back(holder_of(place, groups));
+  return holders;
+}
+
+std::vector<double> BallChains::costs(std::size_t from, const std::vector<Point>& places,
+                                      const std::vector<int>& holders,
+                                      const std::vector<int>& groups) {
   std::vector<double> costs(places.size(), no_way);
-  const int source = holder_of(p, groups);
+  const int source = holders[from];
   if (source < 0) return costs;
   search(source, ShortestPaths::no_target, groups);
-  const auto from_ball = [&](const Point& place, int v) {
-    return distance(place, v) / balls_.radii[v];
+  const auto from_ball = [&](std::size_t place) {
+    return distance(places[place], holders[place]) / balls_.radii[holders[place]];
   };
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const int target = holder_of(places[i], groups);
-    costs[i] = from_ball(p, source) + paths_.distance(target) + from_ball(places[i], target);
+    costs[i] = from_ball(from) + paths_.distance(holders[i]) + from_ball(i);
   }
   return costs;
 }

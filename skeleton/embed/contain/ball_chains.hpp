@@ -39,9 +39,14 @@ class BallChains {
   [[nodiscard]] std::vector<Point> chain(const Point& p, const Point& q,
                                          const std::vector<int>& groups);
 
-  /// The cost of the cheapest chain from p to each of the places, infinity if there is no way. Its
-  /// first and last steps, from a place to the ball that holds it best, count with that ball.
-  [[nodiscard]] std::vector<double> costs(const Point& p, const std::vector<Point>& places,
+  /// For each place the vertex of the given groups whose ball holds it best; -1 if they have no
+  /// balls. O(places x vertices of the groups).
+  [[nodiscard]] std::vector<int> holders(const std::vector<Point>& places,
+                                         const std::vector<int>& groups);
+  /// The cost of the cheapest chain from one of the places to each of them, infinity if there is no
+  /// way. Its first and last steps, from a place to its holder, count with that ball.
+  [[nodiscard]] std::vector<double> costs(std::size_t from, const std::vector<Point>& places,
+                                          const std::vector<int>& holders,
                                           const std::vector<int>& groups);
 
   /// The vertices of a cheapest chain from one to another, both included; empty if there is no way.

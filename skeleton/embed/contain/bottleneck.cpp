@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "skeleton/embed/contain/ball_chains.hpp"
 
 namespace curveskel {
@@ -98,16 +99,18 @@ struct Gain {
 class Rerouting {
  public:
   Rerouting(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
-            const SurfaceTree& tree, const BottleneckTuning& tuning)
+            const SurfaceTree& tree, const BottleneckTuning& tuning, const std::stop_token& stop)
       : graph_(graph),
         partition_(partition),
         tree_(tree),
         tuning_(tuning),
+        stop_(stop),
         chains_(working, partition) {}
 
   int run() {
     int count = 0;
     for (int s = 0; s < static_cast<int>(graph_.arcs.size()); ++s) {
+      throw_if_stopped(stop_);
       const Arc& arc = graph_.arcs[idx(s)];
       if (!arc.alive || arc.from == arc.to) continue;
       const Course course(graph_.points_along(arc, tree_), tree_);
@@ -141,9 +144,10 @@ class Rerouting {
   /// From the widest places on, first one end and then the other goes where the new way gains most.
   Gain most_to_gain(const Course& course, Ends ends, const std::vector<int>& groups) {
     double ratio = 0;
+    const std::vector<int> holders = chains_.holders(course.places, groups);
     for (const bool first : {false, true, false}) {
       const std::size_t fixed = first ? ends.last : ends.first;
-      const auto costs = chains_.costs(course.places[fixed], course.places, groups);
+      const auto costs = chains_.costs(fixed, course.places, holders, groups);
       double most = 0;
       const std::size_t begin = first ? 0 : ends.first + 1;
       const std::size_t end = first ? ends.last : course.points.size();
@@ -163,6 +167,7 @@ class Rerouting {
   const PartitionGraph& partition_;
   const SurfaceTree& tree_;
   const BottleneckTuning& tuning_;
+  const std::stop_token& stop_;
   BallChains chains_;
 };
 
@@ -170,8 +175,8 @@ class Rerouting {
 
 int reroute_bottlenecks(SkeletonGraph& graph, const WorkingSurface& working,
                         const PartitionGraph& partition, const SurfaceTree& tree,
-                        const BottleneckTuning& tuning) {
-  return Rerouting(graph, working, partition, tree, tuning).run();
+                        const BottleneckTuning& tuning, const std::stop_token& stop) {
+  return Rerouting(graph, working, partition, tree, tuning, stop).run();
 }
 
 }  // namespace curveskel

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
 #include "skeleton/embed/contain/cover.hpp"
@@ -30,13 +31,14 @@ std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const Sur
 class Keeper {
  public:
   Keeper(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
-         const SurfaceTree& tree, HomologyGuard& handles)
+         const SurfaceTree& tree, HomologyGuard& handles, const std::stop_token& stop)
       : graph_(graph),
         working_(working),
         balls_(working.balls()),
         partition_(partition),
         tree_(tree),
         handles_(handles),
+        stop_(stop),
         chains_(working, partition) {}
 
   int run() {
@@ -53,6 +55,7 @@ class Keeper {
       for (const int s : core(graph_)) on_cycle[idx(s)] = 1;
     }
     for (std::size_t s = 0; s < graph_.arcs.size(); ++s) {
+      throw_if_stopped(stop_);
       if (graph_.arcs[s].alive) cover_arc(graph_.arcs[s], on_cycle[s] != 0);
     }
     return uncovered_;
@@ -337,6 +340,7 @@ class Keeper {
                                            const std::vector<int>& groups) {
     std::optional<Detour> best;
     while (true) {
+      throw_if_stopped(stop_);
       const auto vertices = balls_between(p, q, groups);
       if (vertices.empty()) break;
       Detour made = detour_by(vertices, p, q);
@@ -370,6 +374,7 @@ class Keeper {
   const PartitionGraph& partition_;
   const SurfaceTree& tree_;
   HomologyGuard& handles_;
+  const std::stop_token& stop_;
   std::optional<BelowSurface> below_;
   BallChains chains_;
   std::map<int, CurvePoint> centres_;                   ///< of the balls passed so far
@@ -382,8 +387,9 @@ class Keeper {
 }  // namespace
 
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
-                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles) {
-  return Keeper(graph, working, partition, tree, handles).run();
+                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
+                const std::stop_token& stop) {
+  return Keeper(graph, working, partition, tree, handles, stop).run();
 }
 
 }  // namespace curveskel

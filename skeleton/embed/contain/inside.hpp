@@ -1,6 +1,8 @@
 // A skeleton that never leaves its surface.
 #pragma once
 
+#include <stop_token>
+
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
@@ -19,8 +21,9 @@ namespace curveskel {
 /// that meets no triangle counts as covered, too.
 /// An arc that needs more than four such ways takes a single one from node to node instead.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
-/// edges that are still not covered. Precondition: D = 1.
+/// edges that are still not covered. Precondition: D = 1. Throws Cancelled if a stop was requested.
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
-                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles);
+                const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
+                const std::stop_token& stop = {});
 
 }  // namespace curveskel

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/embed/place/cross_section.hpp"
 
@@ -115,6 +116,7 @@ void relax(SkeletonGraph& graph, const SurfaceTree& tree, const SurfaceTree& sec
     const SkeletonGraph before = guard.has_handles() ? graph : SkeletonGraph{};
     parallel_for(longest_first.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        throw_if_stopped(options.stop);
         const std::size_t s = longest_first[i];
         relax_arc(graph, static_cast<int>(s), tree, sections, options, last_moves[s]);
       }

@@ -1,6 +1,8 @@
 // First places of points, and the last smoothing.
 #pragma once
 
+#include <stop_token>
+
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
 #include "skeleton/embed/tuning.hpp"
@@ -16,6 +18,7 @@ struct RelaxOptions {
   bool covered = false;         ///< keep the balls of neighbouring points overlapping; nodes stay
   RelaxTuning tuning = {};
   SectionTuning section = {};
+  std::stop_token stop = {};
 };
 
 /// Rounds of centring and smoothing of all inner points and straightening at junctions. The result

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 #include "skeleton/embed/ends/tips.hpp"
 #include "skeleton/embed/place/axes.hpp"
@@ -67,6 +68,7 @@ class Settling {
   void for_each(const std::vector<Place>& places, const Visit& visit) const {
     constexpr std::size_t grain = 16;
     parallel_for(places.size(), grain, threads_, [&](std::size_t begin, std::size_t end) {
+      throw_if_stopped(options_.stop);
       for (std::size_t i = begin; i < end; ++i) visit(places[i]);
     });
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 
 #include <curveskel/advanced/tree.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
@@ -18,6 +19,7 @@ struct SettleOptions {
   std::function<bool(int triangle, int arc)> is_own;
   RelaxTuning tuning = {};
   SectionTuning section = {};
+  std::stop_token stop = {};
 };
 
 /// Moves the points p of each arc to the least of the sum of |p - c|^2 + (w / 2)^2 |p'|^2, c the

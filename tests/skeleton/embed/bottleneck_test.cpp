@@ -5,10 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stop_token>
 
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/embed/branches/grow_branches.hpp"
+#include "skeleton/embed/contain/inside.hpp"
+#include "skeleton/embed/place/relax.hpp"
+#include "skeleton/embed/place/settle.hpp"
 
 namespace curveskel::bottleneck_laws {
 namespace {
@@ -54,6 +60,32 @@ int taken(SkeletonGraph& graph, const Surface& surface) {
   partition.group_of_vertex = Eigen::VectorXi::Zero(surface.positions.rows());
   const InscribedBalls balls = inscribed_balls(surface, tree, 1);
   return reroute_bottlenecks(graph, {surface, balls}, partition, tree);
+}
+
+/// All that moves, adds or leads points: each may take long.
+TEST(EmbeddingSteps, StopWhenAsked) {
+  const Surface surface = hollow_bar(0);
+  const SurfaceTree tree(surface);
+  PartitionGraph partition;
+  partition.groups = 1;
+  partition.group_of_vertex = Eigen::VectorXi::Zero(surface.positions.rows());
+  const InscribedBalls balls = inscribed_balls(surface, tree, 1);
+  const WorkingSurface working(surface, balls);
+  HomologyGuard guard;
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token stop = source.get_token();
+  SkeletonGraph graph = arcs({beside(1.75)});
+  RelaxOptions relaxing;
+  relaxing.stop = stop;
+  SettleOptions settling;
+  settling.is_own = [](int, int) { return true; };
+  settling.stop = stop;
+  EXPECT_THROW(relax(graph, tree, tree, relaxing, guard, 2), Cancelled);
+  EXPECT_THROW(settle(graph, tree, settling, guard, 2), Cancelled);
+  EXPECT_THROW((void)keep_inside(graph, working, partition, tree, guard, stop), Cancelled);
+  EXPECT_THROW((void)reroute_bottlenecks(graph, working, partition, tree, {}, stop), Cancelled);
+  EXPECT_THROW((void)grow_branches(graph, working, tree, partition, 0, {}, stop), Cancelled);
 }
 
 TEST(Bottlenecks, AreReroutedPastAHollowWhereThereIsRoom) {

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include <curveskel/error.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/skeleton/measure/tubes.hpp"
 
 namespace curveskel {
@@ -20,6 +22,38 @@ const double filled =
 
 Eigen::Matrix3d some_rotation() {
   return Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
+}
+
+/// A cube about the origin, `inward` as the wall of a cavity.
+void add_cube(Surface& surface, double half, bool inward) {
+  Surface cube = shapes::box({2 * half, 2 * half, 2 * half}, 1).surface;
+  const Eigen::RowVector3d middle =
+      0.5 * (cube.positions.colwise().minCoeff() + cube.positions.colwise().maxCoeff());
+  cube.positions.rowwise() -= middle;
+  if (inward) cube.triangles.col(1).swap(cube.triangles.col(2));
+  const Eigen::Index before = surface.positions.rows();
+  const Eigen::Index faces = surface.triangles.rows();
+  surface.positions.conservativeResize(before + cube.positions.rows(), 3);
+  surface.positions.bottomRows(cube.positions.rows()) = cube.positions;
+  surface.triangles.conservativeResize(faces + cube.triangles.rows(), 3);
+  surface.triangles.bottomRows(cube.triangles.rows()) =
+      cube.triangles.array() + static_cast<int>(before);
+}
+
+// A cavity within a cavity was taken out twice, or not, by the order of the vertices.
+TEST(BranchProfiles, DoNotDependOnTheOrderOfNestedCavities) {
+  for (const auto& cavities : {std::array{1.5, 0.5}, std::array{0.5, 1.5}}) {
+    Surface surface{Positions(0, 3), Triangles(0, 3)};
+    add_cube(surface, 3, false);
+    for (const double half : cavities) add_cube(surface, half, true);
+    CurveSkeleton skeleton;
+    skeleton.nodes.resize(2, 3);
+    skeleton.nodes << 2.2, 2.2, -0.1, 2.2, 2.2, 0.13;
+    skeleton.edges.resize(1, 2);
+    skeleton.edges << 0, 1;
+    skeleton.radii = Eigen::VectorXd::Constant(2, 0.5);
+    EXPECT_NEAR(branch_profiles(surface, skeleton, {0, 1})[0].area, 36 - 9, 1e-9);
+  }
 }
 
 TEST(BranchProfiles, OfTaperingEllipticTubesAreThoseOfTheFormula) {
