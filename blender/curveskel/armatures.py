@@ -5,6 +5,7 @@ from mathutils import Vector
 
 END = "_end"
 LEAST_BONE = 1e-4  # of the rig's size: Blender drops bones without length
+ON_AXIS = 1e-4  # sine of the angle
 
 
 def has_side(name):
@@ -13,7 +14,30 @@ def has_side(name):
 
 def is_end(joints, number):
     """A joint at a tip, which moves nothing and shows how long its bone is."""
-    return END in joints[number]["name"] and not any(joint["parent"] == number for joint in joints)
+    joint = joints[number]
+    if "axis" in joint:
+        return joint.get("end", False)
+    return END in joint["name"] and not any(other["parent"] == number for other in joints)
+
+
+def tail_by_axis(place, axis, below):
+    """The child on the joint's axis, else the mean child's distance along it. `below`: places of
+    children by number."""
+    ways = {child: there - place for child, there in below.items()}
+    target = max(ways, key=lambda child: ways[child].normalized().dot(axis))
+    way = ways[target].normalized()
+    if way.dot(axis) > 0 and way.cross(axis).length < ON_AXIS:
+        return below[target], target
+    return place + axis * (sum(way.length for way in ways.values()) / len(ways)), None
+
+
+def tail_by_names(joints, name, below, weight):
+    """The child with most joints below it: of one in the middle a middle one. For rigs of programs
+    that write no axes."""
+    middle = [child for child in below if not has_side(joints[child]["name"])]
+    choice = list(below) if has_side(name) or not middle else middle
+    target = max(choice, key=lambda child: (weight[child], -child))
+    return below[target], target
 
 
 def tails(joints):
@@ -30,17 +54,18 @@ def tails(joints):
                for axis in range(3)) or 1.0
     found = []
     for number, joint in enumerate(joints):
-        middle = [child for child in children[number] if not has_side(joints[child]["name"])]
-        choice = children[number] if has_side(joint["name"]) or not middle else middle
-        target = max(choice, key=lambda child: (weight[child], -child), default=None)
-        tail = places[target] if target is not None else None
-        if tail is None:  # straight on
-            parent = joint["parent"]
-            way = places[number] - places[parent] if parent >= 0 else Vector((0, 0, size / 4))
-            tail = places[number] + 0.5 * way
-        if (tail - places[number]).length < LEAST_BONE * size:
-            tail = places[number] + Vector((0, 0, size / 50))
-            target = None
+        place, parent = places[number], joint["parent"]
+        below = {child: places[child] for child in reversed(children[number])}
+        before = place - places[parent] if parent >= 0 else Vector((0, 0, size / 4))
+        axis = Vector(joint.get("axis", before)).normalized()
+        if not below:  # straight on
+            tail, target = place + 0.5 * before.length * axis, None
+        elif "axis" in joint:
+            tail, target = tail_by_axis(place, axis, below)
+        else:
+            tail, target = tail_by_names(joints, joint["name"], below, weight)
+        if (tail - place).length < LEAST_BONE * size:
+            tail, target = place + Vector((0, 0, size / 50)), None
         found.append((tail, target))
     return found
 

@@ -15,7 +15,7 @@ PROGRAM = pathlib.Path(os.environ["CURVESKEL_PROGRAM"])
 ZIP = pathlib.Path(os.environ["CURVESKEL_ADDON"])  # as the build makes it
 
 BEGIN = """
-import pathlib, sys, tempfile
+import pathlib, sys, tempfile, traceback
 import bpy
 from mathutils import Matrix, Vector
 folder = pathlib.Path(sys.argv[-2])
@@ -73,6 +73,117 @@ def world_places(thing):
 
 def leftovers():
     return [file for file in pathlib.Path(tempfile.gettempdir()).glob("curveskel-*")]
+
+def armatures():
+    return [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
+
+def cube(name, place, size=0.1):
+    c = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    thing = mesh_object(name, [[size / 2 * w for w in corner] for corner in c],
+                        [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                         (1, 5, 7, 3)])
+    thing.location = place
+    bpy.context.view_layer.update()
+    return thing
+
+def empty(name):
+    thing = bpy.data.objects.new(name, None)
+    bpy.context.collection.objects.link(thing)
+    return thing
+
+def figure(half=False, name="figure"):
+    # a human of sticks; half of it with a mirror
+    middle = [(0, 0, 1.0), (0, 0, 1.2), (0, 0, 1.42), (0, 0, 1.55), (0, 0, 1.75)]
+    side = [(0.12, 0, 0.95), (0.13, 0, 0.5), (0.13, 0, 0.08), (0.13, -0.16, 0.04),
+            (0.2, 0, 1.42), (0.48, 0, 1.42), (0.74, 0, 1.42)]
+    edges = [(0, 1), (1, 2), (2, 3), (3, 4)]
+    for first in (5, 12):
+        edges += [(0, first), (first, first + 1), (first + 1, first + 2), (first + 2, first + 3),
+                  (2, first + 4), (first + 4, first + 5), (first + 5, first + 6)]
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(middle + side + [(-x, y, z) for x, y, z in side], edges, [])
+    thing = bpy.data.objects.new(name, data)
+    bpy.context.collection.objects.link(thing)
+    select(thing)
+    thing.modifiers.new("skin", "SKIN")
+    for number, vertex in enumerate(data.skin_vertices[0].data):
+        vertex.radius = [(0.13, 0.13, 0.12, 0.05, 0.1)[number] if number < 5 else 0.05] * 2
+    data.skin_vertices[0].data[0].use_root = True
+    thing.modifiers.new("smooth", "SUBSURF").levels = 2
+    for modifier in ("skin", "smooth"):
+        bpy.ops.object.modifier_apply(modifier=modifier)
+    if half:
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.bisect(plane_co=(0, 0, 0), plane_no=(1, 0, 0), clear_inner=True)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        thing.modifiers.new("mirror", "MIRROR")
+    return thing
+
+def rig(*things, names="auto"):
+    bpy.context.scene.curveskel.names = names
+    select(*things)
+    assert bpy.ops.curveskel.rig() == {"FINISHED"}
+    return next(modifier.object for modifier in things[0].modifiers
+                if modifier.type == "ARMATURE")
+
+def refused(words, *things, names="auto", verb="rig"):
+    bpy.context.scene.curveskel.names = names
+    select(*things)
+    before = len(armatures())
+    try:
+        getattr(bpy.ops.curveskel, verb)()
+    except RuntimeError as error:
+        assert words in str(error) and "Traceback" not in str(error), error
+    else:
+        assert False, "not refused: " + words
+    assert len(armatures()) == before and not leftovers()
+
+def shown_places(thing):
+    # with what modifiers add, in the world
+    bpy.context.view_layer.update()
+    shown = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    places = [shown.matrix_world @ vertex.co for vertex in shown.to_mesh().vertices]
+    shown.to_mesh_clear()
+    return places
+
+def turned_places(made, bone, thing):
+    made.pose.bones[bone].matrix_basis = Matrix.Rotation(0.9, 4, "X")
+    places = shown_places(thing)
+    made.pose.bones[bone].matrix_basis = Matrix.Identity(4)
+    bpy.context.view_layer.update()
+    return places
+
+def far(places, others):
+    return max((a - b).length for a, b in zip(places, others))
+
+def vertices_in(thing, name):
+    group = thing.vertex_groups[name].index
+    return [vertex.index for vertex in thing.data.vertices
+            if any(entry.group == group for entry in vertex.groups)]
+
+def hang_from_bone(thing, made, bone):
+    frame = thing.matrix_world.copy()
+    thing.parent, thing.parent_type, thing.parent_bone = made, "BONE", bone
+    bpy.context.view_layer.update()
+    thing.matrix_world = frame
+    bpy.context.view_layer.update()
+
+def run_laws(*laws):
+    # each in an empty scene; all that fail are named
+    failed = []
+    for law in laws:
+        for thing in list(bpy.data.objects):
+            bpy.data.objects.remove(thing)
+        bpy.ops.outliner.orphans_purge(do_recursive=True)
+        bpy.context.scene.frame_set(1)
+        try:
+            law()
+        except Exception:
+            traceback.print_exc()
+            failed.append(law.__name__)
+    sys.stderr.flush()
+    assert not failed, failed
 """
 
 RIG = """
@@ -155,6 +266,57 @@ check_weights(half, {bone.name for bone in made.data.bones})
 assert mirror.show_viewport
 """
 
+TAILS = """
+from curveskel import armatures as module
+
+def joint(name, parent, position, **more):
+    return {"name": name, "parent": parent, "position": position, **more}
+
+def tail_of(joints, number):
+    place, target = module.tails(joints)[number]
+    return [round(c, 4) for c in place], target
+
+def bones_lie_on_their_axes():
+    up, left = [0, 0, 1], [1, 0, 0]
+    chest = [joint("joint_001", -1, [0, 0, 1], axis=up), joint("a", 0, [1, 0, 1], axis=left),
+             joint("b", 1, [3, 0, 1], axis=left, end=True), joint("c", 0, [0, 0, 2], axis=up),
+             joint("d", 0, [-1, 0, 1], axis=[-1, 0, 0])]
+    assert tail_of(chest, 0) == ([0, 0, 2], 3)
+    assert tail_of(chest, 1) == ([3, 0, 1], 2)
+    assert tail_of(chest, 4) == ([-1.5, 0, 1], None)  # straight on
+    assert [module.is_end(chest, n) for n in range(5)] == [False, False, True, False, False]
+    chest[3]["position"] = [0.1, 0, 2]  # no longer on the axis: no child is met
+    assert tail_of(chest, 0) == ([0, 0, 1 + round((2 + 1.01 ** 0.5) / 3, 4)], None)
+    assert not module.is_end([joint("x_end", -1, [0, 0, 0], axis=up)], 0)
+
+def rigs_without_axes_go_by_names():
+    chest = [joint("chest", -1, [0, 0, 1]), joint("arm.L", 0, [1, 0, 1]),
+             joint("arm_1.L", 1, [2, 0, 1]), joint("arm_end.L", 2, [3, 0, 1]),
+             joint("head", 0, [0, 0, 2])]
+    assert tail_of(chest, 0) == ([0, 0, 2], 4)
+    assert tail_of(chest, 1) == ([2, 0, 1], 2)
+    assert [module.is_end(chest, n) for n in range(5)] == [False, False, False, True, False]
+
+def names_change_no_bone():
+    places = {}
+    for names in ("auto", "mixamo", "neutral"):
+        body = figure()
+        bones = rig(body, names=names).data.bones
+        places[names] = [place for bone in bones for place in (bone.head_local, bone.tail_local)]
+        assert not any("_end" in bone.name for bone in bones)
+        if names == "mixamo":
+            bone = next(bone for bone in bones if len(bone.children) == 3
+                        and "Spine" in bone.name)
+            assert [child.name for child in bone.children if child.use_connect] in (
+                [], ["mixamorig:Neck"]), bone.name
+            assert abs(bone.vector.normalized().x) < 0.05, bone.vector
+    assert len(places["auto"]) == len(places["neutral"]) == len(places["mixamo"])
+    assert far(places["auto"], places["mixamo"]) < 1e-5
+    assert far(places["auto"], places["neutral"]) < 1e-5
+
+run_laws(bones_lie_on_their_axes, rigs_without_axes_go_by_names, names_change_no_bone)
+"""
+
 SKELETON = """
 body = y_shape()
 select(body)
@@ -215,9 +377,6 @@ bpy.utils.unregister_class(CURVESKEL_PT_panel)
 CURVESKEL_PT_panel.bl_category = "Item"  # the tab that is open
 CURVESKEL_PT_panel.draw = lambda self, context: drawn.append(draw(self, context))
 bpy.utils.register_class(CURVESKEL_PT_panel)
-
-def armatures():
-    return [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
 
 def press(window, key, x=400, y=400):
     window.event_simulate(type=key, value="PRESS", x=x, y=y)
@@ -330,6 +489,9 @@ class AddOn(unittest.TestCase):
 
     def test_half_a_body_with_a_mirror_is_whole(self):
         self.run_in_blender(MIRROR)
+
+    def test_bones_lie_along_their_limbs(self):
+        self.run_in_blender(TAILS)
 
     def test_skeleton_comes_as_curves_with_radii(self):
         self.run_in_blender(SKELETON)
