@@ -76,11 +76,12 @@ class RunsProgram:
         context.workspace.status_text_set(None)
         self.job.close()
 
-    def write_meshes(self, context):
+    def write_meshes(self, context, for_weights=True):
         # Names, as the scene may change while the program runs.
         self.things = [thing.name for thing in selected_meshes(context)]
         things = [bpy.data.objects[name] for name in self.things]
-        self.firsts = meshes.write_obj(context, things, self.job.folder / "in.obj")
+        rows = meshes.write_obj(context, things, self.job.folder / "in.obj", for_weights)
+        self.firsts = [own.start for own in rows]
         self.counts = [len(thing.data.vertices) for thing in things]
 
     def rigged_things(self):
@@ -164,7 +165,7 @@ class CURVESKEL_OT_skeleton(RunsProgram, bpy.types.Operator):
     bl_description = "The curve skeleton of the selected meshes, as thick as its inscribed balls"
 
     def prepare(self, context):
-        self.write_meshes(context)
+        self.write_meshes(context, for_weights=False)
         self.job.start("extract", "in.obj", "-o", "out.json",
                        "--detail", f"{context.scene.curveskel.detail:.6g}")
 

@@ -252,18 +252,53 @@ assert not bpy.ops.curveskel.weights.poll(), "no armature is selected"
 """
 
 MIRROR = """
-half = mesh_object("half", *off(folder / "half.off"))
-mirror = half.modifiers.new("mirror", "MIRROR")
-mirror.use_clip = True
-select(half)
-assert bpy.ops.curveskel.rig() == {"FINISHED"}
-made = armature()
-heads = [bone.head_local.x for bone in made.data.bones] + [bone.tail_local.x
-                                                           for bone in made.data.bones]
-assert min(heads) < -1 and max(heads) > 1, "bones on both sides"
-assert [m.type for m in half.modifiers] == ["MIRROR", "ARMATURE"]
-check_weights(half, {bone.name for bone in made.data.bones})
-assert mirror.show_viewport
+def check_both_sides(body, made):
+    bones = {bone.name for bone in made.data.bones}
+    assert {"hand.L", "hand.R", "toes.L", "toes.R"} <= bones, bones
+    left, right = (made.data.bones[name].head_local for name in ("hand.L", "hand.R"))
+    assert (left - Vector((-right.x, right.y, right.z))).length < 0.01, (left, right)
+    check_weights(body, bones)
+
+def half_a_body_is_whole():
+    half = figure(half=True)
+    half.modifiers["mirror"].use_clip = True
+    check_both_sides(half, rig(half))
+    assert [m.type for m in half.modifiers] == ["MIRROR", "ARMATURE"]
+    assert half.modifiers["mirror"].show_viewport
+
+def a_seam_within_the_merge_distance_is_one():
+    half = figure(half=True)
+    half.modifiers["mirror"].merge_threshold = 2e-3
+    seam = [vertex for vertex in half.data.vertices if abs(vertex.co.x) < 1e-6]
+    assert seam
+    for vertex in seam:
+        vertex.co.x = 9e-4
+    half.location = (0, 0, 3)
+    bpy.context.view_layer.update()
+    check_both_sides(half, rig(half))
+
+def shape_keys_that_are_on_change_nothing():
+    plain, half = figure(half=True), figure(half=True)
+    half.shape_key_add(name="Basis")
+    key = half.shape_key_add(name="broad")
+    for point in key.data:
+        point.co.y *= 1.3
+    key.value, half.active_shape_key_index = 0.3, 1
+    made = rig(half)
+    check_both_sides(half, made)
+    assert far([bone.head_local for bone in rig(plain).data.bones],
+               [bone.head_local for bone in made.data.bones]) < 1e-6
+    assert abs(key.value - 0.3) < 1e-6 and half.active_shape_key_index == 1
+    assert not half.show_only_shape_key
+
+def a_mirror_that_cuts_is_refused():
+    body = figure()
+    body.modifiers.new("mirror", "MIRROR").use_bisect_axis[0] = True
+    refused("Bisect", body)
+    assert not body.vertex_groups
+
+run_laws(half_a_body_is_whole, a_seam_within_the_merge_distance_is_one,
+         shape_keys_that_are_on_change_nothing, a_mirror_that_cuts_is_refused)
 """
 
 TAILS = """
