@@ -1,10 +1,14 @@
-"""From the program's rig to an armature and vertex groups, and from an armature to joints."""
+"""From the program's rig to an armature, and from an armature to joints."""
+
+import contextlib
 
 import bpy
 from mathutils import Vector
 
 END = "_end"
 LEAST_BONE = 1e-4  # of the rig's size: Blender drops bones without length
+ON_AXIS = 1e-4  # sine of the angle
+MADE = "curveskel"  # custom property of armatures and bones that the add-on made
 
 
 def has_side(name):
@@ -13,7 +17,30 @@ def has_side(name):
 
 def is_end(joints, number):
     """A joint at a tip, which moves nothing and shows how long its bone is."""
-    return END in joints[number]["name"] and not any(joint["parent"] == number for joint in joints)
+    joint = joints[number]
+    if "axis" in joint:
+        return joint.get("end", False)
+    return END in joint["name"] and not any(other["parent"] == number for other in joints)
+
+
+def tail_by_axis(place, axis, below):
+    """The child on the joint's axis, else the mean child's distance along it. `below`: places of
+    children by number."""
+    ways = {child: there - place for child, there in below.items()}
+    target = max(ways, key=lambda child: ways[child].normalized().dot(axis))
+    way = ways[target].normalized()
+    if way.dot(axis) > 0 and way.cross(axis).length < ON_AXIS:
+        return below[target], target
+    return place + axis * (sum(way.length for way in ways.values()) / len(ways)), None
+
+
+def tail_by_names(joints, name, below, weight):
+    """The child with most joints below it: of one in the middle a middle one. For rigs of programs
+    that write no axes."""
+    middle = [child for child in below if not has_side(joints[child]["name"])]
+    choice = list(below) if has_side(name) or not middle else middle
+    target = max(choice, key=lambda child: (weight[child], -child))
+    return below[target], target
 
 
 def tails(joints):
@@ -30,96 +57,126 @@ def tails(joints):
                for axis in range(3)) or 1.0
     found = []
     for number, joint in enumerate(joints):
-        middle = [child for child in children[number] if not has_side(joints[child]["name"])]
-        choice = children[number] if has_side(joint["name"]) or not middle else middle
-        target = max(choice, key=lambda child: (weight[child], -child), default=None)
-        tail = places[target] if target is not None else None
-        if tail is None:  # straight on
-            parent = joint["parent"]
-            way = places[number] - places[parent] if parent >= 0 else Vector((0, 0, size / 4))
-            tail = places[number] + 0.5 * way
-        if (tail - places[number]).length < LEAST_BONE * size:
-            tail = places[number] + Vector((0, 0, size / 50))
-            target = None
+        place, parent = places[number], joint["parent"]
+        below = {child: places[child] for child in reversed(children[number])}
+        before = place - places[parent] if parent >= 0 else Vector((0, 0, size / 4))
+        axis = Vector(joint.get("axis", before)).normalized()
+        if not below:  # straight on
+            tail, target = place + 0.5 * before.length * axis, None
+        elif "axis" in joint:
+            tail, target = tail_by_axis(place, axis, below)
+        else:
+            tail, target = tail_by_names(joints, joint["name"], below, weight)
+        if (tail - place).length < LEAST_BONE * size:
+            tail, target = place + Vector((0, 0, size / 50)), None
         found.append((tail, target))
     return found
 
 
-def build_armature(context, rig, name):
-    """An armature object of the rig, in the world's coordinates; the names of its bones by joint,
-    None for tips."""
-    joints = rig["joints"]
-    data = bpy.data.armatures.new(name)
-    thing = bpy.data.objects.new(name, data)
-    context.collection.objects.link(thing)
-    context.view_layer.objects.active = thing
-    bpy.ops.object.mode_set(mode="EDIT")
+def moving(thing):
+    """The armatures that the object moves with, by modifiers or as their child."""
+    found = [modifier.object for modifier in thing.modifiers
+             if modifier.type == "ARMATURE" and modifier.object]
+    parent = thing.parent
+    if parent and parent.type == "ARMATURE" and (
+            thing.parent_type in ("ARMATURE", "BONE") or MADE in parent):
+        found.append(parent)
+    return list(dict.fromkeys(found))
+
+
+@contextlib.contextmanager
+def at_rest(context, armatures):
+    """With the armatures in their rest position, and what hangs from their bones where it is
+    then."""
+    posed = [armature for armature in armatures if armature.data.pose_position != "REST"]
+    try:
+        for armature in posed:
+            armature.data.pose_position = "REST"
+        context.view_layer.update()
+        yield
+    finally:
+        for armature in posed:
+            armature.data.pose_position = "POSE"
+        context.view_layer.update()
+
+
+def new_armature(context, name, beside):
+    """An empty one in a collection of that object in which it can be seen, else the scene's."""
+    armature = bpy.data.objects.new(name, bpy.data.armatures.new(name))
+    armature[MADE] = True
+    armature.show_in_front = True
+    for collection in beside.users_collection:
+        if collection.library is None and collection.override_library is None:
+            collection.objects.link(armature)
+            if armature.visible_get(view_layer=context.view_layer):
+                return armature
+            collection.objects.unlink(armature)
+    context.scene.collection.objects.link(armature)
+    return armature
+
+
+def remove(armature):
+    data = armature.data
+    bpy.data.objects.remove(armature)
+    if data.users == 0:
+        bpy.data.armatures.remove(data)
+
+
+def made_bones(data):
+    """Names of the bones that the add-on made and that still deform; others are the user's own."""
+    return {bone.name for bone in data.bones if MADE in bone and bone.use_deform}
+
+
+def set_bones(context, armature, rig):
+    """The rig's bones, which are in the world's coordinates, in place of those that the add-on made
+    before. Returns their names by joint, None for tips. If anything fails, the armature is as it
+    was."""
+    data, before = armature.data, armature.data.copy()
+    context.view_layer.objects.active = armature
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+        names = edit_bones(armature, rig["joints"], made_bones(before))
+        bpy.ops.object.mode_set(mode="OBJECT")
+    except BaseException:
+        if context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        armature.data = before
+        bpy.data.armatures.remove(data)
+        raise
+    bpy.data.armatures.remove(before)
+    return names
+
+
+def edit_bones(armature, joints, old):
+    edit = armature.data.edit_bones
+    own_parents = {bone.name: bone.parent.name for bone in edit if bone.name not in old
+                   and bone.parent}
+    for name in old:
+        edit.remove(edit[name])
+    to_armature = armature.matrix_world.inverted_safe()
     bones = [None] * len(joints)
     ends = tails(joints)
     for number, joint in enumerate(joints):
         if is_end(joints, number):
             continue
-        bone = bones[number] = data.edit_bones.new(joint["name"])
-        bone.head = joint["position"]
-        bone.tail = ends[number][0]
+        bone = bones[number] = edit.new(joint["name"])
+        bone[MADE] = True
+        bone.head = to_armature @ Vector(joint["position"])
+        bone.tail = to_armature @ ends[number][0]
         parent = joint["parent"]
         if parent >= 0:
             bone.parent = bones[parent]
             bone.use_connect = ends[parent][1] == number
-        along_front = abs(bone.vector.normalized().y) > 0.9
-        bone.align_roll(Vector((0, 0, 1) if along_front else (0, -1, 0)))
-    names = [bone.name if bone else None for bone in bones]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    thing.show_in_front = True
-    return thing, names
-
-
-def fill_groups(thing, first, rig, names):
-    """The object's vertex groups of these names; others stay. `first` is its first vertex's number
-    in the rig, None in `names` = moves with the joint's parent."""
-    groups = {}
-    for name in {name for name in names if name}:
-        old = thing.vertex_groups.get(name)
-        if old:
-            thing.vertex_groups.remove(old)
-    for name in names:
-        if name and name not in groups:
-            groups[name] = thing.vertex_groups.new(name=name)
-    parents = [joint["parent"] for joint in rig["joints"]]
-    for vertex in range(len(thing.data.vertices)):
-        row = first + vertex
-        for joint, share in zip(rig["weights"]["joints"][row], rig["weights"]["values"][row]):
-            while joint >= 0 and names[joint] is None:
-                joint = parents[joint]
-            if share > 0 and joint >= 0:
-                groups[names[joint]].add([vertex], share, "ADD")
-
-
-def bind(thing, armature):
-    """Moves with the armature, from where it is; an armature modifier is added if there is none,
-    before what makes more vertices of the skinned ones (but after mirrors)."""
-    frame = thing.matrix_world.copy()
-    thing.parent = armature
-    thing.matrix_world = frame
-    own = [modifier for modifier in thing.modifiers if modifier.type == "ARMATURE"]
-    if any(modifier.object == armature for modifier in own):
-        return
-    modifier = thing.modifiers.new("Armature", "ARMATURE")
-    modifier.object = armature
-    place = len(thing.modifiers) - 1
-    before = 0
-    for number, other in enumerate(thing.modifiers):
-        if other.type in ("MIRROR", "ARMATURE") and other != modifier:
-            before = number + 1
-    while place > before:  # Blender 3.4 has no other way without a context
-        thing.modifiers.move(place, place - 1) if hasattr(thing.modifiers, "move") else \
-            bpy.ops.object.modifier_move_up({"object": thing}, modifier=modifier.name)
-        place -= 1
+        along_front = abs((ends[number][0] - Vector(joint["position"])).normalized().y) > 0.9
+        bone.align_roll(to_armature.to_3x3() @ Vector((0, 0, 1) if along_front else (0, -1, 0)))
+    for name, parent in own_parents.items():
+        if edit[name].parent is None and parent in edit:
+            edit[name].parent = edit[parent]
+    return [bone.name if bone else None for bone in bones]
 
 
 def joints_of(armature):
-    """The bones that deform, as joints in the world; tips for those without such a child. And the
-    bone of each joint."""
+    """The bones that deform, as joints in the world; tips for those without such a child."""
     frame = armature.matrix_world
     bones = [bone for bone in armature.data.bones if bone.use_deform]
     number = {bone.name: index for index, bone in enumerate(bones)}
