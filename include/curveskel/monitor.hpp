@@ -47,7 +47,8 @@ inline void throw_if_stopped(const std::stop_token& stop) {
 }
 
 /// Callbacks, all optional, called from the thread that runs the stage. A stage calls `report` at
-/// least once per 100 ms of work, so a requested stop takes effect within that time.
+/// least once per 100 ms of work, or asks `stop`, so that a requested stop takes effect within that
+/// time, but for single steps that are longer on surfaces of hundreds of handles.
 struct Monitor {
   /// Stage name ("read", "coarsen", "contract", ...) and the fraction of it that is done, 0..1.
   std::function<void(std::string_view stage, double fraction)> progress;

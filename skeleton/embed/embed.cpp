@@ -61,7 +61,7 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
                           const EmbedOptions& options, const EmbedTuning& tuning, int threads,
                           StepClock& clock, const Monitor& monitor) {
   monitor.report("embed", 0);
-  HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface); });
+  HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop); });
   const WorkingSurface working(surface, balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   const std::vector<MirrorPlane> planes =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/place/shorten.hpp"
@@ -76,7 +77,8 @@ bool crosses(const SurfaceTree& tree, const Point& from, const Point& to) {
   return length > 0 && tree.ray(from, (to - from) / length, length).triangle >= 0;
 }
 
-HomologyGuard::HomologyGuard(const Surface& surface) {
+HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop)
+    : stop_(std::move(stop)) {
   const Eigen::Index euler = surface.positions.rows() - surface.triangles.rows() / 2;
   if (euler != 2) classes_.emplace(surface);
 }
@@ -88,6 +90,7 @@ void HomologyGuard::restore_arcs(const SkeletonGraph& before, SkeletonGraph& gra
   for (bool changed = true; changed;) {
     changed = false;
     for (const int s : arcs) {
+      hear_stop();
       const Arc& old = before.arcs[idx(s)];
       Arc& arc = graph.arcs[idx(s)];
       if (!same_ends(old, arc)) continue;
@@ -120,6 +123,7 @@ void HomologyGuard::pull_taut(SkeletonGraph& graph, const SurfaceTree& tree) {
     return classes_->homologous(way, {from, to});
   };
   for (const int s : core(graph)) {
+    hear_stop();
     Arc& arc = graph.arcs[idx(s)];
     const auto line = graph.polyline(arc);
     const auto radii = graph.radii_along(arc, tree);
@@ -188,6 +192,7 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
   for (bool changed = true; changed;) {
     changed = false;
     for (const int s : arcs) {
+      hear_stop();
       const Arc& old = before.arcs[idx(s)];
       if (!same_ends(old, graph.arcs[idx(s)])) continue;
       const auto was = before.polyline(old);

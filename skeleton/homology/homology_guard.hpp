@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/advanced/surface_partition.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/monitor.hpp>
 #include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
 #include "skeleton/homology/homology_classes.hpp"
@@ -24,10 +26,13 @@ namespace curveskel {
 /// where they like. A surface without handles costs nothing.
 class HomologyGuard {
  public:
-  HomologyGuard() = default;                       ///< lets everything go where it likes
-  explicit HomologyGuard(const Surface& surface);  ///< one closed component
+  HomologyGuard() = default;  ///< lets everything go where it likes
+  /// One closed component. What takes long throws Cancelled soon after a stop was requested.
+  explicit HomologyGuard(const Surface& surface, std::stop_token stop = {});
 
   [[nodiscard]] bool has_handles() const { return classes_ && classes_->has_handles(); }
+
+  void hear_stop() const { throw_if_stopped(stop_); }
 
   [[nodiscard]] bool homologous(const std::vector<Point>& there, const std::vector<Point>& back) {
     return classes_->homologous(there, back);
@@ -62,6 +67,7 @@ class HomologyGuard {
 
  private:
   std::optional<HomologyClasses> classes_;
+  std::stop_token stop_;
 };
 
 }  // namespace curveskel

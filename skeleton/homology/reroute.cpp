@@ -67,6 +67,7 @@ class HandleReroute {
   void run() {
     const auto tunnels = arcs_along_tunnels();
     for (const int s : core(graph_)) {
+      guard_.hear_stop();
       if (!std::binary_search(tunnels.begin(), tunnels.end(), s)) reroute(graph_.arcs[idx(s)]);
     }
     std::vector<int> ends;
@@ -75,7 +76,10 @@ class HandleReroute {
       ends.push_back(graph_.arcs[idx(s)].from);
       ends.push_back(graph_.arcs[idx(s)].to);
     }
-    for (const int s : tunnels) end_in_ring_at_cut_curve(s);
+    for (const int s : tunnels) {
+      guard_.hear_stop();
+      end_in_ring_at_cut_curve(s);
+    }
     for (const int node : ends) {
       if (!graph_.nodes[idx(node)].alive) continue;
       if (graph_.degree(node) == 2) graph_.dissolve(node);

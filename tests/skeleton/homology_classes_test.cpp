@@ -8,11 +8,14 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
+#include <curveskel/error.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/homology/homology_guard.hpp"
 #include "skeleton/homology/homology_rank.hpp"
 #include "skeleton/homology/linking.hpp"
 
@@ -122,6 +125,22 @@ TEST(HomologyClasses, TellTheTwoWaysRoundARingApart) {
   EXPECT_FALSE(classes.homologous(arc(0, 2 * pi), {on_ring(0)}));
   EXPECT_TRUE(classes.homologous(there_and_back(), {on_ring(0)}));
   EXPECT_FALSE(HomologyClasses(shapes::ellipsoid({1, 1, 1}, 2).surface).has_handles());
+}
+
+TEST(HomologyGuard, StopsWhenAsked) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  std::stop_source source;
+  HomologyGuard guard(ring.surface, source.get_token());
+  SkeletonGraph graph;
+  graph.nodes = {{Point(3, 0, 0), {0}, true, {0, 0}}};
+  const auto points = arc(0.2, 2 * pi - 0.2);
+  graph.arcs.push_back({0, 0, {points.begin(), points.end()}, {0}});
+  const SurfaceTree tree(ring.surface);
+  EXPECT_TRUE(guard.restore_points(graph, graph, tree).empty());
+  source.request_stop();
+  EXPECT_THROW((void)guard.restore_points(graph, graph, tree), Cancelled);
+  EXPECT_THROW(guard.restore_arcs(graph, graph, tree), Cancelled);
+  EXPECT_THROW(guard.pull_taut(graph, tree), Cancelled);
 }
 
 TEST(HomologyRank, OfCopiedLoopsNeedsNoSource) {
