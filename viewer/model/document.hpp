@@ -28,6 +28,7 @@ struct Document {
   Surface surface;                            ///< the file's triangles, nothing repaired
   std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one
   std::optional<CurveSkeleton> skeleton;      ///< node_of_vertex by the file's vertices, or empty
+  int root = -1;                              ///< node, as the skeleton's file names it; -1 = none
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();  ///< of the drawn positions
 
   [[nodiscard]] bool has_surface() const { return surface.positions.rows() > 0; }
