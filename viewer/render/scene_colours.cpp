@@ -5,6 +5,7 @@
 #include <string>
 
 #include <curveskel/advanced/graph.hpp>
+#include <curveskel/role_names.hpp>
 
 namespace curveskel::viewer {
 namespace {
@@ -150,11 +151,26 @@ std::string without_side(const std::string& role) {
   return role;
 }
 
+/// Of every body that there is a plan of, so that a role has its colour whatever else a rig has.
+const std::vector<std::string>& kinds_of_roles() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> kinds;
+    for (const auto& entry : body_kinds) {
+      for (const std::string& role : roles_of(entry.value)) {
+        const std::string kind = without_side(role);
+        if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+      }
+    }
+    return kinds;
+  }();
+  return all;
+}
+
 /// Of each joint that of its role, or of the nearest joint above it that has one.
 std::vector<glm::vec3> role_colours(const Rig& rig) {
   constexpr float lighter = 0.35F;
   constexpr glm::vec3 unknown{0.6F};
-  std::vector<std::string> kinds;
+  std::vector<std::string> kinds = kinds_of_roles();
   std::vector<glm::vec3> colours;
   for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
     const std::string role = joint < rig.roles.size() ? rig.roles[joint] : "";
