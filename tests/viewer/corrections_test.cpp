@@ -156,12 +156,12 @@ class Saving : public Corrections {};
 
 TEST_F(Saving, NeverReplacesTheOpenSurface) {
   const fs::path file = copy_of("y.off");
-  const fs::path link = folder.path() / "link.obj";
+  const fs::path link = folder.path() / "link.obj";  // a format of skeletons
   fs::create_symlink(file, link);
   open({file});
   const auto bytes = fs::file_size(file);
-  for (const bool may_replace : {false, true}) {
-    bench.save(link, may_replace);
+  for (const auto& [name, may_replace] : {std::pair(link, false), {link, true}, {file, false}}) {
+    bench.save(name, may_replace);
     EXPECT_TRUE(last().bad) << last().text;
     EXPECT_NE(last().text.find("is the input"), std::string::npos) << last().text;
     EXPECT_FALSE(bench.wants_to_replace);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace curveskel::viewer::timeline_laws {
 namespace {
@@ -14,7 +16,9 @@ Moment moment(const char* stage, int component, double residual = 0) {
   made.component = component;
   made.residual = residual;
   const bool has_surface = made.stage == "fair" || made.stage == "contract";
-  if (has_surface) made.surface = std::make_shared<const ShownSurface>();
+  ShownSurface surface;
+  surface.positions.resize(component == 1 ? 200 : 100);
+  if (has_surface) made.surface = std::make_shared<const ShownSurface>(std::move(surface));
   return made;
 }
 
@@ -25,22 +29,22 @@ std::vector<Moment> recorded() {
           moment("surgery", 1),         moment("skeleton", 0)};
 }
 
-TEST(Timeline, PlotsTheComponentThatIsShown) {
+TEST(Timeline, IsOfTheComponentThatIsShown) {
   const std::vector<Moment> moments = recorded();
-  const std::vector<int> shown{0, 0, 1, 0, 0, 1, 1, 1};
+  const std::vector<int> shown{1, 0, 1, 0, 0, 1, 1, 1};
   for (std::size_t i = 0; i < moments.size(); ++i) EXPECT_EQ(component_at(moments, i), shown[i]);
   EXPECT_EQ(component_at({moment("input", 0)}, 0), -1);
-  EXPECT_EQ(moments_of(moments, 0), (std::vector<std::size_t>{1, 3}));
-  EXPECT_EQ(moments_of(moments, 1), (std::vector<std::size_t>{2, 5}));
+  EXPECT_EQ(moments_with(moments, 0), (std::vector<std::size_t>{0, 1, 3, 4, 7}));
+  EXPECT_EQ(moments_with(moments, 1), (std::vector<std::size_t>{0, 2, 5, 6, 7}));
 }
 
 TEST(Timeline, ResidualsFillTheirPlotHoweverSmallTheyAre) {
   const std::vector<Moment> moments = recorded();
   for (const int component : {0, 1}) {
-    const auto plotted = moments_of(moments, component);
+    const auto plotted = moments_with(moments, component);
     const PlotRange range = range_of_residuals(moments, plotted);
-    EXPECT_FLOAT_EQ(height_of(moments[plotted[0]].residual, range), 1);
-    EXPECT_FLOAT_EQ(height_of(moments[plotted[1]].residual, range), 0);
+    EXPECT_FLOAT_EQ(height_of(moments[plotted[1]].residual, range), 1);
+    EXPECT_FLOAT_EQ(height_of(moments[plotted[2]].residual, range), 0);
   }
 }
 

@@ -103,7 +103,11 @@ void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, floa
 void help(Panels& panels) {
   if (!panels.help) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  // It cannot be moved where it fills the window.
+  const float letter = ImGui::GetFontSize();
+  const bool fills = screen.x < 50 * letter || screen.y < 36 * letter;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2},
+                          fills ? ImGuiCond_Always : ImGuiCond_Appearing, {0.5F, 0.5F});
   ImGui::SetNextWindowSizeConstraints({0, 0}, screen);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse |
                                      ImGuiWindowFlags_AlwaysAutoResize |
@@ -164,7 +168,7 @@ void question(Workbench& bench) {
     ImGui::PopTextWrapPos();
     const float width = 6 * ImGui::GetFontSize();
     const bool replace = ImGui::Button("Replace", {width, 0});
-    beside_if_it_fits("Keep it and more");
+    ImGui::SameLine();
     const bool keep = ImGui::Button("Keep it", {width, 0});
     tip("Esc");
     if (replace) {

@@ -173,9 +173,25 @@ std::optional<std::pair<ColourScale, const char*>> scale_shown(const Workbench& 
   return std::pair{*scale, "radius"};
 }
 
+bool would_show_weights(const Workbench& bench) {
+  const Look& look = bench.scene->look;
+  const bool by_weight = look.surface_colour == ColourBy::weight ||
+                         (look.surface_colour == ColourBy::file && look.bones);
+  return by_weight && bench.scene->rig() != nullptr;
+}
+
+/// With its numbers.
+float bar_height() {
+  return ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.y + ImGui::GetTextLineHeight();
+}
+
 void colour_bar(const Workbench& bench) {
   const auto shown = scale_shown(bench);
-  if (!shown) return;
+  if (!shown) {
+    // So that nothing below moves when a joint is chosen.
+    if (would_show_weights(bench)) ImGui::Dummy({1, bar_height()});
+    return;
+  }
   const auto& [scale, name] = *shown;
   const Look& look = bench.scene->look;
   const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -14,13 +14,14 @@ struct PlotRange {
   double high = 0;
 };
 
-/// Components of a run come one after the other, or side by side: the timeline plots the one that
-/// the moment shows, or the last one before it that is shown; -1 = there is none.
+/// The component that the moment shows; of one that shows all, the one of the largest surface, the
+/// first of equals; -1 = there is none.
 [[nodiscard]] int component_at(const std::vector<Moment>& moments, std::size_t moment);
 
-/// Its moments that have a surface, in order.
-[[nodiscard]] std::vector<std::size_t> moments_of(const std::vector<Moment>& moments,
-                                                  int component);
+/// A run goes through its components one after the other, or several at once: the moments of this
+/// one and those of all, in order.
+[[nodiscard]] std::vector<std::size_t> moments_with(const std::vector<Moment>& moments,
+                                                    int component);
 
 /// From the least to the greatest residual that was left by a solve.
 [[nodiscard]] PlotRange range_of_residuals(const std::vector<Moment>& moments,

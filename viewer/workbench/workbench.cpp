@@ -201,6 +201,11 @@ void Workbench::save(const fs::path& file, bool may_replace) {
     say("there is no skeleton to save yet", true);
     return;
   }
+  std::error_code none;
+  if (fs::equivalent(file, scene->document.mesh_file, none)) {
+    say(file.string() + " is the input; name another output", true);
+    return;
+  }
   const std::string extension = extension_of(file);
   const auto format = choice_of(skeleton_formats, extension);
   const auto rig_format = choice_of(rig_formats, extension);
@@ -208,11 +213,6 @@ void Workbench::save(const fs::path& file, bool may_replace) {
     say(file.filename().string() + ": the extension is none of " + names_in(skeleton_formats) +
             "; for a rig, " + names_in(rig_formats),
         true);
-    return;
-  }
-  std::error_code none;
-  if (fs::equivalent(file, scene->document.mesh_file, none)) {
-    say(file.string() + " is the input; name another output", true);
     return;
   }
   if (!may_replace && fs::exists(file, none)) {
