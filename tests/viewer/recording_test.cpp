@@ -303,7 +303,7 @@ TEST(TitleOf, IsWhatTheCommandLineCallsIt) {
 TEST(MomentOf, KeepsTheFrame) {
   const shapes::Shape shape = shapes::torus(3, 1, 8);
   const Frame frame{"contract", 2, 5, 0.25, 0.125, 1e-6, shape.surface};
-  const Moment moment = moment_of(frame, Eigen::RowVector3d::Zero(), 1.5);
+  const Moment moment = moment_of(frame, DrawnSpace{}, 1.5);
   EXPECT_EQ(moment.stage, "contract");
   EXPECT_EQ(moment.component, 2);
   EXPECT_EQ(moment.iteration, 5);
@@ -318,12 +318,11 @@ TEST(MomentOf, KeepsTheFrame) {
 
 TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
   const shapes::Shape near = shapes::torus(3, 1, 8);
-  const Moment expected =
-      moment_of({"contract", 0, 0, 1, 1, 0, near.surface}, Eigen::RowVector3d::Zero(), 0);
+  const Moment expected = moment_of({"contract", 0, 0, 1, 1, 0, near.surface}, DrawnSpace{}, 0);
   for (const double offset : {1e3, 1e6, 1e9}) {
     const Eigen::RowVector3d origin(offset, -2 * offset, offset / 3);
     const shapes::Shape far = shapes::translated(near, origin.transpose());
-    const Moment moment = moment_of({"contract", 0, 0, 1, 1, 0, far.surface}, origin, 0);
+    const Moment moment = moment_of({"contract", 0, 0, 1, 1, 0, far.surface}, {origin}, 0);
     const double step = 4 * offset * std::numeric_limits<double>::epsilon();  // of the input itself
     for (std::size_t v = 0; v < expected.surface->positions.size(); ++v) {
       EXPECT_LT(glm::distance(glm::dvec3(moment.surface->positions[v]),
@@ -336,8 +335,8 @@ TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
 
 TEST(MomentOf, ALargeSurfaceHasASimplerFormThatMovesWithIt) {
   Surface surface = shapes::torus(3, 1, 60).surface;
-  const Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
-  const Moment first = moment_of({"contract", 0, 0, 1, 1, 0, surface}, origin, 0);
+  const DrawnSpace space;
+  const Moment first = moment_of({"contract", 0, 0, 1, 1, 0, surface}, space, 0);
   const auto& fewer = first.surface->fewer;
   ASSERT_FALSE(fewer.empty());
   EXPECT_LT(fewer.size(), first.surface->triangles.size() / 2);
@@ -349,10 +348,10 @@ TEST(MomentOf, ALargeSurfaceHasASimplerFormThatMovesWithIt) {
   surface.positions *= 0.1;  // where it would be clustered otherwise
   surface.positions.col(0) *= 0.01;
   const Moment next =
-      moment_of({"contract", 0, 1, 1, 1, 0, surface}, origin, 0, first.surface.get());
+      moment_of({"contract", 0, 1, 1, 1, 0, surface}, space, 0, first.surface.get());
   EXPECT_EQ(next.surface->fewer, fewer);
   const Surface small = shapes::torus(3, 1, 10).surface;
-  const Moment other = moment_of({"contract", 1, 0, 1, 1, 0, small}, origin, 0, next.surface.get());
+  const Moment other = moment_of({"contract", 1, 0, 1, 1, 0, small}, space, 0, next.surface.get());
   EXPECT_TRUE(other.surface->fewer.empty());
   Recording recording;
   recording.add(first);

@@ -49,7 +49,7 @@ void open_all(Workbench& bench) {
 TEST_F(RigView, BonesGoFromJointToJoint) {
   const Document opened = document();
   ASSERT_TRUE(opened.rig);
-  const ShownSkeleton shown = shown_rig(*opened.rig, opened.rig->joints, opened.origin, 5, {}, {});
+  const ShownSkeleton shown = shown_rig(*opened.rig, opened.rig->joints, opened.space, 5, {}, {});
   ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(joints));
   ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(2 * (joints - 1)));
   for (int bone = 0; bone + 1 < joints; ++bone) {
@@ -60,8 +60,9 @@ TEST_F(RigView, BonesGoFromJointToJoint) {
     EXPECT_EQ(head.from.w, 0);
     EXPECT_EQ(tail.to.w, 0);
     const glm::vec3 along = glm::vec3(tail.to) - glm::vec3(head.from);
-    EXPECT_NEAR(along.x, 1, 1e-5);
-    EXPECT_NEAR(glm::length(along), 1, 1e-5);
+    const float bone_length = shown_length(1, opened.space);
+    EXPECT_NEAR(along.x / bone_length, 1, 1e-5);
+    EXPECT_NEAR(glm::length(along) / bone_length, 1, 1e-5);
   }
 }
 
@@ -106,7 +107,7 @@ TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
   fit(scene.camera, scene.points(), float(width) / height);
   for (int joint = 0; joint < joints; ++joint) {
     const glm::vec3 place =
-        shown_point(scene.document.rig->joints.row(joint), scene.document.origin);
+        shown_point(scene.document.rig->joints.row(joint), scene.document.space);
     const glm::vec2 at(pixel_of(scene.camera, scene.bounds(), place, width, height));
     const Pick found = pick(scene, at, width, height);
     EXPECT_EQ(found.kind, Pick::Kind::joint);

@@ -333,13 +333,13 @@ TEST_F(Rigging, APulledJointPointsAtThePointer) {
   open_y();
   make_rig();
   const Rig& rig = *bench.scene->rig();
-  const Eigen::RowVector3d origin = bench.scene->document.origin;
+  const DrawnSpace space = bench.scene->document.space;
   for (int round = 0; round < 2; ++round) {  // the second time with those above already turned
     for (int joint = 1; joint < rig.joints.rows(); ++joint) {
       const Positions before = bench.scene->joints_now();
       const int parent = rig.parents[joint];
       const Eigen::RowVector3d wanted = before.row(joint) + Eigen::RowVector3d(0.3, -0.2, 0.4);
-      bench.pull_joint(joint, shown_point(wanted, origin));
+      bench.pull_joint(joint, shown_point(wanted, space));
       const Positions now = bench.scene->joints_now();
       const Eigen::RowVector3d bone = now.row(joint) - now.row(parent);
       EXPECT_LT((now.row(parent) - before.row(parent)).norm(), 1e-9);

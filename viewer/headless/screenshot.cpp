@@ -35,7 +35,7 @@ void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton&
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
 void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
-  Run run(scene.document.polygons(), options.pipeline, scene.document.origin,
+  Run run(scene.document.polygons(), options.pipeline, scene.document.space,
           std::make_shared<RunMemory>(), false);
   for (;;) {
     Run::News news = run.take();
@@ -154,8 +154,9 @@ void look_through(Scene& scene, const View& view, int width, int height) {
   const Eigen::Vector3d target =
       view.target + (view.axes.row(1) * aside.y() - view.axes.row(0) * aside.x()).transpose() /
                         view.pixels_per_unit;
-  camera.target = shown_point(target.transpose(), scene.document.origin);
-  camera.distance *= static_cast<float>(1 / view.pixels_per_unit) / camera.unit_per_pixel(height);
+  camera.target = shown_point(target.transpose(), scene.document.space);
+  camera.distance *=
+      shown_length(1 / view.pixels_per_unit, scene.document.space) / camera.unit_per_pixel(height);
 }
 
 /// The border between two views of a surface: along x or y, midway between their nearest points.

@@ -118,9 +118,7 @@ Document open_document(const std::vector<fs::path>& files, const Monitor& monito
   const Positions& points = document.has_surface() ? document.surface.positions
                             : document.skeleton    ? document.skeleton->nodes
                                                    : document.surface.positions;
-  if (points.rows() > 0) {
-    document.origin = (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
-  }
+  document.space = space_round(points);
   if (document.skeleton && document.has_surface() &&
       document.skeleton->node_of_vertex.size() != document.surface.positions.rows()) {
     document.skeleton->node_of_vertex.resize(0);  // of another surface

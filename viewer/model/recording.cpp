@@ -155,7 +155,7 @@ std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) c
   return nullptr;
 }
 
-Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
                  const ShownSurface* before) {
   Moment moment;
   moment.stage = frame.stage;
@@ -166,7 +166,7 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   moment.volume_ratio = frame.volume_ratio;
   moment.residual = frame.residual;
   moment.seconds = seconds;
-  ShownSurface shown = shown_surface(frame.surface, origin);
+  ShownSurface shown = shown_surface(frame.surface, space);
   constexpr std::size_t simple = 3000;  // vertices
   if (before != nullptr && before->triangles == shown.triangles) {
     shown.fewer = before->fewer;

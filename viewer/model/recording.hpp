@@ -84,7 +84,7 @@ class Recording {
 
 /// A moment from a stage's frame. `before` is null or an earlier moment's surface, whose simpler
 /// form it takes over where the triangles are the same.
-[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+[[nodiscard]] Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
                                const ShownSurface* before = nullptr);
 /// The component's curve beside those of `before`, the last surgery's of the same surface, or null.
 [[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,

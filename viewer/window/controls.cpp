@@ -144,7 +144,7 @@ void Controls::pull(Workbench& bench, const Area& picture) const {
   const auto rig = bench.scene->rig();
   if (!rig || dragged_ < 0 || dragged_ >= rig->joints.rows()) return;
   const glm::vec3 place =
-      shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.origin);
+      shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.space);
   bench.pull_joint(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
 }
 
@@ -153,8 +153,7 @@ void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& pict
   const auto skeleton = bench.scene->skeleton();
   if (ended == Drag::node && travelled_ >= click_pixels && skeleton &&
       dragged_ < skeleton->nodes.rows()) {
-    const glm::vec3 place =
-        shown_point(skeleton->nodes.row(dragged_), bench.scene->document.origin);
+    const glm::vec3 place = shown_point(skeleton->nodes.row(dragged_), bench.scene->document.space);
     bench.move(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
     return;
   }

@@ -120,8 +120,8 @@ class Workbench {
   /// Turns a joint about itself, in the surface's coordinates, on top of how it is turned; those
   /// below it and the surface follow. For the eye: files keep the pose in which the surface is.
   void turn_joint(int joint, const Eigen::Quaterniond& more);
-  /// So that the joint, turned about the one above it, comes as near to this place (about the
-  /// document's origin) as it can.
+  /// So that the joint, turned about the one above it, comes as near to this place (in the
+  /// document's space) as it can.
   void pull_joint(int joint, const glm::vec3& place);
   /// All joints as they are in the file.
   void turn_back();
@@ -159,7 +159,7 @@ class Workbench {
   bool wants_fit = true;
   /// Set when a person should be asked whether this file may be replaced.
   std::optional<std::filesystem::path> wants_to_replace;
-  /// Set when the camera should fly here; about the document's origin.
+  /// Set when the camera should fly here; in the document's space.
   std::optional<glm::vec3> wants_look_at;
 
  private:

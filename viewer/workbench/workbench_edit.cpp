@@ -154,7 +154,7 @@ void Workbench::show_exits() {
         found->skeleton->nodes.row(found->skeleton->edges(worst->edge, 0));
     const Eigen::RowVector3d to =
         found->skeleton->nodes.row(found->skeleton->edges(worst->edge, 1));
-    wants_look_at = shown_point((from + to) / 2, scene->document.origin);
+    wants_look_at = shown_point((from + to) / 2, scene->document.space);
   } else {
     say("no edge leaves the surface");
   }
@@ -174,7 +174,7 @@ void Workbench::show_spurs() {
   } else {
     wants_look_at =
         shown_point(found->skeleton->nodes.row(found->findings.spurs.front().nodes.front()),
-                    scene->document.origin);
+                    scene->document.space);
   }
   set_highlights();
 }
@@ -184,7 +184,7 @@ void Workbench::show_faces(const std::vector<int>& faces) {
   if (!faces.empty()) {
     const auto corners = scene->document.surface.triangles.row(faces.front());
     wants_look_at =
-        shown_point(scene->document.surface.positions.row(corners[0]), scene->document.origin);
+        shown_point(scene->document.surface.positions.row(corners[0]), scene->document.space);
   }
   set_highlights();
 }
@@ -286,7 +286,7 @@ void Workbench::split() {
 }
 
 void Workbench::move(int node, const glm::vec3& place) {
-  const Eigen::Vector3d position = model_vector(place) + scene->document.origin.transpose();
+  const Eigen::Vector3d position = model_point(place, scene->document.space);
   edit([&](const CurveSkeleton& now) { return move_node(now, node, position, tree()); },
        "moved a node");
 }

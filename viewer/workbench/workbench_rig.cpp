@@ -139,7 +139,7 @@ void Workbench::pull_joint(int joint, const glm::vec3& place) {
   const int parent = rig->parents[joint];
   const int above = rig->parents[parent];
   const Positions now = scene->joints_now();
-  const Eigen::Vector3d wanted = model_vector(place) + scene->document.origin.transpose();
+  const Eigen::Vector3d wanted = model_point(place, scene->document.space);
   Eigen::Quaterniond way = Eigen::Quaterniond::FromTwoVectors(
       (now.row(joint) - now.row(parent)).transpose(), wanted - now.row(parent).transpose());
   if (scene->turns && above >= 0) {

@@ -40,7 +40,7 @@ void Workbench::start(bool paused) {
   }
   options.extract.certificate.threads = options.extract.threads;
   options.extract.fair.threads = options.extract.threads;
-  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.origin,
+  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.space,
                                run_memory_, paused);
   news_ = {};
   run_seconds_ = 0;
