@@ -253,6 +253,30 @@ TEST(Tries, DoNotMix) {
   EXPECT_EQ(recording.skeleton_at(9), run[8].skeleton);
 }
 
+// Each moment had a copy of all that came before it.
+TEST(Surgery, ShowsTheCurvesSoFarAndKeepsEachOnce) {
+  constexpr int components = 5;
+  Recording recording;
+  Positions nodes(2, 3);
+  Edges edges(1, 2);
+  edges << 0, 1;
+  for (int component = 0; component < components; ++component) {
+    nodes.setConstant(component);
+    recording.add(moment_of(CurveFrame{"surgery", component, nodes, edges}, 0));
+    EXPECT_EQ(recording.moments().back().skeleton->nodes.rows(), 2);
+  }
+  for (int last = 0; last < components; ++last) {
+    const auto index = static_cast<std::size_t>(last + 1);
+    const auto shown = recording.skeleton_at(index);
+    ASSERT_EQ(shown->nodes.rows(), 2 * (last + 1));
+    for (int component = 0; component <= last; ++component) {
+      EXPECT_EQ(shown->nodes.row(2 * component + 1), Eigen::RowVector3d::Constant(component));
+      EXPECT_EQ(shown->edges.row(component), Eigen::RowVector2i(2 * component, 2 * component + 1));
+    }
+    EXPECT_EQ(recording.skeleton_at(index), shown) << "not another one, to be drawn again";
+  }
+}
+
 TEST(Tries, OnlyTheOneThatWasKeptIsShownUnlessAllAre) {
   Recording recording;
   const std::vector<Moment> run = faired_run();

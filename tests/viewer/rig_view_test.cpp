@@ -66,6 +66,29 @@ TEST_F(RigView, BonesGoFromJointToJoint) {
   }
 }
 
+TEST_F(RigView, ARoleHasItsColourWhateverElseThereIs) {
+  const Document opened = document();
+  Look look;
+  look.surface_colour = ColourBy::role;
+  const auto colours = [&](const std::vector<std::string>& roles) {
+    Rig rig = *opened.rig;
+    rig.roles = roles;
+    return surface_colours(opened.surface, {nullptr, &rig, nullptr, nullptr}, look, {});
+  };
+  const auto all = colours({"hips", "spine", "chest", "neck", "head"});
+  const auto without_hips = colours({"", "spine", "chest", "neck", "head"});
+  ASSERT_EQ(all.size(), without_hips.size());
+  int same = 0;
+  for (Eigen::Index vertex = 0; vertex < opened.rig->weights.rows(); ++vertex) {
+    const auto at = static_cast<std::size_t>(vertex);
+    const Eigen::RowVectorXf shares = opened.rig->weights.row(vertex).toDense();
+    if (shares[0] > 0) continue;
+    EXPECT_EQ(all[at], without_hips[at]);
+    ++same;
+  }
+  EXPECT_GT(same, 0);
+}
+
 TEST_F(RigView, WeightsOfOneJointGoThroughTheMap) {
   const Document opened = document();
   const Look look = look_by_weight();

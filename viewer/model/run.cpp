@@ -117,13 +117,7 @@ void Run::work(const std::stop_token& stop) {
     shown_ = moment.surface;
     show(std::move(moment), stop);
   };
-  monitor.curve = [&](const CurveFrame& curve) {
-    const bool same_try = curve.made_in.of_surface == operated_in_;
-    Moment moment = moment_of(curve, same_try ? operated_.get() : nullptr, seconds());
-    operated_ = moment.skeleton;
-    operated_in_ = moment.of_surface;
-    show(std::move(moment), stop);
-  };
+  monitor.curve = [&](const CurveFrame& curve) { show(moment_of(curve, seconds()), stop); };
   const auto end = [this](State state, const std::string& why, Fault fault = Fault::solver) {
     const std::lock_guard lock(mutex_);
     news_.state = state;

@@ -89,9 +89,7 @@ class Run {
   const RunOptions options_;
   const DrawnSpace space_;
   const std::shared_ptr<RunMemory> memory_;
-  std::shared_ptr<const CurveSkeleton> operated_;  // of the pipeline's thread alone
-  int operated_in_ = -1;                           // ShownTry::of_surface of that
-  std::shared_ptr<const ShownSurface> shown_;      // of that, too
+  std::shared_ptr<const ShownSurface> shown_;  // of the pipeline's thread alone
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 
   std::mutex mutex_;

@@ -140,7 +140,7 @@ void help(Panels& panels) {
   ImGui::End();
 }
 
-/// What can be done with an empty window.
+/// In an empty window: the ways to fill it.
 void hint(const Workbench& bench, const Area& picture) {
   const Document& document = bench.scene->document;
   if (document.has_surface() || document.skeleton || bench.opening()) return;
@@ -167,7 +167,9 @@ void question(Workbench& bench) {
     ImGui::Text("%s is there already.", bench.wants_to_replace->string().c_str());
     ImGui::PopTextWrapPos();
     const float width = 6 * ImGui::GetFontSize();
-    const bool replace = ImGui::Button("Replace", {width, 0});
+    // Not by Enter, which named the file a moment ago.
+    const bool replace = ImGui::Button("Replace", {width, 0}) || ImGui::IsKeyPressed('R', false);
+    tip("R");
     ImGui::SameLine();
     const bool keep = ImGui::Button("Keep it", {width, 0});
     tip("Esc");
