@@ -23,6 +23,7 @@
 #include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/edit_subjects.hpp"
+#include "tests/viewer/waiting.hpp"
 #include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer::rigging_laws {
@@ -403,6 +404,23 @@ TEST_F(Rigging, ARoleThatWasCorrectedStaysSoAndCanBeTakenBack) {
   EXPECT_EQ(bench.scene->rig()->roles, found);
   bench.redo();
   EXPECT_EQ(bench.scene->rig()->roles, corrected);
+}
+
+TEST(WishedJoint, IsChosenOnceThereIsARig) {
+  ViewOptions options;
+  options.joint = "root";
+  Workbench bench{options};
+  bench.open({mesh_called("y.off")});
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.result() != nullptr && !bench.busy(); }));
+  EXPECT_EQ(bench.selected_joint(), -1);
+  bench.rig();
+  ASSERT_TRUE(wait_for_rest(bench));
+  ASSERT_GE(bench.selected_joint(), 0);
+  EXPECT_EQ(bench.scene->rig()->names[static_cast<std::size_t>(bench.selected_joint())], "root");
+  bench.select_joint(-1);
+  bench.rig();
+  ASSERT_TRUE(wait_for_rest(bench));
+  EXPECT_EQ(bench.selected_joint(), -1) << "a person has chosen none";
 }
 
 TEST(GivenRole, IsForAJointInItsPlaceAlone) {

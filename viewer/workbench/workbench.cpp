@@ -137,6 +137,16 @@ bool Workbench::take_opened() {
   say("opened " + names_of(files_));
   take_document(std::move(opened.scene), std::exchange(reloading_, false));
   const Document& document = scene->document;
+  if (scene->rig()) {
+    choose_wished_joint();
+  } else if (!options_.joint.empty()) {
+    say("the joint " + options_.joint + " is chosen once there is a rig (G)");
+  }
+  if (options_.run && document.has_surface() && !document.rig && !document.skeleton) start(false);
+  return true;
+}
+
+void Workbench::choose_wished_joint() {
   try {
     look_at_rig(*scene, options_.joint);
     selected_joint_ = scene->highlights.joint;
@@ -144,8 +154,6 @@ bool Workbench::take_opened() {
     say(error.what(), true);
     options_.joint.clear();  // it is said once
   }
-  if (options_.run && document.has_surface() && !document.rig && !document.skeleton) start(false);
-  return true;
 }
 
 /// Corrections of a file that has changed on the disk stay in the history.

@@ -191,6 +191,7 @@ class Workbench {
   void retire_run();
   [[nodiscard]] CurveSkeleton at_level(const CurveSkeleton& whole) const;
   void heed_time_limit();
+  void choose_wished_joint();
   void save_skeleton(const std::filesystem::path& file, SkeletonFormat format);
   void note_saved(const std::filesystem::path& file);
   void take_document(std::shared_ptr<Scene> opened, bool same_place);

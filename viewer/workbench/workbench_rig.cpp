@@ -91,6 +91,8 @@ bool Workbench::take_rig() {
   go_to(scene->recording.moments().size() - 1);
   say(words_of(*made.rig));
   if (!made.on_sheets.empty()) say(made.on_sheets);
+  if (!options_.joint.empty()) choose_wished_joint();
+  options_.joint.clear();  // from now on a person chooses
   if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}), true);  // was asked for
   return true;
 }
