@@ -266,7 +266,7 @@ TEST(Surgery, ShowsTheCurvesSoFarAndKeepsEachOnce) {
     EXPECT_EQ(recording.moments().back().skeleton->nodes.rows(), 2);
   }
   for (int last = 0; last < components; ++last) {
-    const auto index = static_cast<std::size_t>(last + 1);
+    const std::size_t index = static_cast<std::size_t>(last) + 1;
     const auto shown = recording.skeleton_at(index);
     ASSERT_EQ(shown->nodes.rows(), 2 * (last + 1));
     for (int component = 0; component <= last; ++component) {
