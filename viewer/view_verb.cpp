@@ -120,7 +120,6 @@ void add_look(CLI::App& parser, Look& look) {
 
 int run_view(ViewOptions options, Session& session) {
   options.pipeline.extract.fairing = options.pipeline.extract.fair.iterations > 0;
-  session.interruption.limit(options.time_limit_seconds);
   const bool pictures = !options.screenshot.empty() || !options.turntable.empty();
   if (options.two_sides && options.screenshot.empty()) {
     throw UsageError("--two-sides is for --screenshot");
@@ -129,8 +128,14 @@ int run_view(ViewOptions options, Session& session) {
   if (!pictures && !options.turns.empty()) throw UsageError("--turn is for pictures");
   if (!pictures) return run_window(options, session);
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
-  write_pictures(options, session);
+  if (!options.frame_times.empty()) throw UsageError("--frame-times is for the window");
+  session.interruption.limit(options.time_limit_seconds);  // of a window: its runs
+  if (!options.screenshot.empty()) {
+    for (const auto& file : options.files) check_outputs({options.screenshot}, file);
+  }
+  const std::string written = write_pictures(options, session);
   session.terminal.end_progress();
+  session.terminal.result(written);
   return ExitCode::done;
 }
 

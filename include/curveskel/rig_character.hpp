@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <curveskel/body_plan.hpp>
+#include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/monitor.hpp>
@@ -50,10 +51,13 @@ struct CharacterRig {
 
 /// The same from the skeleton of the whole repaired surface, after `find_parts`, within the budget.
 /// A skeleton without node_of_vertex does not say what its curves are of: then no part follows.
+/// `certificate` is that of the skeleton, if there is one: then `plan.made_of_tubes` is judged as
+/// `rig_polygons` does, by the body without the parts that follow.
 [[nodiscard]] CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
                                          const CurveSkeleton& skeleton,
                                          const CharacterOptions& options = {},
-                                         const Monitor& monitor = {});
+                                         const Monitor& monitor = {},
+                                         const Certificate* certificate = nullptr);
 
 /// The character with fewer joints: without those that lie on branches of a shorter life than the
 /// limit and without those below them, but with all that VRM requires of a human, and with the

@@ -69,4 +69,11 @@ struct SkeletonContext {
 /// Time and memory linear in the file's size, times a logarithm for the joining.
 [[nodiscard]] CurveSkeleton read_skeleton(const std::filesystem::path& path);
 
+/// The same with the node that a JSON file names as its "root"; -1 where it names none of its own.
+struct RootedSkeleton {
+  CurveSkeleton skeleton;
+  int root = -1;
+};
+[[nodiscard]] RootedSkeleton read_rooted_skeleton(const std::filesystem::path& path);
+
 }  // namespace curveskel

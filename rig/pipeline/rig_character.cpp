@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
@@ -99,6 +100,12 @@ RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor&
   return made;
 }
 
+/// All that gets joints.
+struct Body {
+  RepairedSurface surface;
+  CurveSkeleton skeleton;
+};
+
 }  // namespace
 
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
@@ -126,14 +133,22 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
 
 CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
                            const CurveSkeleton& skeleton, const CharacterOptions& options,
-                           const Monitor& monitor) {
+                           const Monitor& monitor, const Certificate* certificate) {
   PartOptions wanted = options.parts;
   if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0) wanted.follow = 0;
   RigParts parts = find_parts(repaired.surface, wanted, monitor);
-  CharacterRig result = parts.all_body()
-                            ? rig_body(given, repaired, skeleton, options, monitor)
-                            : rig_body(given, body_of(repaired, parts),
-                                       skeleton_of_body(skeleton, parts), options, monitor);
+  const Body body = parts.all_body()
+                        ? Body{repaired, skeleton}
+                        : Body{body_of(repaired, parts), skeleton_of_body(skeleton, parts)};
+  CharacterOptions judged = options;
+  if (certificate != nullptr) {
+    const Certificate of_body = parts.all_body()
+                                    ? *certificate
+                                    : evaluate(body.surface.surface, body.skeleton,
+                                               {.threads = options.parts.threads}, monitor);
+    judged.plan.made_of_tubes = made_of_tubes_but_for_sheets(of_body, body.surface);
+  }
+  CharacterRig result = rig_body(given, body.surface, body.skeleton, judged, monitor);
   result = within_budget(std::move(result), given, options.joint_budget);
   result.parts = std::move(parts);
   return result;

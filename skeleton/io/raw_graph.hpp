@@ -20,6 +20,7 @@ struct RawGraph {
   std::vector<int> alone;                  ///< points that are nodes without needing an edge
   Eigen::VectorXi node_of_vertex;          ///< as in CurveSkeleton; only with Joining::nothing
   Eigen::VectorXd lives;                   ///< the same
+  int root = -1;                           ///< the same; -1 = none
 
   int add(const Eigen::RowVector3d& point, double radius = unknown) {
     points.push_back(point);

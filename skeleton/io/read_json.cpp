@@ -45,6 +45,7 @@ class JsonGraph {
     for (std::size_t e = 0; e < edges.size(); ++e) add_edge(edges[e], e);
     add_vertex_map();
     add_lives();
+    add_root();
     return std::move(graph_);
   }
 
@@ -137,6 +138,14 @@ class JsonGraph {
       const std::string where = "in node_of_vertex " + std::to_string(v);
       graph_.node_of_vertex(static_cast<Eigen::Index>(v)) = map[v] == -1 ? -1 : node(map[v], where);
     }
+  }
+
+  /// Nothing else depends on it, so a wrong one is none.
+  void add_root() {
+    if (!root_.contains("root") || !root_["root"].is_number_integer()) return;
+    const auto root = root_["root"].get<std::int64_t>();
+    const auto nodes = static_cast<std::int64_t>(graph_.points.size());
+    if (ids_.empty() && root >= 0 && root < nodes) graph_.root = static_cast<int>(root);
   }
 
   const FileBytes& file_;

@@ -42,22 +42,25 @@ std::optional<SkeletonFormat> skeleton_format_by_extension(const std::filesystem
   return choice_of(skeleton_formats, std::string_view(extension));
 }
 
-CurveSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
+RootedSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
+  const auto from = [](const RawGraph& graph, Joining joining) {
+    return RootedSkeleton{skeleton_from(graph, joining), graph.root};
+  };
   switch (format) {
     case SkeletonFormat::obj:
-      return skeleton_from(read_obj_lines(file), Joining::coincident);
+      return from(read_obj_lines(file), Joining::coincident);
     case SkeletonFormat::ply:
-      return skeleton_from(read_ply_edges(file), Joining::coincident);
+      return from(read_ply_edges(file), Joining::coincident);
     case SkeletonFormat::cgal:
-      return skeleton_from(read_polylines(file), Joining::coincident);
+      return from(read_polylines(file), Joining::coincident);
     case SkeletonFormat::swc:
-      return skeleton_from(read_swc(file), Joining::coincident);
+      return from(read_swc(file), Joining::coincident);
     case SkeletonFormat::vtp:
-      return skeleton_from(read_vtp(file), Joining::coincident);
+      return from(read_vtp(file), Joining::coincident);
     case SkeletonFormat::graphml:
-      return skeleton_from(read_graphml(file), Joining::nothing);
+      return from(read_graphml(file), Joining::nothing);
     case SkeletonFormat::json:
-      return skeleton_from(read_json_graph(file), Joining::nothing);
+      return from(read_json_graph(file), Joining::nothing);
     case SkeletonFormat::csv:
     case SkeletonFormat::svg:
     case SkeletonFormat::png:
@@ -70,7 +73,7 @@ CurveSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
 
 }  // namespace
 
-CurveSkeleton read_skeleton(const std::filesystem::path& path) {
+RootedSkeleton read_rooted_skeleton(const std::filesystem::path& path) {
   const FileBytes file = read_file(path, Monitor{});
   std::optional<SkeletonFormat> format = skeleton_format_by_content(file);
   if (!format) format = skeleton_format_by_extension(path);
@@ -79,12 +82,16 @@ CurveSkeleton read_skeleton(const std::filesystem::path& path) {
                   " and no known extension",
               std::string("a skeleton as ") + std::string(readable), "convert it");
   }
-  CurveSkeleton skeleton = read_as(*format, file);
-  if (skeleton.nodes.rows() == 0) {
+  RootedSkeleton read = read_as(*format, file);
+  if (read.skeleton.nodes.rows() == 0) {
     file.fail("a graph without nodes", "a skeleton",
               "check that the file holds curves, not a surface or a point cloud");
   }
-  return skeleton;
+  return read;
+}
+
+CurveSkeleton read_skeleton(const std::filesystem::path& path) {
+  return read_rooted_skeleton(path).skeleton;
 }
 
 }  // namespace curveskel

@@ -88,5 +88,23 @@ TEST(KeyQueue, NothingIsLostOrOutOfOrder) {
 
 TEST(KeyQueue, EmptyGivesNothing) { EXPECT_TRUE(KeyQueue().take().empty()); }
 
+TEST(KeyOnLayout, IsTheLetterThatIsWritten) {
+  EXPECT_EQ(key_on_layout('Y', "z"), 'Z') << "German";
+  EXPECT_EQ(key_on_layout('Q', "a"), 'A') << "French";
+  EXPECT_EQ(key_on_layout(';', "m"), 'M') << "French";
+  EXPECT_EQ(key_on_layout('M', ","), ',') << "French";
+  EXPECT_EQ(key_on_layout('S', "o"), 'O') << "Dvorak";
+}
+
+TEST(KeyOnLayout, StaysWhereNoOtherLetterIsWritten) {
+  EXPECT_EQ(key_on_layout('1', "&"), '1') << "French";
+  EXPECT_EQ(key_on_layout('S', "\xD1\x8B"), 'S') << "Russian";
+  EXPECT_EQ(key_on_layout(256, nullptr), 256) << "Escape";
+  for (char letter = 'a'; letter <= 'z'; ++letter) {
+    const char name[] = {letter, 0};
+    EXPECT_EQ(key_on_layout(letter - 'a' + 'A', name), letter - 'a' + 'A');
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::viewer::key_queue_laws

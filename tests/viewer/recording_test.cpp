@@ -253,6 +253,30 @@ TEST(Tries, DoNotMix) {
   EXPECT_EQ(recording.skeleton_at(9), run[8].skeleton);
 }
 
+// Each moment had a copy of all that came before it.
+TEST(Surgery, ShowsTheCurvesSoFarAndKeepsEachOnce) {
+  constexpr int components = 5;
+  Recording recording;
+  Positions nodes(2, 3);
+  Edges edges(1, 2);
+  edges << 0, 1;
+  for (int component = 0; component < components; ++component) {
+    nodes.setConstant(component);
+    recording.add(moment_of(CurveFrame{"surgery", component, nodes, edges}, 0));
+    EXPECT_EQ(recording.moments().back().skeleton->nodes.rows(), 2);
+  }
+  for (int last = 0; last < components; ++last) {
+    const std::size_t index = static_cast<std::size_t>(last) + 1;
+    const auto shown = recording.skeleton_at(index);
+    ASSERT_EQ(shown->nodes.rows(), 2 * (last + 1));
+    for (int component = 0; component <= last; ++component) {
+      EXPECT_EQ(shown->nodes.row(2 * component + 1), Eigen::RowVector3d::Constant(component));
+      EXPECT_EQ(shown->edges.row(component), Eigen::RowVector2i(2 * component, 2 * component + 1));
+    }
+    EXPECT_EQ(recording.skeleton_at(index), shown) << "not another one, to be drawn again";
+  }
+}
+
 TEST(Tries, OnlyTheOneThatWasKeptIsShownUnlessAllAre) {
   Recording recording;
   const std::vector<Moment> run = faired_run();
@@ -303,7 +327,7 @@ TEST(TitleOf, IsWhatTheCommandLineCallsIt) {
 TEST(MomentOf, KeepsTheFrame) {
   const shapes::Shape shape = shapes::torus(3, 1, 8);
   const Frame frame{"contract", 2, 5, 0.25, 0.125, 1e-6, shape.surface};
-  const Moment moment = moment_of(frame, Eigen::RowVector3d::Zero(), 1.5);
+  const Moment moment = moment_of(frame, DrawnSpace{}, 1.5);
   EXPECT_EQ(moment.stage, "contract");
   EXPECT_EQ(moment.component, 2);
   EXPECT_EQ(moment.iteration, 5);
@@ -318,12 +342,11 @@ TEST(MomentOf, KeepsTheFrame) {
 
 TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
   const shapes::Shape near = shapes::torus(3, 1, 8);
-  const Moment expected =
-      moment_of({"contract", 0, 0, 1, 1, 0, near.surface}, Eigen::RowVector3d::Zero(), 0);
+  const Moment expected = moment_of({"contract", 0, 0, 1, 1, 0, near.surface}, DrawnSpace{}, 0);
   for (const double offset : {1e3, 1e6, 1e9}) {
     const Eigen::RowVector3d origin(offset, -2 * offset, offset / 3);
     const shapes::Shape far = shapes::translated(near, origin.transpose());
-    const Moment moment = moment_of({"contract", 0, 0, 1, 1, 0, far.surface}, origin, 0);
+    const Moment moment = moment_of({"contract", 0, 0, 1, 1, 0, far.surface}, {origin}, 0);
     const double step = 4 * offset * std::numeric_limits<double>::epsilon();  // of the input itself
     for (std::size_t v = 0; v < expected.surface->positions.size(); ++v) {
       EXPECT_LT(glm::distance(glm::dvec3(moment.surface->positions[v]),
@@ -336,8 +359,8 @@ TEST(MomentOf, FarFromTheOriginKeepsItsDigits) {
 
 TEST(MomentOf, ALargeSurfaceHasASimplerFormThatMovesWithIt) {
   Surface surface = shapes::torus(3, 1, 60).surface;
-  const Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
-  const Moment first = moment_of({"contract", 0, 0, 1, 1, 0, surface}, origin, 0);
+  const DrawnSpace space;
+  const Moment first = moment_of({"contract", 0, 0, 1, 1, 0, surface}, space, 0);
   const auto& fewer = first.surface->fewer;
   ASSERT_FALSE(fewer.empty());
   EXPECT_LT(fewer.size(), first.surface->triangles.size() / 2);
@@ -349,10 +372,10 @@ TEST(MomentOf, ALargeSurfaceHasASimplerFormThatMovesWithIt) {
   surface.positions *= 0.1;  // where it would be clustered otherwise
   surface.positions.col(0) *= 0.01;
   const Moment next =
-      moment_of({"contract", 0, 1, 1, 1, 0, surface}, origin, 0, first.surface.get());
+      moment_of({"contract", 0, 1, 1, 1, 0, surface}, space, 0, first.surface.get());
   EXPECT_EQ(next.surface->fewer, fewer);
   const Surface small = shapes::torus(3, 1, 10).surface;
-  const Moment other = moment_of({"contract", 1, 0, 1, 1, 0, small}, origin, 0, next.surface.get());
+  const Moment other = moment_of({"contract", 1, 0, 1, 1, 0, small}, space, 0, next.surface.get());
   EXPECT_TRUE(other.surface->fewer.empty());
   Recording recording;
   recording.add(first);

@@ -49,7 +49,7 @@ void open_all(Workbench& bench) {
 TEST_F(RigView, BonesGoFromJointToJoint) {
   const Document opened = document();
   ASSERT_TRUE(opened.rig);
-  const ShownSkeleton shown = shown_rig(*opened.rig, opened.rig->joints, opened.origin, 5, {}, {});
+  const ShownSkeleton shown = shown_rig(*opened.rig, opened.rig->joints, opened.space, 5, {}, {});
   ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(joints));
   ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(2 * (joints - 1)));
   for (int bone = 0; bone + 1 < joints; ++bone) {
@@ -60,9 +60,33 @@ TEST_F(RigView, BonesGoFromJointToJoint) {
     EXPECT_EQ(head.from.w, 0);
     EXPECT_EQ(tail.to.w, 0);
     const glm::vec3 along = glm::vec3(tail.to) - glm::vec3(head.from);
-    EXPECT_NEAR(along.x, 1, 1e-5);
-    EXPECT_NEAR(glm::length(along), 1, 1e-5);
+    const float bone_length = shown_length(1, opened.space);
+    EXPECT_NEAR(along.x / bone_length, 1, 1e-5);
+    EXPECT_NEAR(glm::length(along) / bone_length, 1, 1e-5);
   }
+}
+
+TEST_F(RigView, ARoleHasItsColourWhateverElseThereIs) {
+  const Document opened = document();
+  Look look;
+  look.surface_colour = ColourBy::role;
+  const auto colours = [&](const std::vector<std::string>& roles) {
+    Rig rig = *opened.rig;
+    rig.roles = roles;
+    return surface_colours(opened.surface, {nullptr, &rig, nullptr, nullptr}, look, {});
+  };
+  const auto all = colours({"hips", "spine", "chest", "neck", "head"});
+  const auto without_hips = colours({"", "spine", "chest", "neck", "head"});
+  ASSERT_EQ(all.size(), without_hips.size());
+  int same = 0;
+  for (Eigen::Index vertex = 0; vertex < opened.rig->weights.rows(); ++vertex) {
+    const auto at = static_cast<std::size_t>(vertex);
+    const Eigen::RowVectorXf shares = opened.rig->weights.row(vertex).toDense();
+    if (shares[0] > 0) continue;
+    EXPECT_EQ(all[at], without_hips[at]);
+    ++same;
+  }
+  EXPECT_GT(same, 0);
 }
 
 TEST_F(RigView, WeightsOfOneJointGoThroughTheMap) {
@@ -106,7 +130,7 @@ TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
   fit(scene.camera, scene.points(), float(width) / height);
   for (int joint = 0; joint < joints; ++joint) {
     const glm::vec3 place =
-        shown_point(scene.document.rig->joints.row(joint), scene.document.origin);
+        shown_point(scene.document.rig->joints.row(joint), scene.document.space);
     const glm::vec2 at(pixel_of(scene.camera, scene.bounds(), place, width, height));
     const Pick found = pick(scene, at, width, height);
     EXPECT_EQ(found.kind, Pick::Kind::joint);

@@ -15,12 +15,15 @@
 #include <thread>
 #include <utility>
 
+#include <curveskel/extract_repaired.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/edit_subjects.hpp"
+#include "tests/viewer/waiting.hpp"
 #include "viewer/workbench/workbench.hpp"
 
 namespace curveskel::viewer::rigging_laws {
@@ -331,13 +334,13 @@ TEST_F(Rigging, APulledJointPointsAtThePointer) {
   open_y();
   make_rig();
   const Rig& rig = *bench.scene->rig();
-  const Eigen::RowVector3d origin = bench.scene->document.origin;
+  const DrawnSpace space = bench.scene->document.space;
   for (int round = 0; round < 2; ++round) {  // the second time with those above already turned
     for (int joint = 1; joint < rig.joints.rows(); ++joint) {
       const Positions before = bench.scene->joints_now();
       const int parent = rig.parents[joint];
       const Eigen::RowVector3d wanted = before.row(joint) + Eigen::RowVector3d(0.3, -0.2, 0.4);
-      bench.pull_joint(joint, shown_point(wanted, origin));
+      bench.pull_joint(joint, shown_point(wanted, space));
       const Positions now = bench.scene->joints_now();
       const Eigen::RowVector3d bone = now.row(joint) - now.row(parent);
       EXPECT_LT((now.row(parent) - before.row(parent)).norm(), 1e-9);
@@ -379,6 +382,84 @@ TEST_F(Rigging, ARoleIsSavedAsItWasCorrected) {
   ASSERT_TRUE(read);
   EXPECT_EQ(read->names[0], "head");
   EXPECT_TRUE(read->joints.isApprox(character->rig.joints, 1e-6)) << "at rest";
+}
+
+TEST_F(Rigging, ARoleThatWasCorrectedStaysSoAndCanBeTakenBack) {
+  bench.pipeline.character.plan.plan = BodyKind::humanoid;
+  open_y();
+  make_rig();
+  const std::vector<std::string> found = bench.scene->rig()->roles;
+  const std::string name = bench.scene->rig()->names[1];
+  bench.select_joint(1);
+  bench.set_role("jaw");
+  EXPECT_EQ(last_said(), name + " is now the jaw");
+  const std::vector<std::string> corrected = bench.scene->rig()->roles;
+  ASSERT_NE(corrected, found);
+  bench.pipeline.character.rig.skin.softness = 2;
+  bench.rig();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_EQ(bench.scene->rig()->roles, corrected) << "as another rig of the same joints has them";
+  bench.undo();
+  ASSERT_NE(bench.scene->rig(), nullptr) << "it need not be made anew";
+  EXPECT_EQ(bench.scene->rig()->roles, found);
+  bench.redo();
+  EXPECT_EQ(bench.scene->rig()->roles, corrected);
+}
+
+TEST(WishedJoint, IsChosenOnceThereIsARig) {
+  ViewOptions options;
+  options.joint = "root";
+  Workbench bench{options};
+  bench.open({mesh_called("y.off")});
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.result() != nullptr && !bench.busy(); }));
+  EXPECT_EQ(bench.selected_joint(), -1);
+  bench.rig();
+  ASSERT_TRUE(wait_for_rest(bench));
+  ASSERT_GE(bench.selected_joint(), 0);
+  EXPECT_EQ(bench.scene->rig()->names[static_cast<std::size_t>(bench.selected_joint())], "root");
+  bench.select_joint(-1);
+  bench.rig();
+  ASSERT_TRUE(wait_for_rest(bench));
+  EXPECT_EQ(bench.selected_joint(), -1) << "a person has chosen none";
+}
+
+TEST(GivenRole, IsForAJointInItsPlaceAlone) {
+  CharacterRig character;
+  character.plan.plan = BodyKind::humanoid;
+  character.rig.joints.resize(2, 3);
+  character.rig.joints << 0, 0, 0, 1, 0, 0;
+  character.rig.parents = Eigen::Vector2i(-1, 0);
+  character.rig.names = {"a", "b"};
+  character.rig.roles = {"hips", "spine"};
+  character.rig.weights.resize(0, 2);
+  const std::vector<GivenRole> given{{0, {1, 0, 0}, "head"},       // the number of another rig's
+                                     {0, {0.5, 0, 0}, "jaw"},      // where there is none
+                                     {0, {0, 0, 0}, "tentacle"}};  // which no human has
+  give_roles(character, given, 1, NameStyle::automatic);
+  EXPECT_EQ(character.rig.roles, (std::vector<std::string>{"hips", "head"}));
+}
+
+/// A bent tube, and a button on it.
+TEST(RigOf, IsJudgedByTheBodyWithoutThePartsThatFollow) {
+  const shapes::Shape tube = shapes::tube("", shapes::s_curve(16, 6), shapes::constant(1), 16);
+  const Eigen::Vector3d place =
+      tube.axis.nodes.row(tube.axis.nodes.rows() / 5).transpose() + 0.95 * Eigen::Vector3d::UnitZ();
+  const shapes::Shape button = shapes::translated(shapes::ellipsoid({0.2, 0.2, 0.2}, 2), place);
+  Document document;
+  document.surface = shapes::together("", {tube, button}).surface;
+  const RepairedSurface repaired = repair(*document.polygons());
+  const CurveSkeleton skeleton =
+      extract_repaired(repaired, RepairOptions{}, ExtractOptions{}).extraction.skeleton;
+  Certificate of_all;  // as if the button were larger, and flat
+  of_all.curve_like = false;
+  of_all.tube_share = 0;
+  const auto reason = [&](const CharacterOptions& options) {
+    return rig_of(document, repaired, skeleton, &of_all, options, {})->plan.reason;
+  };
+  EXPECT_EQ(reason({}).find("not made of tubes"), std::string::npos) << reason({});
+  CharacterOptions all_body;
+  all_body.parts.follow = 0;
+  EXPECT_NE(reason(all_body).find("not made of tubes"), std::string::npos) << reason(all_body);
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ class Watched {
   explicit Watched(const Surface& surface, bool paused = false, RunOptions options = {},
                    std::shared_ptr<RunMemory> memory = std::make_shared<RunMemory>())
       : run_(std::make_unique<Run>(std::make_shared<const PolygonSoup>(soup_of(surface)),
-                                   std::move(options), Eigen::RowVector3d::Zero(),
-                                   std::move(memory), paused)) {}
+                                   std::move(options), DrawnSpace{}, std::move(memory), paused)) {}
 
   Run& run() { return *run_; }
   void look() {

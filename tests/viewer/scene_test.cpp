@@ -43,8 +43,7 @@ Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nul
   Document document;
   document.surface = surface;
   if (skeleton != nullptr) document.skeleton = *skeleton;
-  document.origin =
-      (surface.positions.colwise().minCoeff() + surface.positions.colwise().maxCoeff()) / 2;
+  document.space = space_round(surface.positions);
   return document;
 }
 
@@ -74,8 +73,7 @@ TEST(SurfaceColours, AreThoseOfTheirNodes) {
     for (const ColourBy by : {ColourBy::component, ColourBy::node, ColourBy::radius}) {
       SCOPED_TRACE(name_of(colourings, by));
       const Look look = look_by(by);
-      const ShownSkeleton shown =
-          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+      const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look, {});
       ASSERT_EQ(shown.nodes.size(), static_cast<std::size_t>(one.skeleton.nodes.rows()));
       const std::vector<Rgba> colours = surface_colours(one.surface, {&one.skeleton}, look, {});
       ASSERT_EQ(colours.size(), static_cast<std::size_t>(one.surface.positions.rows()));
@@ -103,8 +101,7 @@ TEST(SurfaceColours, ByBranchAreThoseOfABranchOfTheirNodes) {
 TEST(SkeletonColours, OfAnEdgeByBranchAreThoseOfItsBranch) {
   for (const Extracted& one : family()) {
     SCOPED_TRACE(one.name);
-    const ShownSkeleton shown =
-        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look_by(ColourBy::branch), {});
+    const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look_by(ColourBy::branch), {});
     const std::vector<Branch> all = branches(one.skeleton);
     std::set<std::pair<std::pair<int, int>, Rgba>> expected;
     for (std::size_t b = 0; b < all.size(); ++b) {
@@ -126,8 +123,7 @@ TEST(SkeletonColours, OfAnEdgeByBranchAreThoseOfItsBranch) {
 TEST(SkeletonColours, OfAnEdgeAreThoseOfItsEnds) {
   for (const Extracted& one : family()) {
     for (const ColourBy by : {ColourBy::component, ColourBy::node, ColourBy::radius}) {
-      const ShownSkeleton shown =
-          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look_by(by), {});
+      const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look_by(by), {});
       for (std::size_t e = 0; e < shown.edges.size(); ++e) {
         const auto row = static_cast<Eigen::Index>(e);
         const auto node = [&](int end) {
@@ -143,8 +139,7 @@ TEST(SkeletonColours, OfAnEdgeAreThoseOfItsEnds) {
 TEST(SkeletonColours, ByRadiusSpanTheMap) {
   for (const Extracted& one : family()) {
     const Look look = look_by(ColourBy::radius);
-    const ShownSkeleton shown =
-        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+    const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look, {});
     Eigen::Index thinnest = 0;
     Eigen::Index thickest = 0;
     one.skeleton.radii.minCoeff(&thinnest);
@@ -176,8 +171,7 @@ TEST(SurfaceColours, OfHighlightedNodesAreLitUpAndNoOther) {
                       rgba(palette_of(look.theme).surface));
       }
       const std::vector<Rgba> after = surface_colours(one.surface, {&one.skeleton}, look, lit);
-      const ShownSkeleton shown =
-          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, lit);
+      const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look, lit);
       ASSERT_EQ(after.size(), before.size());
       std::set<Rgba> of_lit;
       for (std::size_t v = 0; v < after.size(); ++v) {
@@ -202,10 +196,8 @@ TEST(SkeletonColours, OfHighlightedEdgesDifferFromAllOthers) {
     Highlights lit;
     lit.edges = {1, 0};
     lit.failed_edges = {2};
-    const ShownSkeleton before =
-        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, {}, {});
-    const ShownSkeleton after =
-        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, {}, lit);
+    const ShownSkeleton before = shown_skeleton(one.skeleton, {}, 10, {}, {});
+    const ShownSkeleton after = shown_skeleton(one.skeleton, {}, 10, {}, lit);
     EXPECT_EQ(after.edges[0].from_colour, after.edges[1].to_colour);
     EXPECT_NE(after.edges[0].from_colour, before.edges[0].from_colour);
     EXPECT_NE(after.edges[2].from_colour, before.edges[2].from_colour);
@@ -253,8 +245,7 @@ TEST(ShownSkeleton, IsWhereTheSkeletonIs) {
       Look look;
       look.skeleton = style.value;
       look.joints = false;
-      const ShownSkeleton shown =
-          shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+      const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look, {});
       ASSERT_EQ(shown.edges.size(), static_cast<std::size_t>(one.skeleton.edges.rows()));
       for (std::size_t e = 0; e < shown.edges.size(); ++e) {
         const auto row = static_cast<Eigen::Index>(e);
@@ -277,12 +268,10 @@ TEST(ShownSkeleton, FitsSeamlesslyOrHasABall) {
   for (const Extracted& one : family()) {
     Look look;
     look.joints = false;
-    const ShownSkeleton shown =
-        shown_skeleton(one.skeleton, Eigen::RowVector3d::Zero(), 10, look, {});
+    const ShownSkeleton shown = shown_skeleton(one.skeleton, {}, 10, look, {});
     const auto has_ball = [&](Eigen::Index node) {
       return std::any_of(shown.nodes.begin(), shown.nodes.end(), [&](const TubeInstance& ball) {
-        return glm::vec3(ball.from) ==
-               shown_point(one.skeleton.nodes.row(node), Eigen::RowVector3d::Zero());
+        return glm::vec3(ball.from) == shown_point(one.skeleton.nodes.row(node), DrawnSpace{});
       });
     };
     std::map<Eigen::Index, std::vector<glm::vec3>> mitres;
@@ -315,19 +304,47 @@ TEST(Scene, FarFromTheOriginKeepsItsDigits) {
     skeleton.nodes.rowwise() += moved_by;
     const Scene far(document_of(surface, &skeleton));
     // The step of double precision there, and of single precision for a shape this large.
-    const auto step = static_cast<float>(8 * offset * std::numeric_limits<double>::epsilon()) +
-                      1e-6F * near.bounds().diagonal();
+    const float step =
+        shown_length(8 * offset * std::numeric_limits<double>::epsilon(), near.document.space) +
+        1e-6F * near.bounds().diagonal();
     ASSERT_EQ(far.points().size(), near.points().size());
     for (std::size_t i = 0; i < near.points().size(); ++i) {
       EXPECT_LT(glm::distance(far.points()[i], near.points()[i]), step);
     }
     const auto shown = [&](const Scene& scene) {
-      return shown_skeleton(*scene.skeleton(), scene.document.origin, 10, {}, {}).nodes;
+      return shown_skeleton(*scene.skeleton(), scene.document.space, 10, {}, {}).nodes;
     };
     const auto nodes_near = shown(near);
     const auto nodes_far = shown(far);
     for (std::size_t n = 0; n < nodes_near.size(); ++n) {
       EXPECT_LT(glm::distance(nodes_far[n].from, nodes_near[n].from), step);
+    }
+  }
+}
+
+TEST(Scene, LooksTheSameInAnyUnit) {
+  const HeadlessContext context;
+  constexpr int width = 160;
+  constexpr int height = 120;
+  const auto drawn = [&](double scale, SkeletonStyle style) {
+    Surface surface = family()[2].surface;
+    CurveSkeleton skeleton = family()[2].skeleton;
+    surface.positions *= scale;
+    skeleton.nodes *= scale;
+    skeleton.radii *= scale;
+    Scene scene(document_of(surface, &skeleton));
+    scene.look.skeleton = style;
+    look_from(scene.camera, Side::front, glm::mat3(1));
+    fit(scene.camera, scene.points(), float(width) / height);
+    Renderer renderer;
+    scene.upload(renderer);
+    renderer.draw(scene.camera, scene.look, {width, height, {}, scene.bounds(), {}});
+    return renderer.read().bytes;
+  };
+  for (const SkeletonStyle style : {SkeletonStyle::tubes, SkeletonStyle::balls}) {
+    const auto usual = drawn(1, style);
+    for (const int exponent : {-100, -40, 40, 100}) {
+      EXPECT_EQ(drawn(std::exp2(exponent), style), usual) << "2^" << exponent;
     }
   }
 }
@@ -353,7 +370,7 @@ TEST(Scene, HasRoomForASkeletonBesideItsSurface) {
     skeleton.nodes.rowwise() += Eigen::RowVector3d(40, 0, 0);
     const Scene scene(document_of(one.surface, &skeleton));
     for (const auto& node : skeleton.nodes.rowwise()) {
-      const glm::vec3 at = shown_point(node, scene.document.origin);
+      const glm::vec3 at = shown_point(node, scene.document.space);
       EXPECT_TRUE(glm::all(glm::lessThanEqual(scene.bounds().low, at)));
       EXPECT_TRUE(glm::all(glm::lessThanEqual(at, scene.bounds().high)));
     }
@@ -448,7 +465,7 @@ TEST(Scene, ContractedShowsThroughAnOpaqueSurface) {
 
 /// Surfaces that shrink towards the middle, as a contraction does.
 Recording random_recording(const Surface& surface, const CurveSkeleton& skeleton,
-                           const Eigen::RowVector3d& origin, std::mt19937& random) {
+                           const DrawnSpace& space, std::mt19937& random) {
   Recording recording;
   const double shrinking = std::uniform_real_distribution<double>(0.3, 0.9)(random);
   double scale = 1;
@@ -456,8 +473,9 @@ Recording random_recording(const Surface& surface, const CurveSkeleton& skeleton
     for (int iteration = 0; iteration < 2; ++iteration) {
       scale *= shrinking;
       Surface now = surface;
-      now.positions = ((surface.positions.rowwise() - origin) * scale).rowwise() + origin;
-      recording.add(moment_of({stage, 0, iteration, 1, 1, 0, now}, origin, 0));
+      now.positions =
+          ((surface.positions.rowwise() - space.origin) * scale).rowwise() + space.origin;
+      recording.add(moment_of({stage, 0, iteration, 1, 1, 0, now}, space, 0));
     }
   }
   Moment last;
@@ -492,7 +510,7 @@ void change(Scene& scene, const Extracted& one, std::mt19937& random) {
       scene.highlights.nodes.assign(random() % 2, static_cast<int>(random() % 5));
       break;
     case 7:  // another run with other options
-      scene.recording = random_recording(one.surface, one.skeleton, scene.document.origin, random);
+      scene.recording = random_recording(one.surface, one.skeleton, scene.document.space, random);
       break;
     default:
       scene.moment = random() % scene.recording.moments().size();
@@ -506,7 +524,7 @@ TEST(Scene, DrawnChangeByChangeIsDrawnAtOnce) {
     std::mt19937 random(seed);
     const Extracted& one = family()[seed % family().size()];
     Scene scene(document_of(one.surface));
-    scene.recording = random_recording(one.surface, one.skeleton, scene.document.origin, random);
+    scene.recording = random_recording(one.surface, one.skeleton, scene.document.space, random);
     fit(scene.camera, scene.points(), 1.5F);
     for (int i = 0; i < 40; ++i) {
       change(scene, one, random);

@@ -15,7 +15,7 @@ SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
 sys.path.insert(0, str(SOURCE / "tests" / "cli"))
 from program import LINKED_RINGS, TORUS, Y, CommandLineTest, Result, run, start  # noqa: E402
 
-USAGE, INPUT, OUTPUT = 2, 3, 6
+USAGE, INPUT, DEVICE, OUTPUT = 2, 3, 4, 6
 SHEET = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"
 
 
@@ -58,6 +58,32 @@ class Options(ViewTest):
     def test_unknown_presets_are_refused(self):
         self.refused(USAGE, "view", Y, "--screenshot", "x.png", "--preset", "nonsense",
                      says=["default", "paper"], cwd=self.folder)
+
+
+    def test_without_effect_are_refused(self):
+        out = ("--screenshot", self.folder / "x.png")
+        for words in (["--joint", "root"], ["--colour", "weight"], ["--colour", "role"],
+                      ["--colour", "part"]):
+            with self.subTest(words):
+                self.refused(USAGE, "view", Y, *words, *out, says=[words[0], "--stage rig"])
+        self.refused(USAGE, "view", Y, "--frame-times", self.folder / "times.csv", *out,
+                     says=["--frame-times is for the window"])
+
+
+class Outputs(ViewTest):
+    def test_that_cannot_be_written_are_refused_before_anything_runs(self):
+        no_folder = self.folder / "nowhere" / "x.png"
+        missing = self.folder / "missing.off"  # would be refused if it were read first
+        self.refused(OUTPUT, "view", missing, "--screenshot", no_folder, says=["no folder"])
+        self.refused(DEVICE, "view", missing, "--size", "16384x16384", "--screenshot",
+                     self.folder / "x.png", says=["make it smaller"])
+
+    def test_are_named(self):
+        file = self.folder / "x.png"
+        frames = self.folder / "frames"
+        result = self.run_ok("view", Y, "--no-run", "--size", "16x10", "--screenshot", file,
+                             "--turntable", frames, "--frames", 3)
+        self.assertEqual(result.out.decode(), f"wrote {file}\nwrote 3 pictures to {frames}\n")
 
 
 class Screenshot(ViewTest):

@@ -219,7 +219,7 @@ class Timeline(WindowTest):
     def test_stepping_from_the_input(self):
         window = self.open(Y, "--no-run")
         window.wait_for_title(r"\(input\)")
-        for number in (1, 2, 3):
+        for number in (0, 1, 2):
             window.key("Right")
             window.wait_for_title(rf"contraction {number}, paused")
         window.key("space")
@@ -322,6 +322,18 @@ class Correcting(WindowTest):
                    if numpy.abs(numpy.subtract(a, b)).max() > 0.1]
         self.assertEqual(len(changed), 1)
         self.assertEqual(moved["edges"], before["edges"])
+        self.leave(window)
+
+    def test_a_file_is_not_replaced_unasked(self):
+        window, tips, _ = self.cross()
+        window.click(*tips[0])
+        window.changes("Delete", least=0.0005)
+        before = (self.folder / "cross.json").read_bytes()
+        window.type_into_dialogue("ctrl+s", str(self.folder / "cross.json"))
+        window.key("Return")  # no answer to the question
+        window.changes("Escape", least=0.05)
+        self.assertEqual((self.folder / "cross.json").read_bytes(), before)
+        self.assertEqual(self.counts(window, "other.json")[1], 3)
         self.leave(window)
 
     def test_names_without_a_format_are_refused(self):

@@ -35,7 +35,7 @@ void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton&
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
 void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
-  Run run(scene.document.polygons(), options.pipeline, scene.document.origin,
+  Run run(scene.document.polygons(), options.pipeline, scene.document.space,
           std::make_shared<RunMemory>(), false);
   for (;;) {
     Run::News news = run.take();
@@ -108,8 +108,26 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
   }
 }
 
+/// Drawn so many times as wide and high, for smooth edges.
+int factor_of(int width, int height) { return 2 * std::max(width, height) <= largest_side ? 2 : 1; }
+
+/// Of options that would have no effect without a rig.
+void require_rig_for(const ViewOptions& options, bool has_rig) {
+  const bool makes_one = options.stage.stage == "rig";
+  const ColourBy colour = options.look.surface_colour;
+  const bool of_rig = colour == ColourBy::weight || colour == ColourBy::role;
+  if (!has_rig && !makes_one && (!options.joint.empty() || of_rig)) {
+    throw UsageError(
+        (of_rig ? "--colour " + std::string(name_of(colourings, colour)) : std::string("--joint")) +
+        " needs a rig: add --stage rig, or name a file that has one");
+  }
+  if (!makes_one && colour == ColourBy::part) {
+    throw UsageError("--colour part needs a rig that is made: add --stage rig");
+  }
+}
+
 PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height, const Part& part) {
-  const int factor = 2 * std::max(width, height) <= largest_side ? 2 : 1;
+  const int factor = factor_of(width, height);
   scene.upload(renderer);
   renderer.draw(
       scene.camera, scene.look_now(),
@@ -136,8 +154,9 @@ void look_through(Scene& scene, const View& view, int width, int height) {
   const Eigen::Vector3d target =
       view.target + (view.axes.row(1) * aside.y() - view.axes.row(0) * aside.x()).transpose() /
                         view.pixels_per_unit;
-  camera.target = shown_point(target.transpose(), scene.document.origin);
-  camera.distance *= static_cast<float>(1 / view.pixels_per_unit) / camera.unit_per_pixel(height);
+  camera.target = shown_point(target.transpose(), scene.document.space);
+  camera.distance *=
+      shown_length(1 / view.pixels_per_unit, scene.document.space) / camera.unit_per_pixel(height);
 }
 
 /// The border between two views of a surface: along x or y, midway between their nearest points.
@@ -197,6 +216,19 @@ void put(const PixelRows& rows, const Part& part, PixelRows& whole) {
   }
 }
 
+/// Before hours of work: draws a triangle as large.
+void require_picture_of(int width, int height, const Look& look, Renderer& renderer) {
+  constexpr int usual_side = 4096;  // which no driver refuses
+  if (std::max(width, height) * factor_of(width, height) <= usual_side) return;
+  Document triangle;
+  triangle.surface.positions = Positions::Identity(3, 3);
+  triangle.surface.triangles.resize(1, 3);
+  triangle.surface.triangles << 0, 1, 2;
+  Scene scene(std::move(triangle));
+  scene.look = look;
+  (void)drawn(scene, renderer, width, height, {0, 0, width, height});
+}
+
 }  // namespace
 
 std::string screenshot(Scene& scene, Renderer& renderer, int width, int height) {
@@ -238,9 +270,13 @@ void place_camera(Scene& scene, const ViewOptions& options) {
   scene.camera.distance /= options.camera.zoom;
 }
 
-void write_pictures(const ViewOptions& options, Session& session) {
+std::string write_pictures(const ViewOptions& options, Session& session) {
   const Monitor monitor = session.monitor();
+  const HeadlessContext context;
+  Renderer renderer;
+  require_picture_of(options.width, options.height, options.look, renderer);
   Scene scene(open_document(options.files, monitor));
+  require_rig_for(options, scene.document.rig != nullptr);
   scene.look = options.look;
   if (scene.look.surface_colour == ColourBy::file) {
     scene.materials =
@@ -268,8 +304,7 @@ void write_pictures(const ViewOptions& options, Session& session) {
   }
   turn_joints(scene, options.turns);
   monitor.report("draw", 0);
-  const HeadlessContext context;
-  Renderer renderer;
+  std::string written;
   place_camera(scene, options);
   if (!options.screenshot.empty()) {
     if (options.two_sides && scene.document.surface.triangles.rows() == 0) {
@@ -278,8 +313,14 @@ void write_pictures(const ViewOptions& options, Session& session) {
     const auto draw = options.two_sides ? screenshot_of_two_sides : screenshot;
     write_outputs({{options.screenshot, draw(scene, renderer, options.width, options.height)}},
                   session);
+    written += "wrote " + options.screenshot + "\n";
   }
-  if (!options.turntable.empty()) write_turntable(scene, renderer, options, session);
+  if (!options.turntable.empty()) {
+    write_turntable(scene, renderer, options, session);
+    written += "wrote " + std::to_string(options.frames) + " pictures to " +
+               options.turntable.string() + "\n";
+  }
+  return written;
 }
 
 }  // namespace curveskel::viewer

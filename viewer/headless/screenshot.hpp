@@ -21,9 +21,10 @@ namespace curveskel::viewer {
 /// The scene's camera as the options wish, fitted to the picture.
 void place_camera(Scene& scene, const ViewOptions& options);
 
-/// Opens the files, runs the pipeline up to the stage wished for, and writes the pictures.
-/// Throws Error for files, stages that never come, and where there is no OpenGL; Cancelled on a
-/// stop, pictures that were written before stay.
-void write_pictures(const ViewOptions& options, Session& session);
+/// Opens the files, runs the pipeline up to the stage wished for, and writes the pictures; says
+/// which, a line each. Throws UsageError for options that need a rig where there will be none;
+/// Error for files, stages that never come, and, before it runs anything, where there is no OpenGL
+/// or none for pictures as large; Cancelled on a stop, pictures that were written before stay.
+[[nodiscard]] std::string write_pictures(const ViewOptions& options, Session& session);
 
 }  // namespace curveskel::viewer

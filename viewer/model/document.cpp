@@ -54,12 +54,13 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   }
 }
 
-void add_skeleton(Document& document, CurveSkeleton skeleton, const fs::path& file) {
+void add_skeleton(Document& document, RootedSkeleton read, const fs::path& file) {
   if (document.skeleton) {
     throw Error(Fault::input, file.string() + ": a second skeleton, beside " +
                                   document.skeleton_file.string() + "; open one at a time");
   }
-  document.skeleton = std::move(skeleton);
+  document.skeleton = std::move(read.skeleton);
+  document.root = read.root;
   document.skeleton_file = file;
 }
 
@@ -67,7 +68,7 @@ void add_skeleton(Document& document, CurveSkeleton skeleton, const fs::path& fi
 void add_file(Document& document, const fs::path& file, const Monitor& monitor) {
   if (!has_surface_name(file)) {
     try {
-      add_skeleton(document, read_skeleton(file), file);
+      add_skeleton(document, read_rooted_skeleton(file), file);
       return;
     } catch (const Error& skeleton_error) {
       try {
@@ -82,9 +83,9 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
   try {
     soup = read_polygons(file, monitor);
   } catch (const Error& surface_error) {
-    std::optional<CurveSkeleton> skeleton;
+    std::optional<RootedSkeleton> skeleton;
     try {
-      skeleton = read_skeleton(file);
+      skeleton = read_rooted_skeleton(file);
     } catch (const Error&) {
       throw surface_error;
     }
@@ -93,7 +94,7 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
   }
   const bool lines_only = soup->offsets.size() <= 1;
   if (lines_only) {
-    add_skeleton(document, read_skeleton(file), file);
+    add_skeleton(document, read_rooted_skeleton(file), file);
   } else {
     add_surface(document, std::move(*soup), file, monitor);
   }
@@ -117,9 +118,7 @@ Document open_document(const std::vector<fs::path>& files, const Monitor& monito
   const Positions& points = document.has_surface() ? document.surface.positions
                             : document.skeleton    ? document.skeleton->nodes
                                                    : document.surface.positions;
-  if (points.rows() > 0) {
-    document.origin = (points.colwise().minCoeff() + points.colwise().maxCoeff()) / 2;
-  }
+  document.space = space_round(points);
   if (document.skeleton && document.has_surface() &&
       document.skeleton->node_of_vertex.size() != document.surface.positions.rows()) {
     document.skeleton->node_of_vertex.resize(0);  // of another surface

@@ -14,6 +14,7 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/rig.hpp>
 #include <curveskel/surface.hpp>
+#include "viewer/render/shapes_shown.hpp"
 
 namespace curveskel::viewer {
 
@@ -28,7 +29,8 @@ struct Document {
   Surface surface;                            ///< the file's triangles, nothing repaired
   std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one
   std::optional<CurveSkeleton> skeleton;      ///< node_of_vertex by the file's vertices, or empty
-  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();  ///< of the drawn positions
+  int root = -1;                              ///< node, as the skeleton's file names it; -1 = none
+  DrawnSpace space;                           ///< round all of it
 
   [[nodiscard]] bool has_surface() const { return surface.positions.rows() > 0; }
   /// The surface of the file, or a copy if that is the same. Precondition: has_surface().

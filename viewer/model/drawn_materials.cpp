@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
 #include <utility>
 
@@ -122,7 +123,9 @@ std::shared_ptr<const DrawnMaterials> materials_of(const std::filesystem::path& 
         });
     if (!fits) return nullptr;
     return std::make_shared<const DrawnMaterials>(drawn_materials(*given, vertices));
-  } catch (const Error&) {
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception&) {
     return nullptr;
   }
 }

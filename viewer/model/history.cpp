@@ -1,19 +1,34 @@
 #include "viewer/model/history.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace curveskel::viewer {
-
-void History::begin(Edited first) {
-  states_.clear();
-  states_.push_back(std::move(first));
-  at_ = 0;
-}
 
 void History::add(Edited next) {
   if (!states_.empty()) states_.resize(at_ + 1);
   states_.push_back(std::move(next));
   at_ = states_.size() - 1;
+}
+
+void History::replace(Edited other) {
+  states_.resize(at_ + 1);
+  states_[at_] = std::move(other);
+}
+
+void History::go_over_to(Eigen::Index vertices) {
+  for (Edited& state : states_) {
+    const Eigen::Index mapped = state.skeleton->node_of_vertex.size();
+    if (mapped == 0 || mapped == vertices) continue;
+    auto other = std::make_shared<CurveSkeleton>(*state.skeleton);
+    other->node_of_vertex.resize(0);
+    state.skeleton = std::move(other);
+  }
+}
+
+bool History::has_corrections() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const Edited& state) { return state.corrected || !state.roles.empty(); });
 }
 
 void History::undo() {
@@ -22,6 +37,24 @@ void History::undo() {
 
 void History::redo() {
   if (can_redo()) ++at_;
+}
+
+Edited changed_with_root(const Edited& before,
+                         const std::function<CurveSkeleton(const CurveSkeleton&)>& change) {
+  Edited after = before;
+  if (before.root < 0) {
+    after.skeleton = std::make_shared<const CurveSkeleton>(change(*before.skeleton));
+    return after;
+  }
+  CurveSkeleton marked = *before.skeleton;
+  const Eigen::Index vertices = marked.node_of_vertex.size();
+  marked.node_of_vertex.conservativeResize(vertices + 1);
+  marked.node_of_vertex[vertices] = before.root;
+  CurveSkeleton changed = change(marked);
+  after.root = changed.node_of_vertex[vertices];
+  changed.node_of_vertex.conservativeResize(vertices);
+  after.skeleton = std::make_shared<const CurveSkeleton>(std::move(changed));
+  return after;
 }
 
 }  // namespace curveskel::viewer

@@ -37,6 +37,28 @@ ShownSurface put_together(const std::map<int, const ShownSurface*>& parts) {
   return whole;
 }
 
+/// Nodes and edges alone.
+CurveSkeleton put_together(const std::vector<std::shared_ptr<const CurveSkeleton>>& curves) {
+  Eigen::Index nodes = 0;
+  Eigen::Index edges = 0;
+  for (const auto& curve : curves) {
+    nodes += curve->nodes.rows();
+    edges += curve->edges.rows();
+  }
+  CurveSkeleton whole;
+  whole.nodes.resize(nodes, 3);
+  whole.edges.resize(edges, 2);
+  nodes = edges = 0;
+  for (const auto& curve : curves) {
+    whole.nodes.middleRows(nodes, curve->nodes.rows()) = curve->nodes;
+    whole.edges.middleRows(edges, curve->edges.rows()) =
+        curve->edges.array() + static_cast<int>(nodes);
+    nodes += curve->nodes.rows();
+    edges += curve->edges.rows();
+  }
+  return whole;
+}
+
 /// The pipeline's own.
 int order_of(std::string_view stage) {
   if (stage == "input") return 0;
@@ -149,13 +171,33 @@ std::shared_ptr<const CurveSkeleton> Recording::skeleton_at(std::size_t index) c
   for (std::size_t i = end; i-- > 0;) {
     const int of = moments_[end - 1].of_surface;
     if (moments_[i].skeleton && (of < 0 || moments_[i].of_surface == of)) {
-      return moments_[i].skeleton;
+      return moments_[i].stage == "surgery" ? curves_at(i) : moments_[i].skeleton;
     }
   }
   return nullptr;
 }
 
-Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+/// Of a moment of surgery.
+std::shared_ptr<const CurveSkeleton> Recording::curves_at(std::size_t index) const {
+  std::map<int, std::shared_ptr<const CurveSkeleton>> latest;
+  for (std::size_t i = 0; i <= index; ++i) {
+    const Moment& moment = moments_[i];
+    const bool is_of_it = moment.stage == "surgery" && moment.skeleton &&
+                          moment.of_surface == moments_[index].of_surface;
+    if (is_of_it) latest[moment.component] = moment.skeleton;
+  }
+  std::vector<std::shared_ptr<const CurveSkeleton>> curves;
+  curves.reserve(latest.size());
+  for (auto& [component, curve] : latest) curves.push_back(std::move(curve));
+  if (curves.size() == 1) return curves.front();
+  if (curves != curves_) {
+    all_curves_ = std::make_shared<const CurveSkeleton>(put_together(curves));
+    curves_ = std::move(curves);
+  }
+  return all_curves_;
+}
+
+Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
                  const ShownSurface* before) {
   Moment moment;
   moment.stage = frame.stage;
@@ -166,7 +208,7 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   moment.volume_ratio = frame.volume_ratio;
   moment.residual = frame.residual;
   moment.seconds = seconds;
-  ShownSurface shown = shown_surface(frame.surface, origin);
+  ShownSurface shown = shown_surface(frame.surface, space);
   constexpr std::size_t simple = 3000;  // vertices
   if (before != nullptr && before->triangles == shown.triangles) {
     shown.fewer = before->fewer;
@@ -177,21 +219,16 @@ Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double se
   return moment;
 }
 
-Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before, double seconds) {
-  CurveSkeleton whole;
-  if (before != nullptr) whole = *before;
-  const Eigen::Index nodes = whole.nodes.rows();
-  const Eigen::Index edges = whole.edges.rows();
-  whole.nodes.conservativeResize(nodes + curve.nodes.rows(), 3);
-  whole.nodes.bottomRows(curve.nodes.rows()) = curve.nodes;
-  whole.edges.conservativeResize(edges + curve.edges.rows(), 2);
-  whole.edges.bottomRows(curve.edges.rows()) = curve.edges.array() + static_cast<int>(nodes);
+Moment moment_of(const CurveFrame& curve, double seconds) {
+  CurveSkeleton own;
+  own.nodes = curve.nodes;
+  own.edges = curve.edges;
   Moment moment;
   moment.stage = curve.stage;
   moment.component = curve.component;
   mark(moment, curve.made_in);
   moment.seconds = seconds;
-  moment.skeleton = std::make_shared<const CurveSkeleton>(std::move(whole));
+  moment.skeleton = std::make_shared<const CurveSkeleton>(std::move(own));
   return moment;
 }
 

@@ -28,7 +28,8 @@ struct Moment {
   double residual = 0;                          ///< of the solve; 0 where nothing was solved
   double seconds = 0;                           ///< since the run began
   std::shared_ptr<const ShownSurface> surface;  ///< the component then; null where all is as given
-  std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all; null before it is there
+  std::shared_ptr<const CurveSkeleton> skeleton;  ///< of all, but the component's own for
+                                                  ///< "surgery"; null before it is there
   std::shared_ptr<const Rig> rig;                 ///< by the file's vertices; null but for "rig"
   std::shared_ptr<const CharacterRig> character;  ///< the same with its plan and parts
 };
@@ -64,7 +65,9 @@ class Recording {
   [[nodiscard]] ShownSurface faired_at(std::size_t index) const;
   /// That of the last moment up to `index` in its try that has one, or null.
   [[nodiscard]] std::shared_ptr<const ShownSurface> newest_surface(std::size_t index) const;
-  /// The latest skeleton up to moment `index`, of no other try than that, or null.
+  /// The latest skeleton up to moment `index`, of no other try than that, or null; after surgery
+  /// the curves of all components that have one. The same pointer while the moments are.
+  /// O(moments), and O(nodes) where it is another one than at the last call.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton_at(std::size_t index) const;
 
  private:
@@ -74,20 +77,23 @@ class Recording {
     bool aside = false;
   };
   void choose();
+  [[nodiscard]] std::shared_ptr<const CurveSkeleton> curves_at(std::size_t index) const;
 
   std::vector<Recorded> all_;
   std::vector<Moment> moments_;  // those of `all_` that are shown
   bool shows_all_tries_ = false;
   bool has_other_tries_ = false;
   std::size_t bytes_ = 0;
+  // The curves that were last put together, and what they became.
+  mutable std::vector<std::shared_ptr<const CurveSkeleton>> curves_;
+  mutable std::shared_ptr<const CurveSkeleton> all_curves_;
 };
 
 /// A moment from a stage's frame. `before` is null or an earlier moment's surface, whose simpler
 /// form it takes over where the triangles are the same.
-[[nodiscard]] Moment moment_of(const Frame& frame, const Eigen::RowVector3d& origin, double seconds,
+[[nodiscard]] Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
                                const ShownSurface* before = nullptr);
-/// The component's curve beside those of `before`, the last surgery's of the same surface, or null.
-[[nodiscard]] Moment moment_of(const CurveFrame& curve, const CurveSkeleton* before,
-                               double seconds);
+/// The component's curve alone.
+[[nodiscard]] Moment moment_of(const CurveFrame& curve, double seconds);
 
 }  // namespace curveskel::viewer

@@ -17,15 +17,33 @@ std::shared_ptr<const CharacterRig> rig_of(
   CharacterOptions facing = options;
   facing.rig.faces_minus_z = facing.plan.faces_minus_z = document.faces_minus_z;
   facing.plan.z_is_up = document.z_is_up;
-  if (certificate != nullptr) {
-    facing.plan.made_of_tubes = made_of_tubes_but_for_sheets(*certificate, repaired);
-  }
-  CharacterRig made = rig_character(document.surface, repaired, mapped, facing, monitor);
+  CharacterRig made =
+      rig_character(document.surface, repaired, mapped, facing, monitor, certificate);
   const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
   made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
     return vertex >= 0 && vertex < of_repaired.size() ? of_repaired[vertex] : -1;
   });
   return std::make_shared<const CharacterRig>(std::move(made));
+}
+
+void give_roles(CharacterRig& character, const std::vector<GivenRole>& roles, double size,
+                NameStyle style) {
+  constexpr double near = 0.01;
+  const std::vector<std::string> known = roles_of(character.plan.plan);
+  Rig& rig = character.rig;
+  for (const GivenRole& given : roles) {
+    const bool fits =
+        given.role.empty() || std::find(known.begin(), known.end(), given.role) != known.end();
+    if (!fits || rig.joints.rows() == 0) continue;
+    const Eigen::VectorXd far = (rig.joints.rowwise() - given.place).rowwise().norm();
+    Eigen::Index joint = given.joint;
+    const auto nearest = std::min_element(far.begin(), far.end());
+    if (joint >= far.size() || far[joint] > *nearest) joint = nearest - far.begin();
+    const auto at = static_cast<std::size_t>(joint);
+    const bool has_it = at < rig.roles.size() && rig.roles[at] == given.role;
+    if (far[joint] > near * size || has_it) continue;
+    assign_role(rig, character.plan, static_cast<int>(joint), given.role, style);
+  }
 }
 
 Moment moment_of(std::shared_ptr<const CharacterRig> character) {

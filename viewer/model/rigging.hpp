@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_character.hpp>
 #include "viewer/model/document.hpp"
+#include "viewer/model/history.hpp"
 #include "viewer/model/recording.hpp"
 
 namespace curveskel::viewer {
@@ -18,6 +20,11 @@ namespace curveskel::viewer {
 [[nodiscard]] std::shared_ptr<const CharacterRig> rig_of(
     const Document& document, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
     const Certificate* certificate, const CharacterOptions& options, const Monitor& monitor);
+
+/// Gives each joint its role, in order, where the rig has a joint in the same place (within a
+/// hundredth of `size`, the surface's diagonal) and its plan has the role; passes over the others.
+void give_roles(CharacterRig& character, const std::vector<GivenRole>& roles, double size,
+                NameStyle style);
 
 [[nodiscard]] Moment moment_of(std::shared_ptr<const CharacterRig> character);
 

@@ -15,11 +15,11 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.{}f} s", seconds, digits);
 }
 
-Run::Run(std::shared_ptr<const PolygonSoup> soup, RunOptions options, Eigen::RowVector3d origin,
+Run::Run(std::shared_ptr<const PolygonSoup> soup, RunOptions options, DrawnSpace space,
          std::shared_ptr<RunMemory> memory, bool paused)
     : soup_(std::move(soup)),
       options_(std::move(options)),
-      origin_(std::move(origin)),
+      space_(std::move(space)),
       memory_(std::move(memory)),
       paused_(paused),
       worker_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -113,17 +113,11 @@ void Run::work(const std::stop_token& stop) {
     news_.fraction = fraction;
   };
   monitor.frame = [&](const Frame& frame) {
-    Moment moment = moment_of(frame, origin_, seconds(), shown_.get());
+    Moment moment = moment_of(frame, space_, seconds(), shown_.get());
     shown_ = moment.surface;
     show(std::move(moment), stop);
   };
-  monitor.curve = [&](const CurveFrame& curve) {
-    const bool same_try = curve.made_in.of_surface == operated_in_;
-    Moment moment = moment_of(curve, same_try ? operated_.get() : nullptr, seconds());
-    operated_ = moment.skeleton;
-    operated_in_ = moment.of_surface;
-    show(std::move(moment), stop);
-  };
+  monitor.curve = [&](const CurveFrame& curve) { show(moment_of(curve, seconds()), stop); };
   const auto end = [this](State state, const std::string& why, Fault fault = Fault::solver) {
     const std::lock_guard lock(mutex_);
     news_.state = state;

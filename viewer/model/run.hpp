@@ -54,7 +54,7 @@ class Run {
   enum class State { running, paused, finished, cancelled, failed };
 
   /// Starts. `memory` must not be used by another run at the same time.
-  Run(std::shared_ptr<const PolygonSoup> soup, RunOptions options, Eigen::RowVector3d origin,
+  Run(std::shared_ptr<const PolygonSoup> soup, RunOptions options, DrawnSpace space,
       std::shared_ptr<RunMemory> memory, bool paused);
   /// Cancels, and waits until the pipeline heeds it (within 0.1 s or so).
   ~Run();
@@ -87,11 +87,9 @@ class Run {
 
   const std::shared_ptr<const PolygonSoup> soup_;
   const RunOptions options_;
-  const Eigen::RowVector3d origin_;
+  const DrawnSpace space_;
   const std::shared_ptr<RunMemory> memory_;
-  std::shared_ptr<const CurveSkeleton> operated_;  // of the pipeline's thread alone
-  int operated_in_ = -1;                           // ShownTry::of_surface of that
-  std::shared_ptr<const ShownSurface> shown_;      // of that, too
+  std::shared_ptr<const ShownSurface> shown_;  // of the pipeline's thread alone
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 
   std::mutex mutex_;

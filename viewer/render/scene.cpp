@@ -36,7 +36,7 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
   }
   if (document.rig) {
     for (const auto& joint : document.rig->joints.rowwise()) {
-      points.push_back(shown_point(joint, document.origin));
+      points.push_back(shown_point(joint, document.space));
     }
   }
   if (!document.skeleton) return points;
@@ -44,9 +44,9 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
   // Beside a surface, to which balls belong, only the curve itself may lie anywhere.
   const bool has_balls = points.empty() && skeleton.radii.size() > 0;
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
-    const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.origin);
+    const glm::vec3 at = shown_point(skeleton.nodes.row(node), document.space);
     if (has_balls) {
-      add_ball(points, at, static_cast<float>(skeleton.radii[node]));
+      add_ball(points, at, shown_length(skeleton.radii[node], document.space));
     } else {
       points.push_back(at);
     }
@@ -71,7 +71,7 @@ glm::mat3 first_axes(const Document& document) {
 
 Scene::Scene(Document opened)
     : document(std::move(opened)),
-      given_(shown_surface(document.surface, document.origin)),
+      given_(shown_surface(document.surface, document.space)),
       face_blocks_(document.surface),
       points_(some_points(document, given_)),
       bounds_(bounds_of(points_)),
@@ -170,7 +170,7 @@ ShownSurface Scene::turned_surface(const Uploaded& now) const {
   const Positions moved =
       moved_surface(document.surface.positions, *now.rig, joint_motions(*now.rig, *now.turns));
   ShownSurface turned;
-  move_surface(turned, moved, document.origin);
+  move_surface(turned, moved, document.space);
   set_normals(turned, document.surface.triangles);
   return turned;
 }
@@ -233,11 +233,11 @@ bool Scene::upload_skeleton(Renderer& renderer, const Uploaded& now, bool all) {
   }
   ShownSkeleton shown;
   if (now.skeleton && now.curve) {
-    shown = shown_skeleton(*now.skeleton, document.origin, bounds_.diagonal(), look, highlights);
+    shown = shown_skeleton(*now.skeleton, document.space, bounds_.diagonal(), look, highlights);
   }
   if (now.rig && look.bones) {
     const ShownSkeleton rig =
-        shown_rig(*now.rig, joints_now(), document.origin, bounds_.diagonal(), look, highlights);
+        shown_rig(*now.rig, joints_now(), document.space, bounds_.diagonal(), look, highlights);
     shown.edges.insert(shown.edges.end(), rig.edges.begin(), rig.edges.end());
     shown.nodes.insert(shown.nodes.end(), rig.nodes.begin(), rig.nodes.end());
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <curveskel/advanced/graph.hpp>
+#include "viewer/render/role_colours.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -76,10 +77,11 @@ std::vector<int> in_order(std::vector<int> indices) {
   return indices;
 }
 
-/// The tube's thickness at a node, in model units.
-float radius_at(const CurveSkeleton& skeleton, Eigen::Index node, float thin, const Look& look) {
+/// The tube's thickness at a node, as drawn.
+float radius_at(const CurveSkeleton& skeleton, const DrawnSpace& space, Eigen::Index node,
+                float thin, const Look& look) {
   if (look.skeleton == SkeletonStyle::balls && skeleton.radii.size() > 0) {
-    return std::max(static_cast<float>(skeleton.radii[node]), 0.0F);
+    return std::max(shown_length(skeleton.radii[node], space), 0.0F);
   }
   return look.skeleton == SkeletonStyle::lines ? 0 : thin;
 }
@@ -92,7 +94,7 @@ std::vector<glm::vec3> mitres_of(const CurveSkeleton& skeleton, const std::vecto
   std::vector<glm::vec3> first(degree.size(), glm::vec3(0));
   const auto way = [&](int a, int b) {
     const Eigen::Vector3f along =
-        (skeleton.nodes.row(b) - skeleton.nodes.row(a)).cast<float>().normalized();
+        (skeleton.nodes.row(b) - skeleton.nodes.row(a)).stableNormalized().cast<float>();
     return glm::vec3(along.x(), along.y(), along.z());
   };
   for (const auto& edge : skeleton.edges.rowwise()) {
@@ -138,37 +140,6 @@ std::vector<Rgba> weight_colours(const Rig& rig, int joint, const Look& look,
     }
     const glm::vec3 own = joint < 0 ? mixed : mapped(look.map, share);
     colours.push_back(rgba(sum > 0 ? own : palette.surface));
-  }
-  return colours;
-}
-
-/// "leftFoot" and "rightFoot" are "Foot", "shin.L" and "shin.R" are "shin".
-std::string without_side(const std::string& role) {
-  if (role.starts_with("left")) return role.substr(4);
-  if (role.starts_with("right")) return role.substr(5);
-  if (role.ends_with(".L") || role.ends_with(".R")) return role.substr(0, role.size() - 2);
-  return role;
-}
-
-/// Of each joint that of its role, or of the nearest joint above it that has one.
-std::vector<glm::vec3> role_colours(const Rig& rig) {
-  constexpr float lighter = 0.35F;
-  constexpr glm::vec3 unknown{0.6F};
-  std::vector<std::string> kinds;
-  std::vector<glm::vec3> colours;
-  for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
-    const std::string role = joint < rig.roles.size() ? rig.roles[joint] : "";
-    const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
-    if (role.empty()) {
-      colours.push_back(parent < 0 ? unknown : colours[static_cast<std::size_t>(parent)]);
-      continue;
-    }
-    const std::string kind = without_side(role);
-    const auto found = std::find(kinds.begin(), kinds.end(), kind);
-    const glm::vec3 colour = category(static_cast<std::size_t>(found - kinds.begin()));
-    if (found == kinds.end()) kinds.push_back(kind);
-    const bool is_left = role.starts_with("left") || role.ends_with(".L");
-    colours.push_back(is_left ? glm::mix(colour, glm::vec3(1), lighter) : colour);
   }
   return colours;
 }
@@ -263,14 +234,14 @@ std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton) {
   return ColourScale{std::min(low, high * (1 - least_range)), high};
 }
 
-ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVector3d& origin,
-                             float size, const Look& look, const Highlights& highlights) {
+ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const DrawnSpace& space, float size,
+                             const Look& look, const Highlights& highlights) {
   const SkeletonColours colours(skeleton, look);
   constexpr float thin_share = 0.0032F;
   const float thin = thin_share * size * look.thickness;
   const auto at = [&](Eigen::Index node) {
-    return glm::vec4(shown_point(skeleton.nodes.row(node), origin),
-                     radius_at(skeleton, node, thin, look));
+    return glm::vec4(shown_point(skeleton.nodes.row(node), space),
+                     radius_at(skeleton, space, node, thin, look));
   };
   const std::vector<int> lit_edges = in_order(highlights.edges);
   const std::vector<int> failed_edges = in_order(highlights.failed_edges);
@@ -314,7 +285,7 @@ ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const Eigen::RowVect
   return shown;
 }
 
-ShownSkeleton shown_rig(const Rig& rig, const Positions& joints, const Eigen::RowVector3d& origin,
+ShownSkeleton shown_rig(const Rig& rig, const Positions& joints, const DrawnSpace& space,
                         float size, const Look& look, const Highlights& highlights) {
   // The shape that Blender and others draw: widest near the joint that turns it.
   constexpr float widest_at = 0.12F;
@@ -331,13 +302,13 @@ ShownSkeleton shown_rig(const Rig& rig, const Positions& joints, const Eigen::Ro
   ShownSkeleton shown;
   for (int joint = 0; joint < rig.joints.rows(); ++joint) {
     const bool lit = joint == highlights.joint;
-    const glm::vec3 at = shown_point(joints.row(joint), origin);
+    const glm::vec3 at = shown_point(joints.row(joint), space);
     const Rgba colour = colour_of(joint, palette.bone_joint);
     const glm::vec4 place(at, lit ? 1.4F * ball : ball);
     shown.nodes.push_back({place, place, colour, colour, {}, {}});
     const int parent = rig.parents[joint];
     if (parent < 0) continue;
-    const glm::vec3 from = shown_point(joints.row(parent), origin);
+    const glm::vec3 from = shown_point(joints.row(parent), space);
     const glm::vec4 middle(glm::mix(from, at, widest_at),
                            std::min(width * glm::length(at - from), 2 * ball));
     const Rgba bone = colour_of(parent, palette.bone);

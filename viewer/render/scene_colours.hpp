@@ -42,15 +42,15 @@ struct Highlights {
 [[nodiscard]] std::optional<ColourScale> radius_scale(const CurveSkeleton& skeleton);
 
 /// `size` is the diagonal of all that is shown.
-[[nodiscard]] ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton,
-                                           const Eigen::RowVector3d& origin, float size,
-                                           const Look& look, const Highlights& highlights);
+[[nodiscard]] ShownSkeleton shown_skeleton(const CurveSkeleton& skeleton, const DrawnSpace& space,
+                                           float size, const Look& look,
+                                           const Highlights& highlights);
 
 /// Bones from each joint to those below it, and joints as balls. `joints` are the rig's where they
 /// stand now.
 [[nodiscard]] ShownSkeleton shown_rig(const Rig& rig, const Positions& joints,
-                                      const Eigen::RowVector3d& origin, float size,
-                                      const Look& look, const Highlights& highlights);
+                                      const DrawnSpace& space, float size, const Look& look,
+                                      const Highlights& highlights);
 
 /// Sources of a surface's colours; each may be null. Values that are not of this surface's
 /// vertices are passed over.

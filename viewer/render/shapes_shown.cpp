@@ -56,28 +56,46 @@ ShownSurface chosen_vertices(const ShownSurface& shown, const std::vector<std::u
   return result;
 }
 
-glm::vec3 shown_point(const Eigen::RowVector3d& point, const Eigen::RowVector3d& origin) {
-  const Eigen::RowVector3f moved = (point - origin).cast<float>();
+DrawnSpace space_round(const Positions& points) {
+  DrawnSpace space;
+  if (points.rows() == 0) return space;
+  const Eigen::RowVector3d low = points.colwise().minCoeff();
+  const Eigen::RowVector3d high = points.colwise().maxCoeff();
+  space.origin = (low + high) / 2;
+  const double size = (high - low).stableNorm();
+  if (std::isnormal(size)) space.unit = std::exp2(std::floor(std::log2(size)));
+  return space;
+}
+
+glm::vec3 shown_point(const Eigen::RowVector3d& point, const DrawnSpace& space) {
+  const Eigen::RowVector3f moved = ((point - space.origin) / space.unit).cast<float>();
   return {moved.x(), moved.y(), moved.z()};
 }
 
-void move_surface(ShownSurface& shown, const Positions& positions,
-                  const Eigen::RowVector3d& origin) {
+Eigen::Vector3d model_point(const glm::vec3& point, const DrawnSpace& space) {
+  return model_vector(point) * space.unit + space.origin.transpose();
+}
+
+float shown_length(double length, const DrawnSpace& space) {
+  return static_cast<float>(length / space.unit);
+}
+
+void move_surface(ShownSurface& shown, const Positions& positions, const DrawnSpace& space) {
   shown.positions.resize(static_cast<std::size_t>(positions.rows()));
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    shown.positions[static_cast<std::size_t>(v)] = shown_point(positions.row(v), origin);
+    shown.positions[static_cast<std::size_t>(v)] = shown_point(positions.row(v), space);
   }
   set_normals(shown);
 }
 
-ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin) {
+ShownSurface shown_surface(const Surface& surface, const DrawnSpace& space) {
   ShownSurface shown;
   shown.triangles.resize(static_cast<std::size_t>(surface.triangles.rows()));
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
     shown.triangles[static_cast<std::size_t>(f)] =
         glm::uvec3(surface.triangles(f, 0), surface.triangles(f, 1), surface.triangles(f, 2));
   }
-  move_surface(shown, surface.positions, origin);
+  move_surface(shown, surface.positions, space);
   return shown;
 }
 

@@ -12,9 +12,18 @@
 
 namespace curveskel::viewer {
 
-/// Single precision about an origin, so that a model far from (0, 0, 0) keeps its digits.
+/// The coordinates in which things are drawn: about an origin and in a unit of the model's size, so
+/// that single precision serves a model of any size anywhere.
+struct DrawnSpace {
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  double unit = 1;  ///< model units; a power of two, so that digits stay as they are
+};
+
+/// Of all these points.
+[[nodiscard]] DrawnSpace space_round(const Positions& points);
+
 struct ShownSurface {
-  std::vector<glm::vec3> positions;    ///< model units, minus the origin
+  std::vector<glm::vec3> positions;    ///< in a `DrawnSpace`
   std::vector<std::uint32_t> normals;  ///< packed as GL_INT_2_10_10_10_REV
   std::vector<glm::uvec3> triangles;
   std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
@@ -23,7 +32,7 @@ struct ShownSurface {
 };
 
 /// With normals, without colours. O(#V + #F).
-[[nodiscard]] ShownSurface shown_surface(const Surface& surface, const Eigen::RowVector3d& origin);
+[[nodiscard]] ShownSurface shown_surface(const Surface& surface, const DrawnSpace& space);
 /// Area-weighted vertex normals from positions and triangles. O(#V + #F).
 void set_normals(ShownSurface& shown);
 /// The same with other triangles than its own.
@@ -32,8 +41,7 @@ void set_normals(ShownSurface& shown, const Triangles& triangles);
 [[nodiscard]] ShownSurface chosen_vertices(const ShownSurface& shown,
                                            const std::vector<std::uint32_t>& chosen);
 /// The same where only positions have moved: triangles and colours stay.
-void move_surface(ShownSurface& shown, const Positions& positions,
-                  const Eigen::RowVector3d& origin);
+void move_surface(ShownSurface& shown, const Positions& positions, const DrawnSpace& space);
 
 /// A drawn edge: a cone's trunk with its own colours at the ends.
 struct TubeInstance {
@@ -52,12 +60,15 @@ struct ShownSkeleton {
   std::vector<TubeInstance> nodes;  ///< balls: `to` and `to_colour` are not used
 };
 
-/// In double precision; of a point as drawn it is still about the origin.
+/// In double precision, still as drawn.
 [[nodiscard]] inline Eigen::Vector3d model_vector(const glm::vec3& vector) {
   return {static_cast<double>(vector.x), static_cast<double>(vector.y),
           static_cast<double>(vector.z)};
 }
-[[nodiscard]] glm::vec3 shown_point(const Eigen::RowVector3d& point,
-                                    const Eigen::RowVector3d& origin);
+[[nodiscard]] glm::vec3 shown_point(const Eigen::RowVector3d& point, const DrawnSpace& space);
+/// Back again.
+[[nodiscard]] Eigen::Vector3d model_point(const glm::vec3& point, const DrawnSpace& space);
+/// A length of the model as drawn.
+[[nodiscard]] float shown_length(double length, const DrawnSpace& space);
 
 }  // namespace curveskel::viewer

@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -31,6 +32,10 @@ bool holds(const Area& picture, const glm::vec2& at) {
 }
 
 bool pressed(int key) { return ImGui::IsKeyPressed(key, false); }
+
+bool is_list_open() {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
 
 template <typename Choice, std::size_t Count>
 void next(Choice& value, const NameTable<Choice, Count>& table) {
@@ -90,10 +95,12 @@ void Controls::look_at_side(Workbench& bench, const Area& picture, Side side) {
   fly(bench, to);
 }
 
-void Controls::begin_drag(const Workbench& bench, const Panels& panels) {
+bool Controls::begin_drag(const Workbench& bench, const Panels& panels) {
   const ImGuiIO& io = ImGui::GetIO();
+  bool began = false;
   for (int button = 0; button < 3; ++button) {
     if (!ImGui::IsMouseClicked(button)) continue;
+    began = true;
     button_ = button;
     travelled_ = 0;
     doubled_ = ImGui::IsMouseDoubleClicked(0);
@@ -103,6 +110,7 @@ void Controls::begin_drag(const Workbench& bench, const Panels& panels) {
     if (panels.hovered.kind == Pick::Kind::joint) drag_ = Drag::joint;
     dragged_ = panels.hovered.index;
   }
+  return began;
 }
 
 void Controls::drag(Workbench& bench, const Area& picture) {
@@ -136,7 +144,7 @@ void Controls::pull(Workbench& bench, const Area& picture) const {
   const auto rig = bench.scene->rig();
   if (!rig || dragged_ < 0 || dragged_ >= rig->joints.rows()) return;
   const glm::vec3 place =
-      shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.origin);
+      shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.space);
   bench.pull_joint(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
 }
 
@@ -145,8 +153,7 @@ void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& pict
   const auto skeleton = bench.scene->skeleton();
   if (ended == Drag::node && travelled_ >= click_pixels && skeleton &&
       dragged_ < skeleton->nodes.rows()) {
-    const glm::vec3 place =
-        shown_point(skeleton->nodes.row(dragged_), bench.scene->document.origin);
+    const glm::vec3 place = shown_point(skeleton->nodes.row(dragged_), bench.scene->document.space);
     bench.move(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
     return;
   }
@@ -162,14 +169,15 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::vec2 at = pointer_in(picture);
   const bool over = !io.WantCaptureMouse && holds(picture, at);
+  bool began = false;
   if (drag_ == Drag::none) {
     panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
                                  static_cast<int>(picture.height))
                           : Pick{};
-    if (over) begin_drag(bench, panels);
+    began = over && begin_drag(bench, panels);
   }
   if (drag_ != Drag::none) {
-    drag(bench, picture);
+    if (!began) drag(bench, picture);  // the way to the place where it began is none of it
     if (drag_ == Drag::node && travelled_ >= click_pixels) {
       ImGui::GetForegroundDrawList()->AddCircle({at.x + picture.x, at.y + picture.y}, 8,
                                                 IM_COL32(255, 200, 0, 255), 0, 2.5F);
@@ -186,9 +194,16 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
 }
 
 void Controls::escape(Workbench& bench, Panels& panels) const {
+  if (bench.wants_to_replace) {
+    bench.wants_to_replace.reset();
+    return;
+  }
   if (panels.browser.shown()) {
     panels.browser.close();
-  } else if (panels.help) {
+    return;
+  }
+  if (ImGui::IsAnyItemActive() || is_list_open()) return;  // it is for those
+  if (panels.help) {
     panels.help = false;
   } else if (bench.running()) {
     bench.cancel();
@@ -197,14 +212,29 @@ void Controls::escape(Workbench& bench, Panels& panels) const {
   }
 }
 
-void Controls::command_keys(Workbench& bench, Panels& panels, const Area& picture) {
+void Controls::command_keys(Workbench& bench, Panels& panels) const {
   if (pressed(GLFW_KEY_O)) panels.browser.ask(FileBrowser::Purpose::open, "");
   if (pressed(GLFW_KEY_S)) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
   if (pressed(GLFW_KEY_Z) && !ImGui::GetIO().KeyShift) bench.undo();
   if (pressed(GLFW_KEY_Y) || (pressed(GLFW_KEY_Z) && ImGui::GetIO().KeyShift)) bench.redo();
-  if (pressed(GLFW_KEY_1)) look_at_side(bench, picture, Side::back);
-  if (pressed(GLFW_KEY_3)) look_at_side(bench, picture, Side::left);
-  if (pressed(GLFW_KEY_7)) look_at_side(bench, picture, Side::bottom);
+}
+
+void Controls::side_keys(Workbench& bench, const Area& picture) {
+  struct SideKeys {
+    int key;
+    int pad;
+    Side side;
+    Side with_ctrl;
+  };
+  constexpr std::array<SideKeys, 4> all{{{GLFW_KEY_1, GLFW_KEY_KP_1, Side::front, Side::back},
+                                         {GLFW_KEY_3, GLFW_KEY_KP_3, Side::right, Side::left},
+                                         {GLFW_KEY_7, GLFW_KEY_KP_7, Side::top, Side::bottom},
+                                         {GLFW_KEY_9, GLFW_KEY_KP_9, Side::back, Side::front}}};
+  const bool with_ctrl = ImGui::GetIO().KeyCtrl;
+  for (const SideKeys& one : all) {
+    if (!pressed(one.key) && !pressed(one.pad)) continue;
+    look_at_side(bench, picture, with_ctrl ? one.with_ctrl : one.side);
+  }
 }
 
 void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) {
@@ -219,13 +249,7 @@ void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) 
   if (pressed(GLFW_KEY_F12)) panels.wants_picture = true;
   if (pressed(GLFW_KEY_F)) fit_all(bench, picture, false);
   if (pressed(GLFW_KEY_O)) bench.scene->camera.orthographic ^= true;
-  if (pressed(GLFW_KEY_0)) look_at_side(bench, picture, Side::best);
-  for (const auto& [key, pad, side] : {std::tuple(GLFW_KEY_1, GLFW_KEY_KP_1, Side::front),
-                                       std::tuple(GLFW_KEY_3, GLFW_KEY_KP_3, Side::right),
-                                       std::tuple(GLFW_KEY_7, GLFW_KEY_KP_7, Side::top),
-                                       std::tuple(GLFW_KEY_9, GLFW_KEY_KP_9, Side::back)}) {
-    if (pressed(key) || pressed(pad)) look_at_side(bench, picture, side);
-  }
+  if (pressed(GLFW_KEY_0) || pressed(GLFW_KEY_KP_0)) look_at_side(bench, picture, Side::best);
 }
 
 void Controls::edit_keys(Workbench& bench) const {
@@ -241,12 +265,14 @@ void Controls::edit_keys(Workbench& bench) const {
 
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
-  if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
   // WantTextInput outlives the field by a frame.
   const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
-  if (typing || panels.browser.shown()) return;
+  if (typing) return;
+  if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
+  if (panels.browser.shown() || bench.wants_to_replace) return;
+  side_keys(bench, picture);
   if (ImGui::GetIO().KeyCtrl) {
-    command_keys(bench, panels, picture);
+    command_keys(bench, panels);
     return;
   }
   look_keys(bench, panels, picture);

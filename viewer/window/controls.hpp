@@ -32,12 +32,14 @@ class Controls {
   void look_at(Workbench& bench, const glm::vec3& place);
   void look_at_side(Workbench& bench, const Area& picture, Side side);
   void mouse(Workbench& bench, Panels& panels, const Area& picture);
-  void begin_drag(const Workbench& bench, const Panels& panels);
+  /// True if a button went down in this frame.
+  bool begin_drag(const Workbench& bench, const Panels& panels);
   void drag(Workbench& bench, const Area& picture);
   void pull(Workbench& bench, const Area& picture) const;
   void end_drag(Workbench& bench, const Panels& panels, const Area& picture);
   void keys(Workbench& bench, Panels& panels, const Area& picture);
-  void command_keys(Workbench& bench, Panels& panels, const Area& picture);
+  void command_keys(Workbench& bench, Panels& panels) const;
+  void side_keys(Workbench& bench, const Area& picture);
   void look_keys(Workbench& bench, Panels& panels, const Area& picture);
   void edit_keys(Workbench& bench) const;
   void escape(Workbench& bench, Panels& panels) const;

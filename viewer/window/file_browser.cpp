@@ -51,8 +51,10 @@ std::optional<fs::path> FileBrowser::draw() {
   const char* const title = purpose_ == Purpose::open ? title_of_open : title_of_save;
   if (opens_now_) ImGui::OpenPopup(title);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowSize({std::min(640.0F, screen.x * 0.9F), std::min(480.0F, screen.y * 0.9F)},
-                           ImGuiCond_Appearing);
+  const float letter = ImGui::GetFontSize();
+  ImGui::SetNextWindowSize(
+      {std::min(46 * letter, screen.x * 0.9F), std::min(34 * letter, screen.y * 0.9F)},
+      ImGuiCond_Appearing);
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   std::optional<fs::path> chosen;
   if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
@@ -72,7 +74,9 @@ std::optional<fs::path> FileBrowser::draw() {
         next = folder_ / entry.name;
       } else {
         name_ = entry.name;
-        if (ImGui::IsMouseDoubleClicked(0)) chosen = folder_ / name_;
+        // To replace it takes a word more.
+        const bool opens = purpose_ == Purpose::open && ImGui::IsMouseDoubleClicked(0);
+        if (opens) chosen = folder_ / name_;
       }
     }
   }
@@ -80,13 +84,14 @@ std::optional<fs::path> FileBrowser::draw() {
   if (!next.empty()) go_to(next);
   if (opens_now_) ImGui::SetKeyboardFocusHere();
   opens_now_ = false;
-  ImGui::SetNextItemWidth(-160);
+  const float button = 5 * letter;
+  ImGui::SetNextItemWidth(-2 * button - 2 * ImGui::GetStyle().ItemSpacing.x - 1);
   const bool entered = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
   frames_to_open_ = ImGui::IsItemActive() ? 0 : std::max(frames_to_open_ - 1, 0);
   ImGui::SameLine();
-  const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {70, 0});
+  const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {button, 0});
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {70, 0})) shown_ = false;
+  if (ImGui::Button("Cancel", {button, 0})) shown_ = false;
   if ((entered || pressed) && !name_.empty()) {
     const fs::path typed(name_);
     chosen = typed.is_absolute() ? typed : folder_ / typed;

@@ -138,10 +138,21 @@ void GlfwWindow::start_imgui() const {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   constexpr float letters = 14;
+  // Latin, Greek, Cyrillic, Armenian, Hebrew, more Latin and Greek, signs. ImGui keeps the address.
+  static constexpr ImWchar written[] = {0x20,   0x2FF,  0x370,  0x58F,  0x5D0,  0x5EA,
+                                        0x1E00, 0x1FFF, 0x2010, 0x205E, 0x20A0, 0x20BF,
+                                        0x2100, 0x214F, 0x2190, 0x21FF, 0};
   std::error_code error;
-  for (const char* font : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"}) {
+  for (const char* font :
+       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+        "/usr/share/fonts/truetype/freefont/FreeSans.ttf"}) {
     if (std::filesystem::exists(font, error)) {
-      ImGui::GetIO().Fonts->AddFontFromFileTTF(font, letters * scale_);
+      ImGui::GetIO().Fonts->AddFontFromFileTTF(font, letters * scale_, nullptr, written);
       return;
     }
   }
@@ -156,7 +167,8 @@ void GlfwWindow::listen_to_keys() {
     const bool ends = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_ESCAPE;
     GlfwWindow& self = owner_of(window);
     self.touched_ = true;
-    self.typed_.add({key, code, action == GLFW_PRESS, modifier, ends, with, 0});
+    const int meant = key_on_layout(key, glfwGetKeyName(key, code));
+    self.typed_.add({meant, code, action == GLFW_PRESS, modifier, ends, with, 0});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
     owner_of(window).typed_.add({0, 0, false, false, false, 0, letter});

@@ -18,6 +18,10 @@ struct KeyEvent {
   bool operator==(const KeyEvent&) const = default;
 };
 
+/// A key by the letter that it writes on the person's layout, as GLFW numbers keys by what a US
+/// layout has in their places. `name` as of glfwGetKeyName, or null; digits stay in their row.
+[[nodiscard]] int key_on_layout(int key, const char* name);
+
 /// ImGui sees the keys once a frame: what goes down and up again between two frames would be lost,
 /// and a shortcut whose Ctrl is let go at once would be another one.
 class KeyQueue {

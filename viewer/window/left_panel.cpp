@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "viewer/window/panel_parts.hpp"
 
@@ -48,13 +49,13 @@ void run_buttons(Workbench& bench) {
     bench.resume();
   }
   tip("Space");
-  ImGui::SameLine();
+  beside_if_it_fits("Step");
   if (ImGui::Button("Step")) bench.step();
   tip("one moment on (Right)");
-  ImGui::SameLine();
+  beside_if_it_fits("Rewind");
   if (ImGui::Button("Rewind")) bench.rewind();
   tip("to the input (Home)");
-  ImGui::SameLine();
+  beside_if_it_fits("Cancel");
   ImGui::BeginDisabled(!bench.running());
   if (ImGui::Button("Cancel")) bench.cancel();
   ImGui::EndDisabled();
@@ -128,8 +129,10 @@ void rig(Workbench& bench) {
   changed |= slide("followers", options.parts.follow, usual.parts.follow, 0, 5,
                    "Parts that reach out of the body no farther than this, in its thickness, have "
                    "no joints. 0 = all have.");
-  changed |= slide("bone length", options.rig.joints.bone_length, usual.rig.joints.bone_length, 1,
-                   30, "Of straight limbs, in their radius. Small = many joints.");
+  changed |=
+      slide("bone length", options.rig.joints.bone_length, usual.rig.joints.bone_length, 1, 30,
+            "Of straight limbs, in their radius, where no body's plan was found: small = "
+            "many joints. A plan says itself how many joints its limbs have.");
   changed |= slide("softness", options.rig.skin.softness, usual.rig.skin.softness, 0.2, 5,
                    "How gently the skin goes over from one joint to the next.");
   ImGui::PopItemWidth();
@@ -141,33 +144,42 @@ void rig(Workbench& bench) {
 }
 
 void corrections(Workbench& bench) {
+  bool first = true;
   const auto button = [&](const char* label, const char* meaning, auto action) {
+    if (!std::exchange(first, false)) beside_if_it_fits(label);
     if (ImGui::Button(label)) action();
     tip(meaning);
   };
   button("Prune", "take out the leaf branch of the selected edge or tip (Delete)",
          [&] { bench.prune(); });
-  ImGui::SameLine();
   button("Remove", "take out the selected node (Backspace)", [&] { bench.remove(); });
-  ImGui::SameLine();
   button("Merge", "make one node of the two selected (M)", [&] { bench.merge(); });
   button("Cut", "take out the selected edge (C)", [&] { bench.cut(); });
-  ImGui::SameLine();
   button("Join", "an edge between the two selected nodes (J)", [&] { bench.join(); });
-  ImGui::SameLine();
   button("Split", "a node in the middle of the selected edge (N)", [&] { bench.split(); });
-  ImGui::SameLine();
   button("Root", "the selected node is where the hierarchy begins (T)", [&] { bench.set_root(); });
+  first = true;
   ImGui::BeginDisabled(!bench.history().can_undo());
   button("Undo", "Ctrl-Z", [&] { bench.undo(); });
   ImGui::EndDisabled();
-  ImGui::SameLine();
   ImGui::BeginDisabled(!bench.history().can_redo());
   button("Redo", "Ctrl-Y", [&] { bench.redo(); });
   ImGui::EndDisabled();
   if (bench.root() >= 0) {
-    ImGui::SameLine();
+    beside_if_it_fits("root: node 10000");
     ImGui::Text("root: node %d", bench.root());
+  }
+}
+
+/// The newest first.
+void kept_messages(const Workbench& bench) {
+  if (bench.messages().empty()) ImGui::TextDisabled("none yet");
+  for (auto message = bench.messages().rbegin(); message != bench.messages().rend(); ++message) {
+    const ImVec4 colour = message->bad ? verdict_colour(false, bench.scene->look.theme)
+                                       : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", message->text.c_str());
+    ImGui::PopStyleColor();
   }
 }
 
@@ -177,13 +189,13 @@ void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("run", area)) return;
   if (ImGui::Button("Open")) panels.browser.ask(FileBrowser::Purpose::open, "");
   tip("Ctrl-O, or drop a file on the window");
-  ImGui::SameLine();
+  beside_if_it_fits("Save");
   if (ImGui::Button("Save")) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
   tip("Ctrl-S; the format follows from the extension");
-  ImGui::SameLine();
+  beside_if_it_fits("Picture");
   if (ImGui::Button("Picture")) panels.wants_picture = true;
   tip("F12: a PNG beside the file that is open");
-  ImGui::SameLine();
+  beside_if_it_fits("Help");
   if (ImGui::Button("Help")) panels.help = !panels.help;
   tip("H");
   ImGui::Separator();
@@ -198,6 +210,7 @@ void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) parameters(bench);
   if (ImGui::CollapsingHeader("Corrections", ImGuiTreeNodeFlags_DefaultOpen)) corrections(bench);
   if (ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) rig(bench);
+  if (ImGui::CollapsingHeader("Messages")) kept_messages(bench);
   if (!bench.measured().nodes.empty()) {
     ImGui::Text("path: %.6g units, %d edges", bench.measured().length,
                 static_cast<int>(bench.measured().nodes.size()) - 1);

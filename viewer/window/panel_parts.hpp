@@ -16,6 +16,19 @@ namespace curveskel::viewer {
 /// Shown while the pointer rests on the last item.
 void tip(const char* text);
 
+/// Puts the next button beside the last one, where there is room for one with this label.
+void beside_if_it_fits(const char* label);
+/// The same for a box to tick.
+void box_beside_if_it_fits(const char* label);
+
+/// Within an open list: a line of it. The present one is seen when the list opens.
+[[nodiscard]] bool list_line(const char* label, bool present);
+/// Within an open list: Esc closes it.
+void close_by_escape();
+
+/// Read against the panel of the theme: 4.5 to 1 at least.
+[[nodiscard]] ImVec4 verdict_colour(bool good, Theme theme);
+
 /// A list of the table's names, each with its meaning.
 template <typename Choice, std::size_t Count>
 void choose(const char* label, Choice& value, const NameTable<Choice, Count>& table) {
@@ -23,9 +36,10 @@ void choose(const char* label, Choice& value, const NameTable<Choice, Count>& ta
   if (!ImGui::BeginCombo(label, now.c_str())) return;
   for (const auto& entry : table) {
     const std::string name(entry.name);
-    if (ImGui::Selectable(name.c_str(), entry.value == value)) value = entry.value;
+    if (list_line(name.c_str(), entry.value == value)) value = entry.value;
     tip(std::string(entry.meaning).c_str());
   }
+  close_by_escape();
   ImGui::EndCombo();
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/window/panel_parts.hpp"
@@ -75,10 +77,37 @@ void messages(const Workbench& bench, const Area& picture) {
   }
 }
 
+/// The second column is wrapped where the window is narrow.
+template <std::size_t Count>
+void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, float screen) {
+  float keys_width = 0;
+  float widest = 0;
+  for (const auto& [keys, meaning] : lines) {
+    keys_width = std::max(keys_width, ImGui::CalcTextSize(keys).x);
+    widest = std::max(widest, ImGui::CalcTextSize(meaning).x);
+  }
+  const float margin = 4 * ImGui::GetFontSize();
+  const float room = std::max(screen - keys_width - margin, 8 * ImGui::GetFontSize());
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+  for (const auto& [keys, meaning] : lines) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(keys);
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::min(widest + 1, room));
+    ImGui::TextUnformatted(meaning);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::EndTable();
+}
+
 void help(Panels& panels) {
   if (!panels.help) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  // It cannot be moved where it fills the window.
+  const float letter = ImGui::GetFontSize();
+  const bool fills = screen.x < 50 * letter || screen.y < 36 * letter;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2},
+                          fills ? ImGuiCond_Always : ImGuiCond_Appearing, {0.5F, 0.5F});
   ImGui::SetNextWindowSizeConstraints({0, 0}, screen);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse |
                                      ImGuiWindowFlags_AlwaysAutoResize |
@@ -87,7 +116,7 @@ void help(Panels& panels) {
     constexpr std::array<std::array<const char*, 2>, 18> lines{{
         {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
         {"double click, F", "fly to what is under the pointer; fit everything"},
-        {"1 3 7, with Ctrl 9", "front, right, top, and from the other side"},
+        {"1 3 7 9", "front, right, top, back; with Ctrl from the other side"},
         {"0, O", "the best view, parallel projection"},
         {"click, Shift + click",
          "select a node, an edge, or the part of the surface of a node; "
@@ -106,17 +135,52 @@ void help(Panels& panels) {
         {"Tab, H", "panels on and off, this help"},
         {"Esc, Ctrl-Q", "cancel or clear the selection, leave"},
     }};
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-      for (const auto& [keys, meaning] : lines) {
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(keys);
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(meaning);
-      }
-      ImGui::EndTable();
-    }
+    help_lines(lines, screen.x);
   }
   ImGui::End();
+}
+
+/// In an empty window: the ways to fill it.
+void hint(const Workbench& bench, const Area& picture) {
+  const Document& document = bench.scene->document;
+  if (document.has_surface() || document.skeleton || bench.opening()) return;
+  constexpr const char* text =
+      "Drop a surface, a skeleton or a rig here,\nor press Ctrl-O to open one; H for help.";
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  if (size.x > picture.width || size.y > picture.height) return;
+  ImGui::GetBackgroundDrawList()->AddText({picture.x + std::floor((picture.width - size.x) / 2),
+                                           picture.y + std::floor((picture.height - size.y) / 2)},
+                                          ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+}
+
+/// If a file may be replaced.
+void question(Workbench& bench) {
+  constexpr const char* title = "Replace a file?";
+  if (bench.wants_to_replace && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+  if (!ImGui::BeginPopupModal(title, nullptr, flags)) return;
+  if (bench.wants_to_replace) {
+    ImGui::PushTextWrapPos(std::min(40 * ImGui::GetFontSize(), screen.x * 0.8F));
+    ImGui::Text("%s is there already.", bench.wants_to_replace->string().c_str());
+    ImGui::PopTextWrapPos();
+    const float width = 6 * ImGui::GetFontSize();
+    // Not by Enter, which named the file a moment ago.
+    const bool replace = ImGui::Button("Replace", {width, 0}) || ImGui::IsKeyPressed('R', false);
+    tip("R");
+    ImGui::SameLine();
+    const bool keep = ImGui::Button("Keep it", {width, 0});
+    tip("Esc");
+    if (replace) {
+      bench.save(*std::exchange(bench.wants_to_replace, std::nullopt), true);
+    } else if (keep) {
+      bench.wants_to_replace.reset();
+    }
+  }
+  if (!bench.wants_to_replace) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
 }
 
 void browser(Workbench& bench, Panels& panels) {
@@ -179,6 +243,37 @@ void tip(const char* text) {
   ImGui::EndTooltip();
 }
 
+void beside_if_it_fits(const char* label) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2 * style.FramePadding.x;
+  const float right = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+  if (right <= ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
+void box_beside_if_it_fits(const char* label) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x +
+                      ImGui::CalcTextSize(label, nullptr, true).x;
+  const float right = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+  if (right <= ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
+bool list_line(const char* label, bool present) {
+  const bool chosen = ImGui::Selectable(label, present);
+  if (present && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+  return chosen;
+}
+
+ImVec4 verdict_colour(bool good, Theme theme) {
+  if (theme == Theme::dark)
+    return good ? ImVec4(0.40F, 0.80F, 0.52F, 1) : ImVec4(1, 0.48F, 0.43F, 1);
+  return good ? ImVec4(0.04F, 0.42F, 0.17F, 1) : ImVec4(0.74F, 0.10F, 0.08F, 1);
+}
+
+void close_by_escape() {
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+}
+
 Layout lay_out(float width, float height, float scale, bool panels) {
   // Of whole pixels, so that there is nothing between the parts.
   Layout layout;
@@ -237,8 +332,10 @@ void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   draw_timeline(bench, layout.timeline);
   status_bar(bench, panels, layout.status);
   messages(bench, layout.picture);
+  hint(bench, layout.picture);
   help(panels);
   browser(bench, panels);
+  question(bench);
   const std::string hovered = description_of(panels.hovered, bench);
   if (!hovered.empty() && !ImGui::GetIO().WantCaptureMouse) {
     ImGui::SetTooltip("%s", hovered.c_str());

@@ -24,29 +24,23 @@ void look_controls(Look& look, Camera& camera) {
   choose("its colours ", look.skeleton_colour, colourings);
   choose("map", look.map, colour_maps);
   choose("theme", look.theme, themes);
-  ImGui::SliderFloat("opacity", &look.opacity, 0, 1, "%.2f");
+  ImGui::SliderFloat("opacity", &look.opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
   tip("of the transparent surface");
-  ImGui::SliderFloat("thickness", &look.thickness, 0.2F, 5, "%.2f", ImGuiSliderFlags_Logarithmic);
+  ImGui::SliderFloat("thickness", &look.thickness, 0.2F, 5, "%.2f",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tip("of tubes and lines");
   ImGui::PopItemWidth();
   ImGui::Checkbox("edges", &look.edges);
-  ImGui::SameLine();
+  box_beside_if_it_fits("joints");
   ImGui::Checkbox("joints", &look.joints);
-  ImGui::SameLine();
+  box_beside_if_it_fits("through");
   ImGui::Checkbox("through", &look.through);
   tip("the skeleton shows through an opaque surface");
   ImGui::Checkbox("bones", &look.bones);
   tip("joints and bones of a rig");
-  ImGui::SameLine();
+  box_beside_if_it_fits("parallel projection");
   ImGui::Checkbox("parallel projection", &camera.orthographic);
   tip("O");
-}
-
-/// Read against the panel of the theme: 4.5 to 1 at least.
-ImVec4 verdict_colour(bool good, Theme theme) {
-  if (theme == Theme::dark)
-    return good ? ImVec4(0.40F, 0.80F, 0.52F, 1) : ImVec4(1, 0.48F, 0.43F, 1);
-  return good ? ImVec4(0.04F, 0.42F, 0.17F, 1) : ImVec4(0.74F, 0.10F, 0.08F, 1);
 }
 
 void certificate_line(const char* name, const std::string& value, int verdict, Theme theme) {
@@ -179,9 +173,25 @@ std::optional<std::pair<ColourScale, const char*>> scale_shown(const Workbench& 
   return std::pair{*scale, "radius"};
 }
 
+bool would_show_weights(const Workbench& bench) {
+  const Look& look = bench.scene->look;
+  const bool by_weight = look.surface_colour == ColourBy::weight ||
+                         (look.surface_colour == ColourBy::file && look.bones);
+  return by_weight && bench.scene->rig() != nullptr;
+}
+
+/// With its numbers.
+float bar_height() {
+  return ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.y + ImGui::GetTextLineHeight();
+}
+
 void colour_bar(const Workbench& bench) {
   const auto shown = scale_shown(bench);
-  if (!shown) return;
+  if (!shown) {
+    // So that nothing below moves when a joint is chosen.
+    if (would_show_weights(bench)) ImGui::Dummy({1, bar_height()});
+    return;
+  }
   const auto& [scale, name] = *shown;
   const Look& look = bench.scene->look;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -225,55 +235,62 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
   return false;
 }
 
-/// Degrees about x, then y, then z.
+/// Degrees about x, then y, then z; none is shown as "-0.0".
 std::array<float, 3> angles_of(const Eigen::Quaterniond& turn) {
   const Eigen::Matrix3d r = turn.toRotationMatrix();
   const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
   const auto degrees = [](double angle) {
-    return static_cast<float>(angle * 180 / std::numbers::pi);
+    constexpr double least = 0.05;
+    const double found = angle * 180 / std::numbers::pi;
+    return std::abs(found) < least ? 0.0F : static_cast<float>(found);
   };
   return {degrees(std::atan2(r(2, 1), r(2, 2))), degrees(y), degrees(std::atan2(r(1, 0), r(0, 0)))};
 }
 
+/// `joint` may be none.
 void turn_controls(Workbench& bench, int joint) {
   const auto turns = bench.scene->turns;
-  const Eigen::Quaterniond now =
-      turns ? (*turns)[static_cast<std::size_t>(joint)] : Eigen::Quaterniond::Identity();
+  const Eigen::Quaterniond now = turns && joint >= 0 ? (*turns)[static_cast<std::size_t>(joint)]
+                                                     : Eigen::Quaterniond::Identity();
   std::array<float, 3> angles = angles_of(now);
-  if (ImGui::SliderFloat3("turn", angles.data(), -180, 180, "%.0f")) {
+  if (ImGui::SliderFloat3("turn", angles.data(), -180, 180, "%.1f", ImGuiSliderFlags_AlwaysClamp)) {
     std::array<double, 3> degrees{};
     std::copy(angles.begin(), angles.end(), degrees.begin());
     bench.turn_joint(joint, turn_by(degrees) * now.conjugate());
   }
   tip("degrees about x, y, z; Ctrl + drag of a joint does the same by hand");
-  if (turns && ImGui::Button("Turn all back")) bench.turn_back();
 }
 
 /// The role of the chosen joint, to be corrected.
 void role_choice(Workbench& bench, const CharacterRig& character, int joint) {
   const auto& roles = character.rig.roles;
   const auto at = static_cast<std::size_t>(joint);
-  const std::string now = at < roles.size() ? roles[at] : "";
+  const std::string now = joint >= 0 && at < roles.size() ? roles[at] : "";
   const std::vector<std::string> all = roles_of(character.plan.plan);
   if (all.empty() || !ImGui::BeginCombo("role", now.empty() ? "none" : now.c_str())) return;
   std::optional<std::string> chosen;
-  if (ImGui::Selectable("none", now.empty())) chosen = "";
+  if (list_line("none", now.empty())) chosen = "";
   for (const std::string& role : all) {
-    if (ImGui::Selectable(role.c_str(), role == now)) chosen = role;
+    if (list_line(role.c_str(), role == now)) chosen = role;
   }
+  close_by_escape();
   ImGui::EndCombo();
   if (chosen && *chosen != now) bench.set_role(*chosen);
 }
 
+/// Of the same height whether one is chosen or not, so that the list below stays under the pointer.
 void chosen_joint(Workbench& bench, const Rig& rig) {
-  const int joint = bench.selected_joint();
-  if (joint < 0 || joint >= rig.joints.rows()) {
-    ImGui::TextDisabled("choose a joint to turn it or to correct its role");
-    return;
-  }
+  const bool is_chosen = bench.selected_joint() >= 0 && bench.selected_joint() < rig.joints.rows();
+  const int joint = is_chosen ? bench.selected_joint() : -1;
+  ImGui::TextDisabled(is_chosen ? "the chosen joint:" : "choose a joint to turn or correct it");
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.7F);
+  ImGui::BeginDisabled(!is_chosen);
   if (const auto character = bench.scene->character()) role_choice(bench, *character, joint);
   turn_controls(bench, joint);
+  ImGui::EndDisabled();
+  ImGui::BeginDisabled(!bench.scene->turns);
+  if (ImGui::Button("Turn all back")) bench.turn_back();
+  ImGui::EndDisabled();
   ImGui::PopItemWidth();
 }
 

@@ -1,29 +1,73 @@
+#include "viewer/window/timeline.hpp"
+
 #include <fmt/core.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/window/panels.hpp"
+#include "viewer/window/panel_parts.hpp"
 
 namespace curveskel::viewer {
+
 namespace {
 
-constexpr double least_ratio = 1e-9;  // the bottom of the logarithmic plots
+bool is_of_one(const Moment& moment) { return moment.surface || moment.stage == "surgery"; }
 
-/// 1 at the top, 0 at the bottom; logarithmic.
-float height_of(double value) {
-  const double share = 1 - std::log10(std::max(value, least_ratio)) / std::log10(least_ratio);
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+}  // namespace
+
+int component_at(const std::vector<Moment>& moments, std::size_t moment) {
+  if (moment < moments.size() && is_of_one(moments[moment])) return moments[moment].component;
+  const Moment* largest = nullptr;
+  for (const Moment& one : moments) {
+    if (!one.surface) continue;
+    const bool larger =
+        largest == nullptr || one.surface->positions.size() > largest->surface->positions.size();
+    if (larger) largest = &one;
+  }
+  return largest == nullptr ? -1 : largest->component;
 }
 
+std::vector<std::size_t> moments_with(const std::vector<Moment>& moments, int component) {
+  std::vector<std::size_t> with_it;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    if (!is_of_one(moments[i]) || moments[i].component == component) with_it.push_back(i);
+  }
+  return with_it;
+}
+
+PlotRange range_of_residuals(const std::vector<Moment>& moments,
+                             const std::vector<std::size_t>& plotted) {
+  PlotRange range;
+  for (const std::size_t i : plotted) {
+    const double residual = moments[i].residual;
+    if (!(residual > 0)) continue;
+    range.low = range.low > 0 ? std::min(range.low, residual) : residual;
+    range.high = std::max(range.high, residual);
+  }
+  if (range.high <= 0) return {0.1, 1};
+  constexpr double decade = 10;
+  return range.high < range.low * decade ? PlotRange{range.low / decade, range.high * decade}
+                                         : range;
+}
+
+float height_of(double value, const PlotRange& range) {
+  if (!(value > range.low)) return 0;
+  const double share = std::log(value / range.low) / std::log(range.high / range.low);
+  return static_cast<float>(std::min(share, 1.0));
+}
+
+namespace {
+
+constexpr PlotRange ratios{1e-9, 1};
+
 ImU32 colour_of(const std::string& stage) {
-  if (stage == "input") return IM_COL32(130, 140, 150, 90);
-  if (stage == "fair") return IM_COL32(80, 150, 220, 90);
-  if (stage == "contract") return IM_COL32(60, 170, 140, 90);
-  if (stage == "surgery") return IM_COL32(220, 170, 50, 100);
-  if (stage == "rig") return IM_COL32(120, 100, 210, 110);
-  return IM_COL32(220, 90, 60, 110);
+  constexpr int alpha = 100;
+  if (stage == "input") return IM_COL32(130, 140, 150, alpha);
+  if (stage == "fair") return IM_COL32(80, 150, 220, alpha);
+  if (stage == "contract") return IM_COL32(60, 170, 140, alpha);
+  if (stage == "surgery") return IM_COL32(220, 170, 50, alpha);
+  if (stage == "rig") return IM_COL32(120, 100, 210, alpha);
+  return IM_COL32(220, 90, 60, alpha);
 }
 
 struct Plot {
@@ -38,15 +82,40 @@ constexpr Plot plots[] = {
     {"residual", &Moment::residual, IM_COL32(165, 110, 225, 255)},
 };
 
-void draw_title(const Scene& scene, bool roomy) {
+void draw_title(const Scene& scene, const std::vector<std::size_t>& shown_moments, bool roomy) {
   const Moment& shown = scene.recording.moments()[scene.moment];
-  std::string title = fmt::format("{}   {} of {}", title_of(shown), scene.moment,
-                                  scene.recording.moments().size() - 1);
+  const auto at = std::find(shown_moments.begin(), shown_moments.end(), scene.moment);
+  std::string title = fmt::format("{}   {} of {}", title_of(shown), at - shown_moments.begin(),
+                                  shown_moments.size() - 1);
   if (roomy && shown.surface) {
     title += fmt::format("   area {:.3g}   volume {:.3g}   residual {:.2g}", shown.area_ratio,
                          shown.volume_ratio, shown.residual);
   }
   ImGui::TextUnformatted(title.c_str());
+}
+
+/// Only where there are several: which one, and ways to those beside it.
+void draw_choice_of_component(Workbench& bench, int component) {
+  const auto& moments = bench.scene->recording.moments();
+  int last = 0;
+  for (const Moment& moment : moments) last = std::max(last, moment.component);
+  if (last == 0 || component < 0) return;
+  const auto go_beside = [&](const char* arrow, int other, const char* meaning) {
+    ImGui::SameLine(0, 12);
+    ImGui::BeginDisabled(other < 0 || other > last);
+    const bool pressed = ImGui::SmallButton(arrow);
+    ImGui::EndDisabled();
+    tip(meaning);
+    for (std::size_t i = moments.size(); pressed && i-- > 0;) {
+      if (!moments[i].surface || moments[i].component != other) continue;
+      bench.go_to(i);
+      return;
+    }
+  };
+  go_beside("<", component - 1, "the component before");
+  ImGui::SameLine();
+  ImGui::Text("component %d of %d", component + 1, last + 1);
+  go_beside(">", component + 1, "the next component");
 }
 
 /// Only where there are tries that were not kept.
@@ -56,6 +125,34 @@ void draw_choice_of_tries(Workbench& bench) {
   ImGui::SameLine(0, 30);
   bool all = recording.shows_all_tries();
   if (ImGui::Checkbox("all tries", &all)) bench.show_all_tries(all);
+}
+
+/// The moments as steps, with the plots of the component; tries are not connected with each other.
+void draw_moments(const std::vector<Moment>& moments, const std::vector<std::size_t>& shown,
+                  const ImVec2& low, const ImVec2& size) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float step = size.x / static_cast<float>(shown.size());
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const float left = low.x + step * static_cast<float>(k);
+    list.AddRectFilled({left, low.y},
+                       {left + std::max(step - (step > 4 ? 1 : 0), 1.0F), low.y + size.y},
+                       colour_of(moments[shown[k]].stage));
+  }
+  const PlotRange residuals = range_of_residuals(moments, shown);
+  for (const Plot& plot : plots) {
+    const PlotRange& range = plot.value == &Moment::residual ? residuals : ratios;
+    const auto place_of = [&](std::size_t k) {
+      return ImVec2(low.x + step * (static_cast<float>(k) + 0.5F),
+                    low.y + size.y * (1 - height_of(moments[shown[k]].*plot.value, range)));
+    };
+    for (std::size_t k = 1; k < shown.size(); ++k) {
+      const Moment& before = moments[shown[k - 1]];
+      const Moment& after = moments[shown[k]];
+      const bool has_both = before.surface && after.surface && before.*plot.value > 0 &&
+                            after.*plot.value > 0 && before.try_number == after.try_number;
+      if (has_both) list.AddLine(place_of(k - 1), place_of(k), plot.colour, 1.6F);
+    }
+  }
 }
 
 }  // namespace
@@ -68,47 +165,32 @@ void draw_timeline(Workbench& bench, const Area& area) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
-  draw_title(*bench.scene, area.width > ImGui::GetFontSize() * 44);
+  const auto& moments = bench.scene->recording.moments();
+  const int component = component_at(moments, bench.scene->moment);
+  const std::vector<std::size_t> shown = moments_with(moments, component);
+  draw_title(*bench.scene, shown, area.width > ImGui::GetFontSize() * 60);
   for (const Plot& plot : plots) {
     ImGui::SameLine(0, plot.value == &Moment::area_ratio ? 30.0F : 12.0F);
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
   }
+  draw_choice_of_component(bench, component);
   draw_choice_of_tries(bench);
-  const auto& moments = bench.scene->recording.moments();
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x,
                     std::max(ImGui::GetContentRegionAvail().y, 10.0F));
   ImGui::InvisibleButton("moments", size);
-  const auto count = static_cast<float>(moments.size());
+  const auto count = static_cast<float>(shown.size());
   if (ImGui::IsItemActive()) {
     const float share = (ImGui::GetIO().MousePos.x - low.x) / size.x;
-    bench.go_to(
-        static_cast<std::size_t>(std::clamp(share * count, 0.0F, std::max(count - 1, 0.0F))));
+    const float place = std::clamp(share * count, 0.0F, std::max(count - 1, 0.0F));
+    bench.go_to(shown[static_cast<std::size_t>(place)]);
   }
-  ImDrawList& list = *ImGui::GetWindowDrawList();
+  draw_moments(moments, shown, low, size);
+  const auto at = std::find(shown.begin(), shown.end(), bench.scene->moment);
   const float step = size.x / count;
-  const auto x_of = [&](std::size_t i) { return low.x + step * (static_cast<float>(i) + 0.5F); };
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    const float left = low.x + step * static_cast<float>(i);
-    list.AddRectFilled({left, low.y},
-                       {left + std::max(step - (step > 4 ? 1 : 0), 1.0F), low.y + size.y},
-                       colour_of(moments[i].stage));
-  }
-  for (const Plot& plot : plots) {
-    for (std::size_t i = 1; i < moments.size(); ++i) {
-      const bool both = moments[i - 1].surface && moments[i].surface &&
-                        moments[i].component == moments[i - 1].component &&
-                        moments[i].try_number == moments[i - 1].try_number;
-      if (!both) continue;
-      const auto y_of = [&](std::size_t k) {
-        return low.y + size.y * (1 - height_of(moments[k].*plot.value));
-      };
-      list.AddLine({x_of(i - 1), y_of(i - 1)}, {x_of(i), y_of(i)}, plot.colour, 1.6F);
-    }
-  }
-  const float cursor = x_of(bench.scene->moment);
-  list.AddRectFilled({cursor - 1.5F, low.y}, {cursor + 1.5F, low.y + size.y},
-                     ImGui::GetColorU32(ImGuiCol_Text));
+  const float cursor = low.x + step * (static_cast<float>(at - shown.begin()) + 0.5F);
+  ImGui::GetWindowDrawList()->AddRectFilled({cursor - 1.5F, low.y}, {cursor + 1.5F, low.y + size.y},
+                                            ImGui::GetColorU32(ImGuiCol_Text));
   ImGui::End();
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -203,7 +204,7 @@ class Viewer {
       write_file(file, screenshot(*bench_.scene, picture_.renderer(), picture_.width(),
                                   picture_.height()));
       bench_.say("saved " + file.string());
-    } catch (const Error& problem) {
+    } catch (const std::exception& problem) {
       bench_.say(problem.what(), true);
     }
     picture_.forget();

@@ -20,7 +20,8 @@ bool same_camera(const Camera& a, const Camera& b) {
 
 bool WindowPicture::Shown::shows_same(const Shown& other) const {
   return same_camera(camera, other.camera) && look == other.look &&
-         highlights == other.highlights && skeleton == other.skeleton && scene == other.scene &&
+         highlights == other.highlights && skeleton == other.skeleton && rig == other.rig &&
+         turns == other.turns && materials == other.materials && scene == other.scene &&
          moment == other.moment && moments == other.moments && width == other.width &&
          height == other.height;
 }
@@ -45,6 +46,9 @@ bool WindowPicture::draw(Scene& scene, int width, int height) {
             scene.look_now(),
             scene.highlights,
             scene.skeleton(),
+            scene.rig(),
+            scene.turns,
+            scene.materials,
             &scene,
             scene.moment,
             scene.recording.moments().size(),

@@ -46,6 +46,9 @@ class WindowPicture {
     Look look;
     Highlights highlights;
     std::shared_ptr<const CurveSkeleton> skeleton;
+    std::shared_ptr<const Rig> rig;
+    std::shared_ptr<const JointTurns> turns;
+    std::shared_ptr<const DrawnMaterials> materials;
     const Scene* scene = nullptr;
     std::size_t moment = 0;
     std::size_t moments = 0;

@@ -48,7 +48,7 @@ std::vector<glm::vec3> pixels_of(const Projection& projection, const Positions& 
   std::vector<glm::vec3> pixels;
   pixels.reserve(static_cast<std::size_t>(points.rows()));
   for (const auto& point : points.rowwise()) {
-    pixels.push_back(projection.pixel(shown_point(point, scene.document.origin)));
+    pixels.push_back(projection.pixel(shown_point(point, scene.document.space)));
   }
   return pixels;
 }
@@ -75,7 +75,7 @@ Pick pick_edge(const CurveSkeleton& skeleton, const std::vector<glm::vec3>& pixe
 
 Pick pick_face(const Scene& scene, const PickRay& ray) {
   const auto in_model = [&](const glm::vec3& point) {
-    return Eigen::Vector3d(model_vector(point) + scene.document.origin.transpose());
+    return model_point(point, scene.document.space);
   };
   const Eigen::Vector3d direction = model_vector(ray.direction).normalized();
   const FaceBlocks::Hit hit =
@@ -85,7 +85,7 @@ Pick pick_face(const Scene& scene, const PickRay& ray) {
   Pick found;
   found.kind = Pick::Kind::face;
   found.index = hit.face;
-  found.place = shown_point(place.transpose(), scene.document.origin);
+  found.place = shown_point(place.transpose(), scene.document.space);
   double nearest = std::numeric_limits<double>::infinity();
   for (const int vertex : scene.document.surface.triangles.row(hit.face)) {
     const double distance =
@@ -113,14 +113,14 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
     const Positions joints = scene.joints_now();
     Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint);
     if (found.kind == Pick::Kind::joint) {
-      found.place = shown_point(joints.row(found.index), scene.document.origin);
+      found.place = shown_point(joints.row(found.index), scene.document.space);
       return found;
     }
   }
   if (skeleton && !covered && scene.shows_curve()) {
     const std::vector<glm::vec3> pixels = pixels_of(projection, skeleton->nodes, scene);
     const auto shown = [&](Eigen::Index node) {
-      return shown_point(skeleton->nodes.row(node), scene.document.origin);
+      return shown_point(skeleton->nodes.row(node), scene.document.space);
     };
     Pick found = pick_point(pixels, at, Pick::Kind::node);
     if (found.kind == Pick::Kind::node) {

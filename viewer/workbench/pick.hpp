@@ -12,7 +12,7 @@ struct Pick {
   Kind kind = Kind::nothing;
   int index = -1;      ///< joint, node, row of the edges, or triangle of the surface
   int vertex = -1;     ///< of a face: its corner next to the pointer
-  glm::vec3 place{0};  ///< as drawn, about the document's origin
+  glm::vec3 place{0};  ///< as drawn, in the document's space
   bool operator==(const Pick& other) const {
     return kind == other.kind && index == other.index && vertex == other.vertex;
   }

@@ -9,7 +9,6 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
-#include <curveskel/skeleton_files.hpp>
 #include <curveskel/topology.hpp>
 #include "app/report.hpp"
 #include "viewer/software/priority.hpp"
@@ -57,7 +56,8 @@ Workbench::Workbench(ViewOptions options)
     : scene(std::make_shared<Scene>(Document{})),
       pipeline(options.pipeline),
       options_(std::move(options)),
-      run_memory_(std::make_shared<RunMemory>()) {
+      run_memory_(std::make_shared<RunMemory>()),
+      detail_shown_(pipeline.extract.embed.detail) {
   news_.state = Run::State::cancelled;
   scene->look = options_.look;
   if (!options_.files.empty()) open(options_.files);
@@ -72,7 +72,12 @@ Workbench::~Workbench() {
 
 void Workbench::say(std::string text, bool bad) {
   constexpr std::size_t most = 50;
-  messages_.push_back({std::move(text), bad, std::chrono::steady_clock::now()});
+  const auto now = std::chrono::steady_clock::now();
+  if (!messages_.empty() && messages_.back().text == text && messages_.back().bad == bad) {
+    messages_.back().since = now;
+    return;
+  }
+  messages_.push_back({std::move(text), bad, now});
   if (messages_.size() > most) messages_.pop_front();
 }
 
@@ -88,6 +93,7 @@ bool Workbench::update() {
   changed = take_judgement() || changed;
   changed = take_rig() || changed;
   changed = take_materials() || changed;
+  heed_time_limit();
   std::erase_if(retired_, [](const std::unique_ptr<Run>& run) {
     return run->take().state != Run::State::running;
   });
@@ -127,29 +133,20 @@ bool Workbench::take_opened() {
     say(opened.error, true);
     return true;
   }
-  retire_run();
-  rigging_stop_.request_stop();
-  rig_again_ = false;
-  save_rig_to_.clear();
-  opened.scene->look = scene->look;
-  const bool same_place = reloading_;
-  if (same_place) opened.scene->camera = scene->camera;
-  scene = std::move(opened.scene);
   files_ = std::move(opened.files);
-  wants_fit = !same_place;
-  reloading_ = false;
-  run_memory_ = std::make_shared<RunMemory>();
-  result_.reset();
-  judgement_.reset();
-  ground_.reset();
-  history_ = History();
-  clear_selection();
-  failed_edges_.clear();
-  failed_faces_.clear();
-  if (scene->own_skeleton) begin_history(scene->own_skeleton);
-  inspect();
   say("opened " + names_of(files_));
+  take_document(std::move(opened.scene), std::exchange(reloading_, false));
   const Document& document = scene->document;
+  if (scene->rig()) {
+    choose_wished_joint();
+  } else if (!options_.joint.empty()) {
+    say("the joint " + options_.joint + " is chosen once there is a rig (G)");
+  }
+  if (options_.run && document.has_surface() && !document.rig && !document.skeleton) start(false);
+  return true;
+}
+
+void Workbench::choose_wished_joint() {
   try {
     look_at_rig(*scene, options_.joint);
     selected_joint_ = scene->highlights.joint;
@@ -157,8 +154,38 @@ bool Workbench::take_opened() {
     say(error.what(), true);
     options_.joint.clear();  // it is said once
   }
-  if (options_.run && document.has_surface() && !document.rig && !scene->own_skeleton) start(false);
-  return true;
+}
+
+/// Corrections of a file that has changed on the disk stay in the history.
+void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
+  retire_run();
+  rigging_stop_.request_stop();
+  rig_again_ = false;
+  save_rig_to_.clear();
+  wants_to_replace.reset();
+  opened->look = scene->look;
+  if (same_place) opened->camera = scene->camera;
+  scene = std::move(opened);
+  wants_fit = !same_place;
+  run_memory_ = std::make_shared<RunMemory>();
+  result_.reset();
+  judgement_.reset();
+  ground_.reset();
+  made_rig_.reset();
+  if (same_place && history_.has_corrections()) {
+    history_.go_over_to(scene->document.surface.positions.rows());
+  } else {
+    history_ = History();
+  }
+  clear_selection();
+  failed_edges_.clear();
+  failed_faces_.clear();
+  if (scene->own_skeleton) {
+    show_made({scene->own_skeleton, scene->document.root, false, {}}, true);
+  } else if (!history_.empty()) {
+    show_state();
+  }
+  inspect();
 }
 
 void Workbench::reload() {
@@ -177,10 +204,14 @@ void Workbench::watch_files() {
   }
 }
 
-void Workbench::save(const fs::path& file) {
-  const auto skeleton = scene->skeleton();
-  if (!skeleton) {
+void Workbench::save(const fs::path& file, bool may_replace) {
+  if (history_.empty() && !scene->skeleton()) {
     say("there is no skeleton to save yet", true);
+    return;
+  }
+  std::error_code none;
+  if (fs::equivalent(file, scene->document.mesh_file, none)) {
+    say(file.string() + " is the input; name another output", true);
     return;
   }
   const std::string extension = extension_of(file);
@@ -192,20 +223,38 @@ void Workbench::save(const fs::path& file) {
         true);
     return;
   }
+  if (!may_replace && fs::exists(file, none)) {
+    wants_to_replace = file;
+    return;
+  }
   try {
-    if (!format) {
+    if (format) {
+      save_skeleton(file, *format);
+    } else {
       save_rig(file, *rig_format);
-      return;
     }
-    SkeletonContext context;
-    context.root = root();
-    context.provenance = program_and_version() + ", " + names_of(files_) +
-                         (history_.changed() ? ", corrected by hand" : "");
-    if (scene->document.has_surface()) context.surface = &scene->document.surface;
-    write_file(file, format_skeleton(*skeleton, *format, context));
-    say("saved " + file.string());
   } catch (const std::exception& error) {
     say(error.what(), true);
+  }
+}
+
+void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
+  const Edited now = history_.empty() ? Edited{scene->skeleton(), -1, false, {}} : history_.now();
+  SkeletonContext context;
+  context.root = now.root;
+  context.provenance = program_and_version() + ", " + names_of(files_) +
+                       (now.corrected ? ", corrected by hand" : "");
+  if (scene->document.has_surface()) context.surface = &scene->document.surface;
+  write_file(file, format_skeleton(*now.skeleton, format, context));
+  note_saved(file);
+  say("saved " + file.string());
+}
+
+/// Its own change of an open file is none to be read again.
+void Workbench::note_saved(const fs::path& file) {
+  std::error_code none;
+  for (std::size_t i = 0; i < files_.size() && i < read_times_.size(); ++i) {
+    if (fs::equivalent(files_[i], file, none)) read_times_[i] = time_of(file);
   }
 }
 
@@ -240,13 +289,21 @@ void Workbench::inspect() {
 
 bool Workbench::take_materials() {
   if (!is_ready(materials_)) return false;
-  scene->materials = materials_.get();
+  try {
+    scene->materials = materials_.get();
+  } catch (const std::exception& error) {
+    say(std::string("the surface is shown without its materials: ") + error.what(), true);
+  }
   return scene->materials != nullptr;
 }
 
 bool Workbench::take_defects() {
   if (!is_ready(inspecting_)) return false;
-  defects_ = inspecting_.get();
+  try {
+    defects_ = inspecting_.get();
+  } catch (const std::exception& error) {
+    say(std::string("defects of the file were not looked for: ") + error.what(), true);
+  }
   return true;
 }
 

@@ -17,6 +17,7 @@
 #include <curveskel/edit.hpp>
 #include <curveskel/findings.hpp>
 #include <curveskel/rig_files.hpp>
+#include <curveskel/skeleton_files.hpp>
 #include "viewer/model/defects.hpp"
 #include "viewer/model/history.hpp"
 #include "viewer/model/run.hpp"
@@ -63,15 +64,17 @@ class Workbench {
   bool update();
   /// True if another thread is at work, so that `update` should be called soon again.
   [[nodiscard]] bool busy() const;
+  [[nodiscard]] bool opening() const { return opening_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
   void open(const std::vector<std::filesystem::path>& files);
   void reload();
   /// Reloads if the files on the disk are newer than those that were read.
   void watch_files();
-  /// The skeleton, as it is now, in the format of the extension; also a picture, or its rig, which
-  /// is made first if need be.
-  void save(const std::filesystem::path& file);
+  /// The skeleton at the end of the timeline, in the format of the extension; also a picture, or
+  /// its rig, which is made first if need be. Never onto the open surface; where another file would
+  /// be replaced, `wants_to_replace` is set instead, unless it may be.
+  void save(const std::filesystem::path& file, bool may_replace = false);
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
   // The run.
@@ -117,12 +120,13 @@ class Workbench {
   /// Turns a joint about itself, in the surface's coordinates, on top of how it is turned; those
   /// below it and the surface follow. For the eye: files keep the pose in which the surface is.
   void turn_joint(int joint, const Eigen::Quaterniond& more);
-  /// So that the joint, turned about the one above it, comes as near to this place (about the
-  /// document's origin) as it can.
+  /// So that the joint, turned about the one above it, comes as near to this place (in the
+  /// document's space) as it can.
   void pull_joint(int joint, const glm::vec3& place);
   /// All joints as they are in the file.
   void turn_back();
-  /// Corrects the role of the selected joint, which is named and saved so. "" = none.
+  /// Corrects the role of the selected joint, which is named and saved so; rigs that are made later
+  /// have it, too, where they have a joint in its place. "" = none.
   void set_role(const std::string& role);
 
   // Corrections of the skeleton.
@@ -153,7 +157,9 @@ class Workbench {
   RunOptions pipeline;
   /// Set when the camera should go to where the scene is seen best.
   bool wants_fit = true;
-  /// Set when the camera should fly here; about the document's origin.
+  /// Set when a person should be asked whether this file may be replaced.
+  std::optional<std::filesystem::path> wants_to_replace;
+  /// Set when the camera should fly here; in the document's space.
   std::optional<glm::vec3> wants_look_at;
 
  private:
@@ -176,13 +182,22 @@ class Workbench {
   bool take_rig();
   bool take_materials();
   void drop_rig();
+  void place_rig();
+  void change_roles();
   void save_rig(const std::filesystem::path& file, RigFormat format);
   void take_moments(std::vector<Moment> moments);
   void take_result(RunResult result);
   void inspect();
   void retire_run();
-  [[nodiscard]] std::shared_ptr<const CurveSkeleton> at_level(const CurveSkeleton& whole) const;
-  void begin_history(std::shared_ptr<const CurveSkeleton> skeleton);
+  [[nodiscard]] CurveSkeleton at_level(const CurveSkeleton& whole) const;
+  void heed_time_limit();
+  void choose_wished_joint();
+  void save_skeleton(const std::filesystem::path& file, SkeletonFormat format);
+  void note_saved(const std::filesystem::path& file);
+  void take_document(std::shared_ptr<Scene> opened, bool same_place);
+  void show_made(Edited made, bool as_next_step);
+  [[nodiscard]] bool shows_what_is_corrected();
+  void go_in_history(const std::function<void()>& way);
   void edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
             const std::string& what);
   void show_state();
@@ -200,6 +215,9 @@ class Workbench {
   std::shared_ptr<RunMemory> run_memory_;
   Run::News news_;
   double detail_made_ = EmbedOptions().detail;
+  double detail_shown_ = EmbedOptions().detail;
+  std::chrono::steady_clock::time_point updated_ = std::chrono::steady_clock::now();
+  double run_seconds_ = 0;  // without pauses
   bool first_moment_ = true;
   bool follow_ = true;
   bool rig_again_ = false;  // once the one that is made has stopped
@@ -218,7 +236,8 @@ class Workbench {
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
   int selected_joint_ = -1;
-  std::shared_ptr<const Rig> shown_rig_;  // whose joint that is
+  std::shared_ptr<const Rig> shown_rig_;          // whose joint that is
+  std::shared_ptr<const CharacterRig> made_rig_;  // before roles were corrected
   std::vector<int> failed_edges_;
   std::vector<int> failed_faces_;
   Path measured_;

@@ -27,24 +27,6 @@ std::vector<int> edges_along(const CurveSkeleton& skeleton, const std::vector<in
   return edges;
 }
 
-using Change = std::function<CurveSkeleton(const CurveSkeleton&)>;
-
-/// The corrected skeleton, with the root where its node went: a correction hands the vertices of a
-/// node on to its heir, and the root goes along as one more vertex.
-Edited changed_with_root(const Edited& before, const Change& change) {
-  if (before.root < 0) {
-    return {std::make_shared<const CurveSkeleton>(change(*before.skeleton)), -1};
-  }
-  CurveSkeleton marked = *before.skeleton;
-  const Eigen::Index vertices = marked.node_of_vertex.size();
-  marked.node_of_vertex.conservativeResize(vertices + 1);
-  marked.node_of_vertex[vertices] = before.root;
-  CurveSkeleton changed = change(marked);
-  const int root = changed.node_of_vertex[vertices];
-  changed.node_of_vertex.conservativeResize(vertices);
-  return {std::make_shared<const CurveSkeleton>(std::move(changed)), root};
-}
-
 /// A word for the person if the root is another node now, and not just another number.
 std::string about_root(const Edited& before, const Edited& after) {
   if (before.root < 0) return {};
@@ -57,10 +39,17 @@ std::string about_root(const Edited& before, const Edited& after) {
 
 }  // namespace
 
-void Workbench::begin_history(std::shared_ptr<const CurveSkeleton> skeleton) {
+/// A skeleton that was made or read: the next step of the history, or instead of the last one.
+void Workbench::show_made(Edited made, bool as_next_step) {
   drop_rig();
   scene->own_skeleton.reset();
-  history_.begin({std::move(skeleton), -1});
+  const bool hides_corrections = as_next_step && history_.corrected();
+  if (as_next_step) {
+    history_.add(std::move(made));
+  } else {
+    history_.replace(std::move(made));
+  }
+  if (hides_corrections) say("the skeleton that was corrected by hand is one step back (Ctrl-Z)");
   clear_selection();
   show_state();
 }
@@ -165,7 +154,7 @@ void Workbench::show_exits() {
         found->skeleton->nodes.row(found->skeleton->edges(worst->edge, 0));
     const Eigen::RowVector3d to =
         found->skeleton->nodes.row(found->skeleton->edges(worst->edge, 1));
-    wants_look_at = shown_point((from + to) / 2, scene->document.origin);
+    wants_look_at = shown_point((from + to) / 2, scene->document.space);
   } else {
     say("no edge leaves the surface");
   }
@@ -185,7 +174,7 @@ void Workbench::show_spurs() {
   } else {
     wants_look_at =
         shown_point(found->skeleton->nodes.row(found->findings.spurs.front().nodes.front()),
-                    scene->document.origin);
+                    scene->document.space);
   }
   set_highlights();
 }
@@ -195,21 +184,30 @@ void Workbench::show_faces(const std::vector<int>& faces) {
   if (!faces.empty()) {
     const auto corners = scene->document.surface.triangles.row(faces.front());
     wants_look_at =
-        shown_point(scene->document.surface.positions.row(corners[0]), scene->document.origin);
+        shown_point(scene->document.surface.positions.row(corners[0]), scene->document.space);
   }
   set_highlights();
+}
+
+/// Else says why a correction would not be of it.
+bool Workbench::shows_what_is_corrected() {
+  if (run_ || history_.empty()) {
+    say("there is nothing to correct before the skeleton is there", true);
+    return false;
+  }
+  if (scene->skeleton() == history_.now().skeleton) return true;
+  say("corrections are of the skeleton at the end of the timeline (End), not of this curve", true);
+  return false;
 }
 
 /// Makes the change part of the history, or says why it cannot be.
 void Workbench::edit(const std::function<CurveSkeleton(const CurveSkeleton&)>& change,
                      const std::string& what) {
-  if (run_ || history_.empty()) {
-    say("there is nothing to correct before the skeleton is there", true);
-    return;
-  }
+  if (!shows_what_is_corrected()) return;
   try {
     const Edited before = history_.now();
-    const Edited next = changed_with_root(before, change);
+    Edited next = changed_with_root(before, change);
+    next.corrected = true;
     const bool fewer = next.skeleton->nodes.rows() < before.skeleton->nodes.rows();
     history_.add(next);
     drop_rig();
@@ -288,21 +286,36 @@ void Workbench::split() {
 }
 
 void Workbench::move(int node, const glm::vec3& place) {
-  const Eigen::Vector3d position = model_vector(place) + scene->document.origin.transpose();
+  const Eigen::Vector3d position = model_point(place, scene->document.space);
   edit([&](const CurveSkeleton& now) { return move_node(now, node, position, tree()); },
        "moved a node");
 }
 
 void Workbench::set_root() {
-  if (selected_nodes_.size() != 1 || history_.empty()) {
+  if (selected_nodes_.size() != 1) {
     say("select the node that is to be the root", true);
     return;
   }
+  if (!shows_what_is_corrected()) return;
   Edited next = history_.now();
   next.root = selected_nodes_[0];
+  next.corrected = true;
   history_.add(std::move(next));
   drop_rig();
   say("the root is node " + std::to_string(history_.now().root));
+}
+
+/// The rig stays where the skeleton does.
+void Workbench::go_in_history(const std::function<void()>& way) {
+  const Edited before = history_.now();
+  way();
+  const Edited& now = history_.now();
+  if (now.skeleton == before.skeleton && now.root == before.root) {
+    change_roles();
+    return;
+  }
+  drop_rig();
+  show_state();
 }
 
 void Workbench::undo() {
@@ -310,9 +323,7 @@ void Workbench::undo() {
     say("nothing to take back");
     return;
   }
-  history_.undo();
-  drop_rig();
-  show_state();
+  go_in_history([&] { history_.undo(); });
 }
 
 void Workbench::redo() {
@@ -320,9 +331,7 @@ void Workbench::redo() {
     say("nothing to do again");
     return;
   }
-  history_.redo();
-  drop_rig();
-  show_state();
+  go_in_history([&] { history_.redo(); });
 }
 
 }  // namespace curveskel::viewer

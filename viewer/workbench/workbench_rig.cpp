@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rest_pose.hpp>
@@ -85,19 +86,43 @@ bool Workbench::take_rig() {
     return true;
   }
   drop_rig();
-  scene->recording.add(moment_of(made.rig));
+  made_rig_ = made.rig;
+  place_rig();
   go_to(scene->recording.moments().size() - 1);
   say(words_of(*made.rig));
   if (!made.on_sheets.empty()) say(made.on_sheets);
-  if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}));
+  if (!options_.joint.empty()) choose_wished_joint();
+  options_.joint.clear();  // from now on a person chooses
+  if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}), true);  // was asked for
   return true;
 }
 
 void Workbench::drop_rig() {
   rigging_stop_.request_stop();
+  made_rig_.reset();
   if (!has_rig()) return;
   scene->recording.cut_from("rig");
   scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
+}
+
+/// At the end of the timeline, with the roles that were given by hand.
+void Workbench::place_rig() {
+  auto shown = std::make_shared<CharacterRig>(*made_rig_);
+  const double size = bounding_box_diagonal(scene->document.surface.positions);
+  give_roles(*shown, history_.now().roles, size, pipeline.character.names);
+  scene->recording.cut_from("rig");
+  scene->recording.add(moment_of(std::move(shown)));
+}
+
+/// Pose and chosen joint stay.
+void Workbench::change_roles() {
+  if (!has_rig()) return;
+  const auto turns = scene->turns;
+  const int joint = selected_joint_;
+  place_rig();
+  show_state();
+  scene->turns = turns;
+  select_joint(joint);
 }
 
 void Workbench::turn_joint(int joint, const Eigen::Quaterniond& more) {
@@ -116,7 +141,7 @@ void Workbench::pull_joint(int joint, const glm::vec3& place) {
   const int parent = rig->parents[joint];
   const int above = rig->parents[parent];
   const Positions now = scene->joints_now();
-  const Eigen::Vector3d wanted = model_vector(place) + scene->document.origin.transpose();
+  const Eigen::Vector3d wanted = model_point(place, scene->document.space);
   Eigen::Quaterniond way = Eigen::Quaterniond::FromTwoVectors(
       (now.row(joint) - now.row(parent)).transpose(), wanted - now.row(parent).transpose());
   if (scene->turns && above >= 0) {
@@ -132,16 +157,11 @@ void Workbench::turn_back() { scene->turns = nullptr; }
 void Workbench::set_role(const std::string& role) {
   const auto shown = scene->character();
   if (!shown || selected_joint_ < 0) return;
-  const int joint = selected_joint_;
-  const auto changed = std::make_shared<CharacterRig>(*shown);
-  assign_role(changed->rig, changed->plan, joint, role, pipeline.character.names);
-  scene->recording.cut_from("rig");
-  scene->recording.add(moment_of(changed));
-  const auto turns = scene->turns;
-  go_to(scene->recording.moments().size() - 1);
-  scene->turns = turns;
-  select_joint(joint);
-  say(changed->rig.names[static_cast<std::size_t>(joint)] +
+  Edited next = history_.now();
+  next.roles.push_back({selected_joint_, shown->rig.joints.row(selected_joint_), role});
+  history_.add(std::move(next));
+  change_roles();
+  say(shown->rig.names[static_cast<std::size_t>(selected_joint_)] +
       (role.empty() ? " has no role now" : " is now the " + role));
 }
 
@@ -167,6 +187,7 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   }
   write_file(file, edited ? edited->bytes
                           : format_rig(document.surface, rig, format, name, program_and_version()));
+  note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
 }
 

@@ -40,11 +40,14 @@ void Workbench::start(bool paused) {
   }
   options.extract.certificate.threads = options.extract.threads;
   options.extract.fair.threads = options.extract.threads;
-  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.origin,
+  run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.space,
                                run_memory_, paused);
   news_ = {};
+  run_seconds_ = 0;
   first_moment_ = true;
   follow_ = true;
+  scene->own_skeleton.reset();  // the one that is made comes in its place
+  clear_selection();
 }
 
 void Workbench::retire_run() {
@@ -77,8 +80,7 @@ void Workbench::step() {
     follow_ = true;
     run_->step();
   } else if (!result_) {
-    start(true);
-    if (run_) run_->step();
+    start(true);  // up to its first moment
   } else if (!has_rig()) {
     rig();
   }
@@ -87,7 +89,19 @@ void Workbench::step() {
 void Workbench::cancel() {
   if (!run_) return;
   retire_run();
+  show_state();
   say("cancelled; what was recorded is kept");
+}
+
+/// A limit is for the work, not for the person who looks at it.
+void Workbench::heed_time_limit() {
+  const auto now = std::chrono::steady_clock::now();
+  const double gone = std::chrono::duration<double>(now - std::exchange(updated_, now)).count();
+  if (!run_ || news_.state != Run::State::running) return;
+  run_seconds_ += gone;
+  if (options_.time_limit_seconds <= 0 || run_seconds_ < options_.time_limit_seconds) return;
+  cancel();
+  say("the run took longer than --time-limit, so it was cancelled", true);
 }
 
 void Workbench::rewind() {
@@ -119,22 +133,28 @@ void Workbench::take_moments(std::vector<Moment> moments) {
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
 }
 
-std::shared_ptr<const CurveSkeleton> Workbench::at_level(const CurveSkeleton& whole) const {
-  return std::make_shared<const CurveSkeleton>(
-      level_of(whole, least_life(pipeline.extract.embed.detail)));
+CurveSkeleton Workbench::at_level(const CurveSkeleton& whole) const {
+  return level_of(whole, least_life(pipeline.extract.embed.detail));
 }
 
 void Workbench::show_level() {
-  if (run_) return;  // it will be shown at its end
-  if (history_.changed()) {
+  double& detail = pipeline.extract.embed.detail;
+  // A run shows its own at its end; a finer one than was made needs a run.
+  if (run_ || detail == detail_shown_ || (history_.corrected() && detail > detail_made_)) return;
+  if (history_.corrected()) {
+    detail = detail_shown_;
     say("a level is of the skeleton as it was made: take the corrections back (Ctrl-Z) first",
         true);
     return;
   }
-  const CurveSkeleton* const whole =
-      result_ ? result_->skeleton.get()
-              : (scene->document.skeleton ? &*scene->document.skeleton : nullptr);
-  if (whole != nullptr) begin_history(at_level(*whole));
+  if (history_.empty() || (!result_ && !scene->document.skeleton)) return;
+  detail_shown_ = detail;
+  const bool was_made = result_.has_value();
+  const Edited whole{was_made ? result_->skeleton
+                              : std::make_shared<const CurveSkeleton>(*scene->document.skeleton),
+                     was_made ? -1 : scene->document.root, false, history_.now().roles};
+  show_made(changed_with_root(whole, [&](const CurveSkeleton& one) { return at_level(one); }),
+            false);
 }
 
 void Workbench::take_result(RunResult result) {
@@ -145,7 +165,10 @@ void Workbench::take_result(RunResult result) {
   scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
   const bool had_root = root() >= 0;
-  begin_history(at_level(*result.skeleton));
+  detail_shown_ = pipeline.extract.embed.detail;
+  Edited made{std::make_shared<const CurveSkeleton>(at_level(*result.skeleton)), -1, false, {}};
+  if (!history_.empty()) made.roles = history_.now().roles;
+  show_made(std::move(made), true);
   if (had_root) say("the root was a node of the skeleton before; set it again (T)");
   result_ = std::move(result);
 }

@@ -1,0 +1,133 @@
+// Laws of the panels, frame by frame, without a window.
+#include "viewer/window/panels.hpp"
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/own_folder.hpp"
+#include "tests/rig/rigged_bar.hpp"
+#include "tests/viewer/imgui_context.hpp"
+#include "tests/viewer/waiting.hpp"
+#include "viewer/window/panel_parts.hpp"
+
+namespace curveskel::viewer::panels_laws {
+namespace {
+
+constexpr float width = 1200;
+constexpr float height = 1000;
+
+class OnScreen : public testing::Test {
+ protected:
+  void frame(const std::function<void()>& content) {
+    ImGui::NewFrame();
+    content();
+    ImGui::Render();
+  }
+  void frame() {
+    frame([&] { draw_panels(bench, panels, lay_out(width, height, 1, true)); });
+  }
+  void click(float x, float y) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {x, y};
+    frame();
+    for (const bool down : {true, false}) {
+      io.MouseDown[0] = down;
+      frame();
+    }
+    io.MousePos = {-1, -1};
+    for (int settles = 0; settles < 30; ++settles) frame();  // no double click
+  }
+  void open_rig() {
+    write_rigged_bar(folder.path() / "bar.gltf", {.joints = 5, .first_weight = 0});
+    bench.open({folder.path() / "bar.gltf"});
+    ASSERT_TRUE(wait_for(bench, [&] { return bench.scene->document.rig != nullptr; }));
+    for (int settles = 0; settles < 3; ++settles) frame();
+  }
+
+  ImGuiContextWithoutWindow context{width, height};
+  Workbench bench{ViewOptions{}};
+  Panels panels;
+  OwnFolder folder;
+};
+
+TEST_F(OnScreen, AClickOnAJointInTheListMovesNoLine) {
+  open_rig();
+  const float x = width - 40;
+  constexpr float line = 6;
+  std::vector<int> found;
+  for (float y = height - 40; y > 0.3F * height; y -= line) {
+    bench.select_joint(-1);
+    frame();
+    click(x, y);
+    const int joint = bench.selected_joint();
+    if (joint < 0) continue;
+    click(x, y);
+    EXPECT_EQ(bench.selected_joint(), -1) << "the same place is no longer joint " << joint;
+    if (found.empty() || found.back() != joint) found.push_back(joint);
+    if (joint == 0) break;  // headers come next
+  }
+  EXPECT_EQ(found, (std::vector<int>{4, 3, 2, 1, 0}));
+}
+
+TEST_F(OnScreen, AnEmptyWindowSaysHowToFillIt) {
+  const auto words = [&] {
+    frame();
+    return ImGui::GetBackgroundDrawList()->VtxBuffer.size();
+  };
+  EXPECT_GT(words(), 0);
+  open_rig();
+  EXPECT_EQ(words(), 0);
+}
+
+TEST_F(OnScreen, ButtonsStandBesideEachOtherWhereTheyFit) {
+  for (const float wide : {60.0F, 130.0F, 200.0F, 400.0F}) {
+    std::vector<ImVec2> ends;
+    std::vector<float> tops;
+    float right = 0;
+    const auto draw = [&] {
+      ends.clear();
+      tops.clear();
+      ImGui::SetNextWindowSize({wide, 300});
+      ImGui::Begin("row");
+      right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+      for (const char* label : {"Prune", "Remove", "Merge", "Cut"}) {
+        if (!ends.empty()) beside_if_it_fits(label);
+        ImGui::Button(label);
+        ends.push_back(ImGui::GetItemRectMax());
+        tops.push_back(ImGui::GetItemRectMin().y);
+      }
+      ImGui::End();
+    };
+    for (int settles = 0; settles < 2; ++settles) frame(draw);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const bool is_beside = tops[i] == tops[i - 1];
+      if (is_beside) EXPECT_LE(ends[i].x, right) << wide;
+    }
+    if (wide >= 400) EXPECT_EQ(tops.back(), tops.front());
+  }
+}
+
+TEST_F(OnScreen, TheFileWindowIsAsLargeAsItsLetters) {
+  const auto size = [&](float scale) {
+    ImGui::GetIO().FontGlobalScale = scale;
+    FileBrowser browser;
+    browser.ask(FileBrowser::Purpose::open, "");
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    const ImVec2 found = ImGui::FindWindowByName("Open a surface or a skeleton")->SizeFull;
+    browser.close();
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    return found;
+  };
+  const ImVec2 usual = size(0.75F);
+  const ImVec2 twice = size(1.5F);
+  EXPECT_NEAR(twice.x, 2 * usual.x, 2);
+  EXPECT_NEAR(twice.y, 2 * usual.y, 2);
+}
+
+}  // namespace
+}  // namespace curveskel::viewer::panels_laws
