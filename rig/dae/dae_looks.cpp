@@ -78,8 +78,11 @@ class DaeLookReader {
     PrimitiveLayers layers{dae_layers(document_, shown.mesh, primitive, "TEXCOORD", {2, 2}),
                            dae_layers(document_, shown.mesh, primitive, "NORMAL", {3, 3}),
                            dae_layers(document_, shown.mesh, primitive, "COLOR", {3, 4}), -1};
-    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, layers.textures.size());
-    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, layers.colours.size());
+    const auto grow = [](std::vector<std::string>& sets, std::size_t count) {
+      sets.resize(std::max(sets.size(), count));
+    };
+    grow(made_.mesh.parts.back().texture_sets, layers.textures.size());
+    grow(made_.mesh.parts.back().colour_sets, layers.colours.size());
     layers.material = material_of(shown.instance, *primitive.element, layers.textures);
     return layers;
   }

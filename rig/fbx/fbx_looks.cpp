@@ -44,8 +44,8 @@ class FbxLookReader {
     const FbxRecord& geometry = mesh.geometry;
     const auto textures = layers(geometry, "LayerElementUV", "UV", "UVIndex", 2);
     const auto colours = layers(geometry, "LayerElementColor", "Colors", "ColorIndex", 4);
-    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, textures.size());
-    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, colours.size());
+    made_.mesh.parts.back().texture_sets = names_of(fbx_sets(geometry, "LayerElementUV"));
+    made_.mesh.parts.back().colour_sets = names_of(fbx_sets(geometry, "LayerElementColor"));
     const FbxLayer normals(file_, geometry.child("LayerElementNormal"), "Normals", "NormalsIndex",
                            3);
     const FbxLayer materials(file_, geometry.child("LayerElementMaterial"), "Materials", "", 1);
@@ -75,6 +75,15 @@ class FbxLookReader {
     }
   }
 
+  static std::vector<std::string> names_of(const std::vector<const FbxRecord*>& sets) {
+    std::vector<std::string> names;
+    for (const FbxRecord* set : sets) {
+      const FbxRecord* name = set->child("Name");
+      names.emplace_back(name == nullptr ? std::string_view() : name->text(0));
+    }
+    return names;
+  }
+
   /// Those with that name.
   [[nodiscard]] std::vector<FbxLayer> layers(const FbxRecord& geometry, std::string_view name,
                                              std::string_view values, std::string_view indices,
@@ -86,7 +95,6 @@ class FbxLookReader {
     return sets;
   }
 
-  /// Channels of one name are one, as a face's and its teeth's.
   void add_shapes(const FbxMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
     const Eigen::Index vertices = mesh.polygons.positions.rows();
     for (const FbxShape& shape : fbx_shapes(file_, scene_, mesh.geometry, vertices)) {
