@@ -149,9 +149,8 @@ class DaeLookReader {
       if (moves.rows() != base.rows()) continue;
       if (!is_relative) moves -= base;
       const std::string name(geometry->attribute("name", id));
-      const auto [entry, is_new] = shape_numbers_.try_emplace(name, made_.mesh.shapes.size());
-      if (is_new) made_.mesh.shapes.push_back({name, {}});
-      DressedShape& made = made_.mesh.shapes[entry->second];
+      made_.mesh.shapes.push_back({name, made_.mesh.parts.size() - 1, 0, {}});
+      DressedShape& made = made_.mesh.shapes.back();
       for (Eigen::Index v = 0; v < moves.rows(); ++v) {
         const Eigen::Vector3d move = moving[idx(v)] * moves.row(v).transpose();
         const bool is_move = move.allFinite() && !move.isZero(0);
@@ -168,7 +167,6 @@ class DaeLookReader {
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const XmlElement*, int> numbers_;  // of materials
-  std::map<std::string, std::size_t> shape_numbers_;
   Eigen::Index first_vertex_ = 0;  // of the mesh
 };
 

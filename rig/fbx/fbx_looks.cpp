@@ -98,9 +98,8 @@ class FbxLookReader {
   void add_shapes(const FbxMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
     const Eigen::Index vertices = mesh.polygons.positions.rows();
     for (const FbxShape& shape : fbx_shapes(file_, scene_, mesh.geometry, vertices)) {
-      const auto [entry, is_new] = shape_numbers_.try_emplace(shape.name, made_.mesh.shapes.size());
-      if (is_new) made_.mesh.shapes.push_back({shape.name, {}});
-      DressedShape& made = made_.mesh.shapes[entry->second];
+      made_.mesh.shapes.push_back({shape.name, made_.mesh.parts.size() - 1, shape.weight, {}});
+      DressedShape& made = made_.mesh.shapes.back();
       for (std::size_t k = 0; k < shape.vertices.size(); ++k) {
         const auto place =
             static_cast<std::int32_t>(first_vertex_) + static_cast<std::int32_t>(shape.vertices[k]);
@@ -135,8 +134,7 @@ class FbxLookReader {
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const FbxRecord*, int> numbers_;  // of materials
-  std::map<std::string, std::size_t> shape_numbers_;
-  Eigen::Index first_vertex_ = 0;  // of the mesh
+  Eigen::Index first_vertex_ = 0;            // of the mesh
 };
 
 }  // namespace

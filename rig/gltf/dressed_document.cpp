@@ -293,16 +293,14 @@ OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const
   return attributes;
 }
 
-/// The targets of the shapes that move a place of the part, which get names and sliders in it.
+/// The targets of the part's shapes, which get names and sliders in it.
 OrderedJson targets_of(GltfDocument& document, const DressedMesh& mesh, const PartRange& part,
                        const SplitMesh& split, OrderedJson& written) {
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {
-    const auto first = shape.moves.lower_bound(static_cast<std::int32_t>(part.first_place));
-    const bool is_elsewhere = first == shape.moves.end() || idx(first->first) >= part.end_place;
-    if (is_elsewhere && mesh.parts.size() > 1) continue;
+    if (shape.part != part.number) continue;
     targets.push_back({{"POSITION", add_shape(document, shape, split)}});
-    array_in(written, "weights").push_back(0);
+    array_in(written, "weights").push_back(shape.weight);
     written["extras"]["targetNames"].push_back(as_utf8(shape.name));
   }
   return targets;

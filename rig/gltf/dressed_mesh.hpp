@@ -36,6 +36,8 @@ using ColourRow = std::array<float, 4 * most_sets>;
 /// Moves of places, of which a slider applies a share.
 struct DressedShape {
   std::string name;
+  std::size_t part = 0;                           ///< the mesh that has it
+  double weight = 0;                              ///< the share that is applied at first
   std::map<std::int32_t, Eigen::Vector3d> moves;  ///< by place
 };
 
@@ -50,7 +52,7 @@ struct DressedPart {
 
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
 struct DressedMesh {
-  std::vector<double> places;  ///< x y z x y z ...
+  std::vector<double> places;  ///< x y z x y z ..., without the shapes
   std::vector<TextureRow> textures;
   std::vector<std::array<float, 3>> normals;
   std::vector<ColourRow> colours;

@@ -88,7 +88,8 @@ class FbxMeshes {
     for (const FbxRecord* morph : scene_.below(geometry, "Deformer", "BlendShape")) {
       for (const FbxRecord* channel : scene_.below(*morph, "Deformer", "BlendShapeChannel")) {
         const FbxRecord* percent = channel->child("DeformPercent");
-        const double weight = percent == nullptr ? 0 : percent->number(0, 0) / 100;
+        const double given = percent == nullptr ? 0 : percent->number(0, 0) / 100;
+        const double weight = std::isfinite(given) ? given : 0;
         const std::vector<const FbxRecord*> found = scene_.below(*channel, "Geometry");
         if (found.empty() || !wanted(weight)) continue;
         result.push_back({fbx_name(*channel), weight, {}, {}});
