@@ -83,7 +83,7 @@ class DaeLookReader {
     };
     grow(made_.mesh.parts.back().texture_sets, layers.textures.size());
     grow(made_.mesh.parts.back().colour_sets, layers.colours.size());
-    layers.material = material_of(shown.instance, *primitive.element, layers.textures);
+    layers.material = material_of(shown, *primitive.element, layers.textures);
     return layers;
   }
 
@@ -103,11 +103,11 @@ class DaeLookReader {
 
   /// The number in all of the file of the material to which the mesh's instance binds the
   /// primitive's symbol, else of that with this id; -1 = none.
-  int material_of(const XmlElement* instance, const XmlElement& primitive,
+  int material_of(const DaeShownMesh& shown, const XmlElement& primitive,
                   const std::vector<DaeLayer>& textures) {
     const std::string_view symbol = primitive.attribute("material");
     if (symbol.empty()) return -1;
-    const XmlElement* binding = binding_of(instance, symbol);
+    const XmlElement* binding = binding_of(shown, symbol);
     std::string_view id = binding == nullptr ? symbol : binding->attribute("target");
     if (id.starts_with('#')) id.remove_prefix(1);
     const XmlElement* material = document_.find(id);
@@ -123,14 +123,34 @@ class DaeLookReader {
     return entry->second;
   }
 
-  static const XmlElement* binding_of(const XmlElement* instance, std::string_view symbol) {
-    const XmlElement* bound = instance == nullptr ? nullptr : instance->child("bind_material");
+  /// Blender binds another instance's symbols where instances of a mesh have other materials than
+  /// the first: then the order tells.
+  static const XmlElement* binding_of(const DaeShownMesh& shown, std::string_view symbol) {
+    const XmlElement* bound =
+        shown.instance == nullptr ? nullptr : shown.instance->child("bind_material");
     const XmlElement* common = bound == nullptr ? nullptr : bound->child("technique_common");
     if (common == nullptr) return nullptr;
-    for (const XmlElement* one : common->all("instance_material")) {
-      if (one->attribute("symbol") == symbol) return one;
+    const std::vector<const XmlElement*> bindings = common->all("instance_material");
+    const std::vector<std::string_view> symbols = symbols_of(shown.mesh);
+    bool is_any_named = false;
+    for (const XmlElement* one : bindings) {
+      const std::string_view named = one->attribute("symbol");
+      if (named == symbol) return one;
+      is_any_named = is_any_named || std::ranges::find(symbols, named) != symbols.end();
     }
-    return nullptr;
+    if (is_any_named || bindings.size() != symbols.size()) return nullptr;
+    return bindings[idx(std::ranges::find(symbols, symbol) - symbols.begin())];
+  }
+
+  /// Of its polygons' materials, each once.
+  static std::vector<std::string_view> symbols_of(const DaeMesh& mesh) {
+    std::vector<std::string_view> symbols;
+    for (const DaePrimitive& primitive : mesh.primitives) {
+      const std::string_view symbol = primitive.element->attribute("material");
+      const bool is_new = !symbol.empty() && std::ranges::find(symbols, symbol) == symbols.end();
+      if (is_new) symbols.push_back(symbol);
+    }
+    return symbols;
   }
 
   /// The targets of a morph, in full; those of one name are one, as a face's and its teeth's.
