@@ -63,20 +63,19 @@ struct RigArguments {
   std::string report;  ///< empty = none
 };
 
-/// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
-void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
-                     Session& session) {
+/// VRM's figures look along z, their arms held out.
+void warn_of_posture(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up, Session& session) {
   if (plan.plan != BodyKind::humanoid) return;
-  const double ahead =
-      soup.z_is_up ? -plan.axes(2, 1) : (to_y_up * plan.axes.row(2).transpose()).z();
+  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
   const auto place = [&](const char* role) -> Eigen::RowVector3d {
     const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
                                     [&](const PlannedJoint& joint) { return joint.role == role; });
     return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
   };
-  const Eigen::RowVector3d arm = place("leftHand") - place("leftUpperArm");
+  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
   constexpr double held_out = 0.94;  // cos of 20 degrees
-  if (ahead < 1) {
+  constexpr double along = 0.99;     // up to rounding: plans have the file's axes
+  if (ahead < along) {
     session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
   } else if (arm.x() < held_out * arm.norm()) {
     session.terminal.warn(
@@ -228,7 +227,7 @@ int run_rig(RigArguments arguments, Session& session) {
   const Surface given{soup.positions, triangulate(soup)};
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
     if (arguments.pose == RestPose::input) {
-      warn_of_posture(soup, plan, found.character.rig.to_y_up, session);
+      warn_of_posture(plan, found.character.rig.to_y_up, session);
     }
   }
   const Rig written = rig_for_export(

@@ -42,6 +42,9 @@ struct PolygonSoup {
   /// no polygons.
   std::int64_t unplaced_vertices = 0;
   std::int64_t unplaced_polygons = 0;  ///< of the file, dropped as such a vertex is a corner
+  /// From its coordinates to glTF's (y up, z ahead, metres), by the axes and the unit that the file
+  /// states (FBX, COLLADA): a turn and a scale. Else nothing is known.
+  Eigen::Matrix3d to_gltf = Eigen::Matrix3d::Identity();
 };
 
 /// The triangles as polygons, of no file.

@@ -25,6 +25,7 @@ PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor) {
   });
   PolygonSoup soup = meshes.soup(SurfaceFormat::dae);
   soup.z_is_up = has_z_up(document);
+  soup.to_gltf = dae_to_gltf(document).linear();
   return soup;
 }
 

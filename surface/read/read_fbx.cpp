@@ -23,6 +23,7 @@ PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor) {
                     [&](const FbxMesh& mesh) { meshes.add(mesh.polygons, mesh.frame, mesh.skin); });
   PolygonSoup soup = meshes.soup(SurfaceFormat::fbx);
   soup.z_is_up = fbx_has_z_up(root);
+  soup.to_gltf = fbx_to_gltf(root).linear();
   return soup;
 }
 

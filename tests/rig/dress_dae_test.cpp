@@ -539,12 +539,18 @@ TEST_F(DressDae, TheSceneIsInMetresWithYUp) {
     const auto edited =
         format_rig_into(path, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"});
     ASSERT_TRUE(edited);
+    Rig stated = rig;  // as `rig_polygons` makes it of the soup
+    stated.to_y_up = given.to_gltf;
+    EXPECT_EQ(
+        format_rig_into(path, stated, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes,
+        edited->bytes);
     const fs::path made = folder_.write("made.glb", edited->bytes);
     const Eigen::Matrix3d axes =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(frame.axes.data());
     const auto in_scene = [&](const Positions& places) -> Positions {
       return frame.scale * places * axes.transpose();
     };
+    EXPECT_LT((given.to_gltf - frame.scale * axes).norm(), 1e-15);
     EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(),
               1e-5 * frame.scale);
     EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * frame.scale);

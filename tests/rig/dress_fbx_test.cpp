@@ -440,11 +440,17 @@ TEST_F(DressFbx, TheSceneIsInMetresWithYUp) {
     const auto edited =
         format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"});
     ASSERT_TRUE(edited);
+    Rig stated = rig;  // as `rig_polygons` makes it of the soup
+    stated.to_y_up = given.to_gltf;
+    EXPECT_EQ(
+        format_rig_into(file, stated, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes,
+        edited->bytes);
     const fs::path made = folder_.write("made.glb", edited->bytes);
     const double scale = frame.unit > 0 ? frame.unit / 100 : 1;
     const auto in_scene = [&](const Positions& places) -> Positions {
       return scale * places * frame.axes.transpose();
     };
+    EXPECT_LT((given.to_gltf - scale * frame.axes).norm(), 1e-15);
     EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(), 1e-5 * scale);
     EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * scale);
     const Glb glb = glb_of(edited->bytes);

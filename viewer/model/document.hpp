@@ -22,12 +22,13 @@ struct Document {
   std::filesystem::path skeleton_file;  ///< empty = none was opened
   /// As read; empty where its polygons are the surface's triangles, and without a mesh.
   std::shared_ptr<const PolygonSoup> soup;
-  SurfaceFormat format = SurfaceFormat::obj;  ///< of the mesh's file
-  bool faces_minus_z = false;                 ///< as in PolygonSoup
-  bool z_is_up = false;                       ///< likewise
-  Surface surface;                            ///< the file's triangles, nothing repaired
-  std::shared_ptr<const Rig> rig;             ///< in the mesh's file; null without one
-  std::optional<CurveSkeleton> skeleton;      ///< node_of_vertex by the file's vertices, or empty
+  SurfaceFormat format = SurfaceFormat::obj;              ///< of the mesh's file
+  bool faces_minus_z = false;                             ///< as in PolygonSoup
+  bool z_is_up = false;                                   ///< likewise
+  Eigen::Matrix3d to_gltf = Eigen::Matrix3d::Identity();  ///< likewise
+  Surface surface;                        ///< the file's triangles, nothing repaired
+  std::shared_ptr<const Rig> rig;         ///< in the mesh's file; null without one
+  std::optional<CurveSkeleton> skeleton;  ///< node_of_vertex by the file's vertices, or empty
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();  ///< of the drawn positions
 
   [[nodiscard]] bool has_surface() const { return surface.positions.rows() > 0; }
