@@ -45,7 +45,8 @@ struct RigArguments {
   bool bare = false;
   bool keep_rig = false;
   bool as_shown = false;
-  std::string joints;  ///< empty = made
+  bool as_bound = true;  ///< follows from the others
+  std::string joints;    ///< empty = made
   VrmMeta vrm;
   RestPose pose = RestPose::input;
   bool ground_root = false;
@@ -115,15 +116,22 @@ void warn_of_bind_pose(const RigArguments& arguments, const PolygonSoup& bound,
                   100 * share));
 }
 
+/// Joints of the file's own are as it shows them, and the surface with them.
+bool reads_as_bound(const RigArguments& arguments) {
+  std::error_code ignored;
+  const bool has_own_joints =
+      !arguments.joints.empty() && fs::equivalent(arguments.joints, arguments.mesh, ignored);
+  return !arguments.bare && !arguments.keep_rig && !arguments.as_shown && !has_own_joints;
+}
+
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
   if (!arguments.bare) {
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
     warn_of_looks(arguments, session);
   }
-  const bool as_bound = !arguments.bare && !arguments.keep_rig && !arguments.as_shown;
-  PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
-  if (as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
+  PolygonSoup soup = read_polygons(arguments.mesh, monitor, {arguments.as_bound});
+  if (arguments.as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
   return soup;
 }
 
@@ -141,7 +149,7 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     if (!arguments.bare) {
       edited = format_rig_into(arguments.mesh, rig,
                                {formats[i], old_rig_in(arguments), name.string() + " rig",
-                                program_and_version(), arguments.vrm, !arguments.as_shown},
+                                program_and_version(), arguments.vrm, arguments.as_bound},
                                monitor);
     }
     if (!edited) {
@@ -201,6 +209,7 @@ int run_rig(RigArguments arguments, Session& session) {
 
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
+  arguments.as_bound = reads_as_bound(arguments);
   const PolygonSoup soup = read_to_rig(arguments, monitor, session);
   std::optional<Rig> old_rig;
   if (arguments.keep_rig &&
@@ -295,8 +304,8 @@ Verb add_rig(CLI::App& program) {
                        "make no joints, but weights for those that the glTF, FBX or DAE file has");
   parser
       ->add_flag("--as-shown", arguments->as_shown,
-                 "rig a glTF file whose old joints rest in another pose than they were bound in as "
-                 "viewers show it; its vertices are written anew")
+                 "rig a glTF, FBX or DAE file whose old joints rest in another pose than they were "
+                 "bound in as viewers show it; its vertices are written anew")
       ->excludes(keep);
   CLI::Option* given =
       parser

@@ -11,6 +11,7 @@
 #include "rig/dae/dae_look_materials.hpp"
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
+#include "surface/read/dae_morph.hpp"
 #include "surface/read/dae_scene.hpp"
 
 namespace curveskel {
@@ -34,8 +35,9 @@ class DaeLookReader {
         monitor_(monitor),
         meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read() {
-    for_each_dae_mesh(document_, monitor_, [this](const DaeShownMesh& shown) { add(shown); });
+  std::optional<DressedFile> read(bool as_bound) {
+    for_each_dae_mesh(document_, monitor_, as_bound,
+                      [this](const DaeShownMesh& shown) { add(shown); });
     made_.mesh.to_gltf = dae_to_gltf(document_);
     if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::dae));
@@ -49,7 +51,7 @@ class DaeLookReader {
         vertex_maps(shown.skin, shown.frame, static_cast<std::size_t>(polygons.positions.rows()));
     made_.mesh.parts.push_back({std::string(shown.name), static_cast<std::size_t>(first_vertex_),
                                 made_.mesh.material_of_face.size()});
-    if (shown.morph != nullptr) add_shapes(*shown.morph, polygons.positions, moving);
+    if (shown.morph != nullptr) add_shapes(*shown.morph, shown.base, moving);
     first_vertex_ += polygons.positions.rows();
     meshes_.add(polygons, shown.frame, shown.skin);
     rows_.begin_mesh();
@@ -153,26 +155,13 @@ class DaeLookReader {
     return symbols;
   }
 
-  /// The targets of a morph, in full; those of one name are one, as a face's and its teeth's.
-  void add_shapes(const XmlElement& morph, const Positions& base,
+  void add_shapes(const XmlElement& morph, const DaeMesh& base,
                   const std::vector<Eigen::Matrix3d>& moving) {
-    const XmlElement* targets = morph.child("targets");
-    const XmlElement* source =
-        targets == nullptr ? nullptr : document_.input(*targets, "MORPH_TARGET").source;
-    if (source == nullptr) return;
-    bool are_ids = false;
-    const bool is_relative = morph.attribute("method") == "RELATIVE";
-    for (const std::string& id : document_.names(*source, "morph targets", are_ids)) {
-      const XmlElement* geometry = document_.find(id);
-      if (geometry == nullptr || geometry->name != "geometry") continue;
-      Positions moves = read_dae_mesh(document_, *geometry).polygons.positions;
-      if (moves.rows() != base.rows()) continue;
-      if (!is_relative) moves -= base;
-      const std::string name(geometry->attribute("name", id));
-      made_.mesh.shapes.push_back({name, made_.mesh.parts.size() - 1, 0, {}});
+    for (const DaeShape& shape : dae_shapes(document_, morph, base)) {
+      made_.mesh.shapes.push_back({shape.name, made_.mesh.parts.size() - 1, shape.weight, {}});
       DressedShape& made = made_.mesh.shapes.back();
-      for (Eigen::Index v = 0; v < moves.rows(); ++v) {
-        const Eigen::Vector3d move = moving[idx(v)] * moves.row(v).transpose();
+      for (Eigen::Index v = 0; v < shape.moves.rows(); ++v) {
+        const Eigen::Vector3d move = moving[idx(v)] * shape.moves.row(v).transpose();
         const bool is_move = move.allFinite() && !move.isZero(0);
         if (is_move) made.moves[static_cast<std::int32_t>(first_vertex_ + v)] = move;
       }
@@ -187,15 +176,15 @@ class DaeLookReader {
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const XmlElement*, int> numbers_;  // of materials
-  Eigen::Index first_vertex_ = 0;  // of the mesh
+  Eigen::Index first_vertex_ = 0;             // of the mesh
 };
 
 }  // namespace
 
-std::optional<DressedFile> read_dae_looks(const FileBytes& file, std::vector<std::string>& notes,
-                                          const Monitor& monitor) {
+std::optional<DressedFile> read_dae_looks(const FileBytes& file, bool as_bound,
+                                          std::vector<std::string>& notes, const Monitor& monitor) {
   const XmlElement root = parse_dae(file);
-  return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read();
+  return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read(as_bound);
 }
 
 }  // namespace curveskel

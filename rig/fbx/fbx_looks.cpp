@@ -24,8 +24,8 @@ class FbxLookReader {
                 const Monitor& monitor)
       : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read() {
-    for_each_fbx_mesh(file_, scene_, [this](const FbxMesh& mesh) { add(mesh); });
+  std::optional<DressedFile> read(bool as_bound) {
+    for_each_fbx_mesh(file_, scene_, as_bound, [this](const FbxMesh& mesh) { add(mesh); });
     made_.mesh.to_gltf = fbx_to_gltf(root_);
     if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::fbx));
@@ -139,11 +139,12 @@ class FbxLookReader {
 
 }  // namespace
 
-std::optional<DressedFile> read_fbx_looks(const FileBytes& file, const Monitor& monitor) {
+std::optional<DressedFile> read_fbx_looks(const FileBytes& file, bool as_bound,
+                                          const Monitor& monitor) {
   const FbxRecord root = parse_fbx(file);
   require_fbx_version(file, root);
   const FbxScene scene(file, root);
-  return FbxLookReader(file, root, scene, monitor).read();
+  return FbxLookReader(file, root, scene, monitor).read(as_bound);
 }
 
 }  // namespace curveskel

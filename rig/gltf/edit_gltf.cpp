@@ -191,7 +191,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
-  auto dressed = read_dressed_file(file, edited.notes, monitor);
+  auto dressed = read_dressed_file(file, options.as_bound, edited.notes, monitor);
   if (!dressed) return std::nullopt;
   const auto format = surface_format_of(file);
   const bool states_axes = format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
