@@ -230,8 +230,12 @@ TEST_F(DaeBindings, BindingsOfSymbolsThatAreNotThereCountInTheirOrder) {
       for (int face = 3 * half; face < 3 * half + 3; ++face) {
         indices += indices_of(face, {0, 1, 2, 3});
       }
-      file.polygons += "<polylist material=\"" + std::string(half == 0 ? "a-id" : "b-id") + "\"" +
-                       plain + "<vcount>4 4 4</vcount><p>" + indices + "</p></polylist>";
+      file.polygons += "<polylist material=\"";
+      file.polygons += half == 0 ? "a-id\"" : "b-id\"";
+      file.polygons += plain;
+      file.polygons += "<vcount>4 4 4</vcount><p>";
+      file.polygons += indices;
+      file.polygons += "</p></polylist>";
     }
     file.binding = bindings(symbols);
     const Glb glb = glb_of(dressed(written(file)).bytes);

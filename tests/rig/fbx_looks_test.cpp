@@ -59,8 +59,8 @@ const std::string blender = "Blender (stable FBX IO)";
 /// Face f has material f mod `count`.
 FbxItem box_of_materials(int count) {
   FbxItem box = encodings::fbx_box();
-  std::vector<int> numbers;
-  for (int face = 0; face < 6; ++face) numbers.push_back(face % count);
+  std::vector<int> numbers(6);
+  for (int face = 0; face < 6; ++face) numbers[idx(face)] = face % count;
   box.children.push_back({"LayerElementMaterial",
                           {0},
                           {{"MappingInformationType", {"ByPolygon"}},
