@@ -30,11 +30,11 @@ void require(bool holds) {
 
 [[maybe_unused]] std::optional<DressedMesh> read_dae_look(const FileBytes& file) {
   std::vector<std::string> notes;
-  return mesh_of(read_dae_looks(file, notes, {}));
+  return mesh_of(read_dae_looks(file, true, notes, {}));
 }
 
 [[maybe_unused]] std::optional<DressedMesh> read_fbx_look(const FileBytes& file) {
-  return mesh_of(read_fbx_looks(file, {}));
+  return mesh_of(read_fbx_looks(file, true, {}));
 }
 
 [[maybe_unused]] std::optional<DressedMesh> read_obj_look(const FileBytes& file) {
@@ -48,7 +48,10 @@ void require(bool holds) {
 void check(const DressedMesh& mesh) {
   const std::size_t places = mesh.places.size() / 3;
   require(mesh.places.size() % 3 == 0);
-  require(mesh.texture_sets <= most_sets && mesh.colour_sets <= most_sets);
+  for (const DressedPart& part : mesh.parts) {
+    require(part.texture_sets.size() <= most_sets && part.colour_sets.size() <= most_sets);
+  }
+  for (const DressedShape& shape : mesh.shapes) require(shape.part < mesh.parts.size());
   require(mesh.offsets.front() == 0);
   require(mesh.offsets.back() == static_cast<std::int64_t>(mesh.corners.size()));
   require(mesh.material_of_face.size() + 1 == mesh.offsets.size());

@@ -45,7 +45,8 @@ struct RigArguments {
   bool bare = false;
   bool keep_rig = false;
   bool as_shown = false;
-  std::string joints;  ///< empty = made
+  bool as_bound = true;  ///< follows from the others
+  std::string joints;    ///< empty = made
   VrmMeta vrm;
   RestPose pose = RestPose::input;
   bool ground_root = false;
@@ -63,20 +64,19 @@ struct RigArguments {
   std::string report;  ///< empty = none
 };
 
-/// VRM's figures look along z, their arms held out. FBX and COLLADA are turned until y is up.
-void warn_of_posture(const PolygonSoup& soup, const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
-                     Session& session) {
+/// VRM's figures look along z, their arms held out.
+void warn_of_posture(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up, Session& session) {
   if (plan.plan != BodyKind::humanoid) return;
-  const double ahead =
-      soup.z_is_up ? -plan.axes(2, 1) : (to_y_up * plan.axes.row(2).transpose()).z();
+  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
   const auto place = [&](const char* role) -> Eigen::RowVector3d {
     const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
                                     [&](const PlannedJoint& joint) { return joint.role == role; });
     return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
   };
-  const Eigen::RowVector3d arm = place("leftHand") - place("leftUpperArm");
+  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
   constexpr double held_out = 0.94;  // cos of 20 degrees
-  if (ahead < 1) {
+  constexpr double along = 0.99;     // up to rounding: plans have the file's axes
+  if (ahead < along) {
     session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
   } else if (arm.x() < held_out * arm.norm()) {
     session.terminal.warn(
@@ -116,15 +116,22 @@ void warn_of_bind_pose(const RigArguments& arguments, const PolygonSoup& bound,
                   100 * share));
 }
 
+/// Joints of the file's own are as it shows them, and the surface with them.
+bool reads_as_bound(const RigArguments& arguments) {
+  std::error_code ignored;
+  const bool has_own_joints =
+      !arguments.joints.empty() && fs::equivalent(arguments.joints, arguments.mesh, ignored);
+  return !arguments.bare && !arguments.keep_rig && !arguments.as_shown && !has_own_joints;
+}
+
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
   if (!arguments.bare) {
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
     warn_of_looks(arguments, session);
   }
-  const bool as_bound = !arguments.bare && !arguments.keep_rig && !arguments.as_shown;
-  PolygonSoup soup = read_polygons(arguments.mesh, monitor, {as_bound});
-  if (as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
+  PolygonSoup soup = read_polygons(arguments.mesh, monitor, {arguments.as_bound});
+  if (arguments.as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
   return soup;
 }
 
@@ -142,7 +149,7 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     if (!arguments.bare) {
       edited = format_rig_into(arguments.mesh, rig,
                                {formats[i], old_rig_in(arguments), name.string() + " rig",
-                                program_and_version(), arguments.vrm, !arguments.as_shown},
+                                program_and_version(), arguments.vrm, arguments.as_bound},
                                monitor);
     }
     if (!edited) {
@@ -202,6 +209,7 @@ int run_rig(RigArguments arguments, Session& session) {
 
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
+  arguments.as_bound = reads_as_bound(arguments);
   const PolygonSoup soup = read_to_rig(arguments, monitor, session);
   std::optional<Rig> old_rig;
   if (arguments.keep_rig &&
@@ -228,7 +236,7 @@ int run_rig(RigArguments arguments, Session& session) {
   const Surface given{soup.positions, triangulate(soup)};
   if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
     if (arguments.pose == RestPose::input) {
-      warn_of_posture(soup, plan, found.character.rig.to_y_up, session);
+      warn_of_posture(plan, found.character.rig.to_y_up, session);
     }
   }
   const Rig written = rig_for_export(
@@ -296,8 +304,8 @@ Verb add_rig(CLI::App& program) {
                        "make no joints, but weights for those that the glTF, FBX or DAE file has");
   parser
       ->add_flag("--as-shown", arguments->as_shown,
-                 "rig a glTF file whose old joints rest in another pose than they were bound in as "
-                 "viewers show it; its vertices are written anew")
+                 "rig a glTF, FBX or DAE file whose old joints rest in another pose than they were "
+                 "bound in as viewers show it; its vertices are written anew")
       ->excludes(keep);
   CLI::Option* given =
       parser

@@ -36,20 +36,24 @@ struct PolygonSoup {
   SurfaceFormat format = SurfaceFormat::obj;
   bool faces_minus_z = false;  ///< figures look along -z, as in VRM 0.x; else nothing is known
   bool z_is_up = false;        ///< the file says so (FBX, COLLADA); else nothing is known
-  bool posed = false;          ///< glTF: joints bend it away from the pose in which they were bound
+  bool posed = false;          ///< joints bend it away from the pose in which they were bound
   std::filesystem::path file;  ///< where it comes from, for messages; may be empty
   /// Vertices of the file with NaN or infinity: they have their rows, at the place of another, and
   /// no polygons.
   std::int64_t unplaced_vertices = 0;
   std::int64_t unplaced_polygons = 0;  ///< of the file, dropped as such a vertex is a corner
+  /// From its coordinates to glTF's (y up, z ahead, metres), by the axes and the unit that the file
+  /// states (FBX, COLLADA): a turn and a scale. Else nothing is known.
+  Eigen::Matrix3d to_gltf = Eigen::Matrix3d::Identity();
 };
 
 /// The triangles as polygons, of no file.
 [[nodiscard]] PolygonSoup soup_of(const Surface& surface);
 
 struct ReadOptions {
-  /// glTF whose joints rest in another pose than they were bound in: all skinned meshes as they
-  /// were bound, where the topmost joint takes them, instead of as they rest.
+  /// glTF, FBX and COLLADA whose joints rest in another pose than they were bound in: all skinned
+  /// meshes as they were bound, of glTF where the topmost joint takes them, instead of as they
+  /// rest; of FBX and COLLADA, meshes that hang from a joint go with it.
   bool as_bound = false;
 };
 

@@ -30,7 +30,8 @@ struct Rig {
   /// Empty where they are not.
   std::vector<std::string> readable = {};
   /// From the surface's coordinates to those with y up, as glTF, USD and FBX files have them: a
-  /// turn. Formats that have joints alone keep the surface's.
+  /// turn, and a scale to metres where the input states its unit. Formats that have joints alone
+  /// keep the surface's.
   Eigen::Matrix3d to_y_up = Eigen::Matrix3d::Identity();
 };
 

@@ -67,9 +67,9 @@ struct EditOptions {
   std::string name;        ///< of the node that holds all joints
   std::string provenance;  ///< `asset.extras.rigged_by`; the generator of what was no glTF
   VrmMeta vrm = {};
-  /// glTF whose old joints rest in another pose than they were bound in: the new rig rests as the
-  /// old one was bound, where the file's numbers stay as they are; false = as the file is shown,
-  /// for which positions, normals and tangents are written anew.
+  /// glTF, FBX and COLLADA whose old joints rest in another pose than they were bound in: the new
+  /// rig rests as the old one was bound, where the file's numbers stay as they are; false = as the
+  /// file is shown, for which positions, normals and tangents are written anew.
   bool as_bound = true;
 };
 

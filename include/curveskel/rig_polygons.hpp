@@ -27,6 +27,13 @@ struct RigSources {
 [[nodiscard]] bool made_of_tubes_but_for_sheets(const Certificate& certificate,
                                                 const RepairedSurface& body);
 
+/// For `Rig::to_y_up`. Of formats that state their axes, and FBX and COLLADA their unit, it is
+/// `stated` (`PolygonSoup::to_gltf`). Of others a turn, and none where neither the plan nor `asked`
+/// tells which way is up; of z up, as Blender and scanners have it, z ahead is -y there.
+[[nodiscard]] Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated,
+                                           const BodyPlan& plan,
+                                           Direction asked = Direction::automatic);
+
 struct RigPolygonsOptions {
   RepairOptions repair = repair_for_rigs();
   ExtractOptions extract;

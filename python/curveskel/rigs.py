@@ -76,8 +76,8 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress
     mesh: as of `extract`; a path lets `Rig.save` edit the file itself.
     skeleton: rig this one, a Skeleton of the same surface or a path, instead of extracting one.
     joints: a path to a rig: its joints get new weights, and no others are made.
-    as_shown: a glTF file whose old joints rest in another pose than they were bound in is rigged
-        as viewers show it, not as it was bound.
+    as_shown: a glTF, FBX or COLLADA file whose old joints rest in another pose than they were bound
+        in is rigged as viewers show it, not as it was bound; so it is with joints of its own.
     threads, progress: as of `extract`.
     options: the program's, with _ for -: bone_length, components, detail, ends (False for
         --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
@@ -91,6 +91,9 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress
         skeleton = read(skeleton)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
+    is_path = isinstance(mesh, (str, os.PathLike))
+    if is_path and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
+        as_shown = as_shown or os.path.samefile(mesh, joints)
     with shown(progress) as callback:
         soup = soup_of(mesh, callback, as_bound=not as_shown)
         return Rig(_core.rig(soup, not as_shown, None if skeleton is None else skeleton._graph,

@@ -75,7 +75,7 @@ class DaeMaterialReader {
     look.normals = normal_map(technique);
     look.opacity = opacity();
     const auto cutout = picture_in(shader_->child("transparent"));
-    look.base_has_alpha = look.base && cutout && cutout->path == look.base->path;
+    look.base_has_alpha = look.base && cutout && cutout->is_same_picture(*look.base);
     const double shine = first_number(shader_->child("shininess")).value_or(0);
     look.roughness = 1 - std::sqrt(std::max(shine, 0.0)) / 10;
     const XmlElement* sides = descendant(*effect_, "double_sided");

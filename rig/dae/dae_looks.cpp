@@ -11,6 +11,7 @@
 #include "rig/dae/dae_look_materials.hpp"
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
+#include "surface/read/dae_morph.hpp"
 #include "surface/read/dae_scene.hpp"
 
 namespace curveskel {
@@ -34,8 +35,9 @@ class DaeLookReader {
         monitor_(monitor),
         meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read() {
-    for_each_dae_mesh(document_, monitor_, [this](const DaeShownMesh& shown) { add(shown); });
+  std::optional<DressedFile> read(bool as_bound) {
+    for_each_dae_mesh(document_, monitor_, as_bound,
+                      [this](const DaeShownMesh& shown) { add(shown); });
     made_.mesh.to_gltf = dae_to_gltf(document_);
     if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::dae));
@@ -49,7 +51,7 @@ class DaeLookReader {
         vertex_maps(shown.skin, shown.frame, static_cast<std::size_t>(polygons.positions.rows()));
     made_.mesh.parts.push_back({std::string(shown.name), static_cast<std::size_t>(first_vertex_),
                                 made_.mesh.material_of_face.size()});
-    if (shown.morph != nullptr) add_shapes(*shown.morph, polygons.positions, moving);
+    if (shown.morph != nullptr) add_shapes(*shown.morph, shown.base, moving);
     first_vertex_ += polygons.positions.rows();
     meshes_.add(polygons, shown.frame, shown.skin);
     rows_.begin_mesh();
@@ -78,9 +80,12 @@ class DaeLookReader {
     PrimitiveLayers layers{dae_layers(document_, shown.mesh, primitive, "TEXCOORD", {2, 2}),
                            dae_layers(document_, shown.mesh, primitive, "NORMAL", {3, 3}),
                            dae_layers(document_, shown.mesh, primitive, "COLOR", {3, 4}), -1};
-    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, layers.textures.size());
-    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, layers.colours.size());
-    layers.material = material_of(shown.instance, *primitive.element, layers.textures);
+    const auto grow = [](std::vector<std::string>& sets, std::size_t count) {
+      sets.resize(std::max(sets.size(), count));
+    };
+    grow(made_.mesh.parts.back().texture_sets, layers.textures.size());
+    grow(made_.mesh.parts.back().colour_sets, layers.colours.size());
+    layers.material = material_of(shown, *primitive.element, layers.textures);
     return layers;
   }
 
@@ -100,11 +105,11 @@ class DaeLookReader {
 
   /// The number in all of the file of the material to which the mesh's instance binds the
   /// primitive's symbol, else of that with this id; -1 = none.
-  int material_of(const XmlElement* instance, const XmlElement& primitive,
+  int material_of(const DaeShownMesh& shown, const XmlElement& primitive,
                   const std::vector<DaeLayer>& textures) {
     const std::string_view symbol = primitive.attribute("material");
     if (symbol.empty()) return -1;
-    const XmlElement* binding = binding_of(instance, symbol);
+    const XmlElement* binding = binding_of(shown, symbol);
     std::string_view id = binding == nullptr ? symbol : binding->attribute("target");
     if (id.starts_with('#')) id.remove_prefix(1);
     const XmlElement* material = document_.find(id);
@@ -120,37 +125,43 @@ class DaeLookReader {
     return entry->second;
   }
 
-  static const XmlElement* binding_of(const XmlElement* instance, std::string_view symbol) {
-    const XmlElement* bound = instance == nullptr ? nullptr : instance->child("bind_material");
+  /// Blender binds another instance's symbols where instances of a mesh have other materials than
+  /// the first: then the order tells.
+  static const XmlElement* binding_of(const DaeShownMesh& shown, std::string_view symbol) {
+    const XmlElement* bound =
+        shown.instance == nullptr ? nullptr : shown.instance->child("bind_material");
     const XmlElement* common = bound == nullptr ? nullptr : bound->child("technique_common");
     if (common == nullptr) return nullptr;
-    for (const XmlElement* one : common->all("instance_material")) {
-      if (one->attribute("symbol") == symbol) return one;
+    const std::vector<const XmlElement*> bindings = common->all("instance_material");
+    const std::vector<std::string_view> symbols = symbols_of(shown.mesh);
+    bool is_any_named = false;
+    for (const XmlElement* one : bindings) {
+      const std::string_view named = one->attribute("symbol");
+      if (named == symbol) return one;
+      is_any_named = is_any_named || std::ranges::find(symbols, named) != symbols.end();
     }
-    return nullptr;
+    if (is_any_named || bindings.size() != symbols.size()) return nullptr;
+    return bindings[idx(std::ranges::find(symbols, symbol) - symbols.begin())];
   }
 
-  /// The targets of a morph, in full; those of one name are one, as a face's and its teeth's.
-  void add_shapes(const XmlElement& morph, const Positions& base,
+  /// Of its polygons' materials, each once.
+  static std::vector<std::string_view> symbols_of(const DaeMesh& mesh) {
+    std::vector<std::string_view> symbols;
+    for (const DaePrimitive& primitive : mesh.primitives) {
+      const std::string_view symbol = primitive.element->attribute("material");
+      const bool is_new = !symbol.empty() && std::ranges::find(symbols, symbol) == symbols.end();
+      if (is_new) symbols.push_back(symbol);
+    }
+    return symbols;
+  }
+
+  void add_shapes(const XmlElement& morph, const DaeMesh& base,
                   const std::vector<Eigen::Matrix3d>& moving) {
-    const XmlElement* targets = morph.child("targets");
-    const XmlElement* source =
-        targets == nullptr ? nullptr : document_.input(*targets, "MORPH_TARGET").source;
-    if (source == nullptr) return;
-    bool are_ids = false;
-    const bool is_relative = morph.attribute("method") == "RELATIVE";
-    for (const std::string& id : document_.names(*source, "morph targets", are_ids)) {
-      const XmlElement* geometry = document_.find(id);
-      if (geometry == nullptr || geometry->name != "geometry") continue;
-      Positions moves = read_dae_mesh(document_, *geometry).polygons.positions;
-      if (moves.rows() != base.rows()) continue;
-      if (!is_relative) moves -= base;
-      const std::string name(geometry->attribute("name", id));
-      const auto [entry, is_new] = shape_numbers_.try_emplace(name, made_.mesh.shapes.size());
-      if (is_new) made_.mesh.shapes.push_back({name, {}});
-      DressedShape& made = made_.mesh.shapes[entry->second];
-      for (Eigen::Index v = 0; v < moves.rows(); ++v) {
-        const Eigen::Vector3d move = moving[idx(v)] * moves.row(v).transpose();
+    for (const DaeShape& shape : dae_shapes(document_, morph, base)) {
+      made_.mesh.shapes.push_back({shape.name, made_.mesh.parts.size() - 1, shape.weight, {}});
+      DressedShape& made = made_.mesh.shapes.back();
+      for (Eigen::Index v = 0; v < shape.moves.rows(); ++v) {
+        const Eigen::Vector3d move = moving[idx(v)] * shape.moves.row(v).transpose();
         const bool is_move = move.allFinite() && !move.isZero(0);
         if (is_move) made.moves[static_cast<std::int32_t>(first_vertex_ + v)] = move;
       }
@@ -165,16 +176,15 @@ class DaeLookReader {
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const XmlElement*, int> numbers_;  // of materials
-  std::map<std::string, std::size_t> shape_numbers_;
-  Eigen::Index first_vertex_ = 0;  // of the mesh
+  Eigen::Index first_vertex_ = 0;             // of the mesh
 };
 
 }  // namespace
 
-std::optional<DressedFile> read_dae_looks(const FileBytes& file, std::vector<std::string>& notes,
-                                          const Monitor& monitor) {
+std::optional<DressedFile> read_dae_looks(const FileBytes& file, bool as_bound,
+                                          std::vector<std::string>& notes, const Monitor& monitor) {
   const XmlElement root = parse_dae(file);
-  return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read();
+  return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read(as_bound);
 }
 
 }  // namespace curveskel

@@ -16,9 +16,9 @@ namespace curveskel {
 /// colour and picture, emission, opacity, roughness from the shininess as of FBX, the map of
 /// normals of FCOLLADA's extension, and whether it has two sides. Pictures are sought where the
 /// file names them, beside it, and in "textures", "images" and a folder with the file's name.
-/// `notes` has a line for each map of bumps, which is left out. Throws
-/// Error(Fault::input) with the line.
-[[nodiscard]] std::optional<DressedFile> read_dae_looks(const FileBytes& file,
+/// `as_bound` as of `ReadOptions`; `notes` has a line for each map of bumps, which is left out.
+/// Throws Error(Fault::input) with the line.
+[[nodiscard]] std::optional<DressedFile> read_dae_looks(const FileBytes& file, bool as_bound,
                                                         std::vector<std::string>& notes,
                                                         const Monitor& monitor);
 

@@ -24,8 +24,8 @@ class FbxLookReader {
                 const Monitor& monitor)
       : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read() {
-    for_each_fbx_mesh(file_, scene_, [this](const FbxMesh& mesh) { add(mesh); });
+  std::optional<DressedFile> read(bool as_bound) {
+    for_each_fbx_mesh(file_, scene_, as_bound, [this](const FbxMesh& mesh) { add(mesh); });
     made_.mesh.to_gltf = fbx_to_gltf(root_);
     if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::fbx));
@@ -44,8 +44,8 @@ class FbxLookReader {
     const FbxRecord& geometry = mesh.geometry;
     const auto textures = layers(geometry, "LayerElementUV", "UV", "UVIndex", 2);
     const auto colours = layers(geometry, "LayerElementColor", "Colors", "ColorIndex", 4);
-    made_.mesh.texture_sets = std::max(made_.mesh.texture_sets, textures.size());
-    made_.mesh.colour_sets = std::max(made_.mesh.colour_sets, colours.size());
+    made_.mesh.parts.back().texture_sets = names_of(fbx_sets(geometry, "LayerElementUV"));
+    made_.mesh.parts.back().colour_sets = names_of(fbx_sets(geometry, "LayerElementColor"));
     const FbxLayer normals(file_, geometry.child("LayerElementNormal"), "Normals", "NormalsIndex",
                            3);
     const FbxLayer materials(file_, geometry.child("LayerElementMaterial"), "Materials", "", 1);
@@ -75,6 +75,15 @@ class FbxLookReader {
     }
   }
 
+  static std::vector<std::string> names_of(const std::vector<const FbxRecord*>& sets) {
+    std::vector<std::string> names;
+    for (const FbxRecord* set : sets) {
+      const FbxRecord* name = set->child("Name");
+      names.emplace_back(name == nullptr ? std::string_view() : name->text(0));
+    }
+    return names;
+  }
+
   /// Those with that name.
   [[nodiscard]] std::vector<FbxLayer> layers(const FbxRecord& geometry, std::string_view name,
                                              std::string_view values, std::string_view indices,
@@ -86,13 +95,11 @@ class FbxLookReader {
     return sets;
   }
 
-  /// Channels of one name are one, as a face's and its teeth's.
   void add_shapes(const FbxMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
     const Eigen::Index vertices = mesh.polygons.positions.rows();
     for (const FbxShape& shape : fbx_shapes(file_, scene_, mesh.geometry, vertices)) {
-      const auto [entry, is_new] = shape_numbers_.try_emplace(shape.name, made_.mesh.shapes.size());
-      if (is_new) made_.mesh.shapes.push_back({shape.name, {}});
-      DressedShape& made = made_.mesh.shapes[entry->second];
+      made_.mesh.shapes.push_back({shape.name, made_.mesh.parts.size() - 1, shape.weight, {}});
+      DressedShape& made = made_.mesh.shapes.back();
       for (std::size_t k = 0; k < shape.vertices.size(); ++k) {
         const auto place =
             static_cast<std::int32_t>(first_vertex_) + static_cast<std::int32_t>(shape.vertices[k]);
@@ -127,17 +134,17 @@ class FbxLookReader {
   DressedFile made_;
   DressedRows rows_{made_.mesh};
   std::map<const FbxRecord*, int> numbers_;  // of materials
-  std::map<std::string, std::size_t> shape_numbers_;
-  Eigen::Index first_vertex_ = 0;  // of the mesh
+  Eigen::Index first_vertex_ = 0;            // of the mesh
 };
 
 }  // namespace
 
-std::optional<DressedFile> read_fbx_looks(const FileBytes& file, const Monitor& monitor) {
+std::optional<DressedFile> read_fbx_looks(const FileBytes& file, bool as_bound,
+                                          const Monitor& monitor) {
   const FbxRecord root = parse_fbx(file);
   require_fbx_version(file, root);
   const FbxScene scene(file, root);
-  return FbxLookReader(file, root, scene, monitor).read();
+  return FbxLookReader(file, root, scene, monitor).read(as_bound);
 }
 
 }  // namespace curveskel

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include "rig/fbx/fbx_mesh.hpp"
+#include "rig/fbx/fbx_set_names.hpp"
+#include "rig/gltf/texture_transform.hpp"
 
 namespace curveskel {
 namespace {
@@ -18,9 +20,35 @@ namespace {
 struct Look {
   std::array<double, 4> colour{1, 1, 1, 1};
   std::array<double, 3> light{};
+  double light_strength = 1;
   double roughness = 1;
   double metal = 0;
+  double normal_strength = 1;
 };
+
+/// `otherwise` where the extension is not there, or has no such number.
+double number_in(const tinygltf::ExtensionMap& extensions, const char* extension, const char* name,
+                 double otherwise) {
+  const auto found = extensions.find(extension);
+  if (found == extensions.end() || !found->second.Has(name)) return otherwise;
+  const tinygltf::Value& value = found->second.Get(name);
+  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+/// As of FBX, where v counts from the lower edge.
+TextureTransform transform_in(const tinygltf::ExtensionMap& extensions) {
+  const auto found = extensions.find(texture_transform_extension);
+  if (found == extensions.end()) return {};
+  const auto pair = [&](const char* name, double otherwise) {
+    std::array<double, 2> numbers{otherwise, otherwise};
+    if (!found->second.Has(name) || found->second.Get(name).ArrayLen() != 2) return numbers;
+    for (const int k : {0, 1}) numbers[idx(k)] = found->second.Get(name).Get(k).GetNumberAsDouble();
+    return numbers;
+  };
+  return flipped({pair("scale", 1),
+                  -number_in(extensions, texture_transform_extension, "rotation", 0),
+                  pair("offset", 0)});
+}
 
 Look look_of(const tinygltf::Material& material) {
   Look look;
@@ -31,6 +59,9 @@ Look look_of(const tinygltf::Material& material) {
               std::min<std::size_t>(3, material.emissiveFactor.size()), look.light.begin());
   look.roughness = given.roughnessFactor;
   look.metal = given.metallicFactor;
+  look.light_strength =
+      number_in(material.extensions, emissive_strength_extension, "emissiveStrength", 1);
+  look.normal_strength = material.normalTexture.scale;
   return look;
 }
 
@@ -47,7 +78,7 @@ void write_material(FbxRecords& records, const Look& look) {
   };
   colour("DiffuseColor", look.colour);
   colour("EmissiveColor", look.light);
-  number("EmissiveFactor", look.light == std::array<double, 3>{} ? 0 : 1);
+  number("EmissiveFactor", look.light == std::array<double, 3>{} ? 0 : look.light_strength);
   number("TransparencyFactor", 1 - look.colour[3]);
   number("Opacity", look.colour[3]);
   // Blender reads roughness as 1 - sqrt(shininess) / 10.
@@ -55,7 +86,20 @@ void write_material(FbxRecords& records, const Look& look) {
   number("Shininess", smooth * smooth);
   number("ShininessExponent", smooth * smooth);
   number("ReflectionFactor", look.metal);
+  number("BumpFactor", look.normal_strength);
   records.end();
+}
+
+/// As Blender has it: the inverse of the scale, and radians to the other side.
+void write_transform(FbxRecords& records, const TextureTransform& transform) {
+  if (transform == TextureTransform()) return;
+  const auto inverse = [](double scale) { return scale == 0 ? 1 : 1 / scale; };
+  const auto vector = [&](const char* name, double x, double y, double z) {
+    records.property(name, "Vector", "", "A", x, y, z);
+  };
+  vector("Translation", transform.shift[0], transform.shift[1], 0);
+  vector("Rotation", 0, 0, -transform.turn);
+  vector("Scaling", inverse(transform.scale[0]), inverse(transform.scale[1]), 1);
 }
 
 /// The formats of pictures by their first bytes.
@@ -66,53 +110,91 @@ std::string extension_of(std::string_view bytes) {
   return "";
 }
 
+/// Of the letters of ASCII.
+std::string in_lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
 class MaterialWriter {
  public:
   MaterialWriter(FbxDocument& document, const tinygltf::Model& model)
-      : document_(document), model_(model) {}
+      : document_(document), model_(model) {
+    for (int image = 0; idx(image) < model.images.size(); ++image) add_file_name(image);
+  }
 
-  std::int64_t add(const tinygltf::Material& given) {
+  std::int64_t add(int number) {
+    const tinygltf::Material& given = model_.materials[idx(number)];
+    map_names_ = map_names_with(number);
     const Look look = look_of(given);
     const std::int64_t material =
         document_.add("Material", given.name, "Material", "",
                       [look](FbxRecords& records) { write_material(records, look); });
     const tinygltf::TextureInfo& colour = given.pbrMetallicRoughness.baseColorTexture;
-    add_texture(material, "DiffuseColor", colour.index, colour.texCoord);
+    add_texture(material, "DiffuseColor", colour);
     if (given.alphaMode != "OPAQUE" && !given.alphaMode.empty()) {
-      add_texture(material, "TransparentColor", colour.index, colour.texCoord);
+      add_texture(material, "TransparentColor", colour);
     }
-    add_texture(material, "NormalMap", given.normalTexture.index, given.normalTexture.texCoord);
-    add_texture(material, "EmissiveColor", given.emissiveTexture.index,
-                given.emissiveTexture.texCoord);
+    add_texture(material, "NormalMap", given.normalTexture);
+    add_texture(material, "EmissiveColor", given.emissiveTexture);
     return material;
   }
 
  private:
-  void add_texture(std::int64_t material, std::string_view property, int number, int map) {
-    if (number < 0 || idx(number) >= model_.textures.size()) return;
-    const int image = model_.textures[idx(number)].source;
+  template <typename TextureInfo>
+  void add_texture(std::int64_t material, std::string_view property, const TextureInfo& info) {
+    if (info.index < 0 || idx(info.index) >= model_.textures.size()) return;
+    const int image = model_.textures[idx(info.index)].source;
     if (image < 0 || idx(image) >= model_.images.size()) return;
-    document_.connect(texture_of(image, idx(std::max(map, 0))), material, property);
+    const double map = number_in(info.extensions, texture_transform_extension, "texCoord",
+                                 static_cast<double>(info.texCoord));
+    const auto set = static_cast<std::size_t>(std::max(map, 0.0));
+    const TextureUse use{image, set < map_names_.size() ? map_names_[set] : fbx_maps.name,
+                         transform_in(info.extensions)};
+    document_.connect(texture_of(use), material, property);
   }
 
-  std::int64_t texture_of(int image, std::size_t map) {
-    const auto found = textures_.find({image, map});
+  /// Of the first mesh with that material.
+  [[nodiscard]] std::vector<std::string> map_names_with(int material) const {
+    const auto has_it = [&](const tinygltf::Primitive& primitive) {
+      return primitive.material == material;
+    };
+    for (const tinygltf::Mesh& mesh : model_.meshes) {
+      if (std::ranges::any_of(mesh.primitives, has_it))
+        return fbx_set_names(model_, mesh, fbx_maps);
+    }
+    return {};
+  }
+
+  struct TextureUse {
+    int image = 0;
+    std::string map;  ///< its name
+    TextureTransform transform;
+
+    bool operator==(const TextureUse&) const = default;
+  };
+
+  std::int64_t texture_of(const TextureUse& use) {
+    const auto found =
+        std::ranges::find(textures_, use, &std::pair<TextureUse, std::int64_t>::first);
     if (found != textures_.end()) return found->second;
-    const std::string file = file_name(image);
-    const std::string map_name = fbx_map_name(map);
+    const std::string file = files_[idx(use.image)];
     const std::int64_t texture = document_.add(
-        "Texture", picture_name(image), "Texture", "", [file, map_name](FbxRecords& records) {
+        "Texture", picture_name(use.image), "Texture", "", [file, use](FbxRecords& records) {
           records.record("Type", "TextureVideoClip");
           records.record("Version", 202);
           records.record("FileName", file);
           records.record("RelativeFilename", file);
           records.begin("Properties70");
-          records.property("UVSet", "KString", "", "", map_name);
+          records.property("UVSet", "KString", "", "", use.map);
           records.property("UseMaterial", "bool", "", "", 1);
+          write_transform(records, use.transform);
           records.end();
         });
-    document_.connect(video_of(image), texture);
-    textures_.emplace(std::pair(image, map), texture);
+    document_.connect(video_of(use.image), texture);
+    textures_.emplace_back(use, texture);
     return texture;
   }
 
@@ -120,7 +202,7 @@ class MaterialWriter {
   std::int64_t video_of(int image) {
     const auto found = videos_.find(image);
     if (found != videos_.end()) return found->second;
-    const std::string file = file_name(image);
+    const std::string file = files_[idx(image)];
     const std::string bytes(bytes_of(image));
     const std::int64_t video = document_.add("Video", picture_name(image), "Video", "Clip",
                                              [file, bytes](FbxRecords& records) {
@@ -151,6 +233,18 @@ class MaterialWriter {
     return name.empty() ? "picture " + std::to_string(image + 1) : name;
   }
 
+  /// Programs know pictures by these names, and some unpack them into one folder: so no two are
+  /// alike, in letters of either case.
+  void add_file_name(int image) {
+    const std::string wanted = file_name(image);
+    const std::size_t dot = std::min(wanted.rfind('.'), wanted.size());
+    std::string name = wanted;
+    for (int number = 2; !taken_.insert(in_lower_case(name)).second; ++number) {
+      name = wanted.substr(0, dot) + " " + std::to_string(number) + wanted.substr(dot);
+    }
+    files_.push_back(name);
+  }
+
   [[nodiscard]] std::string file_name(int image) const {
     const tinygltf::Image& given = model_.images[idx(image)];
     if (!given.uri.empty() && !given.uri.starts_with("data:")) return given.uri;
@@ -163,8 +257,11 @@ class MaterialWriter {
 
   FbxDocument& document_;
   const tinygltf::Model& model_;
-  std::map<int, std::int64_t> videos_;                            // by image
-  std::map<std::pair<int, std::size_t>, std::int64_t> textures_;  // by image and map
+  std::vector<std::string> files_;      // by image
+  std::set<std::string> taken_;         // of these, in lower case
+  std::vector<std::string> map_names_;  // of the material
+  std::map<int, std::int64_t> videos_;  // by image
+  std::vector<std::pair<TextureUse, std::int64_t>> textures_;
 };
 
 }  // namespace
@@ -173,7 +270,7 @@ std::vector<std::int64_t> add_fbx_materials(FbxDocument& document, const tinyglt
   MaterialWriter writer(document, model);
   std::vector<std::int64_t> numbers;
   numbers.reserve(model.materials.size());
-  for (const tinygltf::Material& material : model.materials) {
+  for (int material = 0; idx(material) < model.materials.size(); ++material) {
     numbers.push_back(writer.add(material));
   }
   return numbers;

@@ -8,6 +8,8 @@
 #include <memory>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/fbx/fbx_set_names.hpp"
+#include "rig/gltf/colours.hpp"
 #include "rig/gltf/shown_colours.hpp"
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_pose.hpp"
@@ -22,13 +24,6 @@ void append_rows(const FileBytes& file, const tinygltf::Model& model, int access
   for (std::size_t row = 0; row < numbers.rows(); ++row) {
     for (int k = 0; k < components; ++k) rows.push_back(numbers.at(row, idx(k)));
   }
-}
-
-/// "UVMap", "UVMap.001" and so on.
-std::string numbered(const std::string& name, std::size_t number) {
-  if (number == 0) return name;
-  const std::string digits = std::to_string(number);
-  return name + "." + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits;
 }
 
 int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -61,14 +56,14 @@ class MeshReader {
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (!has_triangles(primitive)) continue;
       shapes_ = std::max(shapes_, primitive.targets.size());
-      while (attribute(primitive, map_attribute(made_.maps.size())) >= 0) made_.maps.emplace_back();
       const int first = attribute(primitive, "COLOR_0");
       if (first >= 0 && model_.accessors[idx(first)].name == shown_colours) first_colours_ = 1;
-      while (attribute(primitive, colour_attribute(made_.colours.size())) >= 0) {
-        made_.colours.emplace_back();
-      }
       has_normals_ = has_normals_ && attribute(primitive, "NORMAL") >= 0;
     }
+    made_.map_names = fbx_set_names(model, mesh, fbx_maps);
+    made_.maps.resize(made_.map_names.size());
+    made_.colour_names = fbx_set_names(model, mesh, {"COLOR_", "Color", first_colours_});
+    made_.colours.resize(made_.colour_names.size());
     const std::vector<std::string> names = shape_names(mesh, shapes_);
     for (std::size_t k = 0; k < shapes_; ++k) {
       made_.shapes.push_back({names[k], k < mesh.weights.size() ? mesh.weights[k] : 0, {}});
@@ -149,7 +144,9 @@ class MeshReader {
       append_rows(file_, model_, accessor, static_cast<int>(width), "colours", rows);
       for (std::size_t row = 0; row < rows.size() / width; ++row) {
         for (std::size_t k = 0; k < 4; ++k) {
-          colours.push_back(k < width ? rows[row * width + k] : 1);
+          const double given = k < width ? rows[row * width + k] : 1;
+          constexpr std::size_t opacity = 3;
+          colours.push_back(k == opacity ? given : srgb_from_linear(given));
         }
       }
     }
@@ -255,14 +252,14 @@ void write_geometry(FbxRecords& records, const FbxMesh& mesh) {
     layer.emplace_back("LayerElementNormal", 0);
   }
   for (std::size_t k = 0; k < mesh.colours.size(); ++k) {
-    begin_layer(records, "LayerElementColor", static_cast<std::int32_t>(k), numbered("Color", k),
+    begin_layer(records, "LayerElementColor", static_cast<std::int32_t>(k), mesh.colour_names[k],
                 "ByPolygonVertex", "IndexToDirect");
     records.record("Colors", mesh.colours[k]);
     records.record("ColorIndex", mesh.corners);
     records.end();
   }
   for (std::size_t k = 0; k < mesh.maps.size(); ++k) {
-    begin_layer(records, "LayerElementUV", static_cast<std::int32_t>(k), fbx_map_name(k),
+    begin_layer(records, "LayerElementUV", static_cast<std::int32_t>(k), mesh.map_names[k],
                 "ByPolygonVertex", "IndexToDirect");
     records.record("UV", mesh.maps[k]);
     records.record("UVIndex", mesh.corners);
@@ -361,7 +358,5 @@ std::int64_t add_fbx_geometry(FbxDocument& document, const std::string& name, Fb
   add_shapes(document, geometry, shared, name);
   return geometry;
 }
-
-std::string fbx_map_name(std::size_t number) { return numbered("UVMap", number); }
 
 }  // namespace curveskel

@@ -21,9 +21,11 @@ using FbxRows = std::vector<double>;
 
 struct FbxMesh {
   FbxRows places;
-  FbxRows normals;               ///< none where a primitive has none
-  std::vector<FbxRows> maps;     ///< pairs (u, v), v up
-  std::vector<FbxRows> colours;  ///< red, green, blue, opacity
+  FbxRows normals;            ///< none where a primitive has none
+  std::vector<FbxRows> maps;  ///< pairs (u, v), v up
+  std::vector<std::string> map_names;
+  std::vector<FbxRows> colours;  ///< red, green, blue as sRGB, opacity
+  std::vector<std::string> colour_names;
   struct Shape {
     std::string name;
     double weight = 0;
@@ -48,8 +50,5 @@ void move(FbxMesh& mesh, const Eigen::Affine3d& frame);
 
 /// The geometry with its shapes; the weights of shapes connect to it. Returns its number.
 std::int64_t add_fbx_geometry(FbxDocument& document, const std::string& name, FbxMesh mesh);
-
-/// "UVMap", "UVMap.001" and so on.
-[[nodiscard]] std::string fbx_map_name(std::size_t number);
 
 }  // namespace curveskel

@@ -14,6 +14,12 @@ namespace curveskel {
                                               : std::pow((within + 0.055) / 1.055, 2.4));
 }
 
+/// The inverse of `linear_from_srgb`.
+[[nodiscard]] inline double srgb_from_linear(double share) {
+  const double within = std::clamp(share, 0.0, 1.0);
+  return within <= 0.0031308 ? 12.92 * within : 1.055 * std::pow(within, 1 / 2.4) - 0.055;
+}
+
 /// A colour of sRGB, its opacity as it is, within 0..1.
 [[nodiscard]] inline std::array<float, 4> linear_colour(const std::array<double, 4>& srgb) {
   return {linear_from_srgb(srgb[0]), linear_from_srgb(srgb[1]), linear_from_srgb(srgb[2]),

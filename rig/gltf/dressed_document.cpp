@@ -66,23 +66,24 @@ class Splitting {
 
 /// Places and faces of one part of a mesh.
 struct PartRange {
-  std::string name;
+  std::size_t number;
+  const DressedPart& part;
   std::size_t first_place;
   std::size_t end_place;
   std::size_t first_face;
   std::size_t end_face;
 };
 
-std::vector<PartRange> ranges_of(const DressedMesh& mesh, const std::string& name) {
-  std::vector<DressedPart> parts = mesh.parts;
-  if (parts.empty()) parts.push_back({name, 0, 0});
+/// They refer to the mesh's parts.
+std::vector<PartRange> ranges_of(const DressedMesh& mesh) {
   std::vector<PartRange> ranges;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const bool is_last = k + 1 == parts.size();
-    ranges.push_back({parts[k].name.empty() ? name : parts[k].name, parts[k].first_place,
-                      is_last ? mesh.places.size() / 3 : parts[k + 1].first_place,
-                      parts[k].first_face,
-                      is_last ? mesh.material_of_face.size() : parts[k + 1].first_face});
+  for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
+    const DressedPart& part = mesh.parts[k];
+    const bool is_last = k + 1 == mesh.parts.size();
+    ranges.push_back({k, part, part.first_place,
+                      is_last ? mesh.places.size() / 3 : mesh.parts[k + 1].first_place,
+                      part.first_face,
+                      is_last ? mesh.material_of_face.size() : mesh.parts[k + 1].first_face});
   }
   return ranges;
 }
@@ -249,32 +250,57 @@ Positions normals_of(const SplitMesh& split, const std::vector<Triangles>& group
   return normals_across_seams(whole);
 }
 
+/// Sets of texture coordinates that the materials of these faces name.
+std::size_t sets_shown(const GltfDocument& document, const std::vector<Triangles>& groups) {
+  std::size_t sets = 0;
+  const auto take = [&](const OrderedJson& owner, const char* name) {
+    if (owner.contains(name)) sets = std::max(sets, owner[name].value("texCoord", 0UL) + 1);
+  };
+  for (std::size_t group = 0; group + 1 < groups.size(); ++group) {
+    if (groups[group].rows() == 0) continue;
+    const OrderedJson& material = document.json["materials"][group];
+    take(material, "normalTexture");
+    take(material, "emissiveTexture");
+    if (material.contains("pbrMetallicRoughness")) {
+      take(material["pbrMetallicRoughness"], "baseColorTexture");
+    }
+  }
+  return sets;
+}
+
+void name_accessor(GltfDocument& document, std::size_t accessor, const std::string& name) {
+  if (!name.empty()) document.json["accessors"][accessor]["name"] = as_utf8(name);
+}
+
 /// All accessors that the primitives of a part share.
-OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
-                          const std::vector<Triangles>& groups, bool has_shown_colours) {
+OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const DressedPart& part,
+                          const SplitMesh& split, const std::vector<Triangles>& groups) {
   OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
-  for (std::size_t set = 0; !mesh.textures.empty() && set < mesh.texture_sets; ++set) {
-    attributes["TEXCOORD_" + std::to_string(set)] = add_textures(document, mesh, split, set);
+  const std::size_t maps = std::max(part.texture_sets.size(), sets_shown(document, groups));
+  for (std::size_t set = 0; !mesh.textures.empty() && set < maps; ++set) {
+    const std::size_t textures = add_textures(document, mesh, split, set);
+    attributes["TEXCOORD_" + std::to_string(set)] = textures;
+    if (set < part.texture_sets.size()) {
+      name_accessor(document, textures, part.texture_sets[set]);
+    }
   }
-  for (std::size_t set = 0; !mesh.colours.empty() && set < mesh.colour_sets; ++set) {
+  for (std::size_t set = 0; !mesh.colours.empty() && set < part.colour_sets.size(); ++set) {
     const std::size_t colours = add_colours(document, mesh, split, set);
     attributes["COLOR_" + std::to_string(set)] = colours;
-    if (has_shown_colours && set == 0) document.json["accessors"][colours]["name"] = shown_colours;
+    name_accessor(document, colours, part.colour_sets[set]);
   }
   return attributes;
 }
 
-/// The targets of the shapes that move a place of the part, which get names and sliders in it.
+/// The targets of the part's shapes, which get names and sliders in it.
 OrderedJson targets_of(GltfDocument& document, const DressedMesh& mesh, const PartRange& part,
                        const SplitMesh& split, OrderedJson& written) {
   OrderedJson targets = OrderedJson::array();
   for (const DressedShape& shape : mesh.shapes) {
-    const auto first = shape.moves.lower_bound(static_cast<std::int32_t>(part.first_place));
-    const bool is_elsewhere = first == shape.moves.end() || idx(first->first) >= part.end_place;
-    if (is_elsewhere && mesh.parts.size() > 1) continue;
+    if (shape.part != part.number) continue;
     targets.push_back({{"POSITION", add_shape(document, shape, split)}});
-    array_in(written, "weights").push_back(0);
+    array_in(written, "weights").push_back(shape.weight);
     written["extras"]["targetNames"].push_back(as_utf8(shape.name));
   }
   return targets;
@@ -282,7 +308,7 @@ OrderedJson targets_of(GltfDocument& document, const DressedMesh& mesh, const Pa
 
 /// A node with a mesh, a primitive for each material; nothing of a part without faces.
 void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& part,
-              const FileBytes& file, bool has_shown_colours) {
+              const FileBytes& file) {
   GltfDocument& document = made.document;
   const SplitMesh split = curveskel::split(mesh, part, file);
   require_single_precision(split.soup.positions, "glTF");
@@ -295,8 +321,8 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
   if (triangles == 0 && mesh.parts.size() > 1) return;
   const auto first_vertex = static_cast<std::int64_t>(made.row_of_vertex.size());
   for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
-  OrderedJson written{{"name", as_utf8(part.name)}};
-  const OrderedJson attributes = attributes_of(document, mesh, split, groups, has_shown_colours);
+  OrderedJson written{{"name", as_utf8(part.part.name)}};
+  const OrderedJson attributes = attributes_of(document, mesh, part.part, split, groups);
   const OrderedJson targets = targets_of(document, mesh, part, split, written);
   const auto number = static_cast<int>(array_in(document.json, "meshes").size());
   OrderedJson primitives = OrderedJson::array();
@@ -312,7 +338,7 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
   }
   written["primitives"] = std::move(primitives);
   array_in(document.json, "meshes").push_back(std::move(written));
-  array_in(document.json, "nodes").push_back({{"name", as_utf8(part.name)}, {"mesh", number}});
+  array_in(document.json, "nodes").push_back({{"name", as_utf8(part.part.name)}, {"mesh", number}});
   array_in(document.json["scenes"][0], "nodes").push_back(number);
 }
 
@@ -330,10 +356,12 @@ DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMate
                    {"meshes", OrderedJson::array()},
                    {"buffers", OrderedJson::array({OrderedJson::object()})}};
   add_materials(document, materials, notes, monitor);
-  const bool has_shown_colours = show_colours(mesh, with_pictures(document, materials.size()));
-  for (const PartRange& part : ranges_of(mesh, name)) {
-    add_part(made, mesh, part, file, has_shown_colours);
+  if (mesh.parts.empty()) mesh.parts.push_back({name, 0, 0, {""}, {""}});
+  for (DressedPart& part : mesh.parts) {
+    if (part.name.empty()) part.name = name;
   }
+  show_colours(mesh, with_pictures(document, materials.size()));
+  for (const PartRange& part : ranges_of(mesh)) add_part(made, mesh, part, file);
   return made;
 }
 

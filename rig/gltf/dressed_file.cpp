@@ -13,11 +13,12 @@
 
 namespace curveskel {
 
-std::optional<DressedFile> read_dressed_file(const FileBytes& file, std::vector<std::string>& notes,
+std::optional<DressedFile> read_dressed_file(const FileBytes& file, bool as_bound,
+                                             std::vector<std::string>& notes,
                                              const Monitor& monitor) {
   const auto format = surface_format_of(file);
-  if (format == SurfaceFormat::dae) return read_dae_looks(file, notes, monitor);
-  if (format == SurfaceFormat::fbx) return read_fbx_looks(file, monitor);
+  if (format == SurfaceFormat::dae) return read_dae_looks(file, as_bound, notes, monitor);
+  if (format == SurfaceFormat::fbx) return read_fbx_looks(file, as_bound, monitor);
   if (format == SurfaceFormat::ply) return read_ply_looks(file, monitor);
   if (format != SurfaceFormat::obj) return std::nullopt;
   ObjFile obj = read_obj_file(file, monitor);

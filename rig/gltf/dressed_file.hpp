@@ -12,14 +12,14 @@
 namespace curveskel {
 
 struct DressedFile {
-  DressedMesh mesh;  ///< vertices and faces as `read_polygons` gives them
+  DressedMesh mesh;  ///< vertices and faces as `read_polygons` gives them, but for shapes
   std::vector<DressedMaterial> materials;
 };
 
 /// Of OBJ, COLLADA, FBX and PLY; nothing where the file has no look, or is of another format.
-/// `notes` has a line for each thing that is left out. Throws Error(Fault::input) as
-/// `read_polygons`.
-[[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file,
+/// `as_bound` as of `ReadOptions`; `notes` has a line for each thing that is left out. Throws
+/// Error(Fault::input) as `read_polygons`.
+[[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file, bool as_bound,
                                                            std::vector<std::string>& notes,
                                                            const Monitor& monitor);
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "rig/gltf/texture_transform.hpp"
+
 namespace curveskel {
 
 /// Indices from 0; -1 = none.
@@ -34,6 +36,8 @@ using ColourRow = std::array<float, 4 * most_sets>;
 /// Moves of places, of which a slider applies a share.
 struct DressedShape {
   std::string name;
+  std::size_t part = 0;                           ///< the mesh that has it
+  double weight = 0;                              ///< the share that is applied at first
   std::map<std::int32_t, Eigen::Vector3d> moves;  ///< by place
 };
 
@@ -42,22 +46,22 @@ struct DressedPart {
   std::string name;
   std::size_t first_place = 0;
   std::size_t first_face = 0;
+  std::vector<std::string> texture_sets = {};  ///< the names of those that it has; may be empty
+  std::vector<std::string> colour_sets = {};   ///< likewise
 };
 
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
 struct DressedMesh {
-  std::vector<double> places;  ///< x y z x y z ...
+  std::vector<double> places;  ///< x y z x y z ..., without the shapes
   std::vector<TextureRow> textures;
-  std::size_t texture_sets = 1;  ///< the others are 0
   std::vector<std::array<float, 3>> normals;
   std::vector<ColourRow> colours;
-  std::size_t colour_sets = 1;  ///< the others are 0
   std::vector<DressedCorner> corners;
   std::vector<std::int64_t> offsets{0};
   std::vector<int> material_of_face;   ///< -1 = none
   std::vector<std::string> materials;  ///< their names
   std::vector<DressedShape> shapes;
-  std::vector<DressedPart> parts;  ///< in their order; empty = all is one
+  std::vector<DressedPart> parts;  ///< in their order; empty = all is one, with a set of each
   /// From the places to glTF's: y up, z ahead, metres. A similarity.
   Eigen::Affine3d to_gltf = Eigen::Affine3d::Identity();
 
@@ -75,21 +79,27 @@ struct DressedMesh {
 
 /// A picture that a file has within it, or names.
 struct DressedPicture {
-  std::filesystem::path path;  ///< under which it is known, and sought if there are no bytes
-  std::string name;            ///< as the file has it
-  std::string bytes;           ///< of PNG or JPEG
-  std::size_t set = 0;         ///< of texture coordinates
+  std::filesystem::path path;       ///< under which it is known, and sought if there are no bytes
+  std::string name;                 ///< as the file has it
+  std::string bytes;                ///< of PNG or JPEG
+  std::size_t set = 0;              ///< of texture coordinates
+  TextureTransform transform = {};  ///< v counts from the picture's lower edge
+
+  [[nodiscard]] bool is_same_picture(const DressedPicture& other) const {
+    return path == other.path && bytes == other.bytes;
+  }
 };
 
-/// Numbers are of 0..1, those beyond are taken as the nearest.
+/// Numbers are of 0..1, those beyond are taken as the nearest, but for emission.
 struct MaterialLook {
   std::optional<std::array<double, 3>> colour;
-  std::optional<std::array<double, 3>> emission;
+  std::optional<std::array<double, 3>> emission;  ///< beyond 1 it shines the brighter
   double opacity = 1;
   double roughness = 1;
   double metalness = 0;
   std::optional<DressedPicture> base;  ///< in place of the colour
   std::optional<DressedPicture> normals;
+  double normal_strength = 1;  ///< a factor on their slopes
   std::optional<DressedPicture> light;
   bool base_has_alpha = false;  ///< one sees through where the picture says so
   bool two_sided = false;       ///< seen from behind, too

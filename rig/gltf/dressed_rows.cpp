@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <curveskel/advanced/indices.hpp>
+
 namespace curveskel {
 namespace {
 
@@ -52,6 +54,12 @@ void DressedRows::place(const PolygonSoup& soup) {
   mesh_.places.assign(soup.positions.data(), soup.positions.data() + soup.positions.size());
   mesh_.offsets = soup.offsets;
   for (std::size_t c = 0; c < soup.corners.size(); ++c) mesh_.corners[c].place = soup.corners[c];
+  for (const DressedShape& shape : mesh_.shapes) {
+    if (shape.weight == 0) continue;
+    for (const auto& [place, move] : shape.moves) {
+      Eigen::Map<Eigen::Vector3d>(&mesh_.places[3 * idx(place)]) -= shape.weight * move;
+    }
+  }
 }
 
 }  // namespace curveskel

@@ -73,6 +73,7 @@ class DressedRows {
   }
 
   /// Takes over where vertices are, and which polygons have; the corners are there, in this order.
+  /// Without the shares of shapes, which are there and show them again.
   void place(const PolygonSoup& soup);
 
  private:

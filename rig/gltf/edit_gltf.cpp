@@ -191,9 +191,11 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
-  auto dressed = read_dressed_file(file, edited.notes, monitor);
+  auto dressed = read_dressed_file(file, options.as_bound, edited.notes, monitor);
   if (!dressed) return std::nullopt;
-  dressed->mesh.to_gltf = dressed->mesh.to_gltf * Eigen::Affine3d(rig.to_y_up);
+  const auto format = surface_format_of(file);
+  const bool states_axes = format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
+  if (!states_axes) dressed->mesh.to_gltf = Eigen::Affine3d(rig.to_y_up);
   require_rows(static_cast<Eigen::Index>(dressed->mesh.places.size() / 3), rig, file);
   DressedDocument made = dressed_document(dressed->mesh, dressed->materials, file,
                                           file.path.stem().string(), edited.notes, monitor);

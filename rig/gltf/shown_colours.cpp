@@ -8,7 +8,7 @@
 
 namespace curveskel {
 
-bool show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
+void show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
   const auto has_picture = [&](std::size_t face) {
     const int material = mesh.material_of_face[face];
     return material >= 0 && is_pictured[idx(material)];
@@ -20,9 +20,13 @@ bool show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
                            mesh.corners.begin() + mesh.offsets[face + 1],
                            [](const DressedCorner& corner) { return corner.colour >= 0; });
   }
-  if (!has_both) return false;
+  if (!has_both) return;
   const std::vector<ColourRow> given = std::exchange(mesh.colours, {});
-  mesh.colour_sets = std::min(mesh.colour_sets + 1, most_sets);
+  for (DressedPart& part : mesh.parts) {
+    if (part.colour_sets.empty()) continue;
+    part.colour_sets.insert(part.colour_sets.begin(), std::string(shown_colours));
+    part.colour_sets.resize(std::min(part.colour_sets.size(), most_sets));
+  }
   std::map<std::pair<std::int32_t, bool>, std::int32_t> rows;
   for (std::size_t face = 0; face < mesh.material_of_face.size(); ++face) {
     const bool is_white = has_picture(face);
@@ -40,7 +44,6 @@ bool show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
       colour = entry->second;
     }
   }
-  return true;
 }
 
 }  // namespace curveskel

@@ -85,22 +85,22 @@ bool states_up(SurfaceFormat format) {
          format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
 }
 
-/// None where neither a plan nor an option tells which way is up. Of z up, as Blender and scanners
-/// have it, z ahead is -y there.
-Eigen::Matrix3d turn_to_y_up(const BodyPlan& plan, Direction asked) {
-  const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
-  const Eigen::RowVector3d up = plan.axes.row(1);
-  if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
-  if (up != Eigen::RowVector3d::UnitZ()) return plan.axes;
-  return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
-}
-
 }  // namespace
 
 RepairOptions repair_for_rigs() {
   RepairOptions options;
   options.least_sheet = 0.1;
   return options;
+}
+
+Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated,
+                             const BodyPlan& plan, Direction asked) {
+  if (states_up(format)) return stated;
+  const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
+  const Eigen::RowVector3d up = plan.axes.row(1);
+  if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
+  if (up != Eigen::RowVector3d::UnitZ()) return plan.axes;
+  return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
 
 bool made_of_tubes_but_for_sheets(const Certificate& certificate, const RepairedSurface& body) {
@@ -139,9 +139,8 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
                                             skeleton, least_life(options.extract.embed.detail));
     result.character = within_budget(std::move(level), given, wanted.joint_budget);
   }
-  if (!states_up(soup.format)) {
-    result.character.rig.to_y_up = turn_to_y_up(result.character.plan, wanted.plan.up);
-  }
+  result.character.rig.to_y_up =
+      axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
   result.character.parts = std::move(parts);
   return result;
 }

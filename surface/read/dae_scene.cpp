@@ -2,6 +2,7 @@
 
 #include <fast_float/fast_float.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface/read/bound_joints.hpp"
+#include "surface/read/dae_morph.hpp"
 #include "surface/read/dae_skin.hpp"
 
 namespace curveskel {
@@ -101,37 +104,35 @@ class DaeSceneReader {
                  const std::function<void(const DaeShownMesh&)>& take)
       : document_(document), monitor_(monitor), take_(take) {}
 
-  void read() {
+  /// Whether joints bend meshes.
+  bool read(bool as_bound) {
     const XmlElement* scene = shown_scene(document_);
     if (scene == nullptr) {
       for (const XmlElement* library : document_.root().all("library_geometries")) {
         for (const XmlElement* geometry : library->all("geometry")) {
-          take_({nullptr,
-                 mesh_of(*geometry),
-                 Eigen::Affine3d::Identity(),
-                 {},
-                 nullptr,
-                 geometry->attribute("name")});
+          const DaeMesh& mesh = mesh_of(*geometry);
+          const std::string_view name = geometry->attribute("name");
+          take_({nullptr, mesh, Eigen::Affine3d::Identity(), {}, nullptr, name, mesh});
         }
       }
-      return;
+      return false;
     }
     placed_ = dae_nodes(document_, monitor_);
-    for (const DaeNode& node : placed_) frame_of_.emplace(node.element, node.frame);
+    for (std::size_t k = 0; k < placed_.size(); ++k) place_of_.emplace(placed_[k].element, k);
+    const bool is_posed = find_bind();
+    is_as_bound_ = as_bound && is_posed;
     for (const DaeNode& node : placed_) {
       for (const XmlElement& child : node.element->children) {
         if (child.name == "instance_geometry") {
-          take_({&child,
-                 mesh_of(document_.referred(child, "url")),
-                 node.frame,
-                 {},
-                 nullptr,
-                 node.element->attribute("name")});
+          const DaeMesh& mesh = mesh_of(document_.referred(child, "url"));
+          const std::string_view name = node.element->attribute("name");
+          take_({&child, mesh, frame_of(node), {}, nullptr, name, mesh});
         } else if (child.name == "instance_controller") {
           take_controlled(child, node);
         }
       }
     }
+    return is_posed;
   }
 
  private:
@@ -141,45 +142,119 @@ class DaeSceneReader {
     return entry->second;
   }
 
-  /// Morphs stand for their base mesh: the weights of a scene at rest are zero.
-  void take_controlled(const XmlElement& instance, const DaeNode& node) {
-    const std::string_view name = node.element->attribute("name");
-    constexpr int deepest_controller = 10;
-    const XmlElement* target = &document_.referred(instance, "url");
+  /// The base of a morph by the weights that the file gives.
+  const DaeMesh& morphed(const XmlElement& morph, const DaeMesh& base) {
+    if (!is_morphed(document_, morph)) return base;
+    const auto [entry, is_new] = morphed_.try_emplace(&morph, base);
+    if (!is_new) return entry->second;
+    for (const DaeShape& shape : dae_shapes(document_, morph, base)) {
+      entry->second.polygons.positions += shape.weight * shape.moves;
+    }
+    return entry->second;
+  }
+
+  /// What an instance of a controller shows.
+  struct Controlled {
+    const XmlElement* geometry = nullptr;
     const XmlElement* skin = nullptr;
     const XmlElement* morph = nullptr;
+  };
+
+  [[nodiscard]] Controlled controlled(const XmlElement& instance) const {
+    constexpr int deepest_controller = 10;
+    Controlled found;
+    const XmlElement* target = &document_.referred(instance, "url");
     for (int depth = 0; target->name == "controller"; ++depth) {
       const XmlElement* inner = target->child("skin");
       if (inner != nullptr) {
-        skin = inner;
+        found.skin = inner;
       } else {
         inner = target->child("morph");
-        morph = inner;
+        found.morph = inner;
       }
       if (inner == nullptr || depth > deepest_controller) {
         document_.fail(*target, "a controller that is neither skin nor morph of a mesh", "one");
       }
       target = &document_.referred(*inner, "source");
     }
-    const DaeMesh& mesh = mesh_of(*target);
-    if (skin == nullptr) return take_({&instance, mesh, node.frame, {}, morph, name});
-    const DaeSkin read =
-        read_dae_skin(document_, *skin, static_cast<std::size_t>(mesh.polygons.positions.rows()));
-    MeshSkin posed{{}, read.weights};
-    for (std::size_t j = 0; j < read.joints.size(); ++j) {
-      posed.joints.push_back(joint_frame(instance, read.joints[j], read.joints_are_ids) *
-                             read.to_joint[j]);
-    }
-    take_({&instance, mesh, node.frame * read.bind_shape, std::move(posed), morph, name});
+    found.geometry = target;
+    return found;
   }
 
-  /// Of the node with that sid below the instance's skeletons, or with that id; exporters that
-  /// leave the sid out use the name.
-  [[nodiscard]] Eigen::Affine3d joint_frame(const XmlElement& instance, const std::string& joint,
-                                            bool is_id) const {
-    if (is_id && document_.has(joint)) {
+  const DaeSkin& skin_of(const XmlElement& skin, const DaeMesh& mesh) {
+    const auto [entry, is_new] = skin_of_.try_emplace(&skin);
+    if (is_new) {
+      entry->second =
+          read_dae_skin(document_, skin, static_cast<std::size_t>(mesh.polygons.positions.rows()));
+    }
+    return entry->second;
+  }
+
+  void take_controlled(const XmlElement& instance, const DaeNode& node) {
+    const auto [geometry, skin, morph] = controlled(instance);
+    const std::string_view name = node.element->attribute("name");
+    const DaeMesh& base = mesh_of(*geometry);
+    const DaeMesh& mesh = morph == nullptr ? base : morphed(*morph, base);
+    if (skin == nullptr) return take_({&instance, mesh, frame_of(node), {}, morph, name, base});
+    const DaeSkin& read = skin_of(*skin, base);
+    if (is_as_bound_) return take_({&instance, mesh, read.bind_shape, {}, morph, name, base});
+    MeshSkin posed{{}, read.weights};
+    for (std::size_t j = 0; j < read.joints.size(); ++j) {
+      posed.joints.push_back(joint_of(instance, read, j).frame * read.inverse_bind[j] *
+                             read.bind_shape);
+    }
+    take_({&instance, mesh, node.frame * read.bind_shape, std::move(posed), morph, name, base});
+  }
+
+  /// Where joints were when meshes were bound to them; answers whether they bend meshes since. A
+  /// file that gives a joint two such places is taken for one that does not.
+  bool find_bind() {
+    std::vector<BoundJoint> moving;
+    std::map<const XmlElement*, std::vector<Eigen::Affine3d>> told;
+    Eigen::AlignedBox3d box;
+    for (const DaeNode& node : placed_) {
+      for (const XmlElement* instance : node.element->all("instance_controller")) {
+        const Controlled found = controlled(*instance);
+        if (found.skin == nullptr) continue;
+        const DaeSkin& skin = skin_of(*found.skin, mesh_of(*found.geometry));
+        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+          if (skin.inverse_bind[j].linear().determinant() == 0) continue;
+          const DaeNode& joint = joint_of(*instance, skin, j);
+          const Eigen::Affine3d bound = skin.inverse_bind[j].inverse();
+          told[joint.element].push_back(bound);
+          bound_.emplace(joint.element, bound);
+          box.extend(bound.translation().eval());
+          const bool moves_some = std::ranges::any_of(
+              skin.weights, [j](const SkinWeight& one) { return one.joint == j; });
+          if (moves_some) moving.push_back({joint.frame, bound});
+        }
+      }
+    }
+    return are_posed(moving) && std::ranges::all_of(told, [&](const auto& entry) {
+             return are_alike(entry.second, box.diagonal().norm());
+           });
+  }
+
+  /// As bound, a node goes with the joint above it.
+  [[nodiscard]] Eigen::Affine3d frame_of(const DaeNode& node) const {
+    for (const DaeNode* next = &node; is_as_bound_;) {
+      const auto found = bound_.find(next->element);
+      const bool is_joint = found != bound_.end() && next->frame.linear().determinant() != 0;
+      if (is_joint) return found->second * next->frame.inverse() * node.frame;
+      if (next->parent < 0) break;
+      next = &placed_[static_cast<std::size_t>(next->parent)];
+    }
+    return node.frame;
+  }
+
+  /// The node with that sid below the instance's skeletons, or with that id; exporters that leave
+  /// the sid out use the name.
+  [[nodiscard]] const DaeNode& joint_of(const XmlElement& instance, const DaeSkin& skin,
+                                        std::size_t number) const {
+    const std::string& joint = skin.joints[number];
+    if (skin.joints_are_ids && document_.has(joint)) {
       for (const DaeNode& node : placed_) {
-        if (node.element->attribute("id") == joint) return node.frame;
+        if (node.element->attribute("id") == joint) return node;
       }
     }
     for (const std::string_view key : {"sid", "name", "id"}) {
@@ -191,12 +266,12 @@ class DaeSceneReader {
         for (const DaeNode& node : placed_) {
           if (node.element->attribute("id") != root) continue;
           const XmlElement* found = below(*node.element, key, joint);
-          const auto at = found == nullptr ? frame_of_.end() : frame_of_.find(found);
-          if (at != frame_of_.end()) return at->second;
+          const auto at = found == nullptr ? place_of_.end() : place_of_.find(found);
+          if (at != place_of_.end()) return placed_[at->second];
         }
       }
       for (const DaeNode& node : placed_) {
-        if (node.element->attribute(key) == joint) return node.frame;
+        if (node.element->attribute(key) == joint) return node;
       }
     }
     document_.fail(instance, "no node that is the joint " + in_quotes(joint), "one in the scene");
@@ -216,8 +291,12 @@ class DaeSceneReader {
   const Monitor& monitor_;
   const std::function<void(const DaeShownMesh&)>& take_;
   std::vector<DaeNode> placed_;
-  std::map<const XmlElement*, Eigen::Affine3d> frame_of_;  // where it stands first
+  std::map<const XmlElement*, std::size_t> place_of_;  // the first, among these
+  std::map<const XmlElement*, DaeSkin> skin_of_;
+  std::map<const XmlElement*, Eigen::Affine3d> bound_;  // joints
+  bool is_as_bound_ = false;
   std::map<const XmlElement*, DaeMesh> mesh_of_;
+  std::map<const XmlElement*, DaeMesh> morphed_;  // by <morph>
 };
 
 }  // namespace
@@ -251,9 +330,9 @@ std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monit
   return placed;
 }
 
-void for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor,
+bool for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor, bool as_bound,
                        const std::function<void(const DaeShownMesh&)>& take) {
-  DaeSceneReader(document, monitor, take).read();
+  return DaeSceneReader(document, monitor, take).read(as_bound);
 }
 
 bool has_z_up(const DaeDocument& document) { return up_axis(document) == "Z_UP"; }

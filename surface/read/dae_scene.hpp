@@ -27,16 +27,18 @@ struct DaeNode {
 /// All are there while the document is.
 struct DaeShownMesh {
   const XmlElement* instance;  ///< what shows it; nullptr in a file without a scene
-  const DaeMesh& mesh;
-  Eigen::Affine3d frame;  ///< from the mesh to the world
+  const DaeMesh& mesh;         ///< morphed by the weights that the file gives
+  Eigen::Affine3d frame;       ///< from the mesh to the world
   MeshSkin skin;
   const XmlElement* morph;  ///< <morph> of the mesh, or nullptr
   std::string_view name;    ///< of the node that shows it, or its own; may be empty
+  const DaeMesh& base;      ///< of which `mesh` is the morph, or itself
 };
 
-/// Each mesh as often as the scene shows it, in the order in which `read_polygons` has them. Throws
-/// Error(Fault::input) with the line.
-void for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor,
+/// Each mesh as often as the scene shows it, in the order in which `read_polygons` has them; where
+/// joints bend meshes away from where they were bound, `as_bound` as of `ReadOptions`. Returns
+/// whether they do. Throws Error(Fault::input) with the line.
+bool for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor, bool as_bound,
                        const std::function<void(const DaeShownMesh&)>& take);
 
 /// True if the file says that z is up.

@@ -23,7 +23,7 @@ void read_joints(const DaeDocument& document, const XmlElement& skin, DaeSkin& r
   }
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     const double* numbers = matrices.data() + matrix_size * j;
-    result.to_joint.push_back(document.matrix(*binds, numbers) * result.bind_shape);
+    result.inverse_bind.push_back(document.matrix(*binds, numbers));
   }
 }
 

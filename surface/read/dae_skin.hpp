@@ -15,8 +15,8 @@ namespace curveskel {
 struct DaeSkin {
   std::vector<std::string> joints;  ///< names or ids of nodes
   bool joints_are_ids = false;
-  std::vector<Eigen::Affine3d> to_joint;  ///< inverse bind x bind shape, one per joint
-  Eigen::Affine3d bind_shape;
+  std::vector<Eigen::Affine3d> inverse_bind;  ///< one per joint
+  Eigen::Affine3d bind_shape;                 ///< from the mesh to the world as it was bound
   std::vector<SkinWeight> weights;
 };
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "surface/read/fbx_bind.hpp"
 #include "surface/read/formats.hpp"
 
 namespace curveskel {
@@ -15,7 +16,9 @@ class FbxMeshes {
  public:
   FbxMeshes(const FileBytes& file, const FbxScene& scene) : file_(file), scene_(scene) {}
 
-  void give(const std::function<void(const FbxMesh&)>& take) {
+  /// As bound where there is a bind.
+  void give(const FbxBind* bind, const std::function<void(const FbxMesh&)>& take) {
+    bind_ = bind;
     for (const FbxRecord* model : scene_.all("Model")) {
       for (const FbxRecord* geometry : scene_.below(*model, "Geometry")) {
         if (geometry->child("PolygonVertexIndex") != nullptr) take(shown(*model, *geometry));
@@ -33,8 +36,12 @@ class FbxMeshes {
     const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
     if (is_new) entry->second = mesh(geometry);
     const Eigen::Affine3d geometric = scene_.geometric(model);
-    return {model, geometry, entry->second, scene_.frame(model) * geometric,
-            skin(geometry, geometric, entry->second.positions.rows())};
+    const Eigen::Affine3d frame = bind_ == nullptr ? scene_.frame(model) : bind_->frame(model);
+    FbxMesh result{model, geometry, entry->second, frame * geometric,
+                   skin(geometry, geometric, entry->second.positions.rows())};
+    // The joints, too, say where the mesh was.
+    if (bind_ != nullptr && !result.skin.joints.empty()) result.frame = result.skin.joints.front();
+    return result;
   }
 
   [[noreturn]] void fail(const FbxRecord& at, const std::string& found,
@@ -88,7 +95,8 @@ class FbxMeshes {
     for (const FbxRecord* morph : scene_.below(geometry, "Deformer", "BlendShape")) {
       for (const FbxRecord* channel : scene_.below(*morph, "Deformer", "BlendShapeChannel")) {
         const FbxRecord* percent = channel->child("DeformPercent");
-        const double weight = percent == nullptr ? 0 : percent->number(0, 0) / 100;
+        const double given = percent == nullptr ? 0 : percent->number(0, 0) / 100;
+        const double weight = std::isfinite(given) ? given : 0;
         const std::vector<const FbxRecord*> found = scene_.below(*channel, "Geometry");
         if (found.empty() || !wanted(weight)) continue;
         result.push_back({fbx_name(*channel), weight, {}, {}});
@@ -132,8 +140,9 @@ class FbxMeshes {
         const FbxRecord* transform = cluster->child("Transform");
         const std::vector<const FbxRecord*> joints = scene_.below(*cluster, "Model");
         if (transform == nullptr || joints.empty()) continue;  // it moves nothing
-        result.joints.push_back(scene_.frame(*joints.front()) * scene_.matrix(*transform) *
-                                geometric);
+        const Eigen::Affine3d joint = bind_ == nullptr ? scene_.frame(*joints.front())
+                                                       : bind_->joint(*cluster, *joints.front());
+        result.joints.push_back(joint * scene_.matrix(*transform) * geometric);
         add_weights(*cluster, vertices, result);
       }
     }
@@ -159,6 +168,7 @@ class FbxMeshes {
 
   const FileBytes& file_;
   const FbxScene& scene_;
+  const FbxBind* bind_ = nullptr;  // meshes are as they were bound
   std::unordered_map<const FbxRecord*, PolygonSoup> mesh_of_;
 };
 
@@ -176,9 +186,11 @@ std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
   return FbxMeshes(file, scene).all_shapes(geometry, vertices);
 }
 
-void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene,
+bool for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, bool as_bound,
                        const std::function<void(const FbxMesh&)>& take) {
-  FbxMeshes(file, scene).give(take);
+  const FbxBind bind(scene);
+  FbxMeshes(file, scene).give(as_bound && bind.is_posed() ? &bind : nullptr, take);
+  return bind.is_posed();
 }
 
 void require_fbx_version(const FileBytes& file, const FbxRecord& root) {

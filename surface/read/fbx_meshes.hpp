@@ -35,9 +35,10 @@ struct FbxShape {
 [[nodiscard]] std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
                                                const FbxRecord& geometry, Eigen::Index vertices);
 
-/// Each mesh as often as a model shows it, in the order in which `read_polygons` has them. Throws
-/// Error(Fault::input).
-void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene,
+/// Each mesh as often as a model shows it, in the order in which `read_polygons` has them; where
+/// joints bend meshes away from where they were bound, `as_bound` as of `ReadOptions`. Returns
+/// whether they do. Throws Error(Fault::input).
+bool for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, bool as_bound,
                        const std::function<void(const FbxMesh&)>& take);
 
 /// Throws Error(Fault::input) for files of before version 7, whose objects have no numbers.

@@ -28,13 +28,16 @@ Eigen::Affine3d affine(const Eigen::Matrix3d& linear) {
   return result;
 }
 
-const FbxRecord* defaults_of_models(const FbxRecord& root) {
+/// By kind of objects.
+std::unordered_map<std::string_view, const FbxRecord*> defaults_in(const FbxRecord& root) {
+  std::unordered_map<std::string_view, const FbxRecord*> result;
   const FbxRecord* definitions = root.child("Definitions");
-  if (definitions == nullptr) return nullptr;
+  if (definitions == nullptr) return result;
   for (const FbxRecord& type : definitions->children) {
-    if (type.name == "ObjectType" && type.text(0) == "Model") return type.child("PropertyTemplate");
+    const FbxRecord* given = type.child("PropertyTemplate");
+    if (type.name == "ObjectType" && given != nullptr) result.emplace(type.text(0), given);
   }
-  return nullptr;
+  return result;
 }
 
 }  // namespace
@@ -57,7 +60,7 @@ std::string fbx_name(const FbxRecord& object) {
 }
 
 FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
-    : file_(file), objects_(root.child("Objects")), defaults_(defaults_of_models(root)) {
+    : file_(file), objects_(root.child("Objects")), defaults_(defaults_in(root)) {
   if (objects_ == nullptr) file.fail("no \"Objects\"", "a scene", fbx_remedy);
   for (const FbxRecord& object : objects_->children) by_id_.emplace(object.integer(0, -1), &object);
   if (const FbxRecord* connections = root.child("Connections")) connect(*connections);
@@ -141,9 +144,10 @@ const FbxRecord* FbxScene::at_property(const FbxRecord& object, std::string_view
   return nullptr;
 }
 
-const FbxRecord* FbxScene::property(const FbxRecord& model, std::string_view name) const {
-  const FbxRecord* own = fbx_property(&model, name);
-  return own != nullptr ? own : fbx_property(defaults_, name);
+const FbxRecord* FbxScene::property(const FbxRecord& object, std::string_view name) const {
+  if (const FbxRecord* own = fbx_property(&object, name)) return own;
+  const auto defaults = defaults_.find(object.name);
+  return defaults == defaults_.end() ? nullptr : fbx_property(defaults->second, name);
 }
 
 Eigen::Vector3d FbxScene::vector(const FbxRecord& model, std::string_view name,

@@ -38,6 +38,10 @@ class FbxScene {
   [[nodiscard]] const FbxRecord* at_property(const FbxRecord& object, std::string_view property,
                                              std::string_view kind) const;
 
+  /// The property of an object, of its own or as the file defines it for all of the kind
+  /// ("Model", "Material"), or nullptr.
+  [[nodiscard]] const FbxRecord* property(const FbxRecord& object, std::string_view name) const;
+
   /// The model that a model hangs from, or nullptr.
   [[nodiscard]] const FbxRecord* parent(const FbxRecord& model) const;
 
@@ -52,7 +56,6 @@ class FbxScene {
   [[nodiscard]] Eigen::Affine3d matrix(const FbxRecord& record) const;
 
  private:
-  [[nodiscard]] const FbxRecord* property(const FbxRecord& model, std::string_view name) const;
   [[nodiscard]] Eigen::Vector3d vector(const FbxRecord& model, std::string_view name,
                                        double otherwise = 0) const;
   [[nodiscard]] Eigen::Affine3d local(const FbxRecord& model) const;
@@ -61,7 +64,7 @@ class FbxScene {
 
   const FileBytes& file_;
   const FbxRecord* objects_ = nullptr;
-  const FbxRecord* defaults_ = nullptr;  // of models, or nullptr
+  std::unordered_map<std::string_view, const FbxRecord*> defaults_;  // by kind
   std::unordered_map<std::int64_t, const FbxRecord*> by_id_;
   std::unordered_map<const FbxRecord*, std::vector<const FbxRecord*>> below_;
   struct AtProperty {

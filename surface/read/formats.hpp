@@ -22,8 +22,10 @@ namespace curveskel {
 [[nodiscard]] PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_vtk(const FileBytes& file, const Monitor& monitor);
 [[nodiscard]] PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor);
-[[nodiscard]] PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor);
-[[nodiscard]] PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor);
+[[nodiscard]] PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor,
+                                   const ReadOptions& options = {});
+[[nodiscard]] PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor,
+                                   const ReadOptions& options = {});
 
 /// The part of `read_off` for numbers in binary, which begin at byte `begin`; three dimensions.
 [[nodiscard]] PolygonSoup read_binary_off(const FileBytes& file, std::size_t begin,

@@ -65,9 +65,9 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
     case SurfaceFormat::three_mf:
       return read_3mf(file, monitor);
     case SurfaceFormat::dae:
-      return read_dae(file, monitor);
+      return read_dae(file, monitor, options);
     case SurfaceFormat::fbx:
-      return read_fbx(file, monitor);
+      return read_fbx(file, monitor, options);
   }
   file.fail("no known format", names_in(surface_formats), "convert it");
 }

@@ -1,6 +1,6 @@
 // FBX from version 7 on, binary and as text: every mesh where its models show it, morphed by the
 // weights that the file gives. A skinned mesh is taken in its rest pose, in which its joints are as
-// their models place them. Units and axes are the file's.
+// their models place them, or as it was bound. Units and axes are the file's.
 #include <algorithm>
 #include <string_view>
 
@@ -13,16 +13,19 @@
 
 namespace curveskel {
 
-PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor) {
+PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor, const ReadOptions& options) {
   const FbxRecord root = parse_fbx(file);
   monitor.report("read", 0.4);
   require_fbx_version(file, root);
   PlacedMeshes meshes(file, monitor);
   const FbxScene scene(file, root);
-  for_each_fbx_mesh(file, scene,
-                    [&](const FbxMesh& mesh) { meshes.add(mesh.polygons, mesh.frame, mesh.skin); });
+  const bool posed = for_each_fbx_mesh(file, scene, options.as_bound, [&](const FbxMesh& mesh) {
+    meshes.add(mesh.polygons, mesh.frame, mesh.skin);
+  });
   PolygonSoup soup = meshes.soup(SurfaceFormat::fbx);
+  soup.posed = posed;
   soup.z_is_up = fbx_has_z_up(root);
+  soup.to_gltf = fbx_to_gltf(root).linear();
   return soup;
 }
 

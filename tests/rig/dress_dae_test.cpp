@@ -19,7 +19,7 @@
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include "tests/glb.hpp"
-#include "tests/own_folder.hpp"
+#include "tests/rig/dae_subjects.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/scene_encodings.hpp"
 
@@ -28,104 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+using namespace dae_subjects;
 
-const std::string png("\x89PNG\r\n\x1a\n no true picture", 24);
-constexpr int faces = 6;
-
-/// The parts of a file of which tests change some.
-struct Dae {
-  std::string sources;        ///< of the mesh, beside those of places
-  std::string vertex_inputs;  ///< beside that of places
-  std::string polygons;
-  std::string binding;  ///< within the instance
-  std::string node;     ///< beside the instance
-  std::string libraries;
-  std::string asset = "<unit meter=\"1\"/><up_axis>Y_UP</up_axis>";
-  std::string instance = "instance_geometry url=\"#box\"";
-
-  [[nodiscard]] std::string text() const {
-    std::string points;
-    for (const auto& p : encodings::corners) points += encodings::spaced(p) + " ";
-    return "<COLLADA version=\"1.4.1\"><asset>" + asset +
-           "</asset><library_geometries><geometry id=\"box\"><mesh>" + source("points", 3, points) +
-           sources + "<vertices id=\"corners\"><input semantic=\"POSITION\" source=\"#points\"/>" +
-           vertex_inputs + "</vertices>" + polygons + "</mesh></geometry></library_geometries>" +
-           libraries + "<library_visual_scenes><visual_scene id=\"scene\"><node>" + node + "<" +
-           instance + ">" + binding + "</" + instance.substr(0, instance.find(' ')) +
-           "></node></visual_scene></library_visual_scenes><scene><instance_visual_scene "
-           "url=\"#scene\"/></scene></COLLADA>";
-  }
-
-  static std::string source(const std::string& id, int width, const std::string& numbers) {
-    const auto count = std::count(numbers.begin(), numbers.end(), ' ') / width;
-    return "<source id=\"" + id + "\"><float_array id=\"" + id + "-a\">" + numbers +
-           "</float_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" +
-           std::to_string(count) + "\" stride=\"" + std::to_string(width) +
-           "\"/></technique_common></source>";
-  }
-};
-
-std::string input(const std::string& semantic, const std::string& source, int offset, int set) {
-  return "<input semantic=\"" + semantic + "\" source=\"#" + source + "\" offset=\"" +
-         std::to_string(offset) + "\" set=\"" + std::to_string(set) + "\"/>";
-}
-
-/// The corners of a face, as pairs of a vertex and a row: row 4 face + corner.
-std::string indices_of(int face, const std::vector<int>& order) {
-  std::string text;
-  for (const int corner : order) {
-    text += std::to_string(encodings::quads[idx(face)][idx(corner)]) + " " +
-            std::to_string(4 * face + corner) + " ";
-  }
-  return text;
-}
-
-/// The box in each way in which COLLADA gives polygons; `given` is the material and the inputs of
-/// two indices a corner.
-std::string polygons_of(const std::string& kind, const std::string& given) {
-  std::string all;
-  std::string runs;
-  for (int face = 0; face < faces; ++face) {
-    const bool is_strip = kind == "tristrips";
-    const std::string corners =
-        kind == "triangles"
-            ? indices_of(face, {0, 1, 2, 0, 2, 3})
-            : indices_of(face, is_strip ? std::vector{0, 1, 3, 2} : std::vector{0, 1, 2, 3});
-    all += corners;
-    runs += "<p>" + corners + "</p>";
-  }
-  const bool is_one = kind == "triangles" || kind == "polylist";
-  return "<" + kind + " " + given + (kind == "polylist" ? "<vcount>4 4 4 4 4 4</vcount>" : "") +
-         (is_one ? "<p>" + all + "</p>" : runs) + "</" + kind + ">";
-}
-
-constexpr std::array kinds{"polylist", "polygons", "triangles", "tristrips", "trifans"};
-
-/// Row r is (.01 r, .02 r, ...).
-std::string rows_of(int rows, int width) {
-  std::string text;
-  for (int row = 0; row < rows; ++row) {
-    for (int k = 1; k <= width; ++k) text += encodings::fbx_number(0.01 * k * row) + " ";
-  }
-  return text;
-}
-
-class DressDae : public testing::Test {
- protected:
-  [[nodiscard]] fs::path written(const Dae& file) const {
-    return folder_.write("a thing.dae", file.text());
-  }
-
-  [[nodiscard]] EditedFile dressed(const fs::path& file) const {
-    const Eigen::Index rows = read_polygons(file).positions.rows();
-    const auto edited = format_rig_into(file, random_rig(rows, 5, "bone "),
-                                        {RigFormat::glb, OldRig::replaced, "rig", "a test"});
-    EXPECT_TRUE(edited);
-    return edited.value_or(EditedFile{});
-  }
-
-  OwnFolder folder_;
-};
+class DressDae : public DaeDressing {};
 
 /// Of vertex `at` of the file, rows of an attribute.
 std::vector<std::vector<float>> rows_at(const Glb& glb, const std::string& attribute, int width,
@@ -266,241 +171,40 @@ TEST_F(DressDae, NormalsStayNormal) {
   }
 }
 
-/// A material called `name` whose technique is `shader`.
-std::string material(const std::string& name, const std::string& shader,
-                     const std::string& parameters = {}, const std::string& extra = {}) {
-  return "<library_effects><effect id=\"" + name + "-fx\"><profile_COMMON>" + parameters +
-         "<technique sid=\"common\">" + shader + "</technique></profile_COMMON>" + extra +
-         "</effect></library_effects><library_materials><material id=\"" + name + "-id\" name=\"" +
-         name + "\"><instance_effect url=\"#" + name + "-fx\"/></material></library_materials>";
-}
-
-std::string bound(const std::string& symbol, const std::string& target,
-                  const std::string& inputs = {}) {
-  return "<bind_material><technique_common><instance_material symbol=\"" + symbol +
-         "\" target=\"#" + target + "\">" + inputs +
-         "</instance_material></technique_common></bind_material>";
-}
-
-const std::string plain = ">" + input("VERTEX", "corners", 0, 0) + input("UNKNOWN", "points", 1, 0);
-
-/// The box with one material, and what is said of it.
-struct Looked {
-  Json json;
-  std::vector<std::string> notes;
-};
-
-/// Its first three faces have what their instance binds, the others are bound by id; the last are
-/// of a material that is not there.
-TEST_F(DressDae, FacesHaveTheMaterialToWhichTheyAreBound) {
-  const auto part = [](int first, int end, const std::string& symbol) {
-    std::string indices;
-    for (int face = first; face < end; ++face) indices += indices_of(face, {0, 1, 2, 3});
-    std::string counts;
-    for (int face = first; face < end; ++face) counts += "4 ";
-    return "<polylist material=\"" + symbol + "\" " + plain + "<vcount>" + counts + "</vcount><p>" +
-           indices + "</p></polylist>";
-  };
+/// The box, turned, with a target in which vertex 3 is moved by .5 along y as it is shown.
+Dae morphed(bool relative, double weight) {
+  std::string numbers;
+  for (std::size_t v = 0; v < 8; ++v) {
+    const auto& p = encodings::corners[v];
+    const Eigen::Vector3d base =
+        relative ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(p[0], p[1], p[2]);
+    const Eigen::Vector3d move = v == 3 ? Eigen::Vector3d(0.5, 0, 0) : Eigen::Vector3d(0, 0, 0);
+    for (const double number : Eigen::Vector3d(base + move)) {
+      numbers += encodings::fbx_number(number) + " ";
+    }
+  }
   Dae file;
-  file.polygons = part(0, 3, "m") + part(3, 5, "blue-id") + part(5, 6, "nothing");
-  file.binding = bound("m", "red-id");
-  file.libraries = material("red", "<lambert><diffuse><color>1 0 0 1</color></diffuse></lambert>") +
-                   material("blue", "<phong><diffuse><color>0 0 1 1</color></diffuse></phong>");
-  const fs::path path = written(file);
-  const auto look = read_materials(path);
-  ASSERT_TRUE(look);
-  ASSERT_EQ(look->materials.size(), 2U);
-  EXPECT_EQ(look->materials[0].colour, (std::array<float, 4>{1, 0, 0, 1}));
-  EXPECT_EQ(look->materials[1].colour, (std::array<float, 4>{0, 0, 1, 1}));
-  std::array<int, 3> counts{};
-  for (const int one : look->material) ++counts.at(idx(one + 1));
-  EXPECT_EQ(counts, (std::array<int, 3>{2, 6, 4}));  // triangles without, red, blue
-}
-
-class DaeMaterials : public DressDae {
- protected:
-  [[nodiscard]] Looked looked(const std::string& libraries, const std::string& inputs = {}) const {
-    Dae file;
-    file.sources = Dae::source("first", 2, rows_of(24, 2));
-    file.polygons = polygons_of("polylist", "material=\"m\" >" + input("VERTEX", "corners", 0, 0) +
-                                                input("TEXCOORD", "first", 1, 3) +
-                                                input("TEXCOORD", "first", 1, 5));
-    file.binding = bound("m", "skin-id", inputs);
-    file.libraries = libraries;
-    const EditedFile edited = dressed(written(file));
-    return {glb_of(edited.bytes).json, edited.notes};
-  }
-};
-
-TEST_F(DaeMaterials, NumbersAreTheEffects) {
-  const Looked found =
-      looked(material("skin",
-                      "<phong><emission><color>0 .5 0 1</color></emission><diffuse><param "
-                      "ref=\"tint\"/></diffuse><shininess><float>25</float></shininess></phong>",
-                      "<newparam sid=\"tint\"><float3>.25 .5 .75</float3></newparam>",
-                      "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>1</double_sided>"
-                      "</technique></extra>"));
-  const Json& made = found.json["materials"][0];
-  EXPECT_EQ(made["name"], "skin");
-  EXPECT_EQ(made["pbrMetallicRoughness"]["baseColorFactor"], Json({0.25, 0.5, 0.75, 1.0}));
-  EXPECT_EQ(made["pbrMetallicRoughness"]["roughnessFactor"], 0.5);
-  EXPECT_EQ(made["pbrMetallicRoughness"]["metallicFactor"], 0);
-  EXPECT_EQ(made["emissiveFactor"], Json({0, 0.5, 0}));
-  EXPECT_EQ(made["doubleSided"], true);
-  EXPECT_TRUE(found.notes.empty());
-}
-
-TEST_F(DaeMaterials, AConstantOneIsSeenByItsOwnLight) {
-  const Looked found =
-      looked(material("skin", "<constant><emission><color>1 .5 0 1</color></emission></constant>"));
-  const Json& made = found.json["materials"][0];
-  EXPECT_EQ(made["pbrMetallicRoughness"]["baseColorFactor"], Json({0, 0, 0, 1}));
-  EXPECT_EQ(made["emissiveFactor"], Json({1, 0.5, 0}));
-}
-
-TEST_F(DaeMaterials, OpacityIsCountedAsTheFileSays) {
-  struct Case {
-    std::string said;
-    double opacity;
-  };
-  const auto both = [](const std::string& mode, const std::string& colour, double share) {
-    return "<transparent opaque=\"" + mode + "\"><color>" + colour +
-           "</color></transparent><transparency><float>" + encodings::fbx_number(share) +
-           "</float></transparency>";
-  };
-  const std::vector<Case> cases{
-      {"", 1},
-      {"<transparency><float>.25</float></transparency>", 0.25},
-      {both("A_ONE", "1 1 1 .5", 0.5), 0.25},
-      {both("A_ZERO", "1 1 1 .5", 0.5), 0.75},
-      {both("RGB_ONE", ".5 .5 .5 1", 0.5), 0.25},
-      {both("RGB_ZERO", ".5 .5 .5 1", 0.5), 0.75},
-      {both("A_ONE", "1 1 1 1", 0), 1},  // nobody means a thing that is not there
-      {both("RGB_ZERO", "1 1 1 1", 1), 1},
-  };
-  for (const Case& one : cases) {
-    SCOPED_TRACE(one.said);
-    const Looked found = looked(material("skin", "<lambert>" + one.said + "</lambert>"));
-    const Json& made = found.json["materials"][0];
-    EXPECT_EQ(made["pbrMetallicRoughness"]["baseColorFactor"][3], one.opacity);
-    EXPECT_EQ(made.contains("alphaMode"), one.opacity < 1);
-  }
-}
-
-std::string image(const std::string& inside) {
-  return "<library_images><image id=\"img\">" + inside + "</image></library_images>";
-}
-
-const std::string sampler =
-    "<newparam sid=\"surface\"><surface type=\"2D\"><init_from>img</init_from></surface></newparam>"
-    "<newparam sid=\"sampler\"><sampler2D><source> surface </source></sampler2D></newparam>";
-
-std::string textured(const std::string& texture) {
-  return "<lambert><diffuse><texture texture=\"" + texture +
-         "\" texcoord=\"UV\"/></diffuse></lambert>";
-}
-
-TEST_F(DaeMaterials, PicturesAreFoundHoweverTheyAreNamed) {
-  (void)folder_.write("my skin.png", png);
-  fs::create_directories(folder_.path() / "textures");
-  (void)folder_.write("textures/deep.png", png);
-  const std::string instanced =
-      "<newparam sid=\"sampler\"><sampler2D><instance_image url=\"#img\"/></sampler2D></newparam>";
-  struct Case {
-    std::string name;
-    std::string inside;
-    std::string parameters;
-    std::string texture;
-  };
-  const std::vector<Case> cases{
-      {"sampler", "<init_from>my%20skin.png</init_from>", sampler, "sampler"},
-      {"by its id", "<init_from>my skin.png</init_from>", "", "img"},
-      {"1.5", "<init_from><ref>./my%20skin.png</ref></init_from>", instanced, "sampler"},
-      {"elsewhere", "<init_from>file:///C:/Users/somebody/my%20skin.png</init_from>", sampler,
-       "sampler"},
-      {"backslashes", "<init_from>..\\art\\my skin.png</init_from>", sampler, "sampler"},
-      {"textures", "<init_from>/home/somebody/deep.png</init_from>", sampler, "sampler"},
-  };
-  for (const Case& one : cases) {
-    SCOPED_TRACE(one.name);
-    const Looked found =
-        looked(material("skin", textured(one.texture), one.parameters) + image(one.inside));
-    EXPECT_TRUE(found.notes.empty());
-    ASSERT_EQ(found.json["images"].size(), 1U);
-    EXPECT_EQ(found.json["images"][0]["mimeType"], "image/png");
-    const Json& look = found.json["materials"][0]["pbrMetallicRoughness"];
-    EXPECT_EQ(look["baseColorTexture"]["index"], 0);
-    EXPECT_FALSE(look["baseColorTexture"].contains("texCoord"));
-  }
-  const Looked missing = looked(material("skin", textured("sampler"), sampler) +
-                                image("<init_from>lost.png</init_from>"));
-  ASSERT_EQ(missing.notes.size(), 1U);
-  EXPECT_NE(missing.notes[0].find("lost.png"), std::string::npos);
-}
-
-TEST_F(DaeMaterials, APictureHasTheSetToWhichItIsBound) {
-  (void)folder_.write("skin.png", png);
-  const std::string libraries =
-      material("skin", textured("sampler"), sampler) + image("<init_from>skin.png</init_from>");
-  const auto set = [&](const std::string& inputs) {
-    const Looked found = looked(libraries, inputs);
-    const Json& look = found.json["materials"][0]["pbrMetallicRoughness"];
-    return look["baseColorTexture"].value("texCoord", 0);
-  };
-  const auto bind = [](const std::string& semantic, int number) {
-    return "<bind_vertex_input semantic=\"" + semantic + "\" input_semantic=\"TEXCOORD\" " +
-           "input_set=\"" + std::to_string(number) + "\"/>";
-  };
-  EXPECT_EQ(set(bind("UV", 3)), 0);
-  EXPECT_EQ(set(bind("UV", 5)), 1);
-  EXPECT_EQ(set(bind("other", 5)), 0);
-  EXPECT_EQ(set(bind("UV", 4)), 0);  // there is no such set
-}
-
-TEST_F(DaeMaterials, MapsOfNormalsAreKeptAndThoseOfBumpsSaidToBeLeftOut) {
-  (void)folder_.write("n.png", png);
-  const auto bumped = [&](const std::string& type) {
-    return looked(material("skin", "<lambert/><extra><technique profile=\"FCOLLADA\"><bump " +
-                                       type +
-                                       "><texture texture=\"img\"/></bump></technique></extra>") +
-                  image("<init_from>n.png</init_from>"));
-  };
-  const Looked normals = bumped("bumptype=\"NORMALMAP\"");
-  EXPECT_TRUE(normals.notes.empty());
-  EXPECT_EQ(normals.json["materials"][0]["normalTexture"]["index"], 0);
-  const Looked heights = bumped("");
-  EXPECT_FALSE(heights.json["materials"][0].contains("normalTexture"));
-  ASSERT_EQ(heights.notes.size(), 1U);
-  EXPECT_NE(heights.notes[0].find("bump"), std::string::npos);
+  file.polygons = polygons_of("polylist", plain);
+  file.node = "<rotate>0 0 1 90</rotate>";
+  file.instance = "instance_controller url=\"#morph\"";
+  file.libraries =
+      "<library_geometries><geometry id=\"smile-mesh\" name=\"smile\"><mesh>" +
+      Dae::source("smile-points", 3, numbers) +
+      "<vertices id=\"smile-corners\"><input semantic=\"POSITION\" source=\"#smile-points\"/>"
+      "</vertices></mesh></geometry></library_geometries><library_controllers><controller "
+      "id=\"morph\"><morph source=\"#box\" method=\"" +
+      std::string(relative ? "RELATIVE" : "NORMALIZED") +
+      "\"><source id=\"targets\"><IDREF_array count=\"1\">smile-mesh</IDREF_array></source>" +
+      Dae::source("weights", 1, encodings::fbx_number(weight) + " ") +
+      "<targets><input semantic=\"MORPH_TARGET\" source=\"#targets\"/><input "
+      "semantic=\"MORPH_WEIGHT\" source=\"#weights\"/></targets></morph></controller>"
+      "</library_controllers>";
+  return file;
 }
 
 TEST_F(DressDae, MorphsBecomeMorphTargets) {
   for (const bool relative : {false, true}) {
-    std::string numbers;
-    for (std::size_t v = 0; v < 8; ++v) {
-      const auto& p = encodings::corners[v];
-      const Eigen::Vector3d base =
-          relative ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(p[0], p[1], p[2]);
-      const Eigen::Vector3d move = v == 3 ? Eigen::Vector3d(0.5, 0, 0) : Eigen::Vector3d(0, 0, 0);
-      for (const double number : Eigen::Vector3d(base + move)) {
-        numbers += encodings::fbx_number(number) + " ";
-      }
-    }
-    Dae file;
-    file.polygons = polygons_of("polylist", plain);
-    file.node = "<rotate>0 0 1 90</rotate>";
-    file.instance = "instance_controller url=\"#morph\"";
-    file.libraries =
-        "<library_geometries><geometry id=\"smile-mesh\" name=\"smile\"><mesh>" +
-        Dae::source("smile-points", 3, numbers) +
-        "<vertices id=\"smile-corners\"><input semantic=\"POSITION\" source=\"#smile-points\"/>"
-        "</vertices></mesh></geometry></library_geometries><library_controllers><controller "
-        "id=\"morph\"><morph source=\"#box\" method=\"" +
-        std::string(relative ? "RELATIVE" : "NORMALIZED") +
-        "\"><source id=\"targets\"><IDREF_array count=\"1\">smile-mesh</IDREF_array></source>"
-        "<source id=\"weights\"><float_array>0</float_array></source><targets><input "
-        "semantic=\"MORPH_TARGET\" source=\"#targets\"/><input semantic=\"MORPH_WEIGHT\" "
-        "source=\"#weights\"/></targets></morph></controller></library_controllers>";
+    const Dae file = morphed(relative, 0);
     const Glb glb = glb_of(dressed(written(file)).bytes);
     const Json& mesh = glb.json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"smile"}));
@@ -512,6 +216,27 @@ TEST_F(DressDae, MorphsBecomeMorphTargets) {
     EXPECT_LT(
         (Eigen::Map<const Eigen::Vector3f>(moved.data()) - Eigen::Vector3f(0, 0.5F, 0)).norm(),
         1e-6F);
+  }
+}
+
+/// The weight of a morph that is on in the file is that of the target, not a part of the mesh.
+TEST_F(DressDae, MorphsThatAreOnStaySliders) {
+  for (const bool relative : {false, true}) {
+    const Dae off = morphed(relative, 0);
+    const Positions base = read_polygons(written(off)).positions;
+    const fs::path path = written(morphed(relative, 0.25));
+    const Positions shown = read_polygons(path).positions;
+    Positions wanted = base;
+    wanted(3, 1) += 0.25 * 0.5;
+    EXPECT_LT((shown - wanted).norm(), 1e-12);
+    const EditedFile edited = dressed(path);
+    const Glb glb = glb_of(edited.bytes);
+    const Json& mesh = glb.json["meshes"][0];
+    EXPECT_EQ(mesh["weights"], Json({0.25}));
+    const auto stored = glb.values<float>(mesh["primitives"][0]["attributes"]["POSITION"]);
+    for (Eigen::Index k = 0; k < 24; ++k) EXPECT_NEAR(stored[idx(k)], base(k / 3, k % 3), 1e-6);
+    const Positions seen = read_polygons(folder_.write("made.glb", edited.bytes)).positions;
+    EXPECT_LT((seen.topRows(8) - shown).norm(), 1e-6);
   }
 }
 
@@ -539,12 +264,18 @@ TEST_F(DressDae, TheSceneIsInMetresWithYUp) {
     const auto edited =
         format_rig_into(path, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"});
     ASSERT_TRUE(edited);
+    Rig stated = rig;  // as `rig_polygons` makes it of the soup
+    stated.to_y_up = given.to_gltf;
+    EXPECT_EQ(
+        format_rig_into(path, stated, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes,
+        edited->bytes);
     const fs::path made = folder_.write("made.glb", edited->bytes);
     const Eigen::Matrix3d axes =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(frame.axes.data());
     const auto in_scene = [&](const Positions& places) -> Positions {
       return frame.scale * places * axes.transpose();
     };
+    EXPECT_LT((given.to_gltf - frame.scale * axes).norm(), 1e-15);
     EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(),
               1e-5 * frame.scale);
     EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * frame.scale);

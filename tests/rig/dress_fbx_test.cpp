@@ -20,7 +20,7 @@
 #include <curveskel/rig_files.hpp>
 #include "base/base64.hpp"
 #include "tests/glb.hpp"
-#include "tests/own_folder.hpp"
+#include "tests/rig/fbx_subjects.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/scene_encodings.hpp"
 
@@ -28,15 +28,10 @@ namespace curveskel::dress_fbx_laws {
 namespace {
 
 namespace fs = std::filesystem;
-using encodings::FbxForm;
-using encodings::FbxItem;
-using encodings::FbxItems;
 using Json = nlohmann::json;
+using namespace fbx_subjects;
 
-const std::string png("\x89PNG\r\n\x1a\n no true picture", 24);
-constexpr std::array all_forms{FbxForm::text, FbxForm::binary, FbxForm::binary_wide_and_zipped};
 constexpr int faces = 6;
-constexpr std::int64_t first_material = 10;
 
 /// Of a corner of the box: its face, and which of the face's it is.
 std::size_t vertex_at(int face, int corner) {
@@ -88,36 +83,6 @@ struct Textures {
   }
 };
 
-FbxItem properties(const std::vector<encodings::FbxProperty>& given) {
-  FbxItem list{"Properties70", {}};
-  for (const encodings::FbxProperty& property : given) {
-    FbxItem one{"P", {property.name, "Color", "", "A"}};
-    one.values.insert(one.values.end(), property.values.begin(), property.values.end());
-    list.children.push_back(std::move(one));
-  }
-  return list;
-}
-
-FbxItem material(int number, const std::vector<encodings::FbxProperty>& given) {
-  return {"Material",
-          {first_material + number, "Material::m " + std::to_string(number), ""},
-          {properties(given)}};
-}
-
-/// The box with these objects beside it; those of kind "Material" are on it.
-FbxItems scene(FbxItem box, FbxItem model, const FbxItems& beside,
-               const std::vector<FbxItem>& links = {}) {
-  FbxItems objects{std::move(box), std::move(model)};
-  objects.insert(objects.end(), beside.begin(), beside.end());
-  FbxItems all = encodings::fbx_scene(objects, {{2, 0}, {1, 2}});
-  for (const FbxItem& object : beside) {
-    if (object.name != "Material") continue;
-    all[1].children.push_back({"C", {"OO", object.values[0], std::int64_t{2}}});
-  }
-  all[1].children.insert(all[1].children.end(), links.begin(), links.end());
-  return all;
-}
-
 /// Of the face that has all three.
 int face_of(const SurfaceMaterials& look, Eigen::Index triangle) {
   for (int face = 0; face < faces; ++face) {
@@ -132,22 +97,7 @@ int face_of(const SurfaceMaterials& look, Eigen::Index triangle) {
   return -1;
 }
 
-class DressFbx : public testing::Test {
- protected:
-  [[nodiscard]] fs::path written(const FbxItems& records, FbxForm form) const {
-    return folder_.write("a thing.fbx", encodings::fbx(records, form));
-  }
-
-  [[nodiscard]] EditedFile dressed(const fs::path& file, RigFormat format = RigFormat::glb) const {
-    const Eigen::Index rows = read_polygons(file).positions.rows();
-    const auto edited = format_rig_into(file, random_rig(rows, 5, "bone "),
-                                        {format, OldRig::replaced, "rig", "curveskel, a test"});
-    EXPECT_TRUE(edited);
-    return *edited;
-  }
-
-  OwnFolder folder_;
-};
+class DressFbx : public FbxDressing {};
 
 TEST_F(DressFbx, TextureCoordinatesAreTheFilesHoweverTheyAreGiven) {
   for (const FbxForm form : all_forms) {
@@ -430,7 +380,7 @@ TEST_F(DressFbx, ShapesBecomeMorphTargets) {
     const PolygonSoup soup = read_polygons(file);
     const Glb glb = glb_of(dressed(file).bytes);
     const Json& mesh = glb.json["meshes"][0];
-    EXPECT_EQ(mesh["weights"], Json({0, 0}));
+    EXPECT_EQ(mesh["weights"], Json({0, 0.5}));
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"channel 0", "channel 1"}));
     const Json& primitive = mesh["primitives"][0];
     const auto places = glb.values<float>(primitive["attributes"]["POSITION"]);
@@ -446,8 +396,9 @@ TEST_F(DressFbx, ShapesBecomeMorphTargets) {
         const Eigen::Vector3f at =
             Eigen::Map<const Eigen::Vector3f>(&places[3 * std::size_t{rows[k]}]);
         const Eigen::Vector3f moved = Eigen::Map<const Eigen::Vector3f>(&found[3 * k]);
+        const Eigen::Vector3d shown = soup.positions.row(2);
         const bool is_second =
-            (at - soup.positions.row(2).transpose().cast<float>()).norm() < 1e-6F;
+            (at - (shown - 0.5 * Eigen::Vector3d(0, 0.5, 0)).cast<float>()).norm() < 1e-6F;
         const Eigen::Vector3f wanted =
             is_second ? Eigen::Vector3f(0, 0.5, 0) : Eigen::Vector3f(0, 0, 2);
         EXPECT_LT((moved - wanted).norm(), 1e-6F);
@@ -489,11 +440,17 @@ TEST_F(DressFbx, TheSceneIsInMetresWithYUp) {
     const auto edited =
         format_rig_into(file, rig, {RigFormat::glb, OldRig::replaced, "rig", "a test"});
     ASSERT_TRUE(edited);
+    Rig stated = rig;  // as `rig_polygons` makes it of the soup
+    stated.to_y_up = given.to_gltf;
+    EXPECT_EQ(
+        format_rig_into(file, stated, {RigFormat::glb, OldRig::replaced, "rig", "a test"})->bytes,
+        edited->bytes);
     const fs::path made = folder_.write("made.glb", edited->bytes);
     const double scale = frame.unit > 0 ? frame.unit / 100 : 1;
     const auto in_scene = [&](const Positions& places) -> Positions {
       return scale * places * frame.axes.transpose();
     };
+    EXPECT_LT((given.to_gltf - scale * frame.axes).norm(), 1e-15);
     EXPECT_LT((read_polygons(made).positions - in_scene(given.positions)).norm(), 1e-5 * scale);
     EXPECT_LT((read_rig(made, {})->joints - in_scene(rig.joints)).norm(), 1e-5 * scale);
     const Glb glb = glb_of(edited->bytes);

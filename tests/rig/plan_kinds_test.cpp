@@ -12,9 +12,12 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include "rig/joints/placed_rig.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/rig/plan_subjects.hpp"
 #include "tests/soups.hpp"
 
@@ -116,6 +119,42 @@ TEST(Upright, IsTheFileOfASurfaceWithZUp) {
   }
   PolygonSoup upright = soup_of(standing);
   EXPECT_TRUE(rig_polygons(upright).character.rig.to_y_up.isIdentity(0));
+}
+
+/// FBX and COLLADA say which way is up, and how long their unit is; joints alone keep the input's
+/// numbers.
+TEST(Upright, IsTheBareFileOfWhatStatesItsAxesAndUnit) {
+  const Surface standing = human().surface;
+  PolygonSoup soup = soup_of(standing);
+  soup.positions << standing.positions.col(0), -standing.positions.col(2),
+      standing.positions.col(1);
+  soup.positions *= 100;
+  soup.format = SurfaceFormat::fbx;
+  soup.z_is_up = true;
+  soup.to_gltf << 0.01, 0, 0, 0, 0, 0.01, 0, -0.01, 0;
+  const Rig rig = rig_polygons(soup).character.rig;
+  EXPECT_EQ(rig.to_y_up, soup.to_gltf);
+  const Surface given{soup.positions, standing.triangles};
+  const OwnFolder folder;
+  const double size = standing.positions.norm();
+  for (const RigFormat format : {RigFormat::glb, RigFormat::fbx}) {
+    const std::string bytes = format_rig(given, rig, format, "a", "b");
+    const auto file = folder.write("a." + std::string(name_of(rig_formats, format)), bytes);
+    const PolygonSoup seen = read_polygons(file);
+    EXPECT_LT((seen.positions * seen.to_gltf.transpose() - standing.positions).norm(), 1e-6 * size);
+    const Rig joints = read_joints(file, {});
+    EXPECT_NEAR(joints.joints.col(1).maxCoeff(), 0.01 * rig.joints.col(2).maxCoeff(), 1e-6 * size);
+  }
+  const Surface metres{given.positions * rig.to_y_up.transpose(), given.triangles};
+  const Rig upright = placed(rig, Eigen::Affine3d(rig.to_y_up));
+  EXPECT_EQ(format_rig(given, rig, RigFormat::usda, "a", "b"),
+            format_rig(metres, upright, RigFormat::usda, "a", "b"));
+  Rig unturned = rig;
+  unturned.to_y_up.setIdentity();
+  for (const RigFormat format : {RigFormat::json, RigFormat::npz, RigFormat::txt, RigFormat::bvh}) {
+    EXPECT_EQ(format_rig(given, rig, format, "a", "b"),
+              format_rig(given, unturned, format, "a", "b"));
+  }
 }
 
 TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {

@@ -141,6 +141,33 @@ TEST(ReadDae, ASkinFollowsItsJointsAndNotItsNode) {
   EXPECT_EQ(soup.offsets.size(), 7);
 }
 
+/// A box hangs from the upper joint.
+TEST(ReadDae, APosedSkinIsReadAsItWasBoundIfOneAsks) {
+  const OwnFolder folder;
+  const auto read_as = [&](const std::string& high, bool as_bound) {
+    const std::string nodes =
+        "<node id=\"root\" sid=\"low\"><translate>0 0 1</translate><node sid=\"high\"><translate>" +
+        high + "</translate><node><translate>0 0 2</translate>" + shown +
+        "</node></node></node><node><instance_controller url=\"#skin\"><skeleton>#root</skeleton>"
+        "</instance_controller></node>";
+    return read_polygons(folder.write("posed.dae", dae(box, nodes, skin())), {}, {as_bound});
+  };
+  const PolygonSoup bent = read_as("4 0 0", false);
+  EXPECT_TRUE(bent.posed);
+  expect_corners(bent, 0,
+                 [](const auto& p) { return Eigen::RowVector3d(p.x() + 4, p.y(), p.z() + 3); });
+  const PolygonSoup bound = read_as("4 0 0", true);
+  EXPECT_TRUE(bound.posed);
+  expect_corners(bound, 0,
+                 [](const auto& p) { return Eigen::RowVector3d(p.x() + 100, p.y(), p.z() + 2); });
+  expect_corners(bound, 8,
+                 [](const auto& p) { return Eigen::RowVector3d(p.x() + 100, p.y(), p.z()); });
+  const PolygonSoup whole = read_as("0 0 0", true);  // the joints move alike
+  EXPECT_FALSE(whole.posed);
+  expect_corners(whole, 8,
+                 [](const auto& p) { return Eigen::RowVector3d(p.x(), p.y(), p.z() + 1); });
+}
+
 TEST(ReadDae, AJointThatIsNowhereIsNamed) {
   EXPECT_NE(refusal_of([] {
               return read_nodes("<node><instance_controller url=\"#skin\"/></node>", skin());

@@ -151,6 +151,92 @@ TEST_P(EveryForm, ASkinFollowsItsJointsAndTheRestItsModel) {
   }
 }
 
+std::vector<double> shifted(double x, double y, double z) {
+  return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
+}
+
+/// The lower corners follow joint 8, the upper ones joint 18, which hangs from it; another box
+/// hangs from the latter by model 12. They were bound at (0, 0, 1) and (0, 0, 3). `lower` and
+/// `upper` are where they stand. `told`: where the second cluster says that the mesh was.
+FbxItems posed(const FbxProperty& lower, const FbxProperty& upper, double told = 0) {
+  const auto cluster = [](std::int64_t number, const std::vector<int>& moved, double height,
+                          double mesh) {
+    return FbxItem{"Deformer",
+                   {number, "cluster", "Cluster"},
+                   {{"Indexes", {moved}},
+                    {"Weights", {std::vector<double>(4, 1.0)}},
+                    {"Transform", {shifted(0, 0, mesh - height)}},
+                    {"TransformLink", {shifted(0, 0, height)}}}};
+  };
+  return fbx_scene({fbx_box(),
+                    fbx_model(2),
+                    fbx_model(8, {lower}, "LimbNode"),
+                    fbx_model(18, {upper}, "LimbNode"),
+                    fbx_model(12, {three("Lcl Translation", 5, 0, 0)}),
+                    {"Deformer", {std::int64_t{5}, "skin", "Skin"}},
+                    cluster(6, {0, 1, 2, 3}, 1, 0),
+                    cluster(7, {4, 5, 6, 7}, 3, told)},
+                   {{2, 0},
+                    {8, 0},
+                    {18, 8},
+                    {12, 18},
+                    {1, 2},
+                    {1, 12},
+                    {5, 1},
+                    {6, 5},
+                    {7, 5},
+                    {8, 6},
+                    {18, 7}});
+}
+
+PolygonSoup read_bound(const FbxItems& records, FbxForm form) {
+  const OwnFolder folder;
+  return read_polygons(folder.write("box.fbx", fbx(records, form)), {}, {true});
+}
+
+TEST_P(EveryForm, APosedSkinIsReadAsItWasBoundIfOneAsks) {
+  const FbxItems records =
+      posed(three("Lcl Translation", 0, 7, 1), three("Lcl Translation", 3, 0, 2));
+  const PolygonSoup shown = read(records);
+  EXPECT_TRUE(shown.posed);
+  // The skin of the geometry moves it wherever a model shows it.
+  expect_corners(shown, 0, [](const Row& p) { return Row(p + Row(p.z() > 0 ? 3 : 0, 7, 0)); });
+  const PolygonSoup bound = read_bound(records, GetParam());
+  EXPECT_TRUE(bound.posed);
+  expect_corners(bound, 0, [](const Row& p) { return p; });
+}
+
+TEST_P(EveryForm, MeshesThatHangFromJointsGoWithThem) {
+  FbxItems records = posed(three("Lcl Translation", 0, 7, 1), three("Lcl Translation", 3, 0, 2));
+  FbxItem sword = fbx_box();
+  sword.values[0] = std::int64_t{31};
+  records[0].children.push_back(sword);
+  records[0].children.push_back(fbx_model(32, {three("Lcl Translation", 5, 0, 0)}));
+  records[0].children.push_back(fbx_model(33, {three("Lcl Translation", 0, 0, 4)}));
+  for (const auto& [child, parent] : FbxLinks{{31, 32}, {32, 18}, {31, 33}, {33, 0}}) {
+    records[1].children.push_back({"C", {"OO", child, parent}});
+  }
+  const auto swords = [&](const PolygonSoup& soup, double x, double y) {
+    expect_corners(soup, 16, [&](const Row& p) { return Row(p + Row(5 + x, y, 3)); });
+    expect_corners(soup, 24, [](const Row& p) { return Row(p + Row(0, 0, 4)); });
+  };
+  swords(read(records), 3, 7);
+  swords(read_bound(records, GetParam()), 0, 0);
+}
+
+/// Moved as a whole, or said to be bound in two places: then it is read as shown.
+TEST_P(EveryForm, ASkinThatIsMovedAsAWholeIsNotPosed) {
+  const FbxProperty up = three("Lcl Translation", 0, 0, 2);
+  const FbxItems whole = posed(three("Lcl Translation", 0, 7, 1), up);
+  const FbxItems torn =
+      posed(three("Lcl Translation", 0, 7, 1), three("Lcl Translation", 3, 0, 2), 1);
+  for (const FbxItems& records : {whole, torn}) {
+    const PolygonSoup bound = read_bound(records, GetParam());
+    EXPECT_FALSE(bound.posed);
+    EXPECT_EQ(bound.positions, read(records).positions);
+  }
+}
+
 TEST_P(EveryForm, ArraysOfBytesArePassedOver) {
   FbxItem box = fbx_box();
   box.children.push_back({"Smoothness", {std::vector<signed char>{1, 0, -1}}});

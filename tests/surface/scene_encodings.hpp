@@ -213,10 +213,11 @@ inline std::string fbx_as_binary(const FbxItem& item, std::size_t begin, bool wi
   return bytes + item.name + values + children;
 }
 
-inline std::string fbx(const FbxItems& records, FbxForm form, int version = 7500) {
+inline std::string fbx(const FbxItems& records, FbxForm form, int version = 7500,
+                       const std::string& creator = "nobody") {
   const bool wide = form == FbxForm::binary_wide_and_zipped;
   if (form == FbxForm::binary && version >= 7500) version = 7400;
-  FbxItems all{{"FBXHeaderExtension", {}, {{"FBXVersion", {version}}}}};
+  FbxItems all{{"FBXHeaderExtension", {}, {{"FBXVersion", {version}}, {"Creator", {creator}}}}};
   all.insert(all.end(), records.begin(), records.end());
   if (form == FbxForm::text) {
     std::string text = "; FBX 7.5.0 project file\n; as text\n\n";

@@ -45,6 +45,7 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   document.format = soup.format;
   document.faces_minus_z = soup.faces_minus_z;
   document.z_is_up = soup.z_is_up;
+  document.to_gltf = soup.to_gltf;
   document.surface.triangles = triangulate(soup);
   if (has_same_triangles(soup, document.surface.triangles)) {
     document.surface.positions = std::move(soup.positions);
@@ -108,6 +109,7 @@ std::shared_ptr<const PolygonSoup> Document::polygons() const {
   made->format = format;
   made->faces_minus_z = faces_minus_z;
   made->z_is_up = z_is_up;
+  made->to_gltf = to_gltf;
   made->file = mesh_file;
   return made;
 }

@@ -19,6 +19,7 @@ std::shared_ptr<const CharacterRig> rig_of(
   facing.plan.z_is_up = document.z_is_up;
   CharacterRig made =
       rig_character(document.surface, repaired, mapped, facing, monitor, certificate);
+  made.rig.to_y_up = axes_to_gltf(document.format, document.to_gltf, made.plan, facing.plan.up);
   const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
   made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
     return vertex >= 0 && vertex < of_repaired.size() ? of_repaired[vertex] : -1;
