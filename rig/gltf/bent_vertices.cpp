@@ -2,7 +2,6 @@
 
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -34,7 +33,7 @@ Vectors vectors_in(const FileBytes& file, const tinygltf::Model& model, int acce
   return vectors;
 }
 
-/// How normals turn: as the planes that they stand on.
+/// Normals turn as the planes that they stand on.
 Eigen::Matrix3d turn_of_normals(const Eigen::Matrix3d& linear) {
   Eigen::Matrix3d cofactors;
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -160,14 +159,18 @@ class BentPrimitive {
     return add_accessor(document, bytes, "VEC3", gltf_float, idx(vectors.cols()), gltf_vertices);
   }
 
-  /// With their bounds, which the standard wants.
+  /// With their bounds, which the standard wants; of vertices without a place it knows none.
   static std::size_t add_places(GltfDocument& document, const Vectors& places) {
     const std::size_t accessor = add_vectors(document, places);
+    Eigen::AlignedBox3f box;
+    for (const auto& place : places.cast<float>().colwise()) {
+      if (place.allFinite()) box.extend(Eigen::Vector3f(place));
+    }
+    if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero().eval());
     OrderedJson& written = document.json["accessors"][accessor];
-    const Eigen::Matrix3Xf rows = places.cast<float>();
     for (Eigen::Index k = 0; k < 3; ++k) {
-      written["min"].push_back(rows.row(k).minCoeff());
-      written["max"].push_back(rows.row(k).maxCoeff());
+      written["min"].push_back(box.min()[k]);
+      written["max"].push_back(box.max()[k]);
     }
     return accessor;
   }
@@ -220,6 +223,7 @@ void write_bent_vertices(GltfDocument& document, std::vector<GltfPart>& parts,
     if (!parts[k].bent) continue;
     parts[k].move = Eigen::Affine3d::Identity();
     const GltfPart& part = scene.parts[k];
+    if (part.count == 0) continue;
     const std::size_t mesh = document.json["nodes"][idx(parts[k].node)]["mesh"];
     // A copy, as writing makes room in the document.
     OrderedJson primitive = document.json["meshes"][mesh]["primitives"][idx(part.primitive)];

@@ -2,7 +2,10 @@
 // as these files are shown.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -110,6 +113,51 @@ TEST_F(ShownGltf, KeepsTheBytesAndAllAttributesButThese) {
           EXPECT_EQ(found == accessor, !is_bent) << mesh << " " << name;
         }
       }
+    }
+  }
+}
+
+std::string with_json(const Glb& glb) {
+  std::string json = glb.json.dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  const auto put = [&](std::size_t number) {
+    const auto word = static_cast<std::uint32_t>(number);
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+  };
+  for (const std::size_t number : {std::size_t{2}, 28 + json.size() + glb.numbers.size()}) {
+    put(number);
+  }
+  put(json.size());
+  bytes += "JSON" + json;
+  put(glb.numbers.size());
+  return bytes + std::string("BIN\0", 4) + glb.numbers;
+}
+
+/// A primitive without vertices beside those of the bent mesh, and a vertex without a place.
+TEST_F(ShownGltf, BoundsAreOfThePlacesThatThereAre) {
+  const EditSubject subject(folder_.path(), posed_cases().front());
+  Glb glb{subject.json(), subject.buffers()[0]};
+  glb.numbers.resize((glb.numbers.size() + 3) / 4 * 4);
+  auto& primitives = glb.json["meshes"][0]["primitives"];
+  const std::size_t places = primitives[0]["attributes"]["POSITION"];
+  const std::size_t view = glb.json["accessors"][places]["bufferView"];
+  const std::size_t begin = glb.json["bufferViews"][view]["byteOffset"];
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(&glb.numbers[begin], &nothing, sizeof nothing);
+  auto none = glb.json["accessors"][places];
+  none["count"] = 0;
+  none.erase("min");
+  none.erase("max");
+  glb.json["accessors"].push_back(none);
+  primitives.push_back({{"attributes", {{"POSITION", glb.json["accessors"].size() - 1}}}});
+  const fs::path file = folder_.write("none.glb", with_json(glb));
+  const Glb after = glb_of(edited(file, false));
+  const std::size_t written = after.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+  EXPECT_NE(written, places);
+  for (const char* bound : {"min", "max"}) {
+    for (const auto& number : after.json["accessors"][written][bound]) {
+      EXPECT_TRUE(number.is_number()) << number;
     }
   }
 }

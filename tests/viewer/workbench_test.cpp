@@ -122,5 +122,36 @@ TEST(Workbench, LevelsAreShownAtOnceUnlessCorrectionsWouldBeLost) {
   EXPECT_TRUE(bench.messages().back().bad);
 }
 
+// Another run's skeleton took the place of the one that was gone back to, and all after it went.
+TEST(Workbench, LevelsAreOfTheSkeletonThatIsShown) {
+  Workbench bench{ViewOptions{}};
+  bench.open({mesh("y.off")});
+  ASSERT_TRUE(wait(bench, [&] { return bench.result() != nullptr && !bench.busy(); }));
+  const CurveSkeleton first = *bench.scene->skeleton();
+  Pick edge;
+  edge.kind = Pick::Kind::edge;
+  edge.index = 0;
+  bench.select(edge, false);
+  bench.split();
+  const CurveSkeleton corrected = *bench.scene->skeleton();
+  bench.pipeline.extract.fairing = true;
+  bench.pipeline.extract.fair.iterations = 20;
+  bench.start(false);
+  ASSERT_TRUE(wait(bench, [&] { return !bench.running() && !bench.busy(); }));
+  const CurveSkeleton second = *bench.scene->skeleton();
+  ASSERT_NE(second.nodes, first.nodes);
+  bench.undo();
+  bench.undo();
+  EXPECT_EQ(bench.scene->skeleton()->nodes, first.nodes);
+  bench.pipeline.extract.embed.detail = 0.25;
+  bench.show_level();
+  const CurveSkeleton level = level_of(first, least_life(0.25));
+  EXPECT_EQ(bench.scene->skeleton()->nodes, level.nodes);
+  bench.redo();
+  EXPECT_EQ(bench.scene->skeleton()->nodes, corrected.nodes);
+  bench.redo();
+  EXPECT_EQ(bench.scene->skeleton()->nodes, second.nodes);
+}
+
 }  // namespace
 }  // namespace curveskel::viewer::workbench_laws

@@ -11,18 +11,20 @@ void History::add(Edited next) {
   at_ = states_.size() - 1;
 }
 
-void History::replace(Edited other) {
-  states_.resize(at_ + 1);
-  states_[at_] = std::move(other);
-}
+void History::replace(Edited other) { states_[at_] = std::move(other); }
 
 void History::go_over_to(Eigen::Index vertices) {
-  for (Edited& state : states_) {
-    const Eigen::Index mapped = state.skeleton->node_of_vertex.size();
-    if (mapped == 0 || mapped == vertices) continue;
-    auto other = std::make_shared<CurveSkeleton>(*state.skeleton);
+  const auto forget = [vertices](std::shared_ptr<const CurveSkeleton>& skeleton) {
+    if (skeleton == nullptr) return;
+    const Eigen::Index mapped = skeleton->node_of_vertex.size();
+    if (mapped == 0 || mapped == vertices) return;
+    auto other = std::make_shared<CurveSkeleton>(*skeleton);
     other->node_of_vertex.resize(0);
-    state.skeleton = std::move(other);
+    skeleton = std::move(other);
+  };
+  for (Edited& state : states_) {
+    forget(state.skeleton);
+    forget(state.whole);
   }
 }
 

@@ -25,13 +25,17 @@ struct Edited {
   int root = -1;                 ///< node; -1 = none was chosen
   bool corrected = false;        ///< by hand, since it was made or read
   std::vector<GivenRole> roles;  ///< in the order in which they were given
+  /// As it was made or read, with all its branches: levels are of it. With its root.
+  std::shared_ptr<const CurveSkeleton> whole = nullptr;
+  int whole_root = -1;
 };
 
 /// States in order; the past is kept whole, the future until something else is done.
 class History {
  public:
   void add(Edited next);
-  /// In place of the present state, which is not worth going back to. Precondition: not empty.
+  /// In place of the present state, which is not worth going back to; later ones stay.
+  /// Precondition: not empty.
   void replace(Edited other);
   /// Of another surface: forgets the vertex maps that are not of so many vertices.
   void go_over_to(Eigen::Index vertices);

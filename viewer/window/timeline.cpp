@@ -118,13 +118,13 @@ void draw_choice_of_component(Workbench& bench, int component) {
   go_beside(">", component + 1, "the next component");
 }
 
-/// Only where there are tries that were not kept.
-void draw_choice_of_tries(Workbench& bench) {
+/// Only where there are tries that were not kept. Nothing: the choice stays.
+std::optional<bool> draw_choice_of_tries(const Workbench& bench) {
   const Recording& recording = bench.scene->recording;
-  if (!recording.has_other_tries() || bench.running()) return;
+  if (!recording.has_other_tries() || bench.running()) return std::nullopt;
   ImGui::SameLine(0, 30);
   bool all = recording.shows_all_tries();
-  if (ImGui::Checkbox("all tries", &all)) bench.show_all_tries(all);
+  return ImGui::Checkbox("all tries", &all) ? std::optional(all) : std::nullopt;
 }
 
 /// The moments as steps, with the plots of the component; tries are not connected with each other.
@@ -174,7 +174,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
   }
   draw_choice_of_component(bench, component);
-  draw_choice_of_tries(bench);
+  const std::optional<bool> all_tries = draw_choice_of_tries(bench);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x,
                     std::max(ImGui::GetContentRegionAvail().y, 10.0F));
@@ -192,6 +192,8 @@ void draw_timeline(Workbench& bench, const Area& area) {
   ImGui::GetWindowDrawList()->AddRectFilled({cursor - 1.5F, low.y}, {cursor + 1.5F, low.y + size.y},
                                             ImGui::GetColorU32(ImGuiCol_Text));
   ImGui::End();
+  // Last, as other moments take the place of those that were drawn.
+  if (all_tries) bench.show_all_tries(*all_tries);
 }
 
 }  // namespace curveskel::viewer

@@ -181,7 +181,8 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   failed_edges_.clear();
   failed_faces_.clear();
   if (scene->own_skeleton) {
-    show_made({scene->own_skeleton, scene->document.root, false, {}}, true);
+    const int root = scene->document.root;
+    show_made({scene->own_skeleton, root, false, {}, scene->own_skeleton, root}, true);
   } else if (!history_.empty()) {
     show_state();
   }

@@ -147,12 +147,11 @@ void Workbench::show_level() {
         true);
     return;
   }
-  if (history_.empty() || (!result_ && !scene->document.skeleton)) return;
+  if (history_.empty() || history_.now().whole == nullptr) return;
   detail_shown_ = detail;
-  const bool was_made = result_.has_value();
-  const Edited whole{was_made ? result_->skeleton
-                              : std::make_shared<const CurveSkeleton>(*scene->document.skeleton),
-                     was_made ? -1 : scene->document.root, false, history_.now().roles};
+  Edited whole = history_.now();
+  whole.skeleton = whole.whole;
+  whole.root = whole.whole_root;
   show_made(changed_with_root(whole, [&](const CurveSkeleton& one) { return at_level(one); }),
             false);
 }
@@ -167,6 +166,7 @@ void Workbench::take_result(RunResult result) {
   const bool had_root = root() >= 0;
   detail_shown_ = pipeline.extract.embed.detail;
   Edited made{std::make_shared<const CurveSkeleton>(at_level(*result.skeleton)), -1, false, {}};
+  made.whole = result.skeleton;
   if (!history_.empty()) made.roles = history_.now().roles;
   show_made(std::move(made), true);
   if (had_root) say("the root was a node of the skeleton before; set it again (T)");
