@@ -3,12 +3,19 @@
 import contextlib
 
 import bpy
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
 END = "_end"
 LEAST_BONE = 1e-4  # of the rig's size: Blender drops bones without length
 ON_AXIS = 1e-4  # sine of the angle
+SAME_PLACE = 1e-5  # of the numbers in a matrix
 MADE = "curveskel"  # custom property of armatures and bones that the add-on made
+
+
+def is_near(a, b):
+    size = max(1.0, *(abs(number) for row in b for number in row))
+    return all(abs(x - y) <= SAME_PLACE * size
+               for row, other in zip(a, b) for x, y in zip(row, other))
 
 
 def has_side(name):
@@ -125,6 +132,34 @@ def remove(armature):
 def made_bones(data):
     """Names of the bones that the add-on made and that still deform; others are the user's own."""
     return {bone.name for bone in data.bones if MADE in bone and bone.use_deform}
+
+
+def users_own(armature):
+    """In words, the first thing in it that the user added and that would go with it; None without
+    any."""
+    made = made_bones(armature.data)
+    bones = [bone.name for bone in armature.data.bones if bone.name not in made]
+    if bones:
+        return f"bone {bones[0]}"
+    for animation in (armature.animation_data, armature.data.animation_data):
+        if animation and (animation.action or animation.nla_tracks or animation.drivers):
+            return "animation"
+    for part in (armature, *armature.pose.bones):
+        if part.constraints:
+            return f"constraints of {part.name}"
+    for bone in armature.pose.bones:
+        if bone.custom_shape:
+            return f"shape of {bone.name}"
+        if not is_near(bone.matrix_basis, Matrix.Identity(4)):
+            return f"pose of {bone.name}"
+    return None
+
+
+def is_needed(armature):
+    """By a child, a constraint, a driver of something else."""
+    places = bpy.types.Collection, bpy.types.Scene, bpy.types.Screen
+    users = bpy.data.user_map(subset=[armature])[armature]
+    return any(user != armature and not isinstance(user, places) for user in users)
 
 
 def set_bones(context, armature, rig):

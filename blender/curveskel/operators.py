@@ -166,6 +166,18 @@ class RunsProgram:
         return json.loads((self.job.folder / name).read_text())
 
 
+def kept_first(old):
+    """Of armatures that become one the first stays: that in which the user added something."""
+    own = {armature: armatures.users_own(armature) for armature in old}
+    changed = [armature for armature in old if own[armature]]
+    if len(changed) > 1:
+        said = " and ".join(f"{armature.name} ({own[armature]})" for armature in changed[:2])
+        raise ProgramError(
+            f"{said} would become one armature, and what you added to one of them would go; clear "
+            "that, or select the meshes of one armature only")
+    return sorted(old, key=lambda armature: armature not in changed)
+
+
 def check_whole(context, old, things):
     """Bones of these armatures are replaced: all that moves with them must be there."""
     for armature in old:
@@ -199,7 +211,7 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
                         f"{thing.name} moves with {armature.name} already: select that, too, for "
                         "Weights Only, or remove the armature modifier and clear the parent first")
                 found.append(armature)
-        found = list(dict.fromkeys(found))
+        found = kept_first(dict.fromkeys(found))
         check_whole(context, found, things)
         return found
 
@@ -231,12 +243,18 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
                 if not old:
                     armatures.remove(armature)
                 raise
-        for other in old[1:]:
-            if not other.children:
-                armatures.remove(other)
+        self.remove_unneeded(old[1:])
         count = len([name for name in names if name])
         self.report({"INFO"}, f"{count} bones in place of the former ones of {armature.name}"
                     if old else f"{count} bones")
+
+    def remove_unneeded(self, old):
+        for armature in old:
+            if armatures.is_needed(armature):
+                self.report({"WARNING"}, f"{armature.name} moves no mesh any more; it stays, as "
+                                         "other objects need it")
+            else:
+                armatures.remove(armature)
 
     def refuse_wrong(self, things, rig, old_bones):
         joints = rig["joints"]

@@ -3,7 +3,7 @@
 import bpy
 from mathutils import Matrix
 
-SAME_PLACE = 1e-5  # of the numbers in a matrix
+from .armatures import is_near
 
 
 def frame_above(thing):
@@ -13,12 +13,6 @@ def frame_above(thing):
     if thing.parent_type == "OBJECT":
         return thing.parent.matrix_world @ thing.matrix_parent_inverse
     return thing.matrix_world @ thing.matrix_basis.inverted_safe()
-
-
-def is_near(a, b):
-    size = max(1.0, *(abs(number) for row in b for number in row))
-    return all(abs(x - y) <= SAME_PLACE * size
-               for row, other in zip(a, b) for x, y in zip(row, other))
 
 
 class Hanging:

@@ -130,7 +130,113 @@ def a_linked_duplicate_of_a_character_is_left_alone():
     assert made.data.pose_position == other.data.pose_position == "POSE"
 
 
+def apart():
+    # a body and a hat with an armature each
+    body, hat = figure(), cube("hat", (0, 0, 1.9))
+    return body, rig(body), hat, rig(hat)
+
+
+def add_control(made):
+    select(made)
+    bpy.ops.object.mode_set(mode="EDIT")
+    control = made.data.edit_bones.new("my_control")
+    control.head, control.tail, control.use_deform = (0, -0.5, 1), (0, -0.7, 1), False
+    bpy.ops.object.mode_set(mode="OBJECT")
+    made.pose.bones["my_control"].constraints.new("LIMIT_ROTATION")
+
+
+def add_action(made):
+    made.pose.bones[0].keyframe_insert("location", frame=1)
+
+
+def add_constraint(made):
+    made.pose.bones[0].constraints.new("LIMIT_ROTATION")
+
+
+def add_pose(made):
+    made.pose.bones[0].rotation_quaternion = (0.9, 0.1, 0, 0)
+
+
+def what_the_user_added_stays_where_parts_come_together():
+    for add in (add_control, add_action, add_constraint, add_pose):
+        body, first, hat, second = apart()
+        add(second)
+        assert rig(body, hat) == second and skins(body) == skins(hat) == [second], add
+        assert armatures() == [second], add
+        check_weights(body, {bone.name for bone in second.data.bones})
+        if add == add_control:
+            assert len(second.pose.bones["my_control"].constraints) == 1
+        if add == add_action:
+            assert second.animation_data.action
+        for thing in (body, hat, second):
+            bpy.data.objects.remove(thing)
+
+
+def two_armatures_that_the_user_changed_are_refused():
+    body, first, hat, second = apart()
+    add_control(second)
+    add_action(first)
+    before = [len(made.data.bones) for made in (first, second)]
+    refused("my_control", body, hat)
+    assert [len(made.data.bones) for made in (first, second)] == before
+    assert skins(body) == [first] and skins(hat) == [second]
+
+
+def an_armature_that_others_need_stays():
+    body, first, hat, second = apart()
+    light = empty("light")
+    light.constraints.new("CHILD_OF").target = second
+    assert rig(body, hat) == first
+    assert light.constraints[0].target == second and second in armatures()
+
+
+def meshes_that_deform_as_children_are_not_broken():
+    body, hat = figure(), cube("hat", (0, 0, 1.9))
+    made = rig(body)
+    bones = [bone.name for bone in made.data.bones]
+    hat.parent, hat.parent_type = made, "ARMATURE"
+    hat.vertex_groups.new(name="head").add(range(8), 1, "REPLACE")
+    refused("hat moves with", body, names="neutral")
+    assert [bone.name for bone in made.data.bones] == bones
+    lamp = empty("lamp")  # nothing in it deforms
+    lamp.parent, lamp.parent_type = made, "ARMATURE"
+    rig(body, hat, names="neutral")
+    assert hat.parent_type == "OBJECT" and skins(hat) == [made]
+
+
+def bent_by(made, data, name, as_child=False):
+    thing = bpy.data.objects.new(name, data)
+    bpy.context.collection.objects.link(thing)
+    if as_child:
+        thing.parent, thing.parent_type = made, "ARMATURE"
+    else:
+        thing.modifiers.new("bend", "ARMATURE").object = made
+    return thing
+
+
+def curves_texts_and_lattices_go_on():
+    body, made, hat, other = apart()
+    curve = bent_by(other, bpy.data.curves.new("curve", "CURVE"), "curve")
+    text = bent_by(other, bpy.data.curves.new("text", "FONT"), "text", as_child=True)
+    cage = bent_by(made, bpy.data.lattices.new("cage"), "cage")
+    cage.vertex_groups.new(name="head").add(range(8), 1, "REPLACE")
+    text.location = (0, 0, 2)
+    bpy.context.view_layer.update()
+    frame = text.matrix_world.copy()
+    assert rig(body, hat) == made and armatures() == [made]
+    assert skins(curve) == skins(cage) == [made]
+    assert text.parent == made and text.parent_type == "ARMATURE"
+    assert far(frame, text.matrix_world) < 1e-5
+    # Not with bones of other names: the lattice's groups would have none.
+    refused("cage", body, hat, names="mixamo")
+    assert "head" in made.data.bones
+    cage.vertex_groups.clear()
+    assert rig(body, hat, names="mixamo") == made
+
+
 run_laws(rig_again_replaces_bones_and_groups, posed_and_moved_bodies_are_rigged_where_they_are,
          locked_groups_stay, other_armatures_and_bodies_are_not_broken,
          parts_that_were_rigged_apart_come_together, groups_of_the_users_own_are_not_taken,
-         a_linked_duplicate_of_a_character_is_left_alone)
+         a_linked_duplicate_of_a_character_is_left_alone,
+         what_the_user_added_stays_where_parts_come_together,
+         two_armatures_that_the_user_changed_are_refused, an_armature_that_others_need_stays)
