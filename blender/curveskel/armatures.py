@@ -9,6 +9,7 @@ END = "_end"
 LEAST_BONE = 1e-4  # of the rig's size: Blender drops bones without length
 ON_AXIS = 1e-4  # sine of the angle
 SAME_PLACE = 1e-5  # of the numbers in a matrix
+SKINS = ("ARMATURE", "GP_ARMATURE", "GREASE_PENCIL_ARMATURE")  # types of modifiers
 MADE = "curveskel"  # custom property of armatures and bones that the add-on made
 
 
@@ -80,15 +81,26 @@ def tails(joints):
     return found
 
 
-def moving(thing):
-    """The armatures that the object moves with, by modifiers or as their child."""
-    found = [modifier.object for modifier in thing.modifiers
-             if modifier.type == "ARMATURE" and modifier.object]
-    parent = thing.parent
-    if parent and parent.type == "ARMATURE" and (
-            thing.parent_type in ("ARMATURE", "BONE") or MADE in parent):
-        found.append(parent)
+def modifiers_of(thing):
+    """Lists of modifiers: grease pencils have two."""
+    return [thing.modifiers, *filter(None, [getattr(thing, "grease_pencil_modifiers", None)])]
+
+
+def bending(thing):
+    """The armatures whose bones give the object its shape, by modifiers or as their child."""
+    found = [modifier.object for modifiers in modifiers_of(thing) for modifier in modifiers
+             if modifier.type in SKINS and modifier.object]
+    if thing.parent and thing.parent.type == "ARMATURE" and thing.parent_type == "ARMATURE":
+        found.append(thing.parent)
     return list(dict.fromkeys(found))
+
+
+def moving(thing):
+    """The same, and those that it moves with as it is."""
+    parent = thing.parent
+    if parent and parent.type == "ARMATURE" and (thing.parent_type == "BONE" or MADE in parent):
+        return list(dict.fromkeys([*bending(thing), parent]))
+    return bending(thing)
 
 
 @contextlib.contextmanager

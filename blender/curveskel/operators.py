@@ -186,12 +186,28 @@ def check_whole(context, old, things):
         if not armature.visible_get(view_layer=context.view_layer):
             raise ProgramError(f"{armature.name}, whose bones would be replaced, is hidden; "
                                "show it")
-        for thing in bpy.data.objects:
-            if thing.users_scene and thing not in things and any(
-                    modifier.type == "ARMATURE" and modifier.object == armature
-                    for modifier in thing.modifiers):
+        for thing in bent_with([armature]):
+            if thing.type == "MESH" and thing not in things:
                 raise ProgramError(f"{thing.name} moves with {armature.name}, too, whose bones "
                                    "would be replaced; select it as well")
+
+
+def bent_with(old):
+    return [thing for thing in bpy.data.objects
+            if thing.users_scene and not set(old).isdisjoint(armatures.bending(thing))]
+
+
+def check_bent(old, old_bones, names):
+    """Lattices and grease pencils go on with groups of the same names; curves and texts have none,
+    as they go by envelopes."""
+    for thing in bent_with(old):
+        gone = [group.name for group in thing.vertex_groups
+                if group.name in old_bones and group.name not in names]
+        if thing.type != "MESH" and gone:
+            raise ProgramError(
+                f"{thing.name} moves, too, with bones that would go: {', '.join(gone[:5])}"
+                f"{' ...' if len(gone) > 5 else ''}; choose Names as before, or rename or remove "
+                "these vertex groups of its own first")
 
 
 class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
@@ -234,7 +250,7 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
         with armatures.at_rest(context, old):
             things = self.unchanged(context)
             old_bones = set().union(*(armatures.made_bones(each.data) for each in old))
-            self.refuse_wrong(things, rig, old_bones)
+            self.refuse_wrong(things, rig, old, old_bones)
             armature = old[0] if old else armatures.new_armature(
                 context, self.taken[0].key[0] + " rig", things[0])
             try:
@@ -256,20 +272,24 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
             else:
                 armatures.remove(armature)
 
-    def refuse_wrong(self, things, rig, old_bones):
+    def refuse_wrong(self, things, rig, old, old_bones):
         joints = rig["joints"]
         names = [None if armatures.is_end(joints, number) else joint["name"]
                  for number, joint in enumerate(joints)]
         for thing, taken in zip(things, self.taken):
             groups.check_own(thing, [name for name in names if name], old_bones)
             groups.check_mirrored(thing, taken.rows, rig, names)
+        check_bent(old, old_bones, names)
 
     def take(self, context, armature, things, rig, old, old_bones):
         hanging = [parents.Hanging(thing) for thing in things]
         others = [parents.Hanging(child) for child in armature.children if child not in things]
+        bent = [parents.Hanging(thing) for thing in bent_with(old) if thing.type != "MESH"]
         names = armatures.set_bones(context, armature, rig)
         for child in others:
             child.stay(context)
+        for before in bent:
+            parents.go_over(context, before, armature, old)
         if not old:
             parents.take_parent(context, armature, things)
         self.skin(context, armature, hanging, rig, names, old, old_bones)

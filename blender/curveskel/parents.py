@@ -3,7 +3,7 @@
 import bpy
 from mathutils import Matrix
 
-from .armatures import is_near
+from .armatures import SKINS, is_near, modifiers_of
 
 
 def frame_above(thing):
@@ -106,19 +106,34 @@ def hang(context, hanging, armature, old):
     return kept
 
 
+def switch_modifiers(thing, armature, old):
+    """One armature modifier in place of those of old armatures. Returns whether there is one."""
+    has_one = False
+    for modifiers in modifiers_of(thing):
+        skins = [modifier for modifier in modifiers if modifier.type in SKINS]
+        has_one = has_one or any(modifier.object == armature for modifier in skins)
+        for modifier in skins:
+            if modifier.object in old and modifier.object != armature:
+                if has_one:
+                    modifiers.remove(modifier)
+                else:
+                    modifier.object = armature
+                    has_one = True
+    return has_one
+
+
+def go_over(context, before, armature, old):
+    """An object that is no mesh bends with this armature as it did with old ones."""
+    switch_modifiers(before.thing, armature, old)
+    if before.type == "ARMATURE" and before.parent in old and before.parent != armature and \
+            before.move(context, armature):
+        before.thing.parent_type = "ARMATURE"
+
+
 def add_modifier(thing, armature, old):
     """An armature modifier in place of those of old armatures. A new one comes before what makes
     more vertices of the skinned ones, but after mirrors."""
-    skins = [modifier for modifier in thing.modifiers if modifier.type == "ARMATURE"]
-    has_one = any(modifier.object == armature for modifier in skins)
-    for modifier in skins:
-        if modifier.object in old and modifier.object != armature:
-            if has_one:
-                thing.modifiers.remove(modifier)
-            else:
-                modifier.object = armature
-                has_one = True
-    if has_one:
+    if switch_modifiers(thing, armature, old):
         return
     modifier = thing.modifiers.new("Armature", "ARMATURE")
     modifier.object = armature
