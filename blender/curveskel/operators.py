@@ -22,14 +22,15 @@ class Taken:
     def __init__(self, thing, rows=None):
         self.key = thing.name, thing.library.filepath if thing.library else None
         self.frame = thing.matrix_world.copy()
-        self.size = self.size_of(thing)
+        self.state = self.state_of(thing)
         self.rows = rows
 
     @staticmethod
-    def size_of(thing):
+    def state_of(thing):
         if thing.type == "ARMATURE":
-            return [bone.name for bone in thing.data.bones]
-        return len(thing.data.vertices), len(thing.data.polygons)
+            return [(bone.name, bone.parent and bone.parent.name, bone.use_deform,
+                     tuple(bone.head_local), tuple(bone.tail_local)) for bone in thing.data.bones]
+        return meshes.digest(thing)
 
     def unchanged(self, context):
         """The object, if it is as it was."""
@@ -40,7 +41,7 @@ class Taken:
         is_there = all(abs(a - b) <= SAME_PLACE * size
                        for row, now in zip(self.frame, thing.matrix_world)
                        for a, b in zip(row, now))
-        if not is_there or self.size_of(thing) != self.size:
+        if not is_there or self.state_of(thing) != self.state:
             raise ProgramError(f"{self.key[0]} has changed meanwhile; run it again")
         return thing
 

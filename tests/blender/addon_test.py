@@ -94,6 +94,9 @@ class AddOn(unittest.TestCase):
     def test_failures_are_said_and_leave_nothing(self):
         self.run_in_blender("failures")
 
+    def test_what_was_edited_meanwhile_is_refused(self):
+        self.run_in_blender("meanwhile")
+
     @unittest.skipUnless(shutil.which("xvfb-run"), "needs a screen: install the Debian package xvfb")
     def test_buttons_run_and_end_in_a_window(self):
         self.run_in_blender("window", ("--factory-startup", "--enable-event-simulate"),
