@@ -247,11 +247,12 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
         rig = self.result("out.json")
         things = [bpy.data.objects.get(taken.key) for taken in self.taken]
         old = self.old_armatures(context, [thing for thing in things if thing])
-        own_data(old)
+        old_bones = set().union(*(armatures.made_bones(each.data) for each in old))
         with armatures.at_rest(context, old):
             things = self.unchanged(context)
-            old_bones = set().union(*(armatures.made_bones(each.data) for each in old))
             self.refuse_wrong(things, rig, old, old_bones)
+        own_data(old[:1])  # outside: the data that it leaves to others must not stay at rest
+        with armatures.at_rest(context, old):
             armature = old[0] if old else armatures.new_armature(
                 context, self.taken[0].key[0] + " rig", things[0])
             try:

@@ -109,4 +109,5 @@ def a_refused_run_splits_nothing():
     assert len(armatures()) == 2
 
 
-run_laws(edited_meshes_are_refused, what_changes_no_place_is_taken, edited_bones_are_refused)
+run_laws(edited_meshes_are_refused, what_changes_no_place_is_taken, edited_bones_are_refused,
+         a_refused_run_splits_nothing)
