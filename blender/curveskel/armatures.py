@@ -52,7 +52,7 @@ def tail_by_names(joints, name, below, weight):
 
 
 def tails(joints):
-    """Where each joint's bone ends, and the joint that is there, or None."""
+    """For each joint the end of its bone, and the joint that is there, or None."""
     places = [Vector(joint["position"]) for joint in joints]
     children = [[] for _ in joints]
     weight = [1] * len(joints)
@@ -96,7 +96,7 @@ def bending(thing):
 
 
 def moving(thing):
-    """The same, and those that it moves with as it is."""
+    """The same, and the armature that moves it as a whole."""
     parent = thing.parent
     if parent and parent.type == "ARMATURE" and (thing.parent_type == "BONE" or MADE in parent):
         return list(dict.fromkeys([*bending(thing), parent]))

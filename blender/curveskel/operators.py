@@ -1,4 +1,4 @@
-"""What the panel's buttons do. Each runs the program beside Blender; Escape ends it."""
+"""The actions of the panel's buttons. Each runs the program beside Blender; Escape ends it."""
 
 import json
 
@@ -269,7 +269,7 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
     def remove_unneeded(self, old):
         for armature in old:
             if armatures.is_needed(armature):
-                self.report({"WARNING"}, f"{armature.name} moves no mesh any more; it stays, as "
+                self.report({"WARNING"}, f"{armature.name} bends no mesh any more; it stays, as "
                                          "other objects need it")
             else:
                 armatures.remove(armature)

@@ -16,7 +16,8 @@ def frame_above(thing):
 
 
 class Hanging:
-    """How an object hangs from its parent, and where it is so."""
+    """An object's link to its parent, and its place in the world, to be kept when the parent
+    changes."""
 
     def __init__(self, thing):
         self.thing = thing
@@ -26,8 +27,9 @@ class Hanging:
         self.above, self.frame = frame_above(thing), thing.matrix_world.copy()
 
     def move(self, context, parent):
-        """To that parent without a change of its own location, rotation and scale, so that
-        animations stay right and shear stays; not where it would be elsewhere then."""
+        """Gives it that parent without a change of its own location, rotation and scale, so that
+        animations stay right and shear stays. Returns False, with all as it was, if it would be
+        elsewhere then."""
         thing = self.thing
         thing.parent_type = "OBJECT"
         thing.parent = parent
@@ -50,7 +52,7 @@ class Hanging:
         return False
 
     def stay(self, context):
-        """Where it was, though its bone has become another or has gone."""
+        """Puts it back to its place after its bone was replaced or removed."""
         thing = self.thing
         if self.type == "BONE" and self.bone not in self.parent.data.bones:
             return self.move(context, self.parent)
@@ -68,8 +70,8 @@ def ancestors(thing):
 
 
 def link_to(thing, movers):
-    """How it hangs, itself or by what it hangs from, from the first of these objects above it;
-    None without one."""
+    """Going up from it, the parent type by which the first of these objects is met; None without
+    one."""
     while thing.parent:
         if thing.parent in movers:
             return thing.parent_type
