@@ -3,12 +3,20 @@
 import contextlib
 
 import bpy
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
 END = "_end"
 LEAST_BONE = 1e-4  # of the rig's size: Blender drops bones without length
 ON_AXIS = 1e-4  # sine of the angle
+SAME_PLACE = 1e-5  # of the numbers in a matrix
+SKINS = ("ARMATURE", "GP_ARMATURE", "GREASE_PENCIL_ARMATURE")  # types of modifiers
 MADE = "curveskel"  # custom property of armatures and bones that the add-on made
+
+
+def is_near(a, b):
+    size = max(1.0, *(abs(number) for row in b for number in row))
+    return all(abs(x - y) <= SAME_PLACE * size
+               for row, other in zip(a, b) for x, y in zip(row, other))
 
 
 def has_side(name):
@@ -44,7 +52,7 @@ def tail_by_names(joints, name, below, weight):
 
 
 def tails(joints):
-    """Where each joint's bone ends, and the joint that is there, or None."""
+    """For each joint the end of its bone, and the joint that is there, or None."""
     places = [Vector(joint["position"]) for joint in joints]
     children = [[] for _ in joints]
     weight = [1] * len(joints)
@@ -73,15 +81,26 @@ def tails(joints):
     return found
 
 
-def moving(thing):
-    """The armatures that the object moves with, by modifiers or as their child."""
-    found = [modifier.object for modifier in thing.modifiers
-             if modifier.type == "ARMATURE" and modifier.object]
-    parent = thing.parent
-    if parent and parent.type == "ARMATURE" and (
-            thing.parent_type in ("ARMATURE", "BONE") or MADE in parent):
-        found.append(parent)
+def modifiers_of(thing):
+    """Lists of modifiers: grease pencils have two."""
+    return [thing.modifiers, *filter(None, [getattr(thing, "grease_pencil_modifiers", None)])]
+
+
+def bending(thing):
+    """The armatures whose bones give the object its shape, by modifiers or as their child."""
+    found = [modifier.object for modifiers in modifiers_of(thing) for modifier in modifiers
+             if modifier.type in SKINS and modifier.object]
+    if thing.parent and thing.parent.type == "ARMATURE" and thing.parent_type == "ARMATURE":
+        found.append(thing.parent)
     return list(dict.fromkeys(found))
+
+
+def moving(thing):
+    """The same, and the armature that moves it as a whole."""
+    parent = thing.parent
+    if parent and parent.type == "ARMATURE" and (thing.parent_type == "BONE" or MADE in parent):
+        return list(dict.fromkeys([*bending(thing), parent]))
+    return bending(thing)
 
 
 @contextlib.contextmanager
@@ -125,6 +144,34 @@ def remove(armature):
 def made_bones(data):
     """Names of the bones that the add-on made and that still deform; others are the user's own."""
     return {bone.name for bone in data.bones if MADE in bone and bone.use_deform}
+
+
+def users_own(armature):
+    """In words, the first thing in it that the user added and that would go with it; None without
+    any."""
+    made = made_bones(armature.data)
+    bones = [bone.name for bone in armature.data.bones if bone.name not in made]
+    if bones:
+        return f"bone {bones[0]}"
+    for animation in (armature.animation_data, armature.data.animation_data):
+        if animation and (animation.action or animation.nla_tracks or animation.drivers):
+            return "animation"
+    for part in (armature, *armature.pose.bones):
+        if part.constraints:
+            return f"constraints of {part.name}"
+    for bone in armature.pose.bones:
+        if bone.custom_shape:
+            return f"shape of {bone.name}"
+        if not is_near(bone.matrix_basis, Matrix.Identity(4)):
+            return f"pose of {bone.name}"
+    return None
+
+
+def is_needed(armature):
+    """By a child, a constraint, a driver of something else."""
+    places = bpy.types.Collection, bpy.types.Scene, bpy.types.Screen
+    users = bpy.data.user_map(subset=[armature])[armature]
+    return any(user != armature and not isinstance(user, places) for user in users)
 
 
 def set_bones(context, armature, rig):

@@ -1,6 +1,8 @@
 """From the scene's meshes to a file for the program."""
 
+import array
 import contextlib
+import hashlib
 
 from .program import ProgramError
 
@@ -33,16 +35,40 @@ def only_mirrors(thing):
             thing.show_only_shape_key = pinned
 
 
+def basis(thing):
+    keys = thing.data.shape_keys
+    return keys.reference_key.data if keys else thing.data.vertices
+
+
 def own_mesh(thing):
     """Vertices and faces as the object has them, without shape keys."""
-    keys = thing.data.shape_keys
-    points = keys.reference_key.data if keys else thing.data.vertices
-    return ([point.co.copy() for point in points],
+    return ([point.co.copy() for point in basis(thing)],
             [tuple(polygon.vertices) for polygon in thing.data.polygons])
 
 
+def mirror_settings(thing):
+    return [(*modifier.use_axis, *modifier.use_bisect_axis, *modifier.use_bisect_flip_axis,
+             modifier.use_mirror_merge and modifier.merge_threshold, modifier.mirror_object
+             and [tuple(row) for row in modifier.mirror_object.matrix_world])
+            for modifier in shown_mirrors(thing)]
+
+
+def digest(thing):
+    """Of all that the program gets of it, but for its place."""
+    mesh = thing.data
+    found = hashlib.sha256(repr(mirror_settings(thing)).encode())
+    for items, name, kind, size in ((basis(thing), "co", "f", 3),
+                                    (mesh.loops, "vertex_index", "i", 1),
+                                    (mesh.polygons, "loop_total", "i", 1)):
+        numbers = array.array(kind, bytes(4 * size * len(items)))
+        items.foreach_get(name, numbers)
+        found.update(numbers)
+    return found.digest()
+
+
 def merge_reach(thing):
-    """How far mirrors move vertices at a seam: to the middle of the two that they join."""
+    """Distance by which mirrors may move vertices at a seam: to the middle of the two that they
+    join."""
     return sum(0.5 * modifier.merge_threshold * sum(modifier.use_axis)
                for modifier in shown_mirrors(thing) if modifier.use_mirror_merge)
 

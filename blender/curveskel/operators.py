@@ -1,4 +1,4 @@
-"""What the panel's buttons do. Each runs the program beside Blender; Escape ends it."""
+"""The actions of the panel's buttons. Each runs the program beside Blender; Escape ends it."""
 
 import json
 
@@ -22,14 +22,15 @@ class Taken:
     def __init__(self, thing, rows=None):
         self.key = thing.name, thing.library.filepath if thing.library else None
         self.frame = thing.matrix_world.copy()
-        self.size = self.size_of(thing)
+        self.state = self.state_of(thing)
         self.rows = rows
 
     @staticmethod
-    def size_of(thing):
+    def state_of(thing):
         if thing.type == "ARMATURE":
-            return [bone.name for bone in thing.data.bones]
-        return len(thing.data.vertices), len(thing.data.polygons)
+            return [(bone.name, bone.parent and bone.parent.name, bone.use_deform,
+                     tuple(bone.head_local), tuple(bone.tail_local)) for bone in thing.data.bones]
+        return meshes.digest(thing)
 
     def unchanged(self, context):
         """The object, if it is as it was."""
@@ -40,7 +41,7 @@ class Taken:
         is_there = all(abs(a - b) <= SAME_PLACE * size
                        for row, now in zip(self.frame, thing.matrix_world)
                        for a, b in zip(row, now))
-        if not is_there or self.size_of(thing) != self.size:
+        if not is_there or self.state_of(thing) != self.state:
             raise ProgramError(f"{self.key[0]} has changed meanwhile; run it again")
         return thing
 
@@ -166,6 +167,18 @@ class RunsProgram:
         return json.loads((self.job.folder / name).read_text())
 
 
+def kept_first(old):
+    """Of armatures that become one the first stays: that in which the user added something."""
+    own = {armature: armatures.users_own(armature) for armature in old}
+    changed = [armature for armature in old if own[armature]]
+    if len(changed) > 1:
+        said = " and ".join(f"{armature.name} ({own[armature]})" for armature in changed[:2])
+        raise ProgramError(
+            f"{said} would become one armature, and what you added to one of them would go; clear "
+            "that, or select the meshes of one armature only")
+    return sorted(old, key=lambda armature: armature not in changed)
+
+
 def check_whole(context, old, things):
     """Bones of these armatures are replaced: all that moves with them must be there."""
     for armature in old:
@@ -174,12 +187,28 @@ def check_whole(context, old, things):
         if not armature.visible_get(view_layer=context.view_layer):
             raise ProgramError(f"{armature.name}, whose bones would be replaced, is hidden; "
                                "show it")
-        for thing in bpy.data.objects:
-            if thing.users_scene and thing not in things and any(
-                    modifier.type == "ARMATURE" and modifier.object == armature
-                    for modifier in thing.modifiers):
+        for thing in bent_with([armature]):
+            if thing.type == "MESH" and thing not in things:
                 raise ProgramError(f"{thing.name} moves with {armature.name}, too, whose bones "
                                    "would be replaced; select it as well")
+
+
+def bent_with(old):
+    return [thing for thing in bpy.data.objects
+            if thing.users_scene and not set(old).isdisjoint(armatures.bending(thing))]
+
+
+def check_bent(old, old_bones, names):
+    """Lattices and grease pencils go on with groups of the same names; curves and texts have none,
+    as they go by envelopes."""
+    for thing in bent_with(old):
+        gone = [group.name for group in thing.vertex_groups
+                if group.name in old_bones and group.name not in names]
+        if thing.type != "MESH" and gone:
+            raise ProgramError(
+                f"{thing.name} moves, too, with bones that would go: {', '.join(gone[:5])}"
+                f"{' ...' if len(gone) > 5 else ''}; choose Names as before, or rename or remove "
+                "these vertex groups of its own first")
 
 
 class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
@@ -199,7 +228,7 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
                         f"{thing.name} moves with {armature.name} already: select that, too, for "
                         "Weights Only, or remove the armature modifier and clear the parent first")
                 found.append(armature)
-        found = list(dict.fromkeys(found))
+        found = kept_first(dict.fromkeys(found))
         check_whole(context, found, things)
         return found
 
@@ -218,11 +247,12 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
         rig = self.result("out.json")
         things = [bpy.data.objects.get(taken.key) for taken in self.taken]
         old = self.old_armatures(context, [thing for thing in things if thing])
-        own_data(old)
+        old_bones = set().union(*(armatures.made_bones(each.data) for each in old))
         with armatures.at_rest(context, old):
             things = self.unchanged(context)
-            old_bones = set().union(*(armatures.made_bones(each.data) for each in old))
-            self.refuse_wrong(things, rig, old_bones)
+            self.refuse_wrong(things, rig, old, old_bones)
+        own_data(old[:1])  # outside: the data that it leaves to others must not stay at rest
+        with armatures.at_rest(context, old):
             armature = old[0] if old else armatures.new_armature(
                 context, self.taken[0].key[0] + " rig", things[0])
             try:
@@ -231,27 +261,37 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
                 if not old:
                     armatures.remove(armature)
                 raise
-        for other in old[1:]:
-            if not other.children:
-                armatures.remove(other)
+        self.remove_unneeded(old[1:])
         count = len([name for name in names if name])
         self.report({"INFO"}, f"{count} bones in place of the former ones of {armature.name}"
                     if old else f"{count} bones")
 
-    def refuse_wrong(self, things, rig, old_bones):
+    def remove_unneeded(self, old):
+        for armature in old:
+            if armatures.is_needed(armature):
+                self.report({"WARNING"}, f"{armature.name} bends no mesh any more; it stays, as "
+                                         "other objects need it")
+            else:
+                armatures.remove(armature)
+
+    def refuse_wrong(self, things, rig, old, old_bones):
         joints = rig["joints"]
         names = [None if armatures.is_end(joints, number) else joint["name"]
                  for number, joint in enumerate(joints)]
         for thing, taken in zip(things, self.taken):
             groups.check_own(thing, [name for name in names if name], old_bones)
             groups.check_mirrored(thing, taken.rows, rig, names)
+        check_bent(old, old_bones, names)
 
     def take(self, context, armature, things, rig, old, old_bones):
         hanging = [parents.Hanging(thing) for thing in things]
         others = [parents.Hanging(child) for child in armature.children if child not in things]
+        bent = [parents.Hanging(thing) for thing in bent_with(old) if thing.type != "MESH"]
         names = armatures.set_bones(context, armature, rig)
         for child in others:
             child.stay(context)
+        for before in bent:
+            parents.go_over(context, before, armature, old)
         if not old:
             parents.take_parent(context, armature, things)
         self.skin(context, armature, hanging, rig, names, old, old_bones)

@@ -3,7 +3,7 @@
 import bpy
 from mathutils import Matrix
 
-SAME_PLACE = 1e-5  # of the numbers in a matrix
+from .armatures import SKINS, is_near, modifiers_of
 
 
 def frame_above(thing):
@@ -15,14 +15,9 @@ def frame_above(thing):
     return thing.matrix_world @ thing.matrix_basis.inverted_safe()
 
 
-def is_near(a, b):
-    size = max(1.0, *(abs(number) for row in b for number in row))
-    return all(abs(x - y) <= SAME_PLACE * size
-               for row, other in zip(a, b) for x, y in zip(row, other))
-
-
 class Hanging:
-    """How an object hangs from its parent, and where it is so."""
+    """An object's link to its parent, and its place in the world, to be kept when the parent
+    changes."""
 
     def __init__(self, thing):
         self.thing = thing
@@ -32,8 +27,9 @@ class Hanging:
         self.above, self.frame = frame_above(thing), thing.matrix_world.copy()
 
     def move(self, context, parent):
-        """To that parent without a change of its own location, rotation and scale, so that
-        animations stay right and shear stays; not where it would be elsewhere then."""
+        """Gives it that parent without a change of its own location, rotation and scale, so that
+        animations stay right and shear stays. Returns False, with all as it was, if it would be
+        elsewhere then."""
         thing = self.thing
         thing.parent_type = "OBJECT"
         thing.parent = parent
@@ -56,7 +52,7 @@ class Hanging:
         return False
 
     def stay(self, context):
-        """Where it was, though its bone has become another or has gone."""
+        """Puts it back to its place after its bone was replaced or removed."""
         thing = self.thing
         if self.type == "BONE" and self.bone not in self.parent.data.bones:
             return self.move(context, self.parent)
@@ -74,8 +70,8 @@ def ancestors(thing):
 
 
 def link_to(thing, movers):
-    """How it hangs, itself or by what it hangs from, from the first of these objects above it;
-    None without one."""
+    """Going up from it, the parent type by which the first of these objects is met; None without
+    one."""
     while thing.parent:
         if thing.parent in movers:
             return thing.parent_type
@@ -112,19 +108,34 @@ def hang(context, hanging, armature, old):
     return kept
 
 
+def switch_modifiers(thing, armature, old):
+    """One armature modifier in place of those of old armatures. Returns whether there is one."""
+    has_one = False
+    for modifiers in modifiers_of(thing):
+        skins = [modifier for modifier in modifiers if modifier.type in SKINS]
+        has_one = has_one or any(modifier.object == armature for modifier in skins)
+        for modifier in skins:
+            if modifier.object in old and modifier.object != armature:
+                if has_one:
+                    modifiers.remove(modifier)
+                else:
+                    modifier.object = armature
+                    has_one = True
+    return has_one
+
+
+def go_over(context, before, armature, old):
+    """An object that is no mesh bends with this armature as it did with old ones."""
+    switch_modifiers(before.thing, armature, old)
+    if before.type == "ARMATURE" and before.parent in old and before.parent != armature and \
+            before.move(context, armature):
+        before.thing.parent_type = "ARMATURE"
+
+
 def add_modifier(thing, armature, old):
     """An armature modifier in place of those of old armatures. A new one comes before what makes
     more vertices of the skinned ones, but after mirrors."""
-    skins = [modifier for modifier in thing.modifiers if modifier.type == "ARMATURE"]
-    has_one = any(modifier.object == armature for modifier in skins)
-    for modifier in skins:
-        if modifier.object in old and modifier.object != armature:
-            if has_one:
-                thing.modifiers.remove(modifier)
-            else:
-                modifier.object = armature
-                has_one = True
-    if has_one:
+    if switch_modifiers(thing, armature, old):
         return
     modifier = thing.modifiers.new("Armature", "ARMATURE")
     modifier.object = armature

@@ -1,4 +1,4 @@
-"""The program: where it is, and one run of it beside Blender."""
+"""The program: its path, and one run of it beside Blender."""
 
 import pathlib
 import shutil
@@ -10,7 +10,7 @@ NOT_FOUND = ("the program curveskel is not found: install it, or give its path i
 
 
 class ProgramError(Exception):
-    """What to tell the user."""
+    """Its words are for the user."""
 
 
 def program_path(wanted):
@@ -62,7 +62,7 @@ class Job:
         return [line for line in text.replace("\r", "\n").split("\n") if line.strip()]
 
     def stage(self):
-        """What the program does just now."""
+        """The program's last message."""
         lines = self.messages()
         return lines[-1] if lines else "starting"
 
