@@ -1,4 +1,4 @@
-"""What Blender makes of a rig in the user's own glTF file: all is there, rests where it was, and
+"""Blender opens a rig in the user's own glTF file: all is there, rests where it was, and
 moves as our own skinning says. Characters are those of the collection, named by
 CURVESKEL_COLLECTION, and of meshes/free. Skipped where there is no Blender (Debian package
 blender)."""
@@ -134,7 +134,7 @@ def rigged_files():
 
 
 def result_of(script, folder):
-    """What Blender writes into result.json."""
+    """The content of result.json, which Blender writes."""
     (folder / "script.py").write_text(script)
     environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
     done = subprocess.run(
@@ -283,7 +283,7 @@ class Fbx(unittest.TestCase):
                     self.assertLess(result[what], 1e-5, what)
 
     def read_by_assimp(self, fbx, glb):
-        """Where Debian's package assimp-utils is there, its library finds all in both."""
+        """The library of Debian's package assimp-utils, if it is there, finds all in both."""
         if not shutil.which("assimp"):
             return
         counts = []
