@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -104,7 +106,7 @@ class DaeSceneReader {
                  const std::function<void(const DaeShownMesh&)>& take)
       : document_(document), monitor_(monitor), take_(take) {}
 
-  /// Whether joints bend meshes.
+  /// True if joints bend meshes away from where they were bound.
   bool read(bool as_bound) {
     const XmlElement* scene = shown_scene(document_);
     if (scene == nullptr) {
@@ -119,8 +121,9 @@ class DaeSceneReader {
     }
     placed_ = dae_nodes(document_, monitor_);
     for (std::size_t k = 0; k < placed_.size(); ++k) place_of_.emplace(placed_[k].element, k);
-    const bool is_posed = find_bind();
-    is_as_bound_ = as_bound && is_posed;
+    bent_ = bent_figures();
+    const bool is_posed = !bent_.empty();
+    if (!as_bound) bent_.clear();
     for (const DaeNode& node : placed_) {
       for (const XmlElement& child : node.element->children) {
         if (child.name == "instance_geometry") {
@@ -153,7 +156,7 @@ class DaeSceneReader {
     return entry->second;
   }
 
-  /// What an instance of a controller shows.
+  /// The things that an instance of a controller puts together.
   struct Controlled {
     const XmlElement* geometry = nullptr;
     const XmlElement* skin = nullptr;
@@ -197,52 +200,81 @@ class DaeSceneReader {
     const DaeMesh& mesh = morph == nullptr ? base : morphed(*morph, base);
     if (skin == nullptr) return take_({&instance, mesh, frame_of(node), {}, morph, name, base});
     const DaeSkin& read = skin_of(*skin, base);
-    if (is_as_bound_) return take_({&instance, mesh, read.bind_shape, {}, morph, name, base});
+    if (const auto move = move_of(instance, read)) {
+      return take_({&instance, mesh, *move * read.bind_shape, {}, morph, name, base});
+    }
     MeshSkin posed{{}, read.weights};
     for (std::size_t j = 0; j < read.joints.size(); ++j) {
-      posed.joints.push_back(joint_of(instance, read, j).frame * read.inverse_bind[j] *
+      posed.joints.push_back(frame_of(joint_of(instance, read, j)) * read.inverse_bind[j] *
                              read.bind_shape);
     }
-    take_({&instance, mesh, node.frame * read.bind_shape, std::move(posed), morph, name, base});
+    take_({&instance, mesh, frame_of(node) * read.bind_shape, std::move(posed), morph, name, base});
   }
 
-  /// Where joints were when meshes were bound to them; answers whether they bend meshes since. A
-  /// file that gives a joint two such places is taken for one that does not.
-  bool find_bind() {
-    std::vector<BoundJoint> moving;
-    std::map<const XmlElement*, std::vector<Eigen::Affine3d>> told;
-    Eigen::AlignedBox3d box;
+  /// The joints of these, by elements.
+  [[nodiscard]] std::unordered_map<SceneNode, MovedJoint> bent_figures() {
+    BoundJoints joints;
     for (const DaeNode& node : placed_) {
       for (const XmlElement* instance : node.element->all("instance_controller")) {
         const Controlled found = controlled(*instance);
         if (found.skin == nullptr) continue;
-        const DaeSkin& skin = skin_of(*found.skin, mesh_of(*found.geometry));
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-          if (skin.inverse_bind[j].linear().determinant() == 0) continue;
-          const DaeNode& joint = joint_of(*instance, skin, j);
-          const Eigen::Affine3d bound = skin.inverse_bind[j].inverse();
-          told[joint.element].push_back(bound);
-          bound_.emplace(joint.element, bound);
-          box.extend(bound.translation().eval());
-          const bool moves_some = std::ranges::any_of(
-              skin.weights, [j](const SkinWeight& one) { return one.joint == j; });
-          if (moves_some) moving.push_back({joint.frame, bound});
-        }
+        add_joints(*instance, skin_of(*found.skin, mesh_of(*found.geometry)), joints);
       }
     }
-    return are_posed(moving) && std::ranges::all_of(told, [&](const auto& entry) {
-             return are_alike(entry.second, box.diagonal().norm());
-           });
+    for (const DaeNode& node : placed_) {
+      if (joints.contains(node.element)) joints.join(node.element, top_of_chain(node, joints));
+    }
+    return joints.bent_figures();
   }
 
-  /// As bound, a node goes with the joint above it.
+  void add_joints(const XmlElement& instance, const DaeSkin& skin, BoundJoints& joints) const {
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      if (!is_invertible(skin.inverse_bind[j])) continue;
+      const DaeNode& joint = joint_of(instance, skin, j);
+      const bool moves_vertices =
+          std::ranges::any_of(skin.weights, [j](const SkinWeight& one) { return one.joint == j; });
+      int nodes_above = 0;
+      for (const DaeNode* next = parent(joint); next != nullptr; next = parent(*next)) {
+        ++nodes_above;
+      }
+      joints.add(joint.element,
+                 {joint.frame, skin.inverse_bind[j].inverse(), nodes_above, moves_vertices});
+      joints.join(joint.element, &instance);
+    }
+  }
+
+  [[nodiscard]] const DaeNode* parent(const DaeNode& node) const {
+    return node.parent < 0 ? nullptr : &placed_[static_cast<std::size_t>(node.parent)];
+  }
+
+  /// Joints hang from each other where there is nothing but joints between them.
+  [[nodiscard]] SceneNode top_of_chain(const DaeNode& joint, const BoundJoints& joints) const {
+    const DaeNode* topmost = &joint;
+    for (const DaeNode* next = parent(joint); next != nullptr; next = parent(*next)) {
+      const bool is_joint = next->element->attribute("type") == "JOINT";
+      if (!is_joint && !joints.contains(next->element)) break;
+      topmost = next;
+    }
+    return topmost->element;
+  }
+
+  /// That of the figure to which it belongs, if that is read as bound.
+  [[nodiscard]] std::optional<Eigen::Affine3d> move_of(const XmlElement& instance,
+                                                       const DaeSkin& skin) const {
+    for (std::size_t j = 0; j < skin.joints.size() && !bent_.empty(); ++j) {
+      const auto found = bent_.find(joint_of(instance, skin, j).element);
+      if (found != bent_.end()) return found->second.move;
+    }
+    return std::nullopt;
+  }
+
+  /// A node goes with the joint above it.
   [[nodiscard]] Eigen::Affine3d frame_of(const DaeNode& node) const {
-    for (const DaeNode* next = &node; is_as_bound_;) {
-      const auto found = bound_.find(next->element);
-      const bool is_joint = found != bound_.end() && next->frame.linear().determinant() != 0;
-      if (is_joint) return found->second * next->frame.inverse() * node.frame;
-      if (next->parent < 0) break;
-      next = &placed_[static_cast<std::size_t>(next->parent)];
+    for (const DaeNode* next = &node; next != nullptr && !bent_.empty(); next = parent(*next)) {
+      const auto found = bent_.find(next->element);
+      if (found == bent_.end() || !is_invertible(next->frame)) continue;
+      const auto& [bound, move] = found->second;
+      return move * bound * next->frame.inverse() * node.frame;
     }
     return node.frame;
   }
@@ -293,8 +325,7 @@ class DaeSceneReader {
   std::vector<DaeNode> placed_;
   std::map<const XmlElement*, std::size_t> place_of_;  // the first, among these
   std::map<const XmlElement*, DaeSkin> skin_of_;
-  std::map<const XmlElement*, Eigen::Affine3d> bound_;  // joints
-  bool is_as_bound_ = false;
+  std::unordered_map<SceneNode, MovedJoint> bent_;  // joints, where meshes are read as bound
   std::map<const XmlElement*, DaeMesh> mesh_of_;
   std::map<const XmlElement*, DaeMesh> morphed_;  // by <morph>
 };
