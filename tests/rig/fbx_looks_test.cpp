@@ -271,7 +271,8 @@ TEST_F(FbxLooks, TilesLieWhereTheFilePutsThem) {
   }
 }
 
-/// The upper corners follow joint 18, which was bound at (0, 0, 3) and stands at (0, 4, 3).
+/// The upper corners follow joint 18, which was bound at (0, 0, 3) and stands at (9, 4, 3); the
+/// lower ones joint 8 above it, at (0, 0, 0) and (9, 0, 0).
 TEST_F(FbxLooks, APosedFileIsDressedInThePoseThatOneAsksFor) {
   const auto cluster = [](std::int64_t number, const std::vector<int>& moved, double height) {
     const auto shifted = [](double z) {
@@ -286,7 +287,7 @@ TEST_F(FbxLooks, APosedFileIsDressedInThePoseThatOneAsksFor) {
   };
   const FbxItems beside{
       material(0, {}),
-      encodings::fbx_model(8, {}, "LimbNode"),
+      encodings::fbx_model(8, {{"Lcl Translation", {9.0, 0.0, 0.0}}}, "LimbNode"),
       encodings::fbx_model(18, {{"Lcl Translation", {0.0, 4.0, 3.0}}}, "LimbNode"),
       {"Deformer", {std::int64_t{5}, "Deformer::skin", "Skin"}},
       cluster(6, {0, 1, 2, 3}, 0),
@@ -334,6 +335,50 @@ TEST_F(FbxLooks, EachMeshHasItsOwnSetsWithTheirNames) {
   EXPECT_EQ(found, (std::multiset<std::vector<std::string>>{{}, {"tint", "first", "second"}}));
   for (const Glb& glb : both(file)) {
     EXPECT_EQ(glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 1);
+  }
+}
+
+std::vector<std::string> texts_in(const FbxRecord& root, const FileBytes& file,
+                                  const std::string& kind, const std::string& property) {
+  std::vector<std::string> texts;
+  for (const FbxRecord* object : FbxScene(file, root).all(kind)) {
+    const FbxRecord* found = object->child(property);
+    const std::size_t at = found == nullptr ? first_property_value : 0;
+    if (found == nullptr) found = fbx_property(object, property);
+    texts.emplace_back(found == nullptr ? "" : found->text(at));
+  }
+  return texts;
+}
+
+/// Of each mesh.
+std::vector<std::set<std::string>> maps_in(const FbxRecord& root, const FileBytes& file) {
+  std::vector<std::set<std::string>> maps;
+  for (const FbxRecord* geometry : FbxScene(file, root).all("Geometry")) {
+    maps.emplace_back();
+    for (const FbxRecord& child : geometry->children) {
+      const FbxRecord* name = child.name == "LayerElementUV" ? child.child("Name") : nullptr;
+      if (name != nullptr) maps.back().emplace(name->text(0));
+    }
+  }
+  return maps;
+}
+
+/// Two boxes show one picture, by maps of these names.
+TEST_F(FbxLooks, ATextureNamesASetThatAllItsMeshesHave) {
+  (void)folder_.write("skin.png", png);
+  for (const std::string other : {"painted", "drawn"}) {
+    FbxItem box = with_map(other);
+    box.values[0] = std::int64_t{3};
+    const FbxItems beside{material(0, {}), std::move(box), encodings::fbx_model(4),
+                          texture(30, "skin.png")};
+    const fs::path file = written(scene(with_map("painted"), encodings::fbx_model(2), beside,
+                                        {link(4, 0), link(3, 4), link(first_material, 4),
+                                         link(30, first_material, "DiffuseColor")}));
+    const FileBytes made{"again.fbx", dressed(file, RigFormat::fbx).bytes};
+    const FbxRecord root = parse_fbx(made);
+    const std::string named = other == "painted" ? "painted" : "UVMap";
+    EXPECT_EQ(texts_in(root, made, "Texture", "UVSet"), std::vector{named});
+    EXPECT_EQ(maps_in(root, made), std::vector(2, std::set{named}));
   }
 }
 
