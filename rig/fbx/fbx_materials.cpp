@@ -151,8 +151,9 @@ class MaterialWriter {
     if (image < 0 || idx(image) >= model_.images.size()) return;
     const double map = number_in(info.extensions, texture_transform_extension, "texCoord",
                                  static_cast<double>(info.texCoord));
-    const auto set = static_cast<std::size_t>(std::max(map, 0.0));
-    const TextureUse use{image, set < map_names_.size() ? map_names_[set] : fbx_maps.name,
+    const bool is_there = map >= 0 && map < static_cast<double>(map_names_.size());
+    const TextureUse use{image,
+                         is_there ? map_names_[static_cast<std::size_t>(map)] : fbx_maps.name,
                          transform_in(info.extensions)};
     document_.connect(texture_of(use), material, property);
   }
@@ -240,7 +241,9 @@ class MaterialWriter {
   /// alike, in letters of either case.
   void add_file_name(int image) {
     const std::string wanted = file_name(image);
-    const std::size_t dot = std::min(wanted.rfind('.'), wanted.size());
+    const std::size_t begin = wanted.find_last_of("/\\") + 1;  // 0 without folders
+    const std::size_t last = wanted.rfind('.');
+    const std::size_t dot = last == std::string::npos || last < begin ? wanted.size() : last;
     std::string name = wanted;
     for (int number = 2; !taken_.insert(in_lower_case(name)).second; ++number) {
       name = wanted.substr(0, dot) + " " + std::to_string(number) + wanted.substr(dot);

@@ -18,6 +18,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_materials.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/base64.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
 #include "tests/glb.hpp"
@@ -379,6 +380,35 @@ TEST_F(FbxLooks, ATextureNamesASetThatAllItsMeshesHave) {
     const std::string named = other == "painted" ? "painted" : "UVMap";
     EXPECT_EQ(texts_in(root, made, "Texture", "UVSet"), std::vector{named});
     EXPECT_EQ(maps_in(root, made), std::vector(2, std::set{named}));
+  }
+}
+
+/// Pictures that are missing keep their names, which have a dot in the folder's.
+TEST_F(FbxLooks, NamesAndSetsThatAreOddStayWhole) {
+  (void)folder_.write("a.png", png + "a");
+  (void)folder_.write("b.png", png + "b");
+  FbxItem box = box_of_materials(2);
+  box = with_map("painted", std::move(box));
+  const FbxItems beside{material(0, {}), material(1, {}), texture(30, "a.png"),
+                        texture(31, "b.png")};
+  Glb glb = glb_of(dressed(written(scene(box, encodings::fbx_model(2), beside,
+                                         {link(30, first_material, "DiffuseColor"),
+                                          link(31, first_material + 1, "DiffuseColor")})))
+                       .bytes);
+  glb.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(glb.numbers);
+  ASSERT_EQ(glb.json["images"].size(), 2U);
+  glb.json["images"][0] = {{"uri", "pictures.v2/skin"}};
+  glb.json["images"][1] = {{"uri", "pictures.v2/SKIN"}};
+  for (const double set : {7.0, 1e300}) {  // there is but one
+    glb.json["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
+        {"KHR_texture_transform", {{"texCoord", set}}}};
+    const fs::path file = folder_.write("odd.gltf", glb.json.dump());
+    const FileBytes made{"odd.fbx", dressed(file, RigFormat::fbx).bytes};
+    const FbxRecord root = parse_fbx(made);
+    EXPECT_EQ(texts_in(root, made, "Video", "RelativeFilename"),
+              (std::vector<std::string>{"pictures.v2/skin", "pictures.v2/SKIN 2"}));
+    EXPECT_EQ(texts_in(root, made, "Texture", "UVSet"),
+              (std::vector<std::string>{"painted", "UVMap"}));
   }
 }
 
