@@ -12,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
 #include "rig/io/rig_formats.hpp"
+#include "surface/read/dae_nodes.hpp"
 #include "surface/read/dae_scene.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
