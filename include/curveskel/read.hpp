@@ -51,9 +51,9 @@ struct PolygonSoup {
 [[nodiscard]] PolygonSoup soup_of(const Surface& surface);
 
 struct ReadOptions {
-  /// glTF, FBX and COLLADA whose joints rest in another pose than they were bound in: all skinned
-  /// meshes as they were bound, of glTF where the topmost joint takes them, instead of as they
-  /// rest; of FBX and COLLADA, meshes that hang from a joint go with it.
+  /// glTF, FBX and COLLADA whose joints rest in another pose than they were bound in: skinned
+  /// meshes as they were bound, where the topmost joint takes them, instead of as they rest; of FBX
+  /// and COLLADA, meshes that hang from a joint go with it, and figures not bent stay as they rest.
   bool as_bound = false;
 };
 

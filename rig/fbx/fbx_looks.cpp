@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -11,6 +12,7 @@
 #include "rig/gltf/dressed_rows.hpp"
 #include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/fbx_axes.hpp"
+#include "surface/read/fbx_bind.hpp"
 #include "surface/read/fbx_meshes.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
@@ -25,7 +27,10 @@ class FbxLookReader {
       : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
 
   std::optional<DressedFile> read(bool as_bound) {
-    for_each_fbx_mesh(file_, scene_, as_bound, [this](const FbxMesh& mesh) { add(mesh); });
+    std::optional<FbxBind> bind;
+    if (as_bound) bind.emplace(scene_);
+    for_each_fbx_mesh(file_, scene_, bind ? &*bind : nullptr,
+                      [this](const FbxShownMesh& mesh) { add(mesh); });
     made_.mesh.to_gltf = fbx_to_gltf(root_);
     if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::fbx));
@@ -33,7 +38,7 @@ class FbxLookReader {
   }
 
  private:
-  void add(const FbxMesh& mesh) {
+  void add(const FbxShownMesh& mesh) {
     const std::vector<Eigen::Matrix3d> moving = vertex_maps(
         mesh.skin, mesh.frame, static_cast<std::size_t>(mesh.polygons.positions.rows()));
     made_.mesh.parts.push_back({fbx_name(mesh.model), static_cast<std::size_t>(first_vertex_),
@@ -95,7 +100,7 @@ class FbxLookReader {
     return sets;
   }
 
-  void add_shapes(const FbxMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
+  void add_shapes(const FbxShownMesh& mesh, const std::vector<Eigen::Matrix3d>& moving) {
     const Eigen::Index vertices = mesh.polygons.positions.rows();
     for (const FbxShape& shape : fbx_shapes(file_, scene_, mesh.geometry, vertices)) {
       made_.mesh.shapes.push_back({shape.name, made_.mesh.parts.size() - 1, shape.weight, {}});
@@ -110,7 +115,7 @@ class FbxLookReader {
   }
 
   /// Of the model's materials, in their order, the numbers in all of the file.
-  std::vector<int> materials_of(const FbxMesh& mesh) {
+  std::vector<int> materials_of(const FbxShownMesh& mesh) {
     std::vector<int> numbers;
     const FbxRecord* culling = mesh.model.child("Culling");
     const bool two_sided = culling != nullptr && culling->text(0) == "CullingOff";

@@ -120,8 +120,9 @@ std::string in_lower_case(std::string text) {
 
 class MaterialWriter {
  public:
-  MaterialWriter(FbxDocument& document, const tinygltf::Model& model)
-      : document_(document), model_(model) {
+  MaterialWriter(FbxDocument& document, const tinygltf::Model& model,
+                 const std::vector<std::vector<std::string>>& map_names)
+      : document_(document), model_(model), names_of_mesh_(map_names) {
     for (int image = 0; idx(image) < model.images.size(); ++image) add_file_name(image);
   }
 
@@ -150,22 +151,25 @@ class MaterialWriter {
     if (image < 0 || idx(image) >= model_.images.size()) return;
     const double map = number_in(info.extensions, texture_transform_extension, "texCoord",
                                  static_cast<double>(info.texCoord));
-    const auto set = static_cast<std::size_t>(std::max(map, 0.0));
-    const TextureUse use{image, set < map_names_.size() ? map_names_[set] : fbx_maps.name,
+    const bool is_there = map >= 0 && map < static_cast<double>(map_names_.size());
+    const TextureUse use{image,
+                         is_there ? map_names_[static_cast<std::size_t>(map)] : fbx_maps.name,
                          transform_in(info.extensions)};
     document_.connect(texture_of(use), material, property);
   }
 
-  /// Of the first mesh with that material.
+  /// Of the mesh with that material that has most.
   [[nodiscard]] std::vector<std::string> map_names_with(int material) const {
     const auto has_it = [&](const tinygltf::Primitive& primitive) {
       return primitive.material == material;
     };
-    for (const tinygltf::Mesh& mesh : model_.meshes) {
-      if (std::ranges::any_of(mesh.primitives, has_it))
-        return fbx_set_names(model_, mesh, fbx_maps);
+    std::vector<std::string> names;
+    for (std::size_t mesh = 0; mesh < model_.meshes.size(); ++mesh) {
+      const std::vector<std::string>& own = names_of_mesh_[mesh];
+      const bool has_more = own.size() > names.size();
+      if (has_more && std::ranges::any_of(model_.meshes[mesh].primitives, has_it)) names = own;
     }
-    return {};
+    return names;
   }
 
   struct TextureUse {
@@ -237,7 +241,9 @@ class MaterialWriter {
   /// alike, in letters of either case.
   void add_file_name(int image) {
     const std::string wanted = file_name(image);
-    const std::size_t dot = std::min(wanted.rfind('.'), wanted.size());
+    const std::size_t begin = wanted.find_last_of("/\\") + 1;  // 0 without folders
+    const std::size_t last = wanted.rfind('.');
+    const std::size_t dot = last == std::string::npos || last < begin ? wanted.size() : last;
     std::string name = wanted;
     for (int number = 2; !taken_.insert(in_lower_case(name)).second; ++number) {
       name = wanted.substr(0, dot) + " " + std::to_string(number) + wanted.substr(dot);
@@ -257,17 +263,20 @@ class MaterialWriter {
 
   FbxDocument& document_;
   const tinygltf::Model& model_;
-  std::vector<std::string> files_;      // by image
-  std::set<std::string> taken_;         // of these, in lower case
-  std::vector<std::string> map_names_;  // of the material
-  std::map<int, std::int64_t> videos_;  // by image
+  const std::vector<std::vector<std::string>>& names_of_mesh_;  // of sets of texture coordinates
+  std::vector<std::string> files_;                              // by image
+  std::set<std::string> taken_;                                 // of these, in lower case
+  std::vector<std::string> map_names_;                          // of the material
+  std::map<int, std::int64_t> videos_;                          // by image
   std::vector<std::pair<TextureUse, std::int64_t>> textures_;
 };
 
 }  // namespace
 
-std::vector<std::int64_t> add_fbx_materials(FbxDocument& document, const tinygltf::Model& model) {
-  MaterialWriter writer(document, model);
+std::vector<std::int64_t> add_fbx_materials(
+    FbxDocument& document, const tinygltf::Model& model,
+    const std::vector<std::vector<std::string>>& map_names) {
+  MaterialWriter writer(document, model, map_names);
   std::vector<std::int64_t> numbers;
   numbers.reserve(model.materials.size());
   for (int material = 0; idx(material) < model.materials.size(); ++material) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "rig/fbx/fbx_document.hpp"
@@ -15,8 +16,10 @@ namespace curveskel {
 /// Colours, roughness as shininess, metal as reflection, light of its own, opacity; pictures of
 /// colour, normals and light, inside the file. The number of each material's object.
 /// Precondition: the pictures that the file holds lie in buffer views.
-[[nodiscard]] std::vector<std::int64_t> add_fbx_materials(FbxDocument& document,
-                                                          const tinygltf::Model& model);
+/// `map_names` are those of `fbx_map_names`.
+[[nodiscard]] std::vector<std::int64_t> add_fbx_materials(
+    FbxDocument& document, const tinygltf::Model& model,
+    const std::vector<std::vector<std::string>>& map_names);
 
 /// For faces that name no material.
 [[nodiscard]] std::int64_t add_fbx_plain_material(FbxDocument& document);

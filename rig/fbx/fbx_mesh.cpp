@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_set_names.hpp"
@@ -50,7 +51,7 @@ bool has_triangles(const tinygltf::Primitive& primitive) {
 class MeshReader {
  public:
   MeshReader(const FileBytes& file, const tinygltf::Model& model, const tinygltf::Mesh& mesh,
-             std::size_t joints)
+             std::size_t joints, std::vector<std::string> map_names)
       : file_(file), model_(model), mesh_(mesh) {
     made_.moved.resize(joints);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
@@ -60,7 +61,7 @@ class MeshReader {
       if (first >= 0 && model_.accessors[idx(first)].name == shown_colours) first_colours_ = 1;
       has_normals_ = has_normals_ && attribute(primitive, "NORMAL") >= 0;
     }
-    made_.map_names = fbx_set_names(model, mesh, fbx_maps);
+    made_.map_names = std::move(map_names);
     made_.maps.resize(made_.map_names.size());
     made_.colour_names = fbx_set_names(model, mesh, {"COLOR_", "Color", first_colours_});
     made_.colours.resize(made_.colour_names.size());
@@ -329,8 +330,10 @@ void move_rows(FbxRows& rows, const Eigen::Matrix3d& linear, const Eigen::Vector
 }  // namespace
 
 FbxMesh read_fbx_mesh(const FileBytes& file, const tinygltf::Model& model, int mesh,
-                      std::size_t joints) {
-  return MeshReader(file, model, gltf_element(file, model.meshes, mesh, "mesh"), joints).read();
+                      std::size_t joints, std::vector<std::string> map_names) {
+  return MeshReader(file, model, gltf_element(file, model.meshes, mesh, "mesh"), joints,
+                    std::move(map_names))
+      .read();
 }
 
 void move(FbxMesh& mesh, const Eigen::Affine3d& frame) {

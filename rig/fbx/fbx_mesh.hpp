@@ -42,9 +42,10 @@ struct FbxMesh {
 };
 
 /// The triangles of all its primitives; vertices that primitives share come once. `joints` is the
-/// number of the skin's. Throws Error(Fault::input) where numbers are wrong.
+/// number of the skin's, `map_names` has one for each set of texture coordinates. Throws
+/// Error(Fault::input) where numbers are wrong.
 [[nodiscard]] FbxMesh read_fbx_mesh(const FileBytes& file, const tinygltf::Model& model, int mesh,
-                                    std::size_t joints);
+                                    std::size_t joints, std::vector<std::string> map_names);
 
 void move(FbxMesh& mesh, const Eigen::Affine3d& frame);
 

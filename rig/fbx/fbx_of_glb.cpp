@@ -16,6 +16,7 @@
 #include "rig/fbx/fbx_document.hpp"
 #include "rig/fbx/fbx_materials.hpp"
 #include "rig/fbx/fbx_mesh.hpp"
+#include "rig/fbx/fbx_set_names.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_scene.hpp"
@@ -79,6 +80,7 @@ class SceneWriter {
       : file_(file),
         model_(model),
         scene_(read_gltf_scene(file, model, monitor)),
+        map_names_(fbx_map_names(model)),
         is_joint_(model.nodes.size(), false) {
     for (const tinygltf::Skin& skin : model.skins) {
       for (const int node : skin.joints) is_joint_[idx(node)] = true;
@@ -86,7 +88,7 @@ class SceneWriter {
   }
 
   std::string write(const std::string& provenance) {
-    materials_ = add_fbx_materials(document_, model_);
+    materials_ = add_fbx_materials(document_, model_, map_names_);
     for (const int node : scene_.nodes) add_node(node);
     for (const int node : scene_.nodes) add_mesh(node);
     add_bind_pose();
@@ -141,7 +143,8 @@ class SceneWriter {
     const int skin = given.skin;
     const std::size_t joints =
         skin < 0 ? 0 : gltf_element(file_, model_.skins, skin, "skin").joints.size();
-    FbxMesh mesh = read_fbx_mesh(file_, model_, given.mesh, joints);
+    gltf_element(file_, model_.meshes, given.mesh, "mesh");
+    FbxMesh mesh = read_fbx_mesh(file_, model_, given.mesh, joints, map_names_[idx(given.mesh)]);
     if (mesh.empty()) return;
     const std::string& own = model_.meshes[idx(given.mesh)].name;
     const std::string name = given.name.empty() ? own : given.name;
@@ -264,7 +267,8 @@ class SceneWriter {
   const FileBytes& file_;
   const tinygltf::Model& model_;
   GltfScene scene_;
-  std::vector<bool> is_joint_;  // by node
+  std::vector<std::vector<std::string>> map_names_;  // by mesh
+  std::vector<bool> is_joint_;                       // by node
   FbxDocument document_;
   std::vector<std::int64_t> materials_;
   std::int64_t plain_material_ = 0;

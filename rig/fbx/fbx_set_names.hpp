@@ -25,4 +25,8 @@ inline constexpr FbxSetKind fbx_maps{"TEXCOORD_", "UVMap"};
                                                      const tinygltf::Mesh& mesh,
                                                      const FbxSetKind& kind);
 
+/// Of each mesh those of its texture coordinates. A texture names one set, whichever mesh shows it:
+/// meshes of one textured material whose accessors are called otherwise have "UVMap" and so on.
+[[nodiscard]] std::vector<std::vector<std::string>> fbx_map_names(const tinygltf::Model& model);
+
 }  // namespace curveskel

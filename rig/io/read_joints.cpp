@@ -12,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
 #include "rig/io/rig_formats.hpp"
+#include "surface/read/dae_nodes.hpp"
 #include "surface/read/dae_scene.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
@@ -160,11 +161,6 @@ Rig joints_of_text(const FileBytes& file) {
   return rig_of(joints, file);
 }
 
-bool is_joint(const FbxRecord& model) {
-  const std::string_view kind = model.text(2);
-  return kind == "LimbNode" || kind == "Limb" || kind == "Root";
-}
-
 /// The limbs of the file where its nodes rest.
 Rig joints_of_fbx(const FileBytes& file) {
   const FbxRecord root = parse_fbx(file);
@@ -173,7 +169,7 @@ Rig joints_of_fbx(const FileBytes& file) {
   std::map<const FbxRecord*, int> number;
   std::vector<const FbxRecord*> models;
   for (const FbxRecord* model : scene.all("Model")) {
-    if (!is_joint(*model)) continue;
+    if (!is_fbx_joint(*model)) continue;
     number.emplace(model, static_cast<int>(models.size()));
     models.push_back(model);
   }

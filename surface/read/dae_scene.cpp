@@ -5,34 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "surface/read/bound_joints.hpp"
 #include "surface/read/dae_morph.hpp"
+#include "surface/read/dae_nodes.hpp"
 #include "surface/read/dae_skin.hpp"
 
 namespace curveskel {
 namespace {
 
 constexpr int deepest_node = 500;  // chains of joints nest
-
-/// x right, y up, -z ahead: what <lookat> turns towards its point of interest.
-Eigen::Affine3d looking(const std::vector<double>& numbers) {
-  const Eigen::Vector3d eye(numbers[0], numbers[1], numbers[2]);
-  const Eigen::Vector3d interest(numbers[3], numbers[4], numbers[5]);
-  const Eigen::Vector3d up(numbers[6], numbers[7], numbers[8]);
-  const Eigen::Vector3d back = (eye - interest).normalized();
-  const Eigen::Vector3d right = up.cross(back).normalized();
-  Eigen::Affine3d result = Eigen::Affine3d::Identity();
-  result.linear() << right, back.cross(right), back;
-  result.translation() = eye;
-  return result;
-}
 
 const XmlElement* asset_entry(const DaeDocument& document, std::string_view name) {
   const XmlElement* asset = document.root().child("asset");
@@ -56,58 +45,16 @@ double metres_per_unit(const DaeDocument& document) {
   return error == std::errc() && metres > 0 && std::isfinite(metres) ? metres : 1;
 }
 
-/// <visual_scene>, or nullptr.
-const XmlElement* shown_scene(const DaeDocument& document) {
-  const XmlElement* scene = document.root().child("scene");
-  const XmlElement* instance = scene == nullptr ? nullptr : scene->child("instance_visual_scene");
-  if (instance != nullptr) return &document.referred(*instance, "url");
-  const XmlElement* library = document.root().child("library_visual_scenes");
-  return library == nullptr ? nullptr : library->child("visual_scene");
-}
-
-/// The product of a node's transformations in their order.
-Eigen::Affine3d transform(const DaeDocument& document, const XmlElement& node) {
-  Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-  for (const XmlElement& child : node.children) {
-    const auto numbers = [&](std::size_t count) {
-      std::vector<double> values = document.numbers(child);
-      if (values.size() != count) {
-        document.fail(child, std::to_string(values.size()) + " numbers in <" + child.name + ">",
-                      std::to_string(count));
-      }
-      return values;
-    };
-    if (child.name == "matrix") {
-      frame = frame * document.matrix(child, numbers(16).data());
-    } else if (child.name == "translate") {
-      frame.translate(Eigen::Vector3d(numbers(3).data()));
-    } else if (child.name == "scale") {
-      frame.scale(Eigen::Vector3d(numbers(3).data()));
-    } else if (child.name == "rotate") {
-      const std::vector<double> turn = numbers(4);
-      const Eigen::Vector3d axis(turn.data());
-      if (axis.norm() == 0) continue;
-      frame.rotate(Eigen::AngleAxisd(turn[3] * std::numbers::pi / 180, axis.normalized()));
-    } else if (child.name == "lookat") {
-      frame = frame * looking(numbers(9));
-    } else if (child.name == "skew") {
-      document.fail(child, "<skew>", "a <matrix> instead");
-    }
-  }
-  if (!frame.matrix().allFinite()) document.fail(node, "a transform of no numbers", "numbers");
-  return frame;
-}
-
 class DaeSceneReader {
  public:
   DaeSceneReader(const DaeDocument& document, const Monitor& monitor,
                  const std::function<void(const DaeShownMesh&)>& take)
       : document_(document), monitor_(monitor), take_(take) {}
 
-  /// Whether joints bend meshes.
+  /// True if joints bend meshes away from where they were bound.
   bool read(bool as_bound) {
-    const XmlElement* scene = shown_scene(document_);
-    if (scene == nullptr) {
+    placed_ = dae_nodes(document_, monitor_);
+    if (placed_.empty()) {
       for (const XmlElement* library : document_.root().all("library_geometries")) {
         for (const XmlElement* geometry : library->all("geometry")) {
           const DaeMesh& mesh = mesh_of(*geometry);
@@ -117,10 +64,10 @@ class DaeSceneReader {
       }
       return false;
     }
-    placed_ = dae_nodes(document_, monitor_);
     for (std::size_t k = 0; k < placed_.size(); ++k) place_of_.emplace(placed_[k].element, k);
-    const bool is_posed = find_bind();
-    is_as_bound_ = as_bound && is_posed;
+    bent_ = bent_figures();
+    const bool is_posed = !bent_.empty();
+    if (!as_bound) bent_.clear();
     for (const DaeNode& node : placed_) {
       for (const XmlElement& child : node.element->children) {
         if (child.name == "instance_geometry") {
@@ -153,7 +100,7 @@ class DaeSceneReader {
     return entry->second;
   }
 
-  /// What an instance of a controller shows.
+  /// The things that an instance of a controller puts together.
   struct Controlled {
     const XmlElement* geometry = nullptr;
     const XmlElement* skin = nullptr;
@@ -197,52 +144,81 @@ class DaeSceneReader {
     const DaeMesh& mesh = morph == nullptr ? base : morphed(*morph, base);
     if (skin == nullptr) return take_({&instance, mesh, frame_of(node), {}, morph, name, base});
     const DaeSkin& read = skin_of(*skin, base);
-    if (is_as_bound_) return take_({&instance, mesh, read.bind_shape, {}, morph, name, base});
+    if (const auto move = move_of(instance, read)) {
+      return take_({&instance, mesh, *move * read.bind_shape, {}, morph, name, base});
+    }
     MeshSkin posed{{}, read.weights};
     for (std::size_t j = 0; j < read.joints.size(); ++j) {
-      posed.joints.push_back(joint_of(instance, read, j).frame * read.inverse_bind[j] *
+      posed.joints.push_back(frame_of(joint_of(instance, read, j)) * read.inverse_bind[j] *
                              read.bind_shape);
     }
-    take_({&instance, mesh, node.frame * read.bind_shape, std::move(posed), morph, name, base});
+    take_({&instance, mesh, frame_of(node) * read.bind_shape, std::move(posed), morph, name, base});
   }
 
-  /// Where joints were when meshes were bound to them; answers whether they bend meshes since. A
-  /// file that gives a joint two such places is taken for one that does not.
-  bool find_bind() {
-    std::vector<BoundJoint> moving;
-    std::map<const XmlElement*, std::vector<Eigen::Affine3d>> told;
-    Eigen::AlignedBox3d box;
+  /// The joints of these, by elements.
+  [[nodiscard]] std::unordered_map<SceneNode, MovedJoint> bent_figures() {
+    BoundJoints joints;
     for (const DaeNode& node : placed_) {
       for (const XmlElement* instance : node.element->all("instance_controller")) {
         const Controlled found = controlled(*instance);
         if (found.skin == nullptr) continue;
-        const DaeSkin& skin = skin_of(*found.skin, mesh_of(*found.geometry));
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-          if (skin.inverse_bind[j].linear().determinant() == 0) continue;
-          const DaeNode& joint = joint_of(*instance, skin, j);
-          const Eigen::Affine3d bound = skin.inverse_bind[j].inverse();
-          told[joint.element].push_back(bound);
-          bound_.emplace(joint.element, bound);
-          box.extend(bound.translation().eval());
-          const bool moves_some = std::ranges::any_of(
-              skin.weights, [j](const SkinWeight& one) { return one.joint == j; });
-          if (moves_some) moving.push_back({joint.frame, bound});
-        }
+        add_joints(*instance, skin_of(*found.skin, mesh_of(*found.geometry)), joints);
       }
     }
-    return are_posed(moving) && std::ranges::all_of(told, [&](const auto& entry) {
-             return are_alike(entry.second, box.diagonal().norm());
-           });
+    for (const DaeNode& node : placed_) {
+      if (joints.contains(node.element)) joints.join(node.element, top_of_chain(node, joints));
+    }
+    return joints.bent_figures();
   }
 
-  /// As bound, a node goes with the joint above it.
+  void add_joints(const XmlElement& instance, const DaeSkin& skin, BoundJoints& joints) const {
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      if (!is_invertible(skin.inverse_bind[j])) continue;
+      const DaeNode& joint = joint_of(instance, skin, j);
+      const bool moves_vertices =
+          std::ranges::any_of(skin.weights, [j](const SkinWeight& one) { return one.joint == j; });
+      int nodes_above = 0;
+      for (const DaeNode* next = parent(joint); next != nullptr; next = parent(*next)) {
+        ++nodes_above;
+      }
+      joints.add(joint.element,
+                 {joint.frame, skin.inverse_bind[j].inverse(), nodes_above, moves_vertices});
+      joints.join(joint.element, &instance);
+    }
+  }
+
+  [[nodiscard]] const DaeNode* parent(const DaeNode& node) const {
+    return node.parent < 0 ? nullptr : &placed_[static_cast<std::size_t>(node.parent)];
+  }
+
+  /// Joints hang from each other where there is nothing but joints between them.
+  [[nodiscard]] SceneNode top_of_chain(const DaeNode& joint, const BoundJoints& joints) const {
+    const DaeNode* topmost = &joint;
+    for (const DaeNode* next = parent(joint); next != nullptr; next = parent(*next)) {
+      const bool is_joint = next->element->attribute("type") == "JOINT";
+      if (!is_joint && !joints.contains(next->element)) break;
+      topmost = next;
+    }
+    return topmost->element;
+  }
+
+  /// That of the figure to which it belongs, if that is read as bound.
+  [[nodiscard]] std::optional<Eigen::Affine3d> move_of(const XmlElement& instance,
+                                                       const DaeSkin& skin) const {
+    for (std::size_t j = 0; j < skin.joints.size() && !bent_.empty(); ++j) {
+      const auto found = bent_.find(joint_of(instance, skin, j).element);
+      if (found != bent_.end()) return found->second.move;
+    }
+    return std::nullopt;
+  }
+
+  /// A node goes with the joint above it.
   [[nodiscard]] Eigen::Affine3d frame_of(const DaeNode& node) const {
-    for (const DaeNode* next = &node; is_as_bound_;) {
-      const auto found = bound_.find(next->element);
-      const bool is_joint = found != bound_.end() && next->frame.linear().determinant() != 0;
-      if (is_joint) return found->second * next->frame.inverse() * node.frame;
-      if (next->parent < 0) break;
-      next = &placed_[static_cast<std::size_t>(next->parent)];
+    for (const DaeNode* next = &node; next != nullptr && !bent_.empty(); next = parent(*next)) {
+      const auto found = bent_.find(next->element);
+      if (found == bent_.end() || !is_invertible(next->frame)) continue;
+      const auto& [bound, move] = found->second;
+      return move * bound * next->frame.inverse() * node.frame;
     }
     return node.frame;
   }
@@ -293,42 +269,12 @@ class DaeSceneReader {
   std::vector<DaeNode> placed_;
   std::map<const XmlElement*, std::size_t> place_of_;  // the first, among these
   std::map<const XmlElement*, DaeSkin> skin_of_;
-  std::map<const XmlElement*, Eigen::Affine3d> bound_;  // joints
-  bool is_as_bound_ = false;
+  std::unordered_map<SceneNode, MovedJoint> bent_;  // joints, where meshes are read as bound
   std::map<const XmlElement*, DaeMesh> mesh_of_;
   std::map<const XmlElement*, DaeMesh> morphed_;  // by <morph>
 };
 
 }  // namespace
-
-std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor) {
-  constexpr std::size_t most_nodes = 1000000;  // instances of nodes may refer in circles
-  std::vector<DaeNode> placed;
-  const XmlElement* scene = shown_scene(document);
-  if (scene == nullptr) return placed;
-  std::vector<DaeNode> open{{scene, Eigen::Affine3d::Identity(), -1}};
-  while (!open.empty()) {
-    monitor.report("read", 0.3);
-    DaeNode node = open.back();
-    open.pop_back();
-    node.frame = node.frame * transform(document, *node.element);
-    const auto number = static_cast<int>(placed.size());
-    placed.push_back(node);
-    if (placed.size() + open.size() > most_nodes) {
-      document.fail(*node.element,
-                    "more than " + std::to_string(most_nodes) + " nodes in the scene",
-                    "fewer, and no node in itself");
-    }
-    for (std::size_t i = node.element->children.size(); i-- > 0;) {
-      const XmlElement& child = node.element->children[i];
-      if (child.name == "node") open.push_back({&child, node.frame, number});
-      if (child.name == "instance_node") {
-        open.push_back({&document.referred(child, "url"), node.frame, number});
-      }
-    }
-  }
-  return placed;
-}
 
 bool for_each_dae_mesh(const DaeDocument& document, const Monitor& monitor, bool as_bound,
                        const std::function<void(const DaeShownMesh&)>& take) {

@@ -13,17 +13,6 @@
 
 namespace curveskel {
 
-/// A node where the scene shows it.
-struct DaeNode {
-  const XmlElement* element = nullptr;
-  Eigen::Affine3d frame;  ///< from the node to the world
-  int parent = -1;        ///< its number; -1 = the scene itself, which is the first
-};
-
-/// All nodes of the scene, depth first, in the file's order; none in a file without a scene. Throws
-/// Error(Fault::input) with the line.
-[[nodiscard]] std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor);
-
 /// All are there while the document is.
 struct DaeShownMesh {
   const XmlElement* instance;  ///< what shows it; nullptr in a file without a scene

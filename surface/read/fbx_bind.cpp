@@ -3,55 +3,105 @@
 #include <algorithm>
 #include <vector>
 
-#include "surface/read/bound_joints.hpp"
+#include <curveskel/error.hpp>
 
 namespace curveskel {
+namespace {
+
+std::optional<Eigen::Affine3d> usable_matrix(const FbxScene& scene, const FbxRecord* record) {
+  if (record == nullptr) return std::nullopt;
+  try {
+    return scene.matrix(*record);
+  } catch (const Error&) {
+    return std::nullopt;  // what is shown may not depend on it
+  }
+}
+
+int models_above(const FbxScene& scene, const FbxRecord& model) {
+  int count = 0;
+  for (const FbxRecord* next = scene.parent(model); next != nullptr; next = scene.parent(*next)) {
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
 
 FbxBind::FbxBind(const FbxScene& scene) : scene_(scene) {
-  std::vector<BoundJoint> moving;
-  std::vector<std::vector<Eigen::Affine3d>> told;  // several times each: meshes, and joints
-  std::unordered_map<const FbxRecord*, std::vector<Eigen::Affine3d>> joints;
-  Eigen::AlignedBox3d box;
-  for (const FbxRecord* deformer : scene.all("Deformer")) {
-    if (deformer->text(2) != "Skin") continue;
-    told.emplace_back();
-    for (const FbxRecord* cluster : scene.below(*deformer, "Deformer", "Cluster")) {
-      const FbxRecord* link = cluster->child("TransformLink");
-      const FbxRecord* transform = cluster->child("Transform");
-      const std::vector<const FbxRecord*> linked = scene.below(*cluster, "Model");
-      if (link == nullptr || transform == nullptr || linked.empty()) continue;
-      const Eigen::Affine3d bound = scene.matrix(*link);
-      if (bound.linear().determinant() == 0) continue;
-      joints[linked.front()].push_back(bound);
-      told.back().push_back(bound * scene.matrix(*transform));
-      box.extend(bound.translation().eval());
-      if (cluster->child("Indexes") == nullptr) continue;
-      moving.push_back({scene.frame(*linked.front()), bound});
+  BoundJoints joints;
+  read(joints);
+  join_chains(joints);
+  for (const FbxRecord* skin : scene.all("Deformer")) {
+    std::vector<Eigen::Affine3d> told;
+    for (const FbxRecord* cluster : scene.below(*skin, "Deformer", "Cluster")) {
+      const auto found = clusters_.find(cluster);
+      if (found != clusters_.end()) told.push_back(found->second.mesh);
+    }
+    if (!are_alike(told, joints.size())) return;
+  }
+  joints_ = joints.bent_figures();
+}
+
+void FbxBind::read(BoundJoints& joints) {
+  for (const FbxRecord* skin : scene_.all("Deformer")) {
+    if (skin->text(2) != "Skin") continue;
+    for (const FbxRecord* cluster : scene_.below(*skin, "Deformer", "Cluster")) {
+      const auto link = usable_matrix(scene_, cluster->child("TransformLink"));
+      const auto transform = usable_matrix(scene_, cluster->child("Transform"));
+      const std::vector<const FbxRecord*> linked = scene_.below(*cluster, "Model");
+      if (!link || !transform || linked.empty() || !is_invertible(*link)) continue;
+      const FbxRecord& joint = *linked.front();
+      clusters_.emplace(cluster, Cluster{&joint, *link, *link * *transform});
+      joints.add(&joint, {scene_.frame(joint), *link, models_above(scene_, joint),
+                          cluster->child("Indexes") != nullptr});
+      joints.join(&joint, skin);
     }
   }
-  for (const auto& [joint, frames] : joints) {
-    bound_.emplace(joint, frames.front());
-    told.push_back(frames);
+}
+
+/// Joints hang from each other where there is nothing but joints between them.
+void FbxBind::join_chains(BoundJoints& joints) const {
+  for (const FbxRecord* model : scene_.all("Model")) {
+    if (!joints.contains(model)) continue;
+    const FbxRecord* topmost = model;
+    const FbxRecord* next = scene_.parent(*model);
+    for (; next != nullptr; next = scene_.parent(*next)) {
+      if (!is_fbx_joint(*next) && !joints.contains(next)) break;
+      topmost = next;
+    }
+    joints.join(model, topmost);
   }
-  is_posed_ = are_posed(moving) && std::ranges::all_of(told, [&](const auto& frames) {
-                return are_alike(frames, box.diagonal().norm());
-              });
 }
 
 Eigen::Affine3d FbxBind::frame(const FbxRecord& model) const {
   for (const FbxRecord* next = &model; next != nullptr; next = scene_.parent(*next)) {
-    const auto found = bound_.find(next);
-    if (found == bound_.end()) continue;
+    const auto found = joints_.find(next);
+    if (found == joints_.end()) continue;
     const Eigen::Affine3d& shown = scene_.frame(*next);
-    if (shown.linear().determinant() == 0) break;
-    return found->second * shown.inverse() * scene_.frame(model);
+    if (!is_invertible(shown)) break;
+    const auto& [bound, move] = found->second;
+    return move * bound * shown.inverse() * scene_.frame(model);
   }
   return scene_.frame(model);
 }
 
 Eigen::Affine3d FbxBind::joint(const FbxRecord& cluster, const FbxRecord& joint) const {
-  const FbxRecord* link = cluster.child("TransformLink");
-  return link == nullptr ? frame(joint) : scene_.matrix(*link);
+  const auto told = clusters_.find(&cluster);
+  const auto found = joints_.find(&joint);
+  if (told == clusters_.end() || found == joints_.end()) return frame(joint);
+  return found->second.move * told->second.link;
+}
+
+std::optional<Eigen::Affine3d> FbxBind::mesh(const FbxRecord& geometry) const {
+  for (const FbxRecord* skin : scene_.below(geometry, "Deformer", "Skin")) {
+    for (const FbxRecord* cluster : scene_.below(*skin, "Deformer", "Cluster")) {
+      const auto told = clusters_.find(cluster);
+      if (told == clusters_.end()) continue;
+      const auto found = joints_.find(told->second.joint);
+      if (found != joints_.end()) return found->second.move * told->second.mesh;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace curveskel

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "surface/read/fbx_bind.hpp"
 #include "surface/read/formats.hpp"
 
 namespace curveskel {
@@ -14,11 +14,11 @@ namespace {
 
 class FbxMeshes {
  public:
-  FbxMeshes(const FileBytes& file, const FbxScene& scene) : file_(file), scene_(scene) {}
-
   /// As bound where there is a bind.
-  void give(const FbxBind* bind, const std::function<void(const FbxMesh&)>& take) {
-    bind_ = bind;
+  FbxMeshes(const FileBytes& file, const FbxScene& scene, const FbxBind* bind)
+      : file_(file), scene_(scene), bind_(bind) {}
+
+  void give(const std::function<void(const FbxShownMesh&)>& take) {
     for (const FbxRecord* model : scene_.all("Model")) {
       for (const FbxRecord* geometry : scene_.below(*model, "Geometry")) {
         if (geometry->child("PolygonVertexIndex") != nullptr) take(shown(*model, *geometry));
@@ -32,15 +32,15 @@ class FbxMeshes {
   }
 
  private:
-  FbxMesh shown(const FbxRecord& model, const FbxRecord& geometry) {
+  FbxShownMesh shown(const FbxRecord& model, const FbxRecord& geometry) {
     const auto [entry, is_new] = mesh_of_.try_emplace(&geometry);
     if (is_new) entry->second = mesh(geometry);
     const Eigen::Affine3d geometric = scene_.geometric(model);
     const Eigen::Affine3d frame = bind_ == nullptr ? scene_.frame(model) : bind_->frame(model);
-    FbxMesh result{model, geometry, entry->second, frame * geometric,
-                   skin(geometry, geometric, entry->second.positions.rows())};
-    // The joints, too, say where the mesh was.
-    if (bind_ != nullptr && !result.skin.joints.empty()) result.frame = result.skin.joints.front();
+    FbxShownMesh result{model, geometry, entry->second, frame * geometric,
+                        skin(geometry, geometric, entry->second.positions.rows())};
+    const auto bound = bind_ == nullptr ? std::nullopt : bind_->mesh(geometry);
+    if (bound) result.frame = *bound * geometric;
     return result;
   }
 
@@ -168,7 +168,7 @@ class FbxMeshes {
 
   const FileBytes& file_;
   const FbxScene& scene_;
-  const FbxBind* bind_ = nullptr;  // meshes are as they were bound
+  const FbxBind* bind_;
   std::unordered_map<const FbxRecord*, PolygonSoup> mesh_of_;
 };
 
@@ -183,14 +183,12 @@ std::int64_t version_of(const FbxRecord& root) {
 
 std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
                                  const FbxRecord& geometry, Eigen::Index vertices) {
-  return FbxMeshes(file, scene).all_shapes(geometry, vertices);
+  return FbxMeshes(file, scene, nullptr).all_shapes(geometry, vertices);
 }
 
-bool for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, bool as_bound,
-                       const std::function<void(const FbxMesh&)>& take) {
-  const FbxBind bind(scene);
-  FbxMeshes(file, scene).give(as_bound && bind.is_posed() ? &bind : nullptr, take);
-  return bind.is_posed();
+void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, const FbxBind* bind,
+                       const std::function<void(const FbxShownMesh&)>& take) {
+  FbxMeshes(file, scene, bind).give(take);
 }
 
 void require_fbx_version(const FileBytes& file, const FbxRecord& root) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <curveskel/read.hpp>
+#include "surface/read/fbx_bind.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
 #include "surface/read/placed_meshes.hpp"
@@ -15,7 +16,7 @@
 namespace curveskel {
 
 /// All are there while the file is.
-struct FbxMesh {
+struct FbxShownMesh {
   const FbxRecord& model;
   const FbxRecord& geometry;
   const PolygonSoup& polygons;  ///< of the geometry, morphed by the weights that the file gives
@@ -35,11 +36,10 @@ struct FbxShape {
 [[nodiscard]] std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
                                                const FbxRecord& geometry, Eigen::Index vertices);
 
-/// Each mesh as often as a model shows it, in the order in which `read_polygons` has them; where
-/// joints bend meshes away from where they were bound, `as_bound` as of `ReadOptions`. Returns
-/// whether they do. Throws Error(Fault::input).
-bool for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, bool as_bound,
-                       const std::function<void(const FbxMesh&)>& take);
+/// Each mesh as often as a model shows it, in the order in which `read_polygons` has them; nullptr
+/// for `bind`: as shown. Throws Error(Fault::input).
+void for_each_fbx_mesh(const FileBytes& file, const FbxScene& scene, const FbxBind* bind,
+                       const std::function<void(const FbxShownMesh&)>& take);
 
 /// Throws Error(Fault::input) for files of before version 7, whose objects have no numbers.
 void require_fbx_version(const FileBytes& file, const FbxRecord& root);

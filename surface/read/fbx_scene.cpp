@@ -59,6 +59,11 @@ std::string fbx_name(const FbxRecord& object) {
   return std::string(kind == std::string_view::npos ? text : text.substr(kind + 2));
 }
 
+bool is_fbx_joint(const FbxRecord& model) {
+  const std::string_view kind = model.text(2);
+  return kind == "LimbNode" || kind == "Limb" || kind == "Root";
+}
+
 FbxScene::FbxScene(const FileBytes& file, const FbxRecord& root)
     : file_(file), objects_(root.child("Objects")), defaults_(defaults_in(root)) {
   if (objects_ == nullptr) file.fail("no \"Objects\"", "a scene", fbx_remedy);

@@ -1,4 +1,5 @@
-// The objects of an FBX file and the frames of its models. Internal to surface/.
+// The objects of an FBX file and the frames of its models. Internal to surface/ and
+// rig/.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,6 +19,9 @@ namespace curveskel {
 
 /// "hips" of "hips", a mark and "Model", as binary files have it, and of "Model::hips".
 [[nodiscard]] std::string fbx_name(const FbxRecord& object);
+
+/// True if it says so of itself.
+[[nodiscard]] bool is_fbx_joint(const FbxRecord& model);
 
 /// Of a property's values, which stand behind name, two types and flags, the first.
 inline constexpr std::size_t first_property_value = 4;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "surface/read/fbx_axes.hpp"
+#include "surface/read/fbx_bind.hpp"
 #include "surface/read/fbx_meshes.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
@@ -19,11 +20,12 @@ PolygonSoup read_fbx(const FileBytes& file, const Monitor& monitor, const ReadOp
   require_fbx_version(file, root);
   PlacedMeshes meshes(file, monitor);
   const FbxScene scene(file, root);
-  const bool posed = for_each_fbx_mesh(file, scene, options.as_bound, [&](const FbxMesh& mesh) {
+  const FbxBind bind(scene);
+  for_each_fbx_mesh(file, scene, options.as_bound ? &bind : nullptr, [&](const FbxShownMesh& mesh) {
     meshes.add(mesh.polygons, mesh.frame, mesh.skin);
   });
   PolygonSoup soup = meshes.soup(SurfaceFormat::fbx);
-  soup.posed = posed;
+  soup.posed = bind.is_posed();
   soup.z_is_up = fbx_has_z_up(root);
   soup.to_gltf = fbx_to_gltf(root).linear();
   return soup;

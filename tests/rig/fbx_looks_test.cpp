@@ -18,6 +18,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/read_materials.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/base64.hpp"
 #include "surface/read/fbx_scene.hpp"
 #include "surface/read/fbx_tree.hpp"
 #include "tests/glb.hpp"
@@ -271,7 +272,8 @@ TEST_F(FbxLooks, TilesLieWhereTheFilePutsThem) {
   }
 }
 
-/// The upper corners follow joint 18, which was bound at (0, 0, 3) and stands at (0, 4, 3).
+/// The upper corners follow joint 18, which was bound at (0, 0, 3) and stands at (9, 4, 3); the
+/// lower ones joint 8 above it, at (0, 0, 0) and (9, 0, 0).
 TEST_F(FbxLooks, APosedFileIsDressedInThePoseThatOneAsksFor) {
   const auto cluster = [](std::int64_t number, const std::vector<int>& moved, double height) {
     const auto shifted = [](double z) {
@@ -286,7 +288,7 @@ TEST_F(FbxLooks, APosedFileIsDressedInThePoseThatOneAsksFor) {
   };
   const FbxItems beside{
       material(0, {}),
-      encodings::fbx_model(8, {}, "LimbNode"),
+      encodings::fbx_model(8, {{"Lcl Translation", {9.0, 0.0, 0.0}}}, "LimbNode"),
       encodings::fbx_model(18, {{"Lcl Translation", {0.0, 4.0, 3.0}}}, "LimbNode"),
       {"Deformer", {std::int64_t{5}, "Deformer::skin", "Skin"}},
       cluster(6, {0, 1, 2, 3}, 0),
@@ -334,6 +336,79 @@ TEST_F(FbxLooks, EachMeshHasItsOwnSetsWithTheirNames) {
   EXPECT_EQ(found, (std::multiset<std::vector<std::string>>{{}, {"tint", "first", "second"}}));
   for (const Glb& glb : both(file)) {
     EXPECT_EQ(glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 1);
+  }
+}
+
+std::vector<std::string> texts_in(const FbxRecord& root, const FileBytes& file,
+                                  const std::string& kind, const std::string& property) {
+  std::vector<std::string> texts;
+  for (const FbxRecord* object : FbxScene(file, root).all(kind)) {
+    const FbxRecord* found = object->child(property);
+    const std::size_t at = found == nullptr ? first_property_value : 0;
+    if (found == nullptr) found = fbx_property(object, property);
+    texts.emplace_back(found == nullptr ? "" : found->text(at));
+  }
+  return texts;
+}
+
+/// Of each mesh.
+std::vector<std::set<std::string>> maps_in(const FbxRecord& root, const FileBytes& file) {
+  std::vector<std::set<std::string>> maps;
+  for (const FbxRecord* geometry : FbxScene(file, root).all("Geometry")) {
+    maps.emplace_back();
+    for (const FbxRecord& child : geometry->children) {
+      const FbxRecord* name = child.name == "LayerElementUV" ? child.child("Name") : nullptr;
+      if (name != nullptr) maps.back().emplace(name->text(0));
+    }
+  }
+  return maps;
+}
+
+/// Two boxes show one picture, by maps of these names.
+TEST_F(FbxLooks, ATextureNamesASetThatAllItsMeshesHave) {
+  (void)folder_.write("skin.png", png);
+  for (const std::string other : {"painted", "drawn"}) {
+    FbxItem box = with_map(other);
+    box.values[0] = std::int64_t{3};
+    const FbxItems beside{material(0, {}), std::move(box), encodings::fbx_model(4),
+                          texture(30, "skin.png")};
+    const fs::path file = written(scene(with_map("painted"), encodings::fbx_model(2), beside,
+                                        {link(4, 0), link(3, 4), link(first_material, 4),
+                                         link(30, first_material, "DiffuseColor")}));
+    const FileBytes made{"again.fbx", dressed(file, RigFormat::fbx).bytes};
+    const FbxRecord root = parse_fbx(made);
+    const std::string named = other == "painted" ? "painted" : "UVMap";
+    EXPECT_EQ(texts_in(root, made, "Texture", "UVSet"), std::vector{named});
+    EXPECT_EQ(maps_in(root, made), std::vector(2, std::set{named}));
+  }
+}
+
+/// Pictures that are missing keep their names, which have a dot in the folder's.
+TEST_F(FbxLooks, NamesAndSetsThatAreOddStayWhole) {
+  (void)folder_.write("a.png", png + "a");
+  (void)folder_.write("b.png", png + "b");
+  FbxItem box = box_of_materials(2);
+  box = with_map("painted", std::move(box));
+  const FbxItems beside{material(0, {}), material(1, {}), texture(30, "a.png"),
+                        texture(31, "b.png")};
+  Glb glb = glb_of(dressed(written(scene(box, encodings::fbx_model(2), beside,
+                                         {link(30, first_material, "DiffuseColor"),
+                                          link(31, first_material + 1, "DiffuseColor")})))
+                       .bytes);
+  glb.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(glb.numbers);
+  ASSERT_EQ(glb.json["images"].size(), 2U);
+  glb.json["images"][0] = {{"uri", "pictures.v2/skin"}};
+  glb.json["images"][1] = {{"uri", "pictures.v2/SKIN"}};
+  for (const double set : {7.0, 1e300}) {  // there is but one
+    glb.json["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
+        {"KHR_texture_transform", {{"texCoord", set}}}};
+    const fs::path file = folder_.write("odd.gltf", glb.json.dump());
+    const FileBytes made{"odd.fbx", dressed(file, RigFormat::fbx).bytes};
+    const FbxRecord root = parse_fbx(made);
+    EXPECT_EQ(texts_in(root, made, "Video", "RelativeFilename"),
+              (std::vector<std::string>{"pictures.v2/skin", "pictures.v2/SKIN 2"}));
+    EXPECT_EQ(texts_in(root, made, "Texture", "UVSet"),
+              (std::vector<std::string>{"painted", "UVMap"}));
   }
 }
 

@@ -159,13 +159,41 @@ TEST(ReadDae, APosedSkinIsReadAsItWasBoundIfOneAsks) {
   const PolygonSoup bound = read_as("4 0 0", true);
   EXPECT_TRUE(bound.posed);
   expect_corners(bound, 0,
-                 [](const auto& p) { return Eigen::RowVector3d(p.x() + 100, p.y(), p.z() + 2); });
+                 [](const auto& p) { return Eigen::RowVector3d(p.x(), p.y(), p.z() + 3); });
   expect_corners(bound, 8,
-                 [](const auto& p) { return Eigen::RowVector3d(p.x() + 100, p.y(), p.z()); });
+                 [](const auto& p) { return Eigen::RowVector3d(p.x(), p.y(), p.z() + 1); });
   const PolygonSoup whole = read_as("0 0 0", true);  // the joints move alike
   EXPECT_FALSE(whole.posed);
   expect_corners(whole, 8,
                  [](const auto& p) { return Eigen::RowVector3d(p.x(), p.y(), p.z() + 1); });
+}
+
+/// They were bound in one place, and stand on nodes that are moved and turned; with a hat each.
+TEST(ReadDae, FiguresStandWhereTheirTopmostJointsAreShown) {
+  const OwnFolder folder;
+  const auto figure = [](const std::string& id, const std::string& place, const std::string& high) {
+    return "<node><translate>" + place + "</translate><rotate>0 0 1 90</rotate><node>" + shown +
+           "</node><node id=\"" + id +
+           "\" sid=\"low\"><translate>100 0 0</translate><node "
+           "sid=\"high\"><translate>" +
+           high +
+           "</translate></node></node>"
+           "<node><instance_controller url=\"#skin\"><skeleton>#" +
+           id + "</skeleton></instance_controller></node></node>";
+  };
+  for (const std::string high : {"4 0 0", "0 0 0"}) {
+    const std::string nodes = figure("one", "10 0 0", high) + figure("two", "60 0 0", "0 0 0");
+    const PolygonSoup bound =
+        read_polygons(folder.write("crowd.dae", dae(box, nodes, skin())), {}, {true});
+    EXPECT_EQ(bound.posed, high != "0 0 0");
+    ASSERT_EQ(bound.positions.rows(), 32);
+    for (const Eigen::Index first : {0, 8, 16, 24}) {
+      expect_corners(bound, first, [first](const auto& p) {
+        return Eigen::RowVector3d((first < 16 ? 10 : 60) - p.y(),
+                                  p.x() + (first % 16 < 8 ? 0 : 100), p.z());
+      });
+    }
+  }
 }
 
 TEST(ReadDae, AJointThatIsNowhereIsNamed) {

@@ -203,7 +203,103 @@ TEST_P(EveryForm, APosedSkinIsReadAsItWasBoundIfOneAsks) {
   expect_corners(shown, 0, [](const Row& p) { return Row(p + Row(p.z() > 0 ? 3 : 0, 7, 0)); });
   const PolygonSoup bound = read_bound(records, GetParam());
   EXPECT_TRUE(bound.posed);
-  expect_corners(bound, 0, [](const Row& p) { return p; });
+  expect_corners(bound, 0, [](const Row& p) { return Row(p + Row(0, 7, 0)); });
+}
+
+/// Another file's objects beside those, their numbers 1000 larger.
+FbxItems beside(FbxItems one, const FbxItems& other) {
+  const auto larger = [](FbxContent& number) {
+    if (auto* value = std::get_if<std::int64_t>(&number); *value > 0) *value += 1000;
+  };
+  for (FbxItem object : other[0].children) {
+    larger(object.values[0]);
+    one[0].children.push_back(object);
+  }
+  for (FbxItem link : other[1].children) {
+    for (const std::size_t k : {1U, 2U}) larger(link.values[k]);
+    one[1].children.push_back(link);
+  }
+  return one;
+}
+
+/// They were bound in one place; each is bent for itself, or not.
+TEST_P(EveryForm, FiguresStandWhereTheirTopmostJointsAreShown) {
+  const FbxProperty here = three("Lcl Translation", 0, 7, 1);
+  const FbxProperty there = three("Lcl Translation", 60, 7, 1);
+  const FbxProperty straight = three("Lcl Translation", 0, 0, 2);
+  for (const FbxProperty& upper : {three("Lcl Translation", 3, 0, 2), straight}) {
+    const FbxItems crowd = beside(posed(here, upper), posed(there, straight));
+    const PolygonSoup bound = read_bound(crowd, GetParam());
+    EXPECT_EQ(bound.posed, upper.values != straight.values);
+    expect_corners(bound, 0, [](const Row& p) { return Row(p + Row(0, 7, 0)); });
+    expect_corners(bound, 16, [](const Row& p) { return Row(p + Row(60, 7, 0)); });
+    EXPECT_EQ(bound.positions.bottomRows(16), read(crowd).positions.bottomRows(16));
+  }
+}
+
+/// What holds the joints is turned about z, and a hat hangs from it.
+TEST_P(EveryForm, AFigureKeepsThePlaceOfWhatHoldsItsJoints) {
+  FbxItems records = posed(three("Lcl Translation", 0, 0, 1), three("Lcl Translation", 3, 0, 2));
+  records[0].children.push_back(
+      fbx_model(40, {three("Lcl Translation", 10, 0, 0), three("Lcl Rotation", 0, 0, 90)}, "Null"));
+  records[0].children.push_back(fbx_model(41));
+  FbxItems& links = records[1].children;
+  for (FbxItem& link : links) {
+    if (std::get<std::int64_t>(link.values[1]) == 8 &&
+        std::get<std::int64_t>(link.values[2]) == 0) {
+      link.values[2] = std::int64_t{40};
+    }
+  }
+  for (const auto& [child, parent] : FbxLinks{{40, 0}, {41, 40}, {31, 41}}) {
+    links.push_back({"C", {"OO", child, parent}});
+  }
+  FbxItem hat = fbx_box();
+  hat.values[0] = std::int64_t{31};
+  records[0].children.push_back(hat);
+  const PolygonSoup bound = read_bound(records, GetParam());
+  ASSERT_EQ(bound.positions.rows(), 24);
+  for (const Eigen::Index first : {0, 8, 16}) {
+    expect_corners(bound, first, [](const Row& p) { return Row(10 - p.y(), p.x(), p.z()); });
+  }
+}
+
+/// It is bound to the upper joint alone, or to one that hangs from it.
+TEST_P(EveryForm, ABootGoesWithTheBodyThatHasItsJoint) {
+  for (const bool is_below : {false, true}) {
+    FbxItems records = posed(three("Lcl Translation", 0, 7, 1), three("Lcl Translation", 3, 0, 2));
+    FbxItem boot = fbx_box();
+    boot.values[0] = std::int64_t{31};
+    FbxItem cluster = records[0].children.back();
+    cluster.values[0] = std::int64_t{34};
+    FbxItems& objects = records[0].children;
+    objects.push_back(fbx_model(35, {}, "LimbNode"));
+    objects.push_back(boot);
+    objects.push_back(fbx_model(32));
+    objects.push_back({"Deformer", {std::int64_t{33}, "skin", "Skin"}});
+    objects.push_back(cluster);
+    for (const auto& [child, parent] :
+         FbxLinks{{31, 32}, {32, 0}, {33, 31}, {34, 33}, {35, 18}, {is_below ? 35 : 18, 34}}) {
+      records[1].children.push_back({"C", {"OO", child, parent}});
+    }
+    const PolygonSoup bound = read_bound(records, GetParam());
+    ASSERT_EQ(bound.positions.rows(), 24);
+    for (const Eigen::Index first : {0, 16}) {
+      expect_corners(bound, first, [](const Row& p) { return Row(p + Row(0, 7, 0)); });
+    }
+  }
+}
+
+TEST_P(EveryForm, BrokenMatricesOfBindingTellNothing) {
+  FbxItems records = posed(three("Lcl Translation", 0, 7, 1), three("Lcl Translation", 3, 0, 2));
+  const PolygonSoup wanted = read(records);
+  const std::vector<double> flat(16, 0.0);
+  for (const std::vector<double>& numbers : {std::vector<double>{1, 2, 3}, flat}) {
+    records[0].children[6].children[3].values = {numbers};
+    EXPECT_EQ(read(records).positions, wanted.positions);
+    const PolygonSoup bound = read_bound(records, GetParam());
+    EXPECT_FALSE(bound.posed);
+    EXPECT_EQ(bound.positions, wanted.positions);
+  }
 }
 
 TEST_P(EveryForm, MeshesThatHangFromJointsGoWithThem) {
@@ -221,7 +317,7 @@ TEST_P(EveryForm, MeshesThatHangFromJointsGoWithThem) {
     expect_corners(soup, 24, [](const Row& p) { return Row(p + Row(0, 0, 4)); });
   };
   swords(read(records), 3, 7);
-  swords(read_bound(records, GetParam()), 0, 0);
+  swords(read_bound(records, GetParam()), 0, 7);
 }
 
 /// Moved as a whole, or said to be bound in two places: then it is read as shown.
