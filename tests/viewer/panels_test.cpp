@@ -106,9 +106,9 @@ TEST_F(OnScreen, ButtonsStandBesideEachOtherWhereTheyFit) {
     for (int settles = 0; settles < 2; ++settles) frame(draw);
     for (std::size_t i = 1; i < ends.size(); ++i) {
       const bool is_beside = tops[i] == tops[i - 1];
-      if (is_beside) EXPECT_LE(ends[i].x, right) << wide;
+      EXPECT_TRUE(!is_beside || ends[i].x <= right) << wide;
     }
-    if (wide >= 400) EXPECT_EQ(tops.back(), tops.front());
+    EXPECT_TRUE(wide < 400 || tops.back() == tops.front()) << wide;
   }
 }
 
