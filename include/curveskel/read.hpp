@@ -52,8 +52,8 @@ struct PolygonSoup {
 
 struct ReadOptions {
   /// glTF, FBX and COLLADA whose joints rest in another pose than they were bound in: skinned
-  /// meshes as they were bound, where the topmost joint takes them, instead of as they rest; of FBX
-  /// and COLLADA, meshes that hang from a joint go with it, and figures not bent stay as they rest.
+  /// meshes as they were bound, where the topmost joint takes them, instead of as they rest; meshes
+  /// that hang from a joint go with it. Of FBX and COLLADA, figures not bent stay as they rest.
   bool as_bound = false;
 };
 

@@ -88,8 +88,9 @@ class Grid {
   /// side for rounding: a long segment's box has far more.
   [[nodiscard]] std::array<std::int64_t, 2> columns_passed(const Segment& segment,
                                                            std::int64_t row) const {
-    const auto [lower, upper] =
-        std::minmax(segment[0], segment[1], [](const Seen& a, const Seen& b) { return a.y < b.y; });
+    const bool is_rising = segment[0].y <= segment[1].y;
+    const Seen& lower = segment[is_rising ? 0 : 1];
+    const Seen& upper = segment[is_rising ? 1 : 0];
     if (lower.y == upper.y) return {0, side_ - 1};
     const double slope =
         static_cast<double>(upper.x - lower.x) / static_cast<double>(upper.y - lower.y);

@@ -39,9 +39,11 @@ class SceneReader {
 
   GltfScene read() {
     place_nodes();
+    const std::vector<Eigen::Affine3d> frames =
+        reading_.as_bound ? frames_as_bound() : scene_.frames;
     for (const int index : scene_.nodes) {
       const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-      if (node.mesh >= 0) read_mesh(node, index, scene_.frames[static_cast<std::size_t>(index)]);
+      if (node.mesh >= 0) read_mesh(node, index, frames[static_cast<std::size_t>(index)]);
     }
     if (model_.nodes.empty()) {
       for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
@@ -86,6 +88,37 @@ class SceneReader {
     for (const int index : below(root_nodes())) scene_.nodes.push_back(index);
     const std::vector<bool> shown = visited_;
     for (const int root : parentless_nodes()) (void)below({root}, &shown);
+  }
+
+  /// Joints where they are as the skin was bound that has them first, in the place where that skin
+  /// stands; what hangs from a joint goes along: a robot's chest with its hands.
+  std::vector<Eigen::Affine3d> frames_as_bound() {
+    std::map<int, Eigen::Affine3d> joints;
+    for (const int index : scene_.nodes) {
+      const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+      if (node.mesh < 0 || node.skin < 0) continue;
+      const GltfSkinPose& pose = *pose_of(node.skin);
+      const auto& of_skin = model_.skins[static_cast<std::size_t>(node.skin)].joints;
+      for (std::size_t k = 0; k < of_skin.size(); ++k) {
+        const Eigen::Affine3d& shown = scene_.frames[static_cast<std::size_t>(of_skin[k])];
+        if (pose.joints[k].linear().determinant() == 0) continue;
+        joints.try_emplace(of_skin[k], pose.topmost * pose.joints[k].inverse() * shown);
+      }
+    }
+    std::vector<Eigen::Affine3d> frames = scene_.frames;
+    for (const int index : scene_.nodes) {  // parents first
+      const auto joint = joints.find(index);
+      const int parent = scene_.parents[static_cast<std::size_t>(index)];
+      Eigen::Affine3d& frame = frames[static_cast<std::size_t>(index)];
+      if (joint != joints.end()) {
+        frame = joint->second;
+      } else if (parent >= 0) {
+        const auto above = static_cast<std::size_t>(parent);
+        if (frames[above].matrix() == scene_.frames[above].matrix()) continue;
+        frame = frames[above] * transform(model_.nodes[static_cast<std::size_t>(index)], index);
+      }
+    }
+    return frames;
   }
 
   /// Those nodes and all below them, placed, each before its children; of `left_out` none.

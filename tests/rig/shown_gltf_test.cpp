@@ -14,6 +14,7 @@
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/rig_files.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/edit_subjects.hpp"
@@ -172,6 +173,29 @@ TEST_F(ShownGltf, SharedVerticesAreWrittenOnce) {
               primitives[1].value("targets", nlohmann::json()))
         << one.name;
   }
+}
+
+// A robot's hands were T-posed as bound, and its arms, which hang from the same joints, were not.
+TEST_F(ShownGltf, MeshesThatHangFromJointsGoWithThemAsBound) {
+  EditCase posed = posed_cases().front();
+  EditCase rested = posed;
+  rested.name = "rested";
+  rested.old_turn = 0;
+  const auto as_bound = [&](const EditCase& one) {
+    const EditSubject subject(folder_.path(), one);
+    return read_polygons(subject.path(), {}, {true}).positions;
+  };
+  const Positions bent = as_bound(posed);
+  const Positions straight = as_bound(rested);
+  ASSERT_EQ(bent.rows(), straight.rows());
+  const Eigen::Matrix3d turn =  // of the topmost joint, about the origin
+      Eigen::AngleAxisd(posed.old_turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Index ring = shapes::torus(1, 0.4, 8).surface.positions.rows();
+  const Eigen::Index body = bent.rows() - 2 * ring;  // then the ring beside it, then the sword
+  const Positions turned = straight * turn.transpose();
+  EXPECT_LT((bent.topRows(body) - turned.topRows(body)).norm(), 1e-5);
+  EXPECT_LT((bent.bottomRows(ring) - turned.bottomRows(ring)).norm(), 1e-5);
+  EXPECT_EQ(bent.middleRows(body, ring), straight.middleRows(body, ring));
 }
 
 TEST_F(ShownGltf, FilesThatRestAsBoundComeOutTheSame) {
