@@ -164,6 +164,7 @@ TEST(LinkingGrid, FindsWhatEachSegmentCrossesOver) {
     return linking::Segment{from, to};
   };
   std::vector<linking::Segment> segments;
+  segments.reserve(300);
   for (int k = 0; k < 300; ++k) segments.push_back(segment(k % 2 == 0 ? 2000000 : 30000));
   linking::Grid grid(segments);
   for (int k = 0; k < 300; ++k) {
