@@ -1,5 +1,7 @@
 #include "app/arguments.hpp"
 
+#include <curveskel/read.hpp>
+
 namespace curveskel {
 
 void add_repair(CLI::App& parser, RepairOptions& options) {
@@ -59,6 +61,14 @@ void add_surgery(CLI::App& parser, ExtractOptions& options) {
              "how the contracted surface becomes a graph");
   add_choice(parser, "--embed", options.embed.method, embed_methods,
              "where the graph's nodes go then");
+}
+
+void add_mesh(CLI::App& parser, std::filesystem::path& mesh) {
+  parser
+      .add_option("MESH", mesh,
+                  "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+      ->required()
+      ->type_name("");
 }
 
 void add_time_limit(CLI::App& parser, double& seconds) {

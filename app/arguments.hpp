@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <filesystem>
 #include <string>
 
 #include <curveskel/advanced/names.hpp>
@@ -66,6 +67,9 @@ void add_preset(CLI::App& parser, Preset& preset, RepairOptions& repair, Extract
 
 /// --surgery and --embed.
 void add_surgery(CLI::App& parser, ExtractOptions& options);
+
+/// MESH, the surface file.
+void add_mesh(CLI::App& parser, std::filesystem::path& mesh);
 
 /// --time-limit, in seconds; 0 = none.
 void add_time_limit(CLI::App& parser, double& seconds);

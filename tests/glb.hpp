@@ -36,4 +36,20 @@ struct Glb {
   return {nlohmann::json::parse(bytes.substr(20, length)), bytes.substr(28 + std::size_t{length})};
 }
 
+[[nodiscard]] inline std::string bytes_of(const Glb& glb) {
+  std::string json = glb.json.dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  const auto put = [&](std::size_t number) {
+    const auto word = static_cast<std::uint32_t>(number);
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+  };
+  put(2);
+  put(28 + json.size() + glb.numbers.size());
+  put(json.size());
+  bytes += "JSON" + json;
+  put(glb.numbers.size());
+  return bytes + std::string("BIN\0", 4) + glb.numbers;
+}
+
 }  // namespace curveskel

@@ -338,11 +338,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
 
 /// MESH and all names of files that are written.
 void add_files(CLI::App& parser, ExtractArguments& arguments) {
-  parser
-      .add_option("MESH", arguments.mesh,
-                  "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
-      ->required()
-      ->type_name("");
+  add_mesh(parser, arguments.mesh);
   parser
       .add_option("-o,--output", arguments.outputs,
                   "skeleton file, its format by the extension; may be given several times; - is "

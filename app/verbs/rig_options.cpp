@@ -17,11 +17,7 @@ struct SourceOptions {
 };
 
 void add_files(CLI::App& parser, RigArguments& arguments) {
-  parser
-      .add_option("MESH", arguments.mesh,
-                  "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
-      ->required()
-      ->type_name("");
+  add_mesh(parser, arguments.mesh);
   parser
       .add_option("-o,--output", arguments.outputs,
                   "rig file, its format by the extension; may be given several times")

@@ -84,9 +84,9 @@ class BentPrimitive {
     for_each_target("POSITION", [&](std::size_t target, Vectors shifts) {
       for (Eigen::Index v = 0; v < count_; ++v) shifts.col(v) = turns_[idx(v)] * shifts.col(v);
       if (target < weights.size()) places -= weights[target] * shifts;
-      targets.at(target)["POSITION"] = add_places(document, shifts);
+      targets.at(target)["POSITION"] = add_places(document, shifts.cast<float>());
     });
-    attributes["POSITION"] = add_places(document, places);
+    attributes["POSITION"] = add_places(document, places.cast<float>());
   }
 
   /// Normals have the length of one; what targets add is turned, and scaled, like the normal that
@@ -157,22 +157,6 @@ class BentPrimitive {
       put_number(bytes, static_cast<float>(number));
     }
     return add_accessor(document, bytes, "VEC3", gltf_float, idx(vectors.cols()), gltf_vertices);
-  }
-
-  /// With their bounds, which the standard wants; of vertices without a place it knows none.
-  static std::size_t add_places(GltfDocument& document, const Vectors& places) {
-    const std::size_t accessor = add_vectors(document, places);
-    Eigen::AlignedBox3f box;
-    for (const auto& place : places.cast<float>().colwise()) {
-      if (place.allFinite()) box.extend(Eigen::Vector3f(place));
-    }
-    if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero().eval());
-    OrderedJson& written = document.json["accessors"][accessor];
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      written["min"].push_back(box.min()[k]);
-      written["max"].push_back(box.max()[k]);
-    }
-    return accessor;
   }
 
   const FileBytes& file_;

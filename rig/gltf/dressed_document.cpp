@@ -121,22 +121,6 @@ SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes&
   return result;
 }
 
-std::size_t add_places(GltfDocument& document, const Positions& positions) {
-  const Eigen::MatrixX3f places = positions.cast<float>();
-  std::string rows;
-  for (const auto& place : places.rowwise()) {
-    for (const float number : place) put_number(rows, number);
-  }
-  const std::size_t accessor =
-      add_accessor(document, rows, "VEC3", gltf_float, idx(positions.rows()), gltf_vertices);
-  OrderedJson& written = document.json["accessors"][accessor];
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    written["min"].push_back(places.col(k).minCoeff());
-    written["max"].push_back(places.col(k).maxCoeff());
-  }
-  return accessor;
-}
-
 std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
                         const Positions& computed) {
   std::string rows;
@@ -275,7 +259,8 @@ void name_accessor(GltfDocument& document, std::size_t accessor, const std::stri
 /// All accessors that the primitives of a part share.
 OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const DressedPart& part,
                           const SplitMesh& split, const std::vector<Triangles>& groups) {
-  OrderedJson attributes{{"POSITION", add_places(document, split.soup.positions)}};
+  OrderedJson attributes{
+      {"POSITION", add_places(document, split.soup.positions.transpose().cast<float>())}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
   const std::size_t maps = std::max(part.texture_sets.size(), sets_shown(document, groups));
   for (std::size_t set = 0; !mesh.textures.empty() && set < maps; ++set) {

@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -11,9 +12,11 @@
 #include <system_error>
 #include <utility>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include "base/base64.hpp"
 #include "rig/gltf/gltf_pictures.hpp"
+#include "rig/gltf/number_bytes.hpp"
 #include "surface/read/gltf_file.hpp"
 
 namespace curveskel {
@@ -123,6 +126,24 @@ std::size_t add_accessor(GltfDocument& document, std::string_view rows, const st
   accessors.push_back(
       {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
   return accessors.size() - 1;
+}
+
+std::size_t add_places(GltfDocument& document, const Eigen::Matrix3Xf& places) {
+  std::string rows;
+  for (const float number : places.reshaped()) put_number(rows, number);
+  const std::size_t accessor =
+      add_accessor(document, rows, "VEC3", gltf_float, idx(places.cols()), gltf_vertices);
+  Eigen::AlignedBox3f box;
+  for (const auto& place : places.colwise()) {
+    if (place.allFinite()) box.extend(Eigen::Vector3f(place));
+  }
+  if (box.isEmpty()) box.extend(Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  OrderedJson& written = document.json["accessors"][accessor];
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    written["min"].push_back(box.min()[k]);
+    written["max"].push_back(box.max()[k]);
+  }
+  return accessor;
 }
 
 std::string format_gltf(GltfDocument document, RigFormat format) {

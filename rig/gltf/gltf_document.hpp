@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -45,6 +46,10 @@ std::size_t add_view(GltfDocument& document, std::string_view bytes, int target 
 /// "VEC4"; `component` and `target` as in rig/gltf/number_bytes.hpp.
 std::size_t add_accessor(GltfDocument& document, std::string_view rows, const std::string& type,
                          int component, std::size_t count, int target = 0);
+
+/// Places of vertices, a column each, as an accessor with the bounds that the standard wants, which
+/// are those of finite ones.
+std::size_t add_places(GltfDocument& document, const Eigen::Matrix3Xf& places);
 
 /// As a binary file, or as text with the buffer in it. Throws Error(Fault::output) beyond 4 GB.
 [[nodiscard]] std::string format_gltf(GltfDocument document, RigFormat format);

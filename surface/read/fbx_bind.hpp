@@ -29,7 +29,7 @@ class FbxBind {
   /// That of its joint, as the cluster's own mesh was bound to it.
   [[nodiscard]] Eigen::Affine3d joint(const FbxRecord& cluster, const FbxRecord& joint) const;
 
-  /// Where the mesh was as its clusters say; nothing where they do not.
+  /// The mesh's place, as its clusters tell; nothing if they tell none.
   [[nodiscard]] std::optional<Eigen::Affine3d> mesh(const FbxRecord& geometry) const;
 
  private:

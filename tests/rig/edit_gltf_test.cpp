@@ -31,22 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string bytes_of(const Glb& glb) {
-  std::string json = glb.json.dump();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string bytes = "glTF";
-  const auto put = [&](std::size_t number) {
-    const auto word = static_cast<std::uint32_t>(number);
-    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
-  };
-  put(2);
-  put(28 + json.size() + glb.numbers.size());
-  put(json.size());
-  bytes += "JSON" + json;
-  put(glb.numbers.size());
-  return bytes + std::string("BIN\0", 4) + glb.numbers;
-}
-
 /// One case with a rig drawn by lot put into it.
 struct Edited {
   EditSubject subject;

@@ -2,7 +2,6 @@
 // as these files are shown.
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -118,23 +117,6 @@ TEST_F(ShownGltf, KeepsTheBytesAndAllAttributesButThese) {
   }
 }
 
-std::string with_json(const Glb& glb) {
-  std::string json = glb.json.dump();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string bytes = "glTF";
-  const auto put = [&](std::size_t number) {
-    const auto word = static_cast<std::uint32_t>(number);
-    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
-  };
-  for (const std::size_t number : {std::size_t{2}, 28 + json.size() + glb.numbers.size()}) {
-    put(number);
-  }
-  put(json.size());
-  bytes += "JSON" + json;
-  put(glb.numbers.size());
-  return bytes + std::string("BIN\0", 4) + glb.numbers;
-}
-
 /// A primitive without vertices beside those of the bent mesh, and a vertex without a place.
 TEST_F(ShownGltf, BoundsAreOfThePlacesThatThereAre) {
   const EditSubject subject(folder_.path(), posed_cases().front());
@@ -152,7 +134,7 @@ TEST_F(ShownGltf, BoundsAreOfThePlacesThatThereAre) {
   none.erase("max");
   glb.json["accessors"].push_back(none);
   primitives.push_back({{"attributes", {{"POSITION", glb.json["accessors"].size() - 1}}}});
-  const fs::path file = folder_.write("none.glb", with_json(glb));
+  const fs::path file = folder_.write("none.glb", bytes_of(glb));
   const Glb after = glb_of(edited(file, false));
   const std::size_t written = after.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
   EXPECT_NE(written, places);

@@ -237,7 +237,7 @@ TEST_P(EveryForm, FiguresStandWhereTheirTopmostJointsAreShown) {
   }
 }
 
-/// What holds the joints is turned about z, and a hat hangs from it.
+/// The node that holds the joints is turned about z, and a hat hangs from it.
 TEST_P(EveryForm, AFigureKeepsThePlaceOfWhatHoldsItsJoints) {
   FbxItems records = posed(three("Lcl Translation", 0, 0, 1), three("Lcl Translation", 3, 0, 2));
   records[0].children.push_back(
