@@ -150,7 +150,8 @@ Json to_json(const ExtractOptions& o) {
             {"smooth_rounds", o.embed.smooth_rounds},
             {"keep_radius", o.embed.keep_radius},
             {"tip_reach", o.embed.tip_reach},
-            {"tip_gap", o.embed.tip_gap}}},
+            {"tip_gap", o.embed.tip_gap},
+            {"go_below", o.embed.go_below}}},
           {"certificate", to_json(o.certificate)}};
 }
 

@@ -37,8 +37,9 @@ struct ExtractOptions {
   /// If the certificate finds too much outside: make the components that the curve leaves once
   /// more, with thirty iterations of fairing, and keep the better ones.
   bool fair_if_outside = true;
-  /// If the topology is wrong: make the components where it is, if they were coarsened and have
-  /// 50,000 vertices at most, once more with all of them, and keep the better ones.
+  /// If the topology is still wrong, or too much outside: make the components that are to blame, if
+  /// they have 80,000 vertices at most, once more with all of them, just below the surface where
+  /// nothing else leads on inside (EmbedOptions::go_below), and keep the better ones.
   bool all_vertices_if_failed = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;

@@ -15,8 +15,8 @@ namespace curveskel {
 inline constexpr std::string_view try_as_asked = "as asked";
 inline constexpr std::string_view try_gentler = "gentler contraction";
 inline constexpr std::string_view try_level_sets = "level-set graph";
-inline constexpr std::string_view try_all_vertices = "all vertices";
 inline constexpr std::string_view try_faired = "faired";
+inline constexpr std::string_view try_all_vertices = "all vertices";
 inline constexpr std::string_view try_wrapped = "wrapped";
 
 enum class Outcome {

@@ -55,8 +55,7 @@ void require_valid(const EmbedOptions& options) {
   check.number("tip_gap", options.tip_gap, radii);
 }
 
-CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
-                          const std::function<const SurfaceTree&()>& full_tree,
+CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree, const FullSurface& full,
                           const InscribedBalls& balls, const PartitionGraph& partition,
                           const EmbedOptions& options, const EmbedTuning& tuning, int threads,
                           StepClock& clock, const Monitor& monitor) {
@@ -71,10 +70,10 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
                            {working, tree, tree, partition, options, tuning, spacing, threads,
                             guard, planes, monitor.stop},
                            clock, monitor);
-  const SurfaceTree* const full = clock("wait for the tree", [&] { return &full_tree(); });
+  const SurfaceTree* const full_tree = clock("wait for the tree", [&] { return &full.tree(); });
   graph.forget_radii();
-  const Setting at_last{working, *full,   tree,  partition, options,     tuning,
-                        spacing, threads, guard, planes,    monitor.stop};
+  const Setting at_last{working, *full_tree, tree,  partition, options,      tuning,
+                        spacing, threads,    guard, planes,    monitor.stop, full.surface};
   embed_in_full_surface(graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);
@@ -90,7 +89,7 @@ CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
   require_closed_manifold(surface, "embed", threads);
   require_same_vertices(partition, balls, surface);
   StepClock unread;
-  return embed_tuned(surface, tree, full_tree, balls, partition, options, {}, threads,
+  return embed_tuned(surface, tree, {full_tree}, balls, partition, options, {}, threads,
                      steps != nullptr ? *steps : unread, monitor);
 }
 

@@ -8,10 +8,15 @@
 
 namespace curveskel {
 
+/// The surface that a working surface was coarsened from. Kept by reference.
+struct FullSurface {
+  std::function<const SurfaceTree&()> tree;  ///< called once, half-way: it may grow till then
+  const Surface* surface = nullptr;          ///< the tree's; null if it is not known
+};
+
 /// See `embed`.
 [[nodiscard]] CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree,
-                                        const std::function<const SurfaceTree&()>& full_tree,
-                                        const InscribedBalls& balls,
+                                        const FullSurface& full, const InscribedBalls& balls,
                                         const PartitionGraph& partition,
                                         const EmbedOptions& options, const EmbedTuning& tuning,
                                         int threads, StepClock& clock, const Monitor& monitor);

@@ -28,6 +28,7 @@ struct Setting {
   HomologyGuard& guard;
   std::vector<MirrorPlane> mirror_planes;  ///< of the surface
   std::stop_token stop = {};               ///< asked in all loops that may take long
+  const Surface* full = nullptr;           ///< the surface of `tree`, null if it is not known
 };
 
 }  // namespace curveskel

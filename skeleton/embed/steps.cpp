@@ -78,7 +78,8 @@ bool prune(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool stay_inside(SkeletonGraph& graph, const Setting& in) {
-  return keep_inside(graph, in.working, in.partition, in.tree, in.guard, in.stop) == 0;
+  return keep_inside(graph, in.working, in.partition, in.tree, in.guard,
+                     in.options.go_below ? in.full : nullptr, in.stop) == 0;
 }
 
 /// Takes a change only if it makes something to which a way inside is found.

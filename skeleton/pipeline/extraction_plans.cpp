@@ -24,10 +24,12 @@ void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
   }
 }
 
-bool has_vertices_to_spare(const ComponentRecord& one) {
-  constexpr int most = 50000;
-  return one.working_vertices < one.vertices && one.vertices <= most;
+bool is_quick_from_all_vertices(const ComponentRecord& one) {
+  constexpr int most = 80000;  // they take 10 s of the processor
+  return one.vertices <= most;
 }
+
+bool was_coarsened(const ComponentRecord& one) { return one.working_vertices < one.vertices; }
 
 /// "it was extracted again", or how many of the components were in that try.
 std::string again(const Extracted& made, int number) {
@@ -77,34 +79,6 @@ Plan<Extracted> as_asked(const Surface& surface, const ExtractOptions& options,
           }};
 }
 
-/// Parts as thin as the coarsened triangles are long have other handles there.
-Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
-                                  ExtractionCache::Implementation* kept) {
-  const auto why = [&options](const SoFar& so_far) -> std::optional<std::string> {
-    if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
-    const Extraction& found = so_far.best->found.extraction;
-    const bool helps =
-        !found.certificate.topology_correct() &&
-        std::any_of(found.components.begin(), found.components.end(), has_vertices_to_spare);
-    if (!helps) return std::nullopt;
-    return failures(found.certificate, options.certificate);
-  };
-  const auto make = [&surface, &options, kept](const Room& room) {
-    ExtractOptions finest = options;
-    finest.resolution = 0;
-    if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    const AnotherWay way{try_all_vertices, finest,
-                         [](const ComponentResult& one, const Certificate& own) {
-                           return !own.topology_correct() && has_vertices_to_spare(one.record);
-                         }};
-    Extracted made =
-        extract_again(surface, way, kept != nullptr ? &kept->all_vertices : nullptr, room);
-    made.note = "the certificate failed, so " + again(made, room.number) + " from all vertices";
-    return made;
-  };
-  return {try_all_vertices, why, make};
-}
-
 /// Noise as thick as the limbs turns them inside out here and there; without it the curve has a way
 /// through.
 Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
@@ -131,12 +105,47 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
   return {try_faired, why, make};
 }
 
+/// Limbs as thin as the coarsened triangles are long have other handles there, and no way inside.
+/// Where there is none in all vertices' surface either, the curve goes just below it: the last
+/// thing tried, as noise that fairing takes off would have its curve below each of its spikes.
+Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
+                                  ExtractionCache::Implementation* kept) {
+  const auto may_help = [](const ComponentRecord& one, const Certificate& found) {
+    return !found.correct() && is_quick_from_all_vertices(one) &&
+           (was_coarsened(one) || !found.inside_enough);
+  };
+  const auto why = [&options, may_help](const SoFar& so_far) -> std::optional<std::string> {
+    if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
+    const Extraction& found = so_far.best->found.extraction;
+    const bool helps =
+        std::any_of(found.components.begin(), found.components.end(),
+                    [&](const ComponentRecord& one) { return may_help(one, found.certificate); });
+    if (!helps) return std::nullopt;
+    return failures(found.certificate, options.certificate);
+  };
+  const auto make = [&surface, &options, kept, may_help](const Room& room) {
+    ExtractOptions finest = options;
+    finest.resolution = 0;
+    finest.embed.go_below = true;
+    if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
+    const AnotherWay way{try_all_vertices, finest,
+                         [&](const ComponentResult& one, const Certificate& own) {
+                           return may_help(one.record, own);
+                         }};
+    Extracted made =
+        extract_again(surface, way, kept != nullptr ? &kept->all_vertices : nullptr, room);
+    made.note = "the certificate failed, so " + again(made, room.number) + " from all vertices";
+    return made;
+  };
+  return {try_all_vertices, why, make};
+}
+
 }  // namespace
 
 std::vector<Plan<Extracted>> extraction_plans(const Surface& surface, const ExtractOptions& options,
                                               ExtractionCache::Implementation* kept) {
-  return {as_asked(surface, options, kept), from_all_vertices(surface, options, kept),
-          faired(surface, options, kept)};
+  return {as_asked(surface, options, kept), faired(surface, options, kept),
+          from_all_vertices(surface, options, kept)};
 }
 
 RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,

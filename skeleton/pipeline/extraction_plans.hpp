@@ -27,7 +27,7 @@ struct Extracted {
   std::vector<ComponentResult> components;
 };
 
-/// As asked, from all vertices, and faired, see ExtractOptions. All refer to what is given; `kept`
+/// As asked, faired, and from all vertices, see ExtractOptions. All refer to what is given; `kept`
 /// may be null.
 [[nodiscard]] std::vector<Plan<Extracted>> extraction_plans(const Surface& surface,
                                                             const ExtractOptions& options,

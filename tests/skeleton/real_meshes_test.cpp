@@ -20,6 +20,7 @@
 #include <curveskel/certificate.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/extract_repaired.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/topology.hpp>
@@ -253,6 +254,21 @@ TEST(RealMeshes, StayInsideWhereTheyMeetThemselves) {
                  1 - found.certificate.inside_fraction, 1e-5);
   EXPECT_TRUE(found.certificate.topology_correct());
   EXPECT_FALSE(is_kept(found.history, try_faired));
+}
+
+// With fewer working vertices the same neuron's curve left it. It was faired, then wrapped, and the
+// wrap, which took 20 s, had a tenth of its tips.
+TEST(RealMeshes, ThatLeaveTheirCoarseSurfaceAreMadeAgainFromAllVertices) {
+  const auto file = real_surface("neuron-722817260-18k.ply");
+  ASSERT_TRUE(file);
+  ExtractOptions options;
+  options.resolution = 6500;
+  const RepairedSurface repaired = repair(read_polygons(*file, {}), {}, {});
+  const RepairedExtraction found = extract_repaired(repaired, {}, options, {});
+  EXPECT_FALSE(found.wrapped);
+  EXPECT_TRUE(found.extraction.certificate.correct());
+  EXPECT_TRUE(is_kept(found.extraction.history, try_all_vertices));
+  EXPECT_GT(found.extraction.certificate.tips, 100);
 }
 
 // The tip in a blunt muzzle was in one of its corners, 0.1 D off, and the way into a head went

@@ -13,6 +13,7 @@
 #include "skeleton/embed/contain/ball_chains.hpp"
 #include "skeleton/embed/contain/below_surface.hpp"
 #include "skeleton/embed/contain/cover.hpp"
+#include "skeleton/embed/contain/ways_below.hpp"
 #include "skeleton/embed/place/shorten.hpp"
 #include "skeleton/embed/place/spacing.hpp"
 
@@ -31,7 +32,8 @@ std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const Sur
 class Keeper {
  public:
   Keeper(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
-         const SurfaceTree& tree, HomologyGuard& handles, const std::stop_token& stop)
+         const SurfaceTree& tree, HomologyGuard& handles, const Surface* full,
+         const std::stop_token& stop)
       : graph_(graph),
         working_(working),
         balls_(working.balls()),
@@ -39,7 +41,9 @@ class Keeper {
         tree_(tree),
         handles_(handles),
         stop_(stop),
-        chains_(working, partition) {}
+        chains_(working, partition) {
+    if (full != nullptr) ways_below_.emplace(*full, tree, stop);
+  }
 
   int run() {
     for (Node& node : graph_.nodes) {
@@ -107,7 +111,23 @@ class Keeper {
       if (!best || stretch.uncovered < best->uncovered) best = std::move(stretch);
       if (best->uncovered == 0) break;
     }
-    return best ? std::move(*best) : std::move(straight);
+    if (!best) best = std::move(straight);
+    // So close to the surface a line says nothing about handles.
+    if (best->uncovered == 0 || on_cycle || !ways_below_) return std::move(*best);
+    auto below = stretch_below(line, i);
+    return below ? std::move(*below) : std::move(*best);
+  }
+
+  /// Just below the full surface to the next point that is inside.
+  std::optional<Stretch> stretch_below(const std::vector<CurvePoint>& line, std::size_t i) {
+    std::size_t next = i + 1;
+    while (next + 1 < line.size() && line[next].radius(tree_) <= 0) ++next;
+    if (line[i].radius(tree_) <= 0 || line[next].radius(tree_) <= 0) return std::nullopt;
+    const auto way = ways_below_->between(line[i], line[next]);
+    if (!way) return std::nullopt;
+    Stretch stretch{next, {}, 0};
+    for (const Point& point : *way) stretch.between.emplace_back(point);
+    return stretch;
   }
 
   [[nodiscard]] bool keeps_handle(const std::vector<CurvePoint>& line, std::size_t first,
@@ -376,6 +396,7 @@ class Keeper {
   HomologyGuard& handles_;
   const std::stop_token& stop_;
   std::optional<BelowSurface> below_;
+  std::optional<WaysBelow> ways_below_;
   BallChains chains_;
   std::map<int, CurvePoint> centres_;                   ///< of the balls passed so far
   std::map<std::pair<int, int>, BallStep> ball_steps_;  ///< of the steps taken so far
@@ -388,8 +409,8 @@ class Keeper {
 
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
-                const std::stop_token& stop) {
-  return Keeper(graph, working, partition, tree, handles, stop).run();
+                const Surface* full, const std::stop_token& stop) {
+  return Keeper(graph, working, partition, tree, handles, full, stop).run();
 }
 
 }  // namespace curveskel

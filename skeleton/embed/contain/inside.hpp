@@ -19,11 +19,13 @@ namespace curveskel {
 /// cheapest chain of the vertices' own inscribed balls through the arc's part of the surface, or
 /// goes along just below the surface from one ball to the next. An edge whose ends are inside and
 /// that meets no triangle counts as covered, too.
+/// Where that leads outside, too, an arc on no cycle goes just below `full`, the surface of `tree`,
+/// if that is given, see WaysBelow.
 /// An arc that needs more than four such ways takes a single one from node to node instead.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
 /// edges that are still not covered. Precondition: D = 1. Throws Cancelled if a stop was requested.
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
-                const std::stop_token& stop = {});
+                const Surface* full = nullptr, const std::stop_token& stop = {});
 
 }  // namespace curveskel
