@@ -89,7 +89,7 @@ def rows_of_all_kinds(folder):
     again = done(results, sheet)
     expect("Nothing to be done" in again.stdout + again.stderr, "a complete batch runs again")
 
-    # What a killed job leaves: some surfaces with a status, no table. They are not done again.
+    # A killed job leaves some surfaces with a status, and no table. They are not done again.
     tables = [(results / name).read_bytes() for name in ("surfaces.csv", "branches.csv")]
     before = times(results)
     (results / "work" / "00000" / "torus" / "status").unlink()

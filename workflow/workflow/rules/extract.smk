@@ -53,10 +53,12 @@ rule extract:
         mem_mb=lambda wildcards, threads: 1000 * threads,
         runtime=240,
     shell:
-        "each() {{ tail -n +2 {input:q} | "
-        "parallel --quote --jobs $1 --colsep '\\t' --trim n --halt never --plain "
+        "each() {{ parallel --quote --jobs $1 --colsep '\\t' --trim n --halt never --plain "
         "sh {EXTRACT_ONE:q} {params.program:q} {params.version:q} {params.work:q} "
         "{params.time_limit} $2 {{1}} {{2}} {{3}}; }}\n"
-        "mkdir -p {params.work:q} && each {threads} first && each 1 last && "
+        "left() {{ while IFS= read -r row; do "
+        "[ -e {params.work:q}/\"${{row%%$'\\t'*}}\"/status ] || printf '%s\\n' \"$row\"; done; }}\n"
+        "mkdir -p {params.work:q} && tail -n +2 {input:q} | each {threads} first && "
+        "tail -n +2 {input:q} | left | each 1 last && "
         "python3 {ROWS:q} {input:q} {params.work:q} {output.surfaces:q} {output.branches:q} "
         "{output.seconds:q}"
