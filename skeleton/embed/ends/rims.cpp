@@ -277,8 +277,16 @@ class Reaching {
 }  // namespace
 
 void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const std::vector<std::vector<std::int32_t>>& rims) {
-  if (!rims.empty()) Reaching(skeleton, surface, tree, rims).run();
+                const Surface& open, const std::vector<std::vector<std::int32_t>>& rims) {
+  if (rims.empty()) return;
+  Reaching(skeleton, surface, tree, rims).run();
+  if (open.triangles.rows() == 0) return;
+  const SurfaceTree open_tree(open);
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    const Eigen::Vector3d place = skeleton.nodes.row(node);
+    const bool inside = tree.inscribed_radius(place) > 0;
+    skeleton.radii[node] = inside ? open_tree.nearest(place).distance : 0;
+  }
 }
 
 }  // namespace curveskel
