@@ -85,9 +85,9 @@ TEST(Damaged, AnOpenTubesSkeletonReachesItsRims) {
 
 /// Ends, where the repair has put caps, are as wide as the middle.
 TEST(Damaged, WidthsOfAnOpenTubeKnowNothingOfItsCaps) {
+  const auto unit = [](double) { return 1.0; };
   for (const bool inside_out : {false, true}) {
-    Surface closed = straight_tube(
-        10, 41, 48, [](double) { return 1; }, [](double) { return 1; });
+    Surface closed = straight_tube(10, 41, 48, unit, unit);
     if (inside_out) closed = turned_inside_out(closed);
     const auto soup =
         part_of(closed, [](const auto& p) { return p.x() > 1e-9 && p.x() < 10 - 1e-9; });

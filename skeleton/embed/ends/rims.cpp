@@ -281,11 +281,13 @@ void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTr
   if (rims.empty()) return;
   Reaching(skeleton, surface, tree, rims).run();
   if (open.triangles.rows() == 0) return;
+  constexpr double rounding = 1e-9;  // of two trees over the same faces
   const SurfaceTree open_tree(open);
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     const Eigen::Vector3d place = skeleton.nodes.row(node);
-    const bool inside = tree.inscribed_radius(place) > 0;
-    skeleton.radii[node] = inside ? open_tree.nearest(place).distance : 0;
+    const double closed = tree.inscribed_radius(place);
+    const double distance = open_tree.nearest(place).distance;
+    if (closed > 0 && distance > (1 + rounding) * closed) skeleton.radii[node] = distance;
   }
 }
 

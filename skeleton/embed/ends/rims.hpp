@@ -12,8 +12,8 @@ namespace curveskel {
 
 /// Adds a node in the middle of each rim that something leads to from near by: within 2.5 radii of
 /// ball or rim, the rim at least half as wide as the ball, the way to its middle inside, D/1000
-/// inside the closing of its hole. All radii are distances to the surface as it is without what
-/// closes its holes, 0 outside.
+/// inside the closing of its hole. Where what closes a hole is the nearest of the surface, the
+/// radius becomes the distance to the rest.
 ///
 /// A tip faces a rim if the way to its middle turns by less than 60 degrees from where the tip's
 /// limb arrives from outside the tip's ball; nodes at the tip that bend elsewhere move onto the
