@@ -11,7 +11,7 @@ import signal
 import sys
 
 COLUMNS = ("id", "path", "options", "status", "message", "vertices", "faces", "components", "genus",
-           "cycle_rank", "tips", "junctions", "branches", "length", "inside_fraction",
+           "diagonal", "area", "volume", "cycle_rank", "tips", "junctions", "branches", "length", "inside_fraction",
            "centredness_median", "coverage", "reach", "tube_share", "curve_like",
            "topology_correct", "holds", "repairs")
 
@@ -43,6 +43,7 @@ def row_of(surface, work):
         return row, [], ""
     report = json.loads(report.read_text())
     row.update(certificate_of(report))
+    row.update((name, report["surface"][name]) for name in ("diagonal", "area", "volume"))
     row["vertices"] = report["input"]["vertices"]
     row["faces"] = report["input"]["polygons"]
     row["repairs"] = sum(value for value in report["repairs"].values() if type(value) is int)
