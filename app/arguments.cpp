@@ -66,7 +66,8 @@ void add_surgery(CLI::App& parser, ExtractOptions& options) {
 void add_mesh(CLI::App& parser, std::filesystem::path& mesh) {
   parser
       .add_option("MESH", mesh,
-                  "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
+                  "surface file: " + names_in(surface_formats) +
+                      ", or one of these gzipped; - is standard input")
       ->required()
       ->type_name("");
 }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include <curveskel/advanced/measures.hpp>
+
 namespace curveskel {
 namespace {
 
@@ -203,8 +205,15 @@ Json to_json(const StageTime& time) {
   return json;
 }
 
+/// Of the surface after repair.
+Json to_json(const SurfaceSize& size) {
+  return {{"vertices", size.vertices},     {"triangles", size.triangles},
+          {"components", size.components}, {"genus", size.genus},
+          {"diagonal", size.diagonal},     {"area", size.area},
+          {"volume", size.volume}};
+}
+
 Json to_json(const ExtractionRecord& record, bool with_times) {
-  const Surface& surface = record.repaired.surface;
   Json components = Json::array();
   for (const ComponentRecord& component : record.extraction.components) {
     components.push_back(to_json(component, with_times));
@@ -223,11 +232,7 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
             {"polygons", record.soup.offsets.size() - 1}}},
           {"changes", to_json(record.repaired.changes)},
           {"repairs", to_json(record.repaired.repairs)},
-          {"surface",
-           {{"vertices", surface.positions.rows()},
-            {"triangles", surface.triangles.rows()},
-            {"components", record.extraction.certificate.components_of_surface},
-            {"genus", record.extraction.certificate.genus}}},
+          {"surface", to_json(size_of(record.repaired.surface, record.extraction.certificate))},
           {"parameters", std::move(parameters)},
           {"components", std::move(components)},
           {"history", std::move(history)},
@@ -270,6 +275,16 @@ std::string text_of(const Json& json, int indent) {
 
 }  // namespace
 
+SurfaceSize size_of(const Surface& surface, const Certificate& certificate) {
+  return {surface.positions.rows(),
+          surface.triangles.rows(),
+          certificate.components_of_surface,
+          certificate.genus,
+          bounding_box_diagonal(surface.positions),
+          area(surface),
+          volume(surface)};
+}
+
 std::string program_and_version() { return "curveskel " CURVESKEL_VERSION; }
 
 std::string history_in_lines(const ExtractionRecord& record, const std::string& provenance) {
@@ -307,16 +322,17 @@ std::string evaluation_json(const std::string& surface_file, const std::string& 
                {"repairs", to_json(evaluation.repairs)},
                {"parameters", to_json(evaluation.options)},
                {"certificate", to_json(evaluation.certificate)}};
-  if (!evaluation.against.empty()) {
+  const SkeletonComparison& comparison = evaluation.comparison;
+  if (!comparison.against.empty()) {
     const auto side = [](const CommonGround::Side& of) {
       return Json{{"share_of_length", of.share}, {"centredness_median", of.centredness_median}};
     };
-    json["against"] = {{"skeleton", evaluation.against},
-                       {"hausdorff_distance", evaluation.hausdorff_distance},
-                       {"mean_distance", evaluation.mean_distance},
+    json["against"] = {{"skeleton", comparison.against},
+                       {"hausdorff_distance", comparison.hausdorff_distance},
+                       {"mean_distance", comparison.mean_distance},
                        {"where_both_run",
-                        {{"this", side(evaluation.common_ground.a)},
-                         {"other", side(evaluation.common_ground.b)}}}};
+                        {{"this", side(comparison.common_ground.a)},
+                         {"other", side(comparison.common_ground.b)}}}};
   }
   return text_of(json, 2) + "\n";
 }

@@ -1,6 +1,7 @@
 // Reports: everything that was measured, decided and changed, as JSON.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,26 @@
 #include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
+#include "app/compare_skeletons.hpp"
 
 namespace curveskel {
 
 /// "curveskel 0.1.0".
 [[nodiscard]] std::string program_and_version();
+
+/// The surface that a skeleton is of, after repair. Lengths in the units of its file.
+struct SurfaceSize {
+  std::int64_t vertices = 0;
+  std::int64_t triangles = 0;
+  int components = 0;
+  int genus = 0;
+  double diagonal = 0;  ///< of the bounding box: D, which lengths of the certificate are over
+  double area = 0;
+  double volume = 0;
+};
+
+/// `certificate` is that of a skeleton of it. O(#V + #F).
+[[nodiscard]] SurfaceSize size_of(const Surface& surface, const Certificate& certificate);
 
 /// One level of a skeleton of which several are written.
 struct SkeletonLevel {
@@ -56,10 +72,7 @@ struct Evaluation {
   Certificate certificate;
   CertificateOptions options;
   Repairs repairs;                ///< of the surface, before
-  std::string against;            ///< the other skeleton's file, empty = none
-  double hausdorff_distance = 0;  ///< to that one, of the surface's D
-  double mean_distance = 0;       ///< the same in the mean
-  CommonGround common_ground;
+  SkeletonComparison comparison;  ///< with another skeleton; of no file = none
 };
 
 /// Certificate of a skeleton file against a surface file. Ends with a newline.

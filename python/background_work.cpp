@@ -33,16 +33,16 @@ Monitor monitor_of(Shared& shared, std::stop_token stop) {
   return monitor;
 }
 
-/// Throws what Python has raised: a signal, or an error of the callback.
-void serve_interpreter(Shared& shared, const py::object& progress) {
+/// Throws what Python has raised: a signal, or an error of the listener.
+void serve_interpreter(Shared& shared, const py::object& listener) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (progress.is_none()) return;
+  if (listener.is_none()) return;
   std::optional<std::pair<std::string, double>> news;
   {
     const std::lock_guard lock(shared.mutex);
     news = std::exchange(shared.progress, std::nullopt);
   }
-  if (news) progress(news->first, news->second);
+  if (news) listener.attr("tell")(news->first, news->second);
 }
 
 bool wait_for(Shared& shared, std::chrono::milliseconds time) {
@@ -53,7 +53,7 @@ bool wait_for(Shared& shared, std::chrono::milliseconds time) {
 
 }  // namespace
 
-void run_beside_interpreter(const py::object& progress,
+void run_beside_interpreter(const py::object& listener,
                             const std::function<void(const Monitor&)>& work) {
   Shared shared;
   std::jthread worker([&](const std::stop_token& stop) {
@@ -69,8 +69,11 @@ void run_beside_interpreter(const py::object& progress,
     shared.changed.notify_all();
   });
   try {
-    while (!wait_for(shared, std::chrono::milliseconds(100))) serve_interpreter(shared, progress);
-    serve_interpreter(shared, progress);
+    while (!wait_for(shared, std::chrono::milliseconds(100))) {
+      serve_interpreter(shared, listener);
+      if (!listener.is_none()) listener.attr("look")();
+    }
+    serve_interpreter(shared, listener);
   } catch (...) {
     worker.request_stop();
     const py::gil_scoped_release others_may_run;

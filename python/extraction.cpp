@@ -8,6 +8,7 @@
 #include <curveskel/html_page.hpp>
 #include "app/certificate_table.hpp"
 #include "app/report.hpp"
+#include "app/skeleton_levels.hpp"
 
 namespace curveskel {
 
@@ -27,6 +28,25 @@ PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
   return result;
 }
 
+std::vector<PythonExtraction> levels_of(const PythonExtraction& extraction, int most,
+                                        const Monitor& monitor) {
+  auto levels = levels_of(extraction.repaired, extraction.extraction,
+                          extraction.settings.extract.certificate, most, monitor);
+  std::vector<PythonExtraction> results;
+  results.reserve(levels.size());
+  for (ExtractionLevel& one : levels) {
+    PythonExtraction& result = results.emplace_back();
+    result.soup = extraction.soup;
+    result.settings = extraction.settings;
+    result.repaired = extraction.repaired;
+    result.extraction = std::move(one.extraction);
+    result.skeleton = on_input_vertices(result.repaired, result.extraction.skeleton);
+    result.notes = extraction.notes;
+    result.level = one.level;
+  }
+  return results;
+}
+
 namespace {
 
 ExtractionRecord record_of(const PythonExtraction& extraction) {
@@ -36,7 +56,8 @@ ExtractionRecord record_of(const PythonExtraction& extraction) {
           extraction.settings.extract,
           extraction.extraction,
           extraction.notes,
-          extraction.settings.preset};
+          extraction.settings.preset,
+          extraction.level};
 }
 
 }  // namespace
@@ -66,12 +87,13 @@ std::string shortcomings(const PythonExtraction& extraction) {
 std::string page_of(const PythonExtraction& extraction) {
   const Certificate& certificate = extraction.extraction.certificate;
   const std::filesystem::path& file = extraction.soup.file;
-  return html_page(extraction.repaired.surface, extraction.extraction.skeleton,
-                   {file.empty() ? "arrays" : file.filename().string(),
-                    certificate_table(certificate, extraction.settings.extract.certificate),
-                    shortcomings(extraction),
-                    history_in_lines(record_of(extraction), provenance_of(extraction))},
-                   extraction.settings.extract.threads);
+  return html_page(
+      extraction.repaired.surface, extraction.extraction.skeleton,
+      {file.empty() ? "arrays" : file.filename().string(),
+       certificate_table(certificate, extraction.settings.extract.certificate),
+       shortcomings(extraction), history_in_lines(record_of(extraction), provenance_of(extraction)),
+       extraction.repaired.rims},
+      extraction.settings.extract.threads);
 }
 
 }  // namespace curveskel

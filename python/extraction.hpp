@@ -10,6 +10,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/skeleton_files.hpp>
+#include "app/report.hpp"
 
 namespace curveskel {
 
@@ -26,11 +27,16 @@ struct PythonExtraction {
   Extraction extraction;
   CurveSkeleton skeleton;  ///< that of the extraction; node_of_vertex is by the vertices given
   std::vector<std::string> notes;
+  SkeletonLevel level = {};  ///< that the skeleton is
 };
 
 /// As `curveskel extract` does, in the same order. Errors as of `repair` and `extract_repaired`.
 [[nodiscard]] PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
                                             const Monitor& monitor);
+
+/// What `curveskel extract --levels` writes, see `levels_of`.
+[[nodiscard]] std::vector<PythonExtraction> levels_of(const PythonExtraction& extraction, int most,
+                                                      const Monitor& monitor);
 
 /// One line for files: the program, and the file that the surface is from.
 [[nodiscard]] std::string provenance_of(const PythonExtraction& extraction);

@@ -9,14 +9,17 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/evaluate_repaired.hpp>
 #include <curveskel/labelled_surface.hpp>
+#include <curveskel/levels.hpp>
 #include <curveskel/match.hpp>
 #include <curveskel/skeleton_files.hpp>
+#include "app/compare_skeletons.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
 #include "python/background_work.hpp"
@@ -66,21 +69,17 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-PolygonSoup soup_of_arrays(const Positions& positions, const py::array_t<std::int64_t>& faces) {
-  if (faces.ndim() != 2 || faces.shape(1) < 3) {
-    throw Error(Fault::usage,
-                "faces: needs an array of shape (n, 3), or (n, k) for polygons of k "
-                "corners");
-  }
-  if (!positions.allFinite()) {
-    throw Error(Fault::input, "vertices: some coordinates are NaN or infinite; drop their faces");
-  }
+/// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1]. As of a file,
+/// vertices with NaN or infinity lose their faces.
+PolygonSoup soup_of_arrays(const Positions& positions, const std::vector<std::int64_t>& corners,
+                           const std::vector<std::int64_t>& offsets) {
   PolygonSoup soup;
   soup.positions = positions;
-  const auto corners = faces.unchecked<2>();
-  for (py::ssize_t f = 0; f < corners.shape(0); ++f) {
-    for (py::ssize_t k = 0; k < corners.shape(1); ++k) {
-      const std::int64_t vertex = corners(f, k);
+  soup.offsets = offsets;
+  soup.corners.reserve(corners.size());
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    for (std::int64_t k = offsets[f]; k < offsets[f + 1]; ++k) {
+      const std::int64_t vertex = corners[static_cast<std::size_t>(k)];
       if (vertex < 0 || vertex >= positions.rows()) {
         throw Error(Fault::input, "face " + std::to_string(f) + ": found vertex " +
                                       std::to_string(vertex) + ", needed 0 to " +
@@ -89,17 +88,15 @@ PolygonSoup soup_of_arrays(const Positions& positions, const py::array_t<std::in
       soup.corners.push_back(static_cast<std::int32_t>(vertex));
     }
   }
-  for (py::ssize_t f = 0; f <= corners.shape(0); ++f) {
-    soup.offsets.push_back(static_cast<std::int64_t>(f * corners.shape(1)));
-  }
+  drop_unplaced_vertices(soup);
   return soup;
 }
 
 PolygonSoup read_file(const std::filesystem::path& path, bool as_bound,
-                      const py::object& progress) {
+                      const py::object& listener) {
   PolygonSoup soup;
   run_beside_interpreter(
-      progress, [&](const Monitor& monitor) { soup = read_polygons(path, monitor, {as_bound}); });
+      listener, [&](const Monitor& monitor) { soup = read_polygons(path, monitor, {as_bound}); });
   return soup;
 }
 
@@ -156,10 +153,10 @@ ExtractSettings settings_of(const py::dict& options) {
 }
 
 PythonExtraction extract_in_background(PolygonSoup soup, const py::dict& options,
-                                       const py::object& progress) {
+                                       const py::object& listener) {
   const ExtractSettings settings = settings_of(options);
   PythonExtraction result;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
     result = extract_soup(std::move(soup), settings, monitor);
   });
   return result;
@@ -191,7 +188,7 @@ void save_labelled(const PythonExtraction& extraction, const std::filesystem::pa
   const py::gil_scoped_release others_may_run;
   const auto chosen = choice_of(labelled_formats, format);
   if (!chosen) {
-    throw Error(Fault::output,
+    throw Error(Fault::usage,
                 output.string() + ": the extension is none of: " + names_in(labelled_formats));
   }
   const BranchLabels labels =
@@ -239,9 +236,24 @@ std::vector<std::vector<int>> nodes_of_branches(const CurveSkeleton& skeleton) {
   return nodes;
 }
 
+py::dict dictionary_of(const CommonGround::Side& side) {
+  return py::dict(py::arg("share_of_length") = side.share,
+                  py::arg("centredness_median") = side.centredness_median);
+}
+
+py::dict dictionary_of(const SkeletonComparison& comparison) {
+  py::dict both;
+  both["this"] = dictionary_of(comparison.common_ground.a);
+  both["other"] = dictionary_of(comparison.common_ground.b);
+  return py::dict(py::arg("hausdorff_distance") = comparison.hausdorff_distance,
+                  py::arg("mean_distance") = comparison.mean_distance,
+                  py::arg("where_both_run") = both);
+}
+
 /// As `curveskel evaluate` does.
 py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& skeleton,
-                                const py::dict& options, const py::object& progress) {
+                                const std::optional<CurveSkeleton>& against,
+                                const py::dict& options, const py::object& listener) {
   RepairOptions as_repaired;
   CertificateOptions certificate;
   OptionSetters setters = repair_setters(as_repaired);
@@ -249,19 +261,53 @@ py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& sk
   set_options(options, setters);
   require_together(as_repaired);
   RepairedEvaluation found;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
-    const RepairedSurface repaired = repair(soup, as_repaired, monitor, certificate.threads);
+  SkeletonComparison comparison;
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
+    RepairedSurface repaired = repair(soup, as_repaired, monitor, certificate.threads);
     found = evaluate_repaired(repaired, as_repaired, skeleton, certificate, monitor);
+    if (found.wrapped) repaired = std::move(*found.wrapped);
+    if (!against) return;
+    comparison = compare_skeletons(skeleton, *against, repaired.surface, certificate, monitor);
   });
-  return dictionary_of(found.certificate);
+  py::dict values = dictionary_of(found.certificate);
+  if (against) values["against"] = dictionary_of(comparison);
+  return values;
+}
+
+py::dict dictionary_of(const SurfaceSize& size) {
+  return py::dict(py::arg("vertices") = size.vertices, py::arg("triangles") = size.triangles,
+                  py::arg("components") = size.components, py::arg("genus") = size.genus,
+                  py::arg("diagonal") = size.diagonal, py::arg("area") = size.area,
+                  py::arg("volume") = size.volume);
+}
+
+py::dict dictionary_of(const SkeletonLevel& level) {
+  return py::dict(py::arg("number") = level.number, py::arg("of") = level.of,
+                  py::arg("least_life") = level.least_life);
+}
+
+std::vector<PythonExtraction> levels_in_background(const PythonExtraction& extraction, int most,
+                                                   const py::object& listener) {
+  std::vector<PythonExtraction> levels;
+  run_beside_interpreter(
+      listener, [&](const Monitor& monitor) { levels = levels_of(extraction, most, monitor); });
+  return levels;
+}
+
+std::vector<CurveSkeleton> levels_of_graph(const CurveSkeleton& skeleton, int most) {
+  std::vector<CurveSkeleton> levels;
+  for (const double limit : level_limits(skeleton, most)) {
+    levels.push_back(level_of(skeleton, limit));
+  }
+  return levels;
 }
 
 /// Branch pairs as columns, junctions as pairs of nodes, vertices of b by those of a, and whether
 /// these told the branches.
 py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction& b, bool by_shape,
-                              int threads, const py::object& progress) {
+                              int threads, const py::object& listener) {
   InputMatch found;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
     found = match_inputs({a.soup, a.repaired, a.extraction.skeleton},
                          {b.soup, b.repaired, b.extraction.skeleton}, {threads, by_shape}, monitor);
   });
@@ -319,13 +365,19 @@ void bind_extraction(py::module_& module) {
                              [](const Owner& one) { return one.extraction.certificate.correct(); })
       .def_property_readonly("holds",
                              [](const Owner& one) { return one.extraction.certificate.holds(); })
+      .def_property_readonly(
+          "surface",
+          [](const Owner& one) {
+            return dictionary_of(size_of(one.repaired.surface, one.extraction.certificate));
+          })
+      .def_property_readonly("level", [](const Owner& one) { return dictionary_of(one.level); })
+      .def("levels", &levels_in_background)
       .def("picture", &picture)
       .def("branch_table",
            [](const Owner& one, int root) { return branch_table(one.skeleton, &one, root); })
       .def("profiles",
-           [](const Owner& one, double spacing, int threads, const py::object& progress) {
-             return profile_table(one.repaired.surface, one.extraction.skeleton, spacing, threads,
-                                  progress);
+           [](const Owner& one, double spacing, int threads, const py::object& listener) {
+             return profile_table(one, spacing, threads, listener);
            })
       .def("labels",
            [](const Owner& one) {
@@ -367,6 +419,7 @@ void bind_skeleton(py::module_& module) {
                          .lives = state[3].cast<Eigen::VectorXd>()};
           }))
       .def("branches", &nodes_of_branches)
+      .def("levels", &levels_of_graph)
       .def("branch_table",
            [](const Owner& one, int root) { return branch_table(one, nullptr, root); })
       .def("junction_table", &junction_table);

@@ -55,8 +55,10 @@ OptionSetters extract_setters(ExtractOptions& options) {
   return {{"detail", sets(options.embed.detail)},
           {"fair", sets(options.fair.iterations)},
           {"flow", sets(options.contraction.flow, "flow", flows)},
+          {"embed", sets(options.embed.method, "embed", embed_methods)},
           {"resolution", set_resolution},
-          {"solver", sets(options.contraction.solver, "solver", solvers)}};
+          {"solver", sets(options.contraction.solver, "solver", solvers)},
+          {"surgery", sets(options.surgery.method, "surgery", surgery_methods)}};
 }
 
 void require_together(const RepairOptions& options) {

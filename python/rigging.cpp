@@ -76,11 +76,11 @@ RigSettings settings_of(const py::dict& options) {
 PythonRig rig_in_background(PolygonSoup soup, bool as_bound,
                             const std::optional<CurveSkeleton>& skeleton,
                             const std::optional<std::filesystem::path>& joints,
-                            const py::dict& options, const py::object& progress) {
+                            const py::dict& options, const py::object& listener) {
   RigSettings settings = settings_of(options);
   PythonRig result;
   result.as_bound = as_bound;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
     RigSources sources;
     sources.skeleton = skeleton;
     if (joints) sources.joints = read_joints(*joints, monitor);
@@ -101,7 +101,7 @@ void save_rig(const PythonRig& rig, const std::filesystem::path& output, const s
   const py::gil_scoped_release others_may_run;
   const auto chosen = choice_of(rig_formats, format);
   if (!chosen) {
-    throw Error(Fault::output,
+    throw Error(Fault::usage,
                 output.string() + ": the extension is none of: " + names_in(rig_formats));
   }
   const VrmMeta vrm{vrm_name, vrm_author, vrm_licence};

@@ -48,7 +48,7 @@ py::dict table_of(const RepairedContraction& contraction) {
 
 }  // namespace
 
-py::tuple fair_soup(const PolygonSoup& soup, const py::dict& options, const py::object& progress) {
+py::tuple fair_soup(const PolygonSoup& soup, const py::dict& options, const py::object& listener) {
   FairOptions fairing;
   fairing.program_cache = kernel_cache();
   set_options(options, {{"iterations", sets(fairing.iterations)},
@@ -61,12 +61,12 @@ py::tuple fair_soup(const PolygonSoup& soup, const py::dict& options, const py::
   require_valid(fairing);
   Surface result;
   run_beside_interpreter(
-      progress, [&](const Monitor& monitor) { result = fair_polygons(soup, fairing, monitor); });
+      listener, [&](const Monitor& monitor) { result = fair_polygons(soup, fairing, monitor); });
   return py::make_tuple(std::move(result.positions), std::move(result.triangles));
 }
 
 py::tuple contract_soup(const PolygonSoup& soup, const py::dict& options,
-                        const py::object& progress) {
+                        const py::object& listener) {
   ContractionOptions contraction;
   contraction.program_cache = kernel_cache();
   RepairOptions as_repaired;
@@ -80,7 +80,7 @@ py::tuple contract_soup(const PolygonSoup& soup, const py::dict& options,
   require_together(as_repaired);
   Surface moved;
   RepairedContraction result;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
     const RepairedSurface repaired = repair(soup, as_repaired, monitor, contraction.threads);
     result = contract_repaired(repaired, contraction, monitor);
     moved = moved_vertices(soup, repaired, result.positions);

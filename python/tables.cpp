@@ -17,6 +17,11 @@ namespace py = pybind11;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// Infinity where it is for ever.
+double life_of(double life) {
+  return life < lives_for_ever ? life : std::numeric_limits<double>::infinity();
+}
+
 template <typename Get>
 py::list column(std::size_t rows, const Get& get) {
   py::list values;
@@ -63,11 +68,11 @@ py::dict branch_table(const CurveSkeleton& skeleton, const PythonExtraction* ext
   table["length"] = number(&BranchMeasures::length);
   table["mean_radius"] = number(&BranchMeasures::mean_radius);
   table["life"] =
-      of([&](std::size_t row) { return has_lives(skeleton) ? levels[row].life : none; });
+      of([&](std::size_t row) { return has_lives(skeleton) ? life_of(levels[row].life) : none; });
   table["parent"] = of(
       [&](std::size_t row) { return number_or_none(levels[row].parent, levels[row].parent >= 0); });
-  table["merge"] =
-      of([&](std::size_t row) { return levels[row].merge < 0 ? none : levels[row].merge; });
+  table["merge"] = of(
+      [&](std::size_t row) { return levels[row].merge < 0 ? none : life_of(levels[row].merge); });
   table["kind"] =
       of([&](std::size_t row) { return std::string(name_of(branch_kinds, measures[row].kind)); });
   table["chord"] = number(&BranchMeasures::chord);
@@ -89,6 +94,10 @@ py::dict branch_table(const CurveSkeleton& skeleton, const PythonExtraction* ext
   }
   table["area"] = parts.areas;
   table["volume"] = parts.volumes;
+  const std::vector<int> components = component_of_node(skeleton);
+  table["component"] = of([&](std::size_t row) {
+    return components[static_cast<std::size_t>(all[row].nodes.front())];
+  });
   return table;
 }
 
@@ -108,11 +117,12 @@ py::dict junction_table(const CurveSkeleton& skeleton) {
   return table;
 }
 
-py::dict profile_table(const Surface& surface, const CurveSkeleton& skeleton, double spacing,
-                       int threads, const py::object& progress) {
+py::dict profile_table(const PythonExtraction& extraction, double spacing, int threads,
+                       const py::object& listener) {
   std::vector<BranchSection> all;
-  run_beside_interpreter(progress, [&](const Monitor& monitor) {
-    all = branch_profiles(surface, skeleton, {spacing, threads}, monitor);
+  run_beside_interpreter(listener, [&](const Monitor& monitor) {
+    all = branch_profiles(extraction.repaired.surface, extraction.extraction.skeleton,
+                          {spacing, threads, extraction.repaired.rims}, monitor);
   });
   const auto of = [&](const auto& get) { return column(all.size(), get); };
   py::dict table;

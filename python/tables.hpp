@@ -16,8 +16,7 @@ namespace curveskel {
 [[nodiscard]] pybind11::dict junction_table(const CurveSkeleton& skeleton);
 
 /// The columns of `format_profiles`. Long work: see `run_beside_interpreter`.
-[[nodiscard]] pybind11::dict profile_table(const Surface& surface, const CurveSkeleton& skeleton,
-                                           double spacing, int threads,
-                                           const pybind11::object& progress);
+[[nodiscard]] pybind11::dict profile_table(const PythonExtraction& extraction, double spacing,
+                                           int threads, const pybind11::object& listener);
 
 }  // namespace curveskel

@@ -17,6 +17,7 @@
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -93,7 +94,7 @@ int run_contract(const ContractArguments& arguments, Session& session) {
 
   session.interruption.limit(arguments.time_limit_seconds);
   Monitor monitor = session.monitor();
-  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const PolygonSoup soup = read_surface(arguments.mesh, monitor);
   const RepairedSurface repaired =
       repair(soup, arguments.repair, monitor, arguments.options.threads);
   std::vector<Frames> frames;
@@ -111,7 +112,7 @@ int run_contract(const ContractArguments& arguments, Session& session) {
 
   const Surface written = moved_vertices(soup, repaired, result.positions);
   const std::string provenance =
-      program_and_version() + ", " + arguments.mesh.filename().string() + ", contracted";
+      program_and_version() + ", " + name_of_input(arguments.mesh) + ", contracted";
   auto files = arguments.frames.empty() ? std::vector<OutputFile>()
                                         : frame_files(frames, arguments.frames, provenance);
   files.push_back({arguments.output, format_surface(written, format, provenance)});
@@ -132,7 +133,9 @@ Verb add_contract(CLI::App& program) {
   const auto arguments = std::make_shared<ContractArguments>();
   CLI::App* parser = program.add_subcommand(
       "contract", "Write the contracted surface: every vertex of the file where it ends up");
-  parser->add_option("MESH", arguments->mesh, "surface file: " + names_in(surface_formats))
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + "; - is standard input")
       ->required()
       ->type_name("");
   parser

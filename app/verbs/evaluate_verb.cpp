@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include <curveskel/advanced/measures.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/compare_rigs.hpp>
 #include <curveskel/evaluate_repaired.hpp>
@@ -21,6 +20,7 @@
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/rig_comparison_table.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -39,25 +39,13 @@ struct EvaluateArguments {
   CertificateOptions options;
 };
 
-/// Compares with the skeleton of another file.
-void compare(const CurveSkeleton& skeleton, const Surface& surface,
-             const EvaluateArguments& arguments, const Monitor& monitor, Evaluation& evaluation) {
-  const double diagonal = bounding_box_diagonal(surface.positions);
-  evaluation.against = arguments.against.filename().string();
-  const CurveSkeleton other = read_skeleton(arguments.against);
-  const double spacing = arguments.options.sample_spacing * diagonal;
-  evaluation.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
-  evaluation.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
-  evaluation.common_ground =
-      common_ground(SurfaceTree(surface), diagonal, skeleton, other, arguments.options, monitor);
-}
-
 std::string evaluation_table(const Evaluation& evaluation) {
   std::string text = certificate_table(evaluation.certificate, evaluation.options);
-  if (evaluation.against.empty()) return text;
+  const SkeletonComparison& comparison = evaluation.comparison;
+  if (comparison.against.empty()) return text;
   text += fmt::format("  distance         {:>10.4f} D, Hausdorff; {:.4f} D in the mean; to {}\n",
-                      evaluation.hausdorff_distance, evaluation.mean_distance, evaluation.against);
-  const auto& [own, other] = evaluation.common_ground;
+                      comparison.hausdorff_distance, comparison.mean_distance, comparison.against);
+  const auto& [own, other] = comparison.common_ground;
   text += fmt::format(
       "  where both run   {:>8.1f} %  of the length, {:.1f} % of the other's\n"
       "  centredness there{:>10.3f} median, the other's {:.3f}\n",
@@ -113,7 +101,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (!arguments.rig_truth.empty()) return run_rig_truth(arguments, session);
   const Monitor monitor = session.monitor();
   const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
-  RepairedSurface repaired = repair(read_polygons(arguments.mesh, monitor), arguments.repair,
+  RepairedSurface repaired = repair(read_surface(arguments.mesh, monitor), arguments.repair,
                                     monitor, arguments.options.threads);
   Evaluation evaluation;
   evaluation.options = arguments.options;
@@ -124,13 +112,15 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   evaluation.certificate = found.certificate;
   const Certificate& certificate = evaluation.certificate;
   if (!arguments.against.empty()) {
-    compare(skeleton, repaired.surface, arguments, monitor, evaluation);
+    evaluation.comparison = compare_skeletons(skeleton, read_skeleton(arguments.against),
+                                              repaired.surface, arguments.options, monitor);
+    evaluation.comparison.against = arguments.against.filename().string();
   }
 
   session.terminal.end_progress();
   if (!arguments.json.empty()) {
     write_outputs(
-        {{arguments.json, evaluation_json(arguments.mesh.filename().string(),
+        {{arguments.json, evaluation_json(name_of_input(arguments.mesh),
                                           arguments.skeleton.filename().string(), evaluation)}},
         session);
   }
@@ -149,8 +139,9 @@ Verb add_evaluate(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "evaluate", "Print the certificate of a skeleton file, or compare two rigs");
   parser
-      ->add_option("MESH", arguments->mesh,
-                   "the surface that it is the skeleton of; with --rig-truth a rig")
+      ->add_option(
+          "MESH", arguments->mesh,
+          "the surface that it is the skeleton of, - is standard input; with --rig-truth a rig")
       ->required()
       ->type_name("");
   parser

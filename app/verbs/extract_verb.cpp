@@ -12,7 +12,6 @@
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/html_page.hpp>
 #include <curveskel/labelled_surface.hpp>
-#include <curveskel/levels.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/skeleton_files.hpp>
@@ -22,6 +21,8 @@
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/skeleton_levels.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -84,7 +85,7 @@ std::string summary(const ExtractArguments& arguments, const ExtractionRecord& r
   const Certificate& certificate = record.extraction.certificate;
   const Surface& surface = record.repaired.surface;
   std::string text =
-      fmt::format("{}: {}, {}; {}, genus {}\n", arguments.mesh.filename().string(),
+      fmt::format("{}: {}, {}; {}, genus {}\n", name_of_input(arguments.mesh),
                   count_of(surface.positions.rows(), "vertex", "vertices"),
                   count_of(surface.triangles.rows(), "triangle"),
                   count_of(certificate.components_of_surface, "component"), certificate.genus);
@@ -133,7 +134,7 @@ std::vector<std::string> skeleton_names(const ExtractArguments& arguments) {
 }
 
 std::string provenance_of(const ExtractArguments& arguments) {
-  return program_and_version() + ", " + arguments.mesh.filename().string();
+  return program_and_version() + ", " + name_of_input(arguments.mesh);
 }
 
 /// Of the finest level.
@@ -142,7 +143,8 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
   const Surface& surface = record.repaired.surface;
   const CurveSkeleton& skeleton = record.extraction.skeleton;
   if (!arguments.profiles.empty()) {
-    const ProfileOptions options{arguments.spacing, arguments.options.threads};
+    const ProfileOptions options{arguments.spacing, arguments.options.threads,
+                                 record.repaired.rims};
     files.push_back({arguments.profiles, format_profiles(branch_profiles(surface, skeleton, options,
                                                                          session.monitor()))});
   }
@@ -161,22 +163,11 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
 std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
   const Certificate& certificate = record.extraction.certificate;
   const CertificateOptions& options = arguments.options.certificate;
-  return html_page(
-      record.repaired.surface, record.extraction.skeleton,
-      {arguments.mesh.filename().string(), certificate_table(certificate, options),
-       all_failures(certificate, options), history_in_lines(record, provenance_of(arguments))},
-      arguments.options.threads);
-}
-
-/// The extraction as it is at a level, with the level's own certificate.
-Extraction at_level(const ExtractionRecord& record, double least_life, const Monitor& monitor) {
-  Extraction level = record.extraction;
-  level.skeleton = level_of(record.extraction.skeleton, least_life);
-  if (level.skeleton.edges.rows() == record.extraction.skeleton.edges.rows()) return level;
-  level.certificate =
-      evaluate(record.repaired.surface, level.skeleton, record.options.certificate, monitor);
-  level.certificate.wrap_followed = record.extraction.certificate.wrap_followed;
-  return level;
+  return html_page(record.repaired.surface, record.extraction.skeleton,
+                   {name_of_input(arguments.mesh), certificate_table(certificate, options),
+                    all_failures(certificate, options),
+                    history_in_lines(record, provenance_of(arguments)), record.repaired.rims},
+                   arguments.options.threads);
 }
 
 /// One file in each of the formats.
@@ -210,26 +201,19 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
     format_one(record, formats, arguments.outputs, arguments, files);
     return files;
   }
-  const std::vector<double> limits = level_limits(record.extraction.skeleton, arguments.levels);
-  const auto count = static_cast<int>(limits.size());
-  for (int number = 1; number <= count; ++number) {
-    monitor.report("write", double(number - 1) / double(count));
-    const double limit = limits[static_cast<std::size_t>(number) - 1];
-    const Extraction level = at_level(record, limit, monitor);
+  const auto levels = levels_of(record.repaired, record.extraction, record.options.certificate,
+                                arguments.levels, monitor);
+  for (const ExtractionLevel& one : levels) {
     std::vector<std::string> names;
+    names.reserve(arguments.outputs.size());
     for (const std::string& output : arguments.outputs) {
-      names.push_back(name_of_level(output, number));
+      names.push_back(name_of_level(output, one.level.number));
     }
-    format_one({record.soup,
-                record.repaired,
-                record.repair_options,
-                record.options,
-                level,
-                record.notes,
-                record.preset,
-                {number, count, limit}},
+    format_one({record.soup, record.repaired, record.repair_options, record.options, one.extraction,
+                record.notes, record.preset, one.level},
                formats, names, arguments, files);
   }
+  const auto count = static_cast<int>(levels.size());
   if (count < arguments.levels) {
     session.terminal.warn(fmt::format("the skeleton has {} levels, fewer than the {} of --levels",
                                       count, arguments.levels));
@@ -296,7 +280,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   monitor.note = nullptr;  // the summary has these
   std::vector<StageTime> times;
   const PolygonSoup soup =
-      timed(times, "read", [&] { return read_polygons(arguments.mesh, monitor); });
+      timed(times, "read", [&] { return read_surface(arguments.mesh, monitor); });
   RepairedSurface repaired = timed(times, "repair", [&] {
     return repair(soup, arguments.repair, monitor, arguments.options.threads);
   });

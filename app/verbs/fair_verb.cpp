@@ -15,6 +15,7 @@
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -52,10 +53,10 @@ int run_fair(const FairArguments& arguments, Session& session) {
 
   session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();
-  const PolygonSoup soup = read_polygons(arguments.mesh, monitor);
+  const PolygonSoup soup = read_surface(arguments.mesh, monitor);
   const Surface result = fair_polygons(soup, arguments.options, monitor);
   const std::string provenance =
-      program_and_version() + ", " + arguments.mesh.filename().string() + ", faired";
+      program_and_version() + ", " + name_of_input(arguments.mesh) + ", faired";
   write_outputs({{arguments.output, format_surface(result, format, provenance)}}, session);
 
   if (!arguments.quiet) {
@@ -75,7 +76,9 @@ Verb add_fair(CLI::App& program) {
   options.program_cache = kernel_cache();
   CLI::App* parser = program.add_subcommand(
       "fair", "Smooth a noisy surface by local Laplacian flow, its volume kept");
-  parser->add_option("MESH", arguments->mesh, "surface file: " + names_in(surface_formats))
+  parser
+      ->add_option("MESH", arguments->mesh,
+                   "surface file: " + names_in(surface_formats) + "; - is standard input")
       ->required()
       ->type_name("");
   parser

@@ -18,6 +18,7 @@
 #include "app/kernel_cache.hpp"
 #include "app/match_report.hpp"
 #include "app/output_files.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -46,14 +47,14 @@ Extracted extracted(const std::filesystem::path& file, const MatchArguments& arg
   const Monitor monitor = session.monitor();
   const int threads = arguments.extract.threads;
   Extracted result;
-  result.soup = read_polygons(file, monitor);
+  result.soup = read_surface(file, monitor);
   result.repaired = repair(result.soup, arguments.repair, monitor, threads);
   RepairedExtraction found =
       extract_repaired(result.repaired, arguments.repair, arguments.extract, monitor);
   if (found.wrapped) result.repaired = std::move(*found.wrapped);
   const std::string failed =
       all_failures(found.extraction.certificate, arguments.extract.certificate);
-  if (!failed.empty()) session.terminal.warn(file.filename().string() + ": " + failed);
+  if (!failed.empty()) session.terminal.warn(name_of_input(file) + ": " + failed);
   result.skeleton = std::move(found.extraction.skeleton);
   return result;
 }
@@ -91,6 +92,9 @@ int run_match(MatchArguments arguments, Session& session) {
   if (std::filesystem::path(arguments.output).extension() != ".json" && arguments.output != "-") {
     throw UsageError(arguments.output + ": a match is written as .json");
   }
+  if (is_standard_input(arguments.a) && is_standard_input(arguments.b)) {
+    throw UsageError("- is standard input, which gives one surface; name a file for the other");
+  }
   check_outputs({arguments.output}, arguments.a);
   check_outputs({arguments.output}, arguments.b);
   if (arguments.output == "-") session.terminal.keep_output_clean();
@@ -101,8 +105,8 @@ int run_match(MatchArguments arguments, Session& session) {
   const InputMatch match =
       match_inputs({a.soup, a.repaired, a.skeleton}, {b.soup, b.repaired, b.skeleton},
                    {arguments.extract.threads, arguments.by_shape}, session.monitor());
-  const std::string file_a = arguments.a.filename().string();
-  const std::string file_b = arguments.b.filename().string();
+  const std::string file_a = name_of_input(arguments.a);
+  const std::string file_b = name_of_input(arguments.b);
   const MatchRecord record{file_a, file_b, a.skeleton, b.skeleton, match};
   write_outputs({{arguments.output, match_json(record)}}, session);
   if (!arguments.quiet) {
@@ -119,7 +123,9 @@ Verb add_match(CLI::App& program) {
   const auto arguments = std::make_shared<MatchArguments>();
   CLI::App* parser = program.add_subcommand(
       "match", "Say which branch, junction and vertex of one surface is which in another");
-  parser->add_option("A", arguments->a, "surface file: " + names_in(surface_formats))
+  parser
+      ->add_option("A", arguments->a,
+                   "surface file: " + names_in(surface_formats) + "; - is standard input")
       ->required()
       ->type_name("");
   parser

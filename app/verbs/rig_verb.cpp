@@ -27,6 +27,7 @@
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/rig_report.hpp"
+#include "app/surface_input.hpp"
 #include "app/verbs/rig_options.hpp"
 #include "app/verbs/rig_sources.hpp"
 #include "app/verbs/rig_summary.hpp"
@@ -103,6 +104,11 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
     warn_of_looks(arguments, session);
   }
+  if (is_standard_input(arguments.mesh)) {
+    session.terminal.warn(
+        "from standard input comes the surface alone; name a file to keep its materials");
+    return read_surface(arguments.mesh, monitor);
+  }
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {arguments.as_bound});
   if (arguments.as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
   return soup;
@@ -113,7 +119,7 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
                                   const Rig& rig, const std::vector<RigFormat>& formats,
                                   Session& session, std::string& summary) {
   const Monitor monitor = session.monitor();
-  fs::path name = arguments.mesh.stem();
+  fs::path name = is_standard_input(arguments.mesh) ? "surface" : arguments.mesh.stem();
   if (arguments.mesh.extension() == ".gz") name = name.stem();
   std::vector<OutputFile> files;
   for (std::size_t i = 0; i < formats.size(); ++i) {
@@ -175,6 +181,10 @@ int run_rig(RigArguments arguments, Session& session) {
                      ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, "
                      "vrm, fbx and usda");
   }
+  if (is_standard_input(arguments.mesh)) {
+    if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
+    arguments.bare = true;
+  }
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
@@ -221,13 +231,13 @@ int run_rig(RigArguments arguments, Session& session) {
   if (!arguments.report.empty()) {
     const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
     files.push_back(
-        {arguments.report, rig_report_json({given, found.character,
-                                            arguments.mesh.filename().string(), so_far.count()})});
+        {arguments.report,
+         rig_report_json({given, found.character, name_of_input(arguments.mesh), so_far.count()})});
   }
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", arguments.mesh.filename().string(),
+  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", name_of_input(arguments.mesh),
                                  soup.positions.rows(), joints_in_words(written));
   if (found.character.joints_left_out > 0) {
     text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",

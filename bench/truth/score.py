@@ -50,26 +50,60 @@ def topology(skeleton):
     return components, len(skeleton.edges) - len(parent) + components
 
 
+def ends(skeleton):
+    """Both ends of each edge; those of a node without edges, which has none, are the node twice."""
+    nodes, edges = numpy.asarray(skeleton.vertices), numpy.asarray(skeleton.edges).reshape(-1, 2)
+    alone = numpy.flatnonzero(numpy.bincount(edges.ravel(), minlength=len(nodes)) == 0)
+    return nodes, numpy.vstack([edges, numpy.stack([alone, alone], axis=1)])
+
+
 def samples(skeleton, radii, step):
-    """Points along the edges, with radii."""
-    places, sizes = [numpy.asarray(skeleton.vertices)], [radii]
-    for a, b in numpy.asarray(skeleton.edges):
-        length = numpy.linalg.norm(skeleton.vertices[b] - skeleton.vertices[a])
-        share = numpy.linspace(0, 1, max(2, int(numpy.ceil(length / step)) + 1))[1:-1]
-        places.append((1 - share[:, None]) * skeleton.vertices[a] +
-                      share[:, None] * skeleton.vertices[b])
+    """Points with radii and weights: the nodes, of weight 0, and the middles of equal pieces of each
+    edge, `step` long at most, of their lengths."""
+    nodes, edges = ends(skeleton)
+    places, sizes, weights = [nodes], [radii], [numpy.zeros(len(nodes))]
+    for a, b in edges:
+        length = numpy.linalg.norm(nodes[b] - nodes[a])
+        pieces = max(1, int(numpy.ceil(length / step)))
+        share = (numpy.arange(pieces) + 0.5) / pieces
+        places.append((1 - share[:, None]) * nodes[a] + share[:, None] * nodes[b])
         sizes.append((1 - share) * radii[a] + share * radii[b])
-    return numpy.concatenate(places), numpy.concatenate(sizes)
+        weights.append(numpy.full(pieces, length / pieces))
+    return numpy.concatenate(places), numpy.concatenate(sizes), numpy.concatenate(weights)
+
+
+def to_curve(points, skeleton, radii):
+    """Distance of points to a curve's edges, and the radius at the nearest place."""
+    nodes, edges = ends(skeleton)
+    start, along = nodes[edges[:, 0]], nodes[edges[:, 1]] - nodes[edges[:, 0]]
+    square = numpy.maximum((along ** 2).sum(axis=1), 1e-300)
+    distance, radius = numpy.empty(len(points)), numpy.empty(len(points))
+    for begin in range(0, len(points), 512):
+        block = points[begin:begin + 512, None, :] - start[None, :, :]
+        share = numpy.clip((block * along).sum(axis=2) / square, 0, 1)
+        apart = ((block - share[:, :, None] * along) ** 2).sum(axis=2)
+        edge = apart.argmin(axis=1)
+        rows = numpy.arange(len(edge))
+        share = share[rows, edge]
+        distance[begin:begin + 512] = numpy.sqrt(apart[rows, edge])
+        radius[begin:begin + 512] = ((1 - share) * radii[edges[edge, 0]] +
+                                     share * radii[edges[edge, 1]])
+    return distance, radius
+
+
+def weighted_median(values, weights):
+    order = numpy.argsort(values, kind="stable")
+    sums = numpy.cumsum(weights[order])
+    return values[order[numpy.searchsorted(sums, sums[-1] / 2)]]
 
 
 def nearest(points, others):
-    """Distance to, and number of, the nearest of the others."""
-    distance, number = numpy.empty(len(points)), numpy.empty(len(points), dtype=int)
+    """Distance to the nearest of the others."""
+    distance = numpy.empty(len(points))
     for begin in range(0, len(points), 512):
         block = ((points[begin:begin + 512, None, :] - others[None, :, :]) ** 2).sum(axis=2)
-        number[begin:begin + 512] = block.argmin(axis=1)
         distance[begin:begin + 512] = numpy.sqrt(block.min(axis=1))
-    return distance, number
+    return distance
 
 
 def found(truth, truth_radii, others):
@@ -100,17 +134,17 @@ def score(surface, truth, skeleton):
     size = numpy.linalg.norm(numpy.ptp(surface, axis=0))
     step = 0.002 * size
     row = {"topology": topology(truth) == topology(skeleton)}
-    nodes = numpy.asarray(skeleton.vertices)
-    own_radii = numpy.asarray(skeleton.radii)
+    own_radii, true_radii = numpy.asarray(skeleton.radii), numpy.asarray(truth.radii)
     if len(own_radii) == 0:  # then the nearest vertex tells
-        own_radii, _ = nearest(nodes, surface)
-    ours, radii = samples(skeleton, own_radii, step)
-    theirs, true_radii = samples(truth, numpy.asarray(truth.radii), step)
-    there, number = nearest(ours, theirs)
-    back, _ = nearest(theirs, ours)
+        own_radii = nearest(numpy.asarray(skeleton.vertices), surface)
+    ours, radii, weights = samples(skeleton, own_radii, step)
+    theirs, _, their_weights = samples(truth, true_radii, step)
+    there, needed = to_curve(ours, truth, true_radii)
+    back, _ = to_curve(theirs, skeleton, own_radii)
     row["hausdorff"] = max(there.max(), back.max()) / size
-    row["mean_distance"] = (there.mean() + back.mean()) / 2 / size
-    row["radius_error"] = numpy.median(numpy.abs(radii - true_radii[number]) / true_radii[number])
+    row["mean_distance"] = (numpy.average(there, weights=weights) +
+                            numpy.average(back, weights=their_weights)) / 2 / size
+    row["radius_error"] = weighted_median(numpy.abs(radii - needed) / needed, weights)
     for name, test in (("tips", lambda degree: degree == 1), ("junctions", lambda degree: degree > 2)):
         mine, true = test(degrees(skeleton)), test(degrees(truth))
         row[f"{name}_found"] = found(truth.vertices[true], numpy.asarray(truth.radii)[true],
@@ -118,6 +152,11 @@ def score(surface, truth, skeleton):
         row[f"{name}_true"], row[f"{name}_ours"] = int(true.sum()), int(mine.sum())
     row["reconstruction"] = reconstruction(surface, ours, radii, size)
     return row
+
+
+def length(skeleton):
+    nodes, edges = ends(skeleton)
+    return numpy.linalg.norm(nodes[edges[:, 1]] - nodes[edges[:, 0]], axis=1).sum()
 
 
 def failed(truth):
@@ -136,25 +175,26 @@ def skeleton_in(folder, name):
     return None
 
 
+def shown(value, digits):
+    return "-" if numpy.isnan(value) else f"{value:.{digits}f}"
+
+
 def share(rows, count, of):
     total = sum(row[of] for row in rows)
-    return 100 * sum(row[count] for row in rows) / total if total else float("nan")
+    return shown(100 * sum(row[count] for row in rows) / total if total else numpy.nan, 1)
 
 
 def table_row(title, rows):
-    known = [row for row in rows if not numpy.isnan(row["hausdorff"])]
-
-    def mean(column):
-        values = [row[column] for row in known if not numpy.isnan(row[column])]
-        return numpy.mean(values) if values else float("nan")
+    def mean(column, digits, factor=1):
+        values = [row[column] for row in rows if not numpy.isnan(row[column])]
+        return shown(factor * numpy.mean(values) if values else numpy.nan, digits)
 
     return (f"| {title} | {len(rows)} | {100 * sum(row['topology'] for row in rows) / len(rows):.1f} "
-            f"| {share(rows, 'tips_found', 'tips_true'):.1f} "
-            f"/ {share(rows, 'tips_found', 'tips_ours'):.1f} "
-            f"| {share(rows, 'junctions_found', 'junctions_true'):.1f} "
-            f"/ {share(rows, 'junctions_found', 'junctions_ours'):.1f} "
-            f"| {mean('hausdorff'):.4f} | {mean('mean_distance'):.4f} "
-            f"| {100 * mean('radius_error'):.1f} | {mean('reconstruction'):.4f} |")
+            f"| {share(rows, 'tips_found', 'tips_true')} / {share(rows, 'tips_found', 'tips_ours')} "
+            f"| {share(rows, 'junctions_found', 'junctions_true')} "
+            f"/ {share(rows, 'junctions_found', 'junctions_ours')} "
+            f"| {mean('hausdorff', 4)} | {mean('mean_distance', 5)} "
+            f"| {mean('radius_error', 1, 100)} | {mean('reconstruction', 4)} |")
 
 
 def main():
@@ -173,7 +213,7 @@ def main():
         surface, _ = read_off(truth_folder / f"{name}.off")
         truth = curveskel.read(truth_folder / f"{name}.truth.ply")
         skeleton = skeleton_in(skeletons, name)
-        empty = skeleton is None or len(skeleton.edges) == 0
+        empty = skeleton is None or length(skeleton) == 0
         rows.append({**member, **(failed(truth) if empty else score(surface, truth, skeleton))})
     print("| surfaces | number | topology right, % | tips: recall / precision, % "
           "| junctions: recall / precision, % | Hausdorff, D | mean distance, D | radius error, % "

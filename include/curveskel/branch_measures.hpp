@@ -23,7 +23,7 @@ struct BranchMeasures {
   BranchKind kind = BranchKind::chain;
   double length = 0;      ///< along the branch
   double chord = 0;       ///< straight from its start to its end; 0 of one that closes
-  double tortuosity = 0;  ///< length / chord - 1: 0 = straight; NaN where it closes
+  double tortuosity = 0;  ///< length / chord - 1, >= 0; 0 = straight; NaN where it closes
   /// Over the length, linear between nodes. NaN without radii, as the next two.
   double mean_radius = 0;
   double least_radius = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -14,6 +15,9 @@ struct ProfileOptions {
   double spacing = 0;  ///< along the branch, in model units, or the next smaller that divides it;
                        ///< 0 = a section at each node
   int threads = 0;     ///< at most; 0 = one per core. The result does not depend on it.
+  /// The vertices round each hole that was closed (`RepairedSurface::rims`): the faces that close
+  /// it are no surface for the inscribed radius.
+  std::vector<std::vector<std::int32_t>> rims = {};
 };
 
 /// Lengths in model units. The section is that part of the plane through `position`, normal to
@@ -24,7 +28,8 @@ struct BranchSection {
   double s = 0;                                        ///< along the branch from its start
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the curve
   Eigen::Vector3d tangent = Eigen::Vector3d::Zero();   ///< unit, towards the branch's end
-  double inscribed_radius = 0;  ///< from `position` to the surface; negative outside
+  double inscribed_radius = 0;  ///< from `position` to the surface, that which closes holes left
+                                ///< out; negative outside
   double area = 0;
   double perimeter = 0;            ///< of the outer loop and of the holes
   double equivalent_diameter = 0;  ///< of the circle of the same area

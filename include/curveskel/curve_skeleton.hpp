@@ -13,9 +13,10 @@ namespace curveskel {
 using Edges = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 struct CurveSkeleton {
-  Positions nodes;                 ///< #N by 3, in model units
-  Edges edges;                     ///< #E by 2
-  Eigen::VectorXd radii;           ///< #N distances to the surface (0 for a node outside), or empty
+  Positions nodes;        ///< #N by 3, in model units
+  Edges edges;            ///< #E by 2
+  Eigen::VectorXd radii;  ///< #N distances to the surface (0 for a node outside), or empty;
+                          ///< what closes holes that the curve goes on to is no surface
   Eigen::VectorXi node_of_vertex;  ///< #V of the surface: the node that each vertex collapsed to
                                    ///< (-1 = the vertex is on no component), or empty
   Eigen::VectorXd lives = {};      ///< #N: of a tip how clearly the surface has it there (see

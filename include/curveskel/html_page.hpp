@@ -1,7 +1,9 @@
 // One self-contained page of a skeleton in its surface: to turn, with tables, plots, certificate.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/skeleton_files.hpp>
@@ -14,6 +16,8 @@ struct PageContent {
   std::string certificate;  ///< in words
   std::string failures;     ///< of the certificate; empty if it holds
   std::string provenance;   ///< program, file, what was changed; lines
+  /// As in ProfileOptions.
+  std::vector<std::vector<std::int32_t>> rims = {};
 };
 
 /// HTML, without anything from elsewhere: browsers with WebGL 2 show the shape, all others the

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <curveskel/advanced/names.hpp>
@@ -65,5 +66,18 @@ struct ReadOptions {
 [[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path,
                                         const Monitor& monitor = {},
                                         const ReadOptions& options = {});
+
+/// The same of a file's whole content, as it comes through a pipe: `name` is for messages and
+/// `PolygonSoup::file`, and its extension counts where the content leaves the format open. Files
+/// beside it (buffers of a .gltf) are sought in the folder of `name`.
+[[nodiscard]] PolygonSoup read_polygons_in(std::string content, const std::filesystem::path& name,
+                                           const Monitor& monitor = {},
+                                           const ReadOptions& options = {});
+
+/// What reading does with vertices that have NaN or infinity, for polygons from elsewhere: those of
+/// such vertices go, the vertices keep their rows, at the place of another, and both are counted in
+/// the soup. So positions are finite on return. Throws Error(Fault::input) where more polygons
+/// would go than stay. O(#V + corners).
+void drop_unplaced_vertices(PolygonSoup& soup);
 
 }  // namespace curveskel

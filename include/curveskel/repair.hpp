@@ -111,7 +111,8 @@ struct RepairedSurface {
   Eigen::VectorXi vertex_of_input;
   Changes changes;
   Repairs repairs;
-  /// The vertices of the surface round each hole that was closed, in order.
+  /// The vertices of the surface round each hole that was closed, in order: what closes it lies on
+  /// the left as seen from outside.
   std::vector<std::vector<std::int32_t>> rims;
   /// A vertex of the surface on each sheet that got a thickness.
   std::vector<std::int32_t> sheets;

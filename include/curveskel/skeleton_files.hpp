@@ -17,13 +17,14 @@ enum class SkeletonFormat { obj, ply, cgal, swc, vtp, csv, graphml, json, svg, p
 
 inline constexpr NameTable<SkeletonFormat, 10> skeleton_formats{{
     {SkeletonFormat::obj, "obj", "Wavefront OBJ: v, two-vertex l"},
-    {SkeletonFormat::ply, "ply", "PLY: vertex (radius) and edge elements"},
+    {SkeletonFormat::ply, "ply", "PLY: vertex (radius, life) and edge elements"},
     {SkeletonFormat::cgal, "cgal", "CGAL polylines, one branch a line"},
     {SkeletonFormat::swc, "swc", "SWC neuron tree; loops are cut, the cuts are comments"},
-    {SkeletonFormat::vtp, "vtp", "VTK XML PolyData, radius as point data"},
+    {SkeletonFormat::vtp, "vtp", "VTK XML PolyData, radius and life as point data"},
     {SkeletonFormat::csv, "csv",
      "table of branches: ends, kind, length, bends, radii, area, volume"},
-    {SkeletonFormat::graphml, "graphml", "GraphML: x, y, z, radius per node, length per edge"},
+    {SkeletonFormat::graphml, "graphml",
+     "GraphML: x, y, z, radius, life per node, length per edge"},
     {SkeletonFormat::json, "json", "nodes, edges, radii, vertex map, parameters, certificate"},
     {SkeletonFormat::svg, "svg", "picture: the skeleton inside its surface"},
     {SkeletonFormat::png, "png", "picture: the skeleton inside its surface"},
@@ -64,7 +65,7 @@ struct SkeletonContext {
 /// JSON (this program's, or a node-link graph), gzipped or not, whoever wrote them. Coincident
 /// points (equal coordinates) become one node, save in GraphML and JSON, whose nodes have names; a
 /// chain of several points becomes as many edges less one. `radii` is empty where the file has
-/// none; `node_of_vertex` comes from JSON only.
+/// none, and so are `lives`; `node_of_vertex` comes from JSON only.
 /// Throws Error(Fault::input) that names the file, the line or element, and what is wrong there.
 /// Time and memory linear in the file's size, times a logarithm for the joining.
 [[nodiscard]] CurveSkeleton read_skeleton(const std::filesystem::path& path);

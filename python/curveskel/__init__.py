@@ -12,9 +12,10 @@ networkx, trimesh and tqdm are imported when asked for.
 from . import _core
 from .errors import (CertificateWarning, DeviceError, Error, InputError, OutputError, SolverError,
                      UsageError)
+from .evaluation import evaluate
 from .matching import Match, match
 from .rigs import Rig, rig
-from .skeleton import Skeleton, evaluate, extract, read
+from .skeleton import Skeleton, extract, read
 from .surfaces import contract, fair
 
 __version__ = _core.program_and_version().split()[-1]

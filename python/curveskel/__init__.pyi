@@ -17,7 +17,8 @@ class _Graph(Protocol):
     vertices: ArrayLike
     edges: ArrayLike
 
-Mesh = Union[Path, tuple[ArrayLike, ArrayLike], _Mesh]
+Faces = Union[ArrayLike, Sequence[ArrayLike]]
+Mesh = Union[Path, tuple[ArrayLike, Faces], _Mesh]
 
 class Error(Exception):
     exit_status: int
@@ -49,6 +50,11 @@ class Skeleton:
     @property
     def vertex_map(self) -> Optional[NDArray[numpy.int32]]: ...
     @property
+    def surface(self) -> Optional[dict[str, Any]]: ...
+    @property
+    def level(self) -> Optional[dict[str, Any]]: ...
+    def levels(self, most: int, *, progress: Progress = ...) -> list[Skeleton]: ...
+    @property
     def certificate(self) -> Optional[dict[str, Any]]: ...
     @property
     def ok(self) -> Optional[bool]: ...
@@ -75,6 +81,9 @@ class Skeleton:
     def to_swc(self, path: Path) -> None: ...
     def save(self, path: Path) -> None: ...
 
+# The last is a networkx.Graph.
+AnySkeleton = Union[Skeleton, Path, tuple[ArrayLike, ArrayLike], _Graph, Any]
+
 class Rig:
     @property
     def joints(self) -> NDArray[numpy.float64]: ...
@@ -96,6 +105,7 @@ class Rig:
 class Match:
     junctions: NDArray[numpy.int32]
     vertices: NDArray[numpy.int32]
+    by_vertices: bool
     a: Skeleton
     b: Skeleton
     @property
@@ -103,17 +113,18 @@ class Match:
     @property
     def alone(self) -> tuple[list[int], list[int]]: ...
 
-def extract(mesh: Mesh, *, detail: float = ..., threads: int = ..., progress: Progress = ...,
-            strict: bool = ..., **options: Any) -> Skeleton: ...
-def evaluate(mesh: Mesh,
-             skeleton: Union[Skeleton, Path, tuple[ArrayLike, ArrayLike], _Graph], *,
-             threads: int = ..., progress: Progress = ..., **options: Any) -> dict[str, Any]: ...
+def extract(mesh: Mesh, *, detail: float = ..., threads: int = ..., time_limit: float = ...,
+            progress: Progress = ..., strict: bool = ..., **options: Any) -> Skeleton: ...
+def evaluate(mesh: Mesh, skeleton: AnySkeleton, *, against: Optional[AnySkeleton] = ...,
+             threads: int = ..., time_limit: float = ..., progress: Progress = ...,
+             **options: Any) -> dict[str, Any]: ...
 def read(path: Path) -> Skeleton: ...
 def rig(mesh: Mesh, *, skeleton: Union[None, Skeleton, Path] = ..., joints: Optional[Path] = ...,
-        as_shown: bool = ..., threads: int = ..., progress: Progress = ..., **options: Any
-        ) -> Rig: ...
+        as_shown: bool = ..., threads: int = ..., time_limit: float = ...,
+        progress: Progress = ..., **options: Any) -> Rig: ...
 def match(a: Union[Skeleton, Mesh], b: Union[Skeleton, Mesh], *, by_shape: bool = ...,
-          threads: int = ..., progress: Progress = ..., **options: Any) -> Match: ...
+          threads: int = ..., time_limit: float = ..., progress: Progress = ...,
+          **options: Any) -> Match: ...
 def fair(mesh: Mesh, *, iterations: int = ..., threads: int = ..., progress: Progress = ...,
          **options: Any) -> tuple[NDArray[numpy.float64], NDArray[numpy.int32]]: ...
 def contract(mesh: Mesh, *, threads: int = ..., progress: Progress = ..., **options: Any) -> tuple[

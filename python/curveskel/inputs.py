@@ -1,24 +1,50 @@
-"""Surfaces as callers give them, and progress as they want it."""
+"""Surfaces as callers give them, and progress and limits as they want them."""
 
 import contextlib
+import math
 import os
+import time
 
 import numpy
 
 from . import _core
-from .errors import UsageError
+from .errors import SolverError, UsageError
+
+
+class _Listener:
+    """What the core tells of its work, and asks whether its time is over."""
+
+    def __init__(self, tell, limit):
+        self.tell = tell or (lambda stage, fraction: None)
+        self._limit = limit
+        self._end = time.monotonic() + limit if limit else math.inf
+
+    def look(self):
+        if time.monotonic() >= self._end:
+            raise SolverError(f"the time limit of {self._limit:g} s was reached; allow more, or "
+                              "decimate the surface first")
 
 
 @contextlib.contextmanager
-def shown(wanted):
-    """The callback for the core: that given, one that moves a tqdm bar (True), or None."""
-    if wanted is not True:
-        yield wanted or None
+def listening(progress, time_limit=0):
+    """The listener for the core, or None if nothing is to be told or asked.
+
+    progress: a callable (stage, fraction); True moves a tqdm bar, if there is tqdm; None.
+    time_limit: seconds from now; 0 = none. Raises UsageError for another value.
+    """
+    try:
+        seconds = float(time_limit)
+    except (TypeError, ValueError):
+        seconds = math.nan
+    if not 0 <= seconds <= 1e9:
+        raise UsageError(f"time_limit: needs seconds, 0 (none) to 1e9, not {time_limit!r}")
+    if progress is not True:
+        yield _Listener(progress, seconds) if progress or seconds else None
         return
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        yield None
+        yield _Listener(None, seconds) if seconds else None
         return
     with tqdm(total=1.0, bar_format="{desc}: {percentage:3.0f}% {bar} {elapsed}") as bar:
 
@@ -27,24 +53,55 @@ def shown(wanted):
             bar.n = fraction
             bar.refresh()
 
-        yield show
+        yield _Listener(show, seconds)
 
 
-def soup_of(mesh, progress, as_bound=False):
+def _corners_of(faces):
+    """Corners one face after the other, and where each face begins: an array, or a list of faces."""
+    try:
+        faces = numpy.asarray(faces)
+    except ValueError:
+        faces = list(faces)  # of several sizes
+    if isinstance(faces, list) or faces.dtype == object:
+        faces = [numpy.asarray(face) for face in faces]
+        sizes = numpy.array([len(face) for face in faces], dtype=numpy.int64)
+        corners = numpy.concatenate(faces) if faces else numpy.empty(0, dtype=numpy.int64)
+    elif faces.ndim == 2:
+        sizes = numpy.full(len(faces), faces.shape[1], dtype=numpy.int64)
+        corners = faces.reshape(-1)
+    else:
+        raise UsageError(f"faces: needs shape (n, k), one row a face, not {faces.shape}")
+    if corners.ndim != 1 or not (numpy.issubdtype(corners.dtype, numpy.integer) or not sizes.size):
+        raise UsageError(f"faces: needs integers, the vertices of each face, not {corners.dtype}")
+    if (sizes < 3).any():
+        face = int(numpy.argmax(sizes < 3))
+        raise UsageError(f"faces: needs three corners or more in each, not {sizes[face]} as in "
+                         f"face {face}")
+    return corners.astype(numpy.int64), numpy.concatenate(([0], numpy.cumsum(sizes)))
+
+
+def soup_of(mesh, listener, as_bound=False):
     """A path, a pair (vertices, faces), or an object that has both, as the core takes it."""
     if isinstance(mesh, (str, os.PathLike)):
-        return _core.read_surface(os.fspath(mesh), as_bound, progress)
+        return _core.read_surface(os.fspath(mesh), as_bound, listener)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         mesh = (mesh.vertices, mesh.faces)
     try:
         vertices, faces = mesh
-        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
-        faces = numpy.asarray(faces)
     except (TypeError, ValueError) as error:
         raise UsageError("mesh: needs a path, a pair (vertices, faces), or an object with "
                          f"vertices and faces, not {type(mesh).__name__}") from error
+    try:
+        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"vertices: needs numbers of shape (n, 3): {error}") from error
     if vertices.ndim != 2 or vertices.shape[1] != 3:
         raise UsageError(f"vertices: needs shape (n, 3), not {vertices.shape}")
-    if not numpy.issubdtype(faces.dtype, numpy.integer):
-        raise UsageError(f"faces: needs integers, not {faces.dtype}")
-    return _core.soup_of_arrays(vertices, numpy.ascontiguousarray(faces, dtype=numpy.int64))
+    try:
+        corners, offsets = _corners_of(faces)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, UsageError):
+            raise
+        raise UsageError("faces: needs an array of shape (n, k) or a list of faces, each the "
+                         f"numbers of its vertices: {error}") from error
+    return _core.soup_of_arrays(vertices, corners, offsets)

@@ -4,8 +4,8 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .inputs import shown
-from .skeleton import Skeleton, extract
+from .inputs import listening
+from .skeleton import Skeleton, extracted, warn_or_fail
 
 
 class Match:
@@ -42,25 +42,26 @@ class Match:
                 f"{sum(self._table['ambiguous'])} ambiguous, {len(of_a)} and {len(of_b)} alone>")
 
 
-def match(a, b, *, by_shape=False, threads=0, progress=None, **options):
+def match(a, b, *, by_shape=False, threads=0, time_limit=0, progress=None, **options):
     """Which branch, junction and vertex of A is which in B.
 
     a, b: skeletons that `extract` made, or surfaces as it takes them.
     by_shape: compare shapes alone, also where A and B have the same faces, whose vertices are
         taken for the same.
-    threads, progress: as of `extract`.
+    threads, time_limit, progress: as of `extract`; the limit is for all of it.
     options: those of `extract`, for what is extracted here.
 
     Raises UsageError for a skeleton that was read from a file, and what `extract` raises.
     """
     sides = []
-    for side in (a, b):
-        if not isinstance(side, Skeleton):
-            side = extract(side, threads=threads, progress=progress, **options)
-        if not hasattr(side._extraction, "picture"):  # of a file, or pickled
-            raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
-        sides.append(side)
-    with shown(progress) as callback:
+    with listening(progress, time_limit) as listener:
+        for side in (a, b):
+            if not isinstance(side, Skeleton):
+                side = extracted(side, listener, dict(options, threads=threads))
+                warn_or_fail(side, False, 2)
+            if not hasattr(side._extraction, "picture"):  # of a file, or pickled
+                raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
+            sides.append(side)
         found = _core.match(sides[0]._extraction, sides[1]._extraction, by_shape, threads,
-                            callback)
+                            listener)
     return Match(*found, *sides)

@@ -8,7 +8,7 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .inputs import shown, soup_of
+from .inputs import listening, soup_of
 from .skeleton import Skeleton, read
 
 
@@ -70,7 +70,8 @@ class Rig:
         return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
 
 
-def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress=None, **options):
+def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, time_limit=0, progress=None,
+        **options):
     """Joints and skin weights for a surface, as `curveskel rig` makes them.
 
     mesh: as of `extract`; a path lets `Rig.save` edit the file itself.
@@ -78,7 +79,7 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress
     joints: a path to a rig: its joints get new weights, and no others are made.
     as_shown: a glTF, FBX or COLLADA file whose old joints rest in another pose than they were bound
         in is rigged as viewers show it, not as it was bound; so it is with joints of its own.
-    threads, progress: as of `extract`.
+    threads, time_limit, progress: as of `extract`.
     options: the program's, with _ for -: bone_length, components, detail, ends (False for
         --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
         merge_overlapping, min_size, names, plan, pose, root, softness, up, wrap, wrap_gap.
@@ -94,8 +95,8 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, progress
     is_path = isinstance(mesh, (str, os.PathLike))
     if is_path and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
         as_shown = as_shown or os.path.samefile(mesh, joints)
-    with shown(progress) as callback:
-        soup = soup_of(mesh, callback, as_bound=not as_shown)
+    with listening(progress, time_limit) as listener:
+        soup = soup_of(mesh, listener, as_bound=not as_shown)
         return Rig(_core.rig(soup, not as_shown, None if skeleton is None else skeleton._graph,
                              None if joints is None else os.fspath(joints),
-                             dict(options, threads=threads), callback))
+                             dict(options, threads=threads), listener))

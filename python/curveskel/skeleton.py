@@ -1,14 +1,15 @@
 """Skeletons as arrays and tables."""
 
+import operator
 import os
 import pathlib
 import warnings
 
 import numpy
 
-from . import _core
-from .errors import CertificateWarning, Error, SolverError, UsageError
-from .inputs import shown, soup_of
+from . import _core, graphs
+from .errors import CertificateWarning, SolverError, UsageError
+from .inputs import listening, soup_of
 
 
 class _Kept:
@@ -16,7 +17,8 @@ class _Kept:
 
     def __init__(self, extraction):
         for name in ("positions", "triangles", "given_positions", "given_polygons",
-                     "vertex_of_input", "certificate", "holds", "shortcomings", "changes"):
+                     "vertex_of_input", "certificate", "holds", "shortcomings", "changes", "surface",
+                     "level"):
             value = getattr(extraction, name)
             setattr(self, name, numpy.array(value) if isinstance(value, numpy.ndarray) else value)
         self._table = extraction.branch_table(-1)
@@ -48,6 +50,7 @@ class Skeleton:
     def __init__(self, graph, extraction=None):
         self._graph = graph
         self._extraction = extraction
+        self._found = {}  # what takes long, once it was asked for
 
     @property
     def vertices(self):
@@ -109,6 +112,40 @@ class Skeleton:
         return None if self._extraction is None else self._extraction.vertex_of_input
 
     @property
+    def surface(self):
+        """A dict of the surface after repair, None of a file.
+
+        vertices, triangles, components, genus; diagonal of the bounding box, area and volume in the
+        units given, their squares and cubes. Lengths of the certificate are over the diagonal.
+        """
+        return None if self._extraction is None else self._extraction.surface
+
+    @property
+    def level(self):
+        """A dict, see `levels`: number (1 = the finest), of, least_life of the branches.
+
+        None of a file.
+        """
+        return None if self._extraction is None else self._extraction.level
+
+    def levels(self, most, *, progress=None):
+        """A list of Skeletons, the finest first, as `curveskel extract --levels` writes them.
+
+        most: so many levels, 1 to 100; fewer where the lives of the branches tell fewer apart. Each
+            is part of the one before; limits are the widest gaps between the lives.
+
+        Each has its own certificate, and nodes and branches their own numbers. Raises UsageError of
+        a skeleton that was pickled.
+        """
+        count = _index(most, "most", 1, 100)
+        if self._extraction is None:
+            return [Skeleton(graph) for graph in self._graph.levels(count)]
+        self._need_surface("levels")
+        with listening(progress) as listener:
+            return [Skeleton(level.skeleton, level)
+                    for level in self._extraction.levels(count, listener)]
+
+    @property
     def certificate(self):
         """A dict of the numbers that docs/method.md defines; None of a file."""
         return None if self._extraction is None else self._extraction.certificate
@@ -144,13 +181,18 @@ class Skeleton:
     def branch_table(self, root=None):
         """`branches`, with orders counted from the node `root` in its component.
 
-        Without one they are counted from the thickest node of each component.
+        Without one they are counted from the thickest node of each component. Each call gives a
+        table of its own. Raises UsageError for a root that is no node.
         """
         import pandas
 
-        source = self._graph if self._extraction is None else self._extraction
-        table = pandas.DataFrame(source.branch_table(-1 if root is None else int(root)))
-        return table.astype({"parent": "Int64", "strahler_order": "Int64"}).rename_axis("branch")
+        number = -1 if root is None else _index(root, "root", 0, len(self.vertices) - 1)
+        if ("branches", number) not in self._found:
+            source = self._graph if self._extraction is None else self._extraction
+            table = pandas.DataFrame(source.branch_table(number))
+            self._found["branches", number] = table.astype(
+                {"parent": "Int64", "strahler_order": "Int64"}).rename_axis("branch")
+        return self._found["branches", number].copy()
 
     @property
     def junctions(self):
@@ -174,20 +216,27 @@ class Skeleton:
         import pandas
 
         self._need_surface("sections")
-        with shown(progress) as callback:
+        with listening(progress) as listener:
             return pandas.DataFrame(
                 self._extraction.profiles(0.0 if spacing is None else float(spacing), threads,
-                                          callback))
+                                          listener))
 
     def vertex_labels(self):
-        """(v,) int32: the branch of each vertex given; -1 = of none."""
-        self._need_surface("labels")
-        return self._extraction.labels()[0]
+        """(v,) int32, read-only: the branch of each vertex given; -1 = of none."""
+        return self._labels()[0]
 
     def face_labels(self):
-        """(f,) int32: the branch of each face given; -1 = of none."""
+        """(f,) int32, read-only: the branch of each face given; -1 = of none."""
+        return self._labels()[1]
+
+    def _labels(self):
         self._need_surface("labels")
-        return self._extraction.labels()[1]
+        if "labels" not in self._found:
+            labels = self._extraction.labels()
+            for values in labels:
+                values.flags.writeable = False
+            self._found["labels"] = labels
+        return self._found["labels"]
 
     def save_labelled(self, path):
         """Writes the surface given with its branches as labels and colours: PLY, VTP or GLB."""
@@ -221,49 +270,21 @@ class Skeleton:
                              "extract it, or use evaluate")
 
     def to_networkx(self):
-        """networkx.Graph: `pos` (a tuple), `radius` and `life` of nodes, `length` and `branch` of edges.
+        """networkx.Graph: x, y, z, radius, life of nodes; length, branch, life, parent, merge of edges.
 
-        networkx writes no tuples as GraphML; `save("x.graphml")` does it.
+        These are numbers, in the units of the surface, of edges those of their branch; what a branch
+        has not is left out, a life that never ends is infinity. networkx can write it as GraphML,
+        `read` reads that again, and `evaluate` takes the graph itself.
         """
-        import networkx
-
-        graph = networkx.Graph()
-        for node, place in enumerate(self.vertices.tolist()):
-            graph.add_node(node, pos=tuple(place))
-        for name, values in (("radius", self.radii), ("life", self.lives)):
-            if len(values):
-                networkx.set_node_attributes(graph, dict(enumerate(values.tolist())), name)
-        ends = self.vertices[self.edges]
-        lengths = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        for (a, b), length in zip(self.edges.tolist(), lengths.tolist()):
-            graph.add_edge(a, b, length=length)
-        for branch, nodes in enumerate(self.branch_nodes):
-            for a, b in zip(nodes[:-1].tolist(), nodes[1:].tolist()):
-                graph.edges[a, b]["branch"] = branch
-        return graph
+        return graphs.to_networkx(self)
 
     def to_trimesh(self):
         """trimesh.path.Path3D, one polyline a branch."""
-        from trimesh.path import Path3D
-        from trimesh.path.entities import Line
-
-        return Path3D(entities=[Line(nodes) for nodes in self.branch_nodes],
-                      vertices=numpy.array(self.vertices), process=False)
+        return graphs.to_trimesh(self)
 
     def to_pyvista(self):
         """pyvista.PolyData, one polyline a branch, with `radius` and `life` of points."""
-        import pyvista
-
-        branches = self.branch_nodes
-        data = pyvista.PolyData(numpy.array(self.vertices))
-        data.lines = numpy.concatenate(
-            [numpy.concatenate(([len(nodes)], nodes)) for nodes in branches]
-        ) if branches else numpy.empty(0, dtype=int)
-        data.cell_data["branch"] = numpy.arange(len(branches))
-        for name, values in (("radius", self.radii), ("life", self.lives)):
-            if len(values):
-                data.point_data[name] = numpy.array(values)
-        return data
+        return graphs.to_pyvista(self)
 
     def to_swc(self, path):
         """Writes an SWC file; loops are cut, and the cuts are comments in it."""
@@ -272,9 +293,15 @@ class Skeleton:
     def save(self, path):
         """Writes a file in the format of its extension, any of the program's.
 
-        Of a skeleton that was extracted from a file, the bytes are those that the program writes.
+        As with the program, `labelled.ply` and `NAME.labelled.ply` are the surface with its branches,
+        see `save_labelled`. Of a skeleton that was extracted from a file, the bytes are those that
+        the program writes. Raises UsageError or OutputError.
         """
-        self._save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."))
+        stem = pathlib.PurePath(pathlib.Path(path).stem)
+        if str(stem) == "labelled" or stem.suffix == ".labelled":
+            self.save_labelled(path)
+        else:
+            self._save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."))
 
     def _save(self, path, format):
         if hasattr(self._extraction, "save"):
@@ -300,66 +327,56 @@ class Skeleton:
         return f"<div style='max-width:480px'>{picture[picture.index('<svg'):]}{words}</div>"
 
 
-def extract(mesh, *, detail=0.5, threads=0, progress=None, strict=False, **options):
+def _index(value, name, least, most):
+    """A whole number in its range; raises UsageError for anything else."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or not least <= number <= most:
+        raise UsageError(f"{name}: needs a whole number, {least} to {most}, not {value!r}")
+    return number
+
+
+def extracted(mesh, listener, options):
+    """The Skeleton of `extract`, whatever its certificate says."""
+    extraction = _core.extract(soup_of(mesh, listener), options, listener)
+    return Skeleton(extraction.skeleton, extraction)
+
+
+def warn_or_fail(skeleton, strict, stacklevel):
+    """Says how the certificate fails, if it does."""
+    if skeleton.ok:
+        return
+    message = "the certificate failed: " + skeleton.shortcomings
+    if strict:
+        raise SolverError(message)
+    warnings.warn(message, CertificateWarning, stacklevel=stacklevel + 1)
+
+
+def extract(mesh, *, detail=0.5, threads=0, time_limit=0, progress=None, strict=False, **options):
     """The curve skeleton of a surface, as `curveskel extract` makes it.
 
     mesh: a path to a surface file; a pair of arrays, vertices (n, 3) and faces (m, 3), or (m, k)
-        for polygons; or an object with `vertices` and `faces`, as trimesh's.
+        for polygons, or a list of faces of several sizes; or an object with `vertices` and `faces`,
+        as trimesh's. Faces of vertices with NaN or infinity are dropped, as from a file.
     detail: 0 to 1, how small a branch may be: below .5 the clearer ones of the skeleton, above it
         more beside them.
     threads: at most; 0 = one per core. The result does not depend on it.
+    time_limit: seconds, then it is a SolverError; 0 = none.
     progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
     strict: a certificate that does not hold is a SolverError, not a CertificateWarning.
-    options: the program's, with _ for -: components, fair, flow, least_sheet, merge_overlapping,
-        min_size, preset, resolution (a number or "full"), solver, wrap, wrap_gap.
+    options: the program's, with _ for -: components, embed, fair, flow, least_sheet,
+        merge_overlapping, min_size, preset, resolution (a number or "full"), solver, surgery, wrap,
+        wrap_gap. For --levels see `Skeleton.levels`.
 
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
     meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.
     """
-    with shown(progress) as callback:
-        extraction = _core.extract(soup_of(mesh, callback),
-                                   dict(options, detail=detail, threads=threads), callback)
-    if not extraction.holds:
-        message = "the certificate failed: " + extraction.shortcomings
-        if strict:
-            raise SolverError(message)
-        warnings.warn(message, CertificateWarning, stacklevel=2)
-    return Skeleton(extraction.skeleton, extraction)
-
-
-def evaluate(mesh, skeleton, *, threads=0, progress=None, **options):
-    """The certificate of any skeleton of a surface: a dict, as `Skeleton.certificate`.
-
-    skeleton: a Skeleton, a path to a skeleton file, a pair of arrays, nodes (n, 3) and edges
-        (m, 2), or an object with `vertices` and `edges`, as skeletor's.
-    options: those of repair: components, least_sheet, merge_overlapping, min_size, wrap, wrap_gap.
-
-    Raises UsageError or InputError.
-    """
-    if isinstance(skeleton, (str, os.PathLike)):
-        skeleton = read(skeleton)
-    if isinstance(skeleton, Skeleton):
-        graph = skeleton._graph
-    else:
-        if hasattr(skeleton, "vertices") and hasattr(skeleton, "edges"):
-            skeleton = (skeleton.vertices, skeleton.edges)
-        try:
-            nodes, edges = skeleton
-            nodes = numpy.asarray(nodes, dtype=numpy.float64)
-            edges = numpy.asarray(edges)
-            if nodes.ndim != 2 or nodes.shape[1] != 3:
-                raise UsageError(f"nodes: needs shape (n, 3), not {nodes.shape}")
-            if edges.size and not numpy.issubdtype(edges.dtype, numpy.integer):
-                raise UsageError(f"edges: needs integers, not {edges.dtype}")
-            graph = _core.skeleton_of_arrays(nodes, edges.astype(numpy.int64))
-        except (TypeError, ValueError) as error:
-            if isinstance(error, Error):
-                raise
-            raise UsageError("skeleton: needs a Skeleton, a path or a pair (nodes, edges), not "
-                             f"{type(skeleton).__name__}") from error
-    with shown(progress) as callback:
-        return _core.evaluate(soup_of(mesh, callback), graph, dict(options, threads=threads),
-                              callback)
+    with listening(progress, time_limit) as listener:
+        skeleton = extracted(mesh, listener, dict(options, detail=detail, threads=threads))
+    warn_or_fail(skeleton, strict, 2)
+    return skeleton
 
 
 def read(path):

@@ -1,7 +1,7 @@
 """Surfaces that fairing and contraction move."""
 
 from . import _core
-from .inputs import shown, soup_of
+from .inputs import listening, soup_of
 
 
 def fair(mesh, *, iterations=3, threads=0, progress=None, **options):
@@ -13,9 +13,9 @@ def fair(mesh, *, iterations=3, threads=0, progress=None, **options):
     Returns the vertices (v, 3), in the order given, and triangles (f, 3). Raises UsageError,
     InputError, DeviceError or SolverError.
     """
-    with shown(progress) as callback:
-        return _core.fair(soup_of(mesh, callback),
-                          dict(options, iterations=iterations, threads=threads), callback)
+    with listening(progress) as listener:
+        return _core.fair(soup_of(mesh, listener),
+                          dict(options, iterations=iterations, threads=threads), listener)
 
 
 def contract(mesh, *, threads=0, progress=None, **options):
@@ -30,5 +30,5 @@ def contract(mesh, *, threads=0, progress=None, **options):
     (over those at the start), residual, vertices left; pandas.DataFrame takes it. Raises
     UsageError, InputError, DeviceError or SolverError.
     """
-    with shown(progress) as callback:
-        return _core.contract(soup_of(mesh, callback), dict(options, threads=threads), callback)
+    with listening(progress) as listener:
+        return _core.contract(soup_of(mesh, listener), dict(options, threads=threads), listener)

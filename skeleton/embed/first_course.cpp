@@ -47,7 +47,7 @@ SkeletonGraph first_course(const Setting& in) {
   prune_blunt(graph, in.working, in.partition, limit);
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet
   const int uncovered =
-      keep_inside(graph, in.working, in.partition, in.tree, anywhere, nullptr, in.stop);
+      keep_inside(graph, in.working, in.partition, in.tree, anywhere, {.stop = in.stop});
   if (!in.guard.has_handles()) return graph;
   const bool goes_round = in.guard.finds_all_handles(graph, in.partition);
   if (uncovered == 0 && goes_round) return graph;
@@ -55,7 +55,7 @@ SkeletonGraph first_course(const Setting& in) {
   reroute_around_handles(rerouted, in.working, in.tree, in.partition, in.guard);
   prune_blunt(rerouted, in.working, in.partition, limit);
   const int left =
-      keep_inside(rerouted, in.working, in.partition, in.tree, in.guard, nullptr, in.stop);
+      keep_inside(rerouted, in.working, in.partition, in.tree, in.guard, {.stop = in.stop});
   // No way need be inside if the surface meets itself, and the way round may lose its handle.
   const bool is_better =
       !goes_round || (left < uncovered && in.guard.finds_all_handles(rerouted, in.partition));

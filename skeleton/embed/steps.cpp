@@ -78,15 +78,21 @@ bool prune(SkeletonGraph& graph, const Setting& in) {
 }
 
 bool stay_inside(SkeletonGraph& graph, const Setting& in) {
-  return keep_inside(graph, in.working, in.partition, in.tree, in.guard,
-                     in.options.go_below ? in.full : nullptr, in.stop) == 0;
+  InsideOptions options;
+  if (in.options.go_below) options.below = in.full;
+  options.stop = in.stop;
+  return keep_inside(graph, in.working, in.partition, in.tree, in.guard, options) == 0;
 }
 
 /// Takes a change only if it makes something to which a way inside is found.
 template <typename Change>
 bool change_inside(SkeletonGraph& graph, const Setting& in, const Change& change) {
   SkeletonGraph changed = graph;
-  if (change(changed) == 0 || !stay_inside(changed, in)) return false;
+  if (change(changed) == 0) return false;
+  InsideOptions options;
+  options.all_or_nothing = true;
+  options.stop = in.stop;
+  if (keep_inside(changed, in.working, in.partition, in.tree, in.guard, options) > 0) return false;
   graph = std::move(changed);
   return true;
 }

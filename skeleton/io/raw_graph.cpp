@@ -43,6 +43,18 @@ std::vector<int> number_nodes(const RawGraph& graph, const std::vector<int>& fir
   return node;
 }
 
+/// The number of each node from those of its points: the first that is known, 0 if none is; empty
+/// if no node has one.
+Eigen::VectorXd of_nodes(const std::vector<double>& of_points, const std::vector<int>& node,
+                         int nodes) {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Constant(nodes, RawGraph::unknown);
+  for (std::size_t p = node.size(); p-- > 0;) {
+    if (node[p] >= 0 && !std::isnan(of_points[p])) numbers(node[p]) = of_points[p];
+  }
+  if (numbers.array().isNaN().all()) return {};
+  return numbers.array().isNaN().select(0, numbers);
+}
+
 }  // namespace
 
 void RawGraph::add_chain(const std::vector<int>& chain) {
@@ -56,14 +68,11 @@ CurveSkeleton skeleton_from(const RawGraph& graph, Joining joining) {
 
   CurveSkeleton skeleton;
   skeleton.nodes.resize(nodes, 3);
-  skeleton.radii = Eigen::VectorXd::Constant(nodes, RawGraph::unknown);
   for (std::size_t p = node.size(); p-- > 0;) {  // backwards: the first of coincident points counts
-    if (node[p] < 0) continue;
-    skeleton.nodes.row(node[p]) = graph.points[p];
-    if (!std::isnan(graph.radii[p])) skeleton.radii(node[p]) = graph.radii[p];
+    if (node[p] >= 0) skeleton.nodes.row(node[p]) = graph.points[p];
   }
-  if (skeleton.radii.array().isNaN().all()) skeleton.radii.resize(0);
-  skeleton.radii = skeleton.radii.array().isNaN().select(0, skeleton.radii).eval();
+  skeleton.radii = of_nodes(graph.radii, node, nodes);
+  skeleton.lives = of_nodes(graph.lives, node, nodes);
 
   std::vector<std::pair<int, int>> edges;
   for (const auto& [a, b] : graph.edges) {
@@ -78,7 +87,6 @@ CurveSkeleton skeleton_from(const RawGraph& graph, Joining joining) {
     skeleton.edges.row(static_cast<Eigen::Index>(e)) << edges[e].first, edges[e].second;
   }
   skeleton.node_of_vertex = graph.node_of_vertex;
-  if (graph.lives.size() == skeleton.nodes.rows()) skeleton.lives = graph.lives;
   return skeleton;
 }
 

@@ -16,15 +16,16 @@ struct RawGraph {
 
   std::vector<Eigen::RowVector3d> points;
   std::vector<double> radii;               ///< per point; `unknown` where the file has none
+  std::vector<double> lives;               ///< the same, as in CurveSkeleton
   std::vector<std::pair<int, int>> edges;  ///< any order, repeats and loops allowed
   std::vector<int> alone;                  ///< points that are nodes without needing an edge
   Eigen::VectorXi node_of_vertex;          ///< as in CurveSkeleton; only with Joining::nothing
-  Eigen::VectorXd lives;                   ///< the same
   int root = -1;                           ///< the same; -1 = none
 
-  int add(const Eigen::RowVector3d& point, double radius = unknown) {
+  int add(const Eigen::RowVector3d& point, double radius = unknown, double life = unknown) {
     points.push_back(point);
     radii.push_back(radius);
+    lives.push_back(life);
     return static_cast<int>(points.size()) - 1;
   }
   /// A chain through the points, or a point alone if there is only one.
@@ -38,7 +39,7 @@ enum class Joining {
 };
 
 /// Nodes keep the order of the points, edges lose repeats and loops. If only some radii are known
-/// the others become 0, if none is `radii` stays empty. O(n log n).
+/// the others become 0, if none is `radii` stays empty; the same of lives. O(n log n).
 [[nodiscard]] CurveSkeleton skeleton_from(const RawGraph& graph, Joining joining);
 
 [[nodiscard]] RawGraph read_obj_lines(const FileBytes& file);

@@ -73,7 +73,8 @@ class JsonGraph {
       graph_.add({number(node[0], where), number(node[1], where), number(node[2], where)});
     } else if (node.is_object() && node.contains("x") && node.contains("y") && node.contains("z")) {
       graph_.add({number(node["x"], where), number(node["y"], where), number(node["z"], where)},
-                 node.contains("radius") ? number(node["radius"], where) : RawGraph::unknown);
+                 node.contains("radius") ? number(node["radius"], where) : RawGraph::unknown,
+                 node.contains("life") ? number(node["life"], where) : RawGraph::unknown);
       ids_[node.contains("id") ? node["id"].dump() : std::to_string(row)] = static_cast<int>(row);
     } else {
       fail(node.dump().substr(0, 40) + " " + where, "[x, y, z] or an object with x, y and z");
@@ -102,9 +103,8 @@ class JsonGraph {
   }
 
   void add_lives() {
-    const std::vector<double> lives = of_nodes("lives", "life");
-    graph_.lives =
-        Eigen::Map<const Eigen::VectorXd>(lives.data(), static_cast<Eigen::Index>(lives.size()));
+    std::vector<double> lives = of_nodes("lives", "life");
+    if (!lives.empty()) graph_.lives = std::move(lives);
   }
 
   int node(const json& value, const std::string& where) const {

@@ -1,4 +1,4 @@
-// PLY: the elements "vertex" (x, y, z, perhaps radius) and "edge" (vertex1, vertex2).
+// PLY: the elements "vertex" (x, y, z, perhaps radius and life) and "edge" (vertex1, vertex2).
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 namespace curveskel {
 namespace {
 
-enum class EdgeRole { ignored, x, y, z, radius, from, to };
+enum class EdgeRole { ignored, x, y, z, radius, life, from, to };
 
 EdgeRole edge_role(const PlyElement& element, const PlyProperty& property) {
   if (property.is_list) return EdgeRole::ignored;
@@ -20,6 +20,7 @@ EdgeRole edge_role(const PlyElement& element, const PlyProperty& property) {
     if (property.name == "y") return EdgeRole::y;
     if (property.name == "z") return EdgeRole::z;
     if (property.name == "radius") return EdgeRole::radius;
+    if (property.name == "life") return EdgeRole::life;
   }
   if (element.name == "edge") {
     if (property.name == "vertex1") return EdgeRole::from;
@@ -58,6 +59,7 @@ template <typename Values>
 void read_row(Values& values, PlyPlace& place, std::int64_t vertices, RawGraph& graph) {
   Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
   double radius = RawGraph::unknown;
+  double life = RawGraph::unknown;
   std::pair<int, int> edge;
   for (const PlyProperty& property : place.element->properties) {
     place.property = &property;
@@ -74,6 +76,9 @@ void read_row(Values& values, PlyPlace& place, std::int64_t vertices, RawGraph& 
       case EdgeRole::radius:
         radius = coordinate(values, place);
         break;
+      case EdgeRole::life:
+        life = coordinate(values, place);
+        break;
       case EdgeRole::from:
         edge.first = vertex_index(values, place, vertices, 0);
         break;
@@ -85,7 +90,7 @@ void read_row(Values& values, PlyPlace& place, std::int64_t vertices, RawGraph& 
         break;
     }
   }
-  if (place.element->name == "vertex") graph.add(point, radius);
+  if (place.element->name == "vertex") graph.add(point, radius, life);
   if (place.element->name == "edge") graph.edges.push_back(edge);
 }
 

@@ -43,19 +43,31 @@ const XmlElement* radius_array(const XmlElement& piece) {
   return nullptr;
 }
 
+/// One number of each point, `unknown` where there is no such array.
+std::vector<double> numbers_of_points(const FileBytes& file, const XmlElement& vtk_file,
+                                      const XmlElement* array, std::size_t points) {
+  if (array == nullptr) return std::vector<double>(points, RawGraph::unknown);
+  std::vector<double> numbers = vtk_values(file, vtk_file, *array);
+  if (numbers.size() == points) return numbers;
+  fail_at(file, array->position,
+          std::to_string(numbers.size()) + " numbers in " + in_quotes(array->attribute("Name")) +
+              " for " + std::to_string(points) + " points",
+          "one per point");
+}
+
 void add_points(const FileBytes& file, const XmlElement& vtk_file, const XmlElement& piece,
                 RawGraph& graph) {
   const XmlElement& array = child_of(file, child_of(file, piece, "Points"), "DataArray");
   const std::vector<double> points = vtk_values(file, vtk_file, array);
-  std::vector<double> radii(points.size() / 3, RawGraph::unknown);
-  if (const XmlElement* radius = radius_array(piece)) radii = vtk_values(file, vtk_file, *radius);
-  if (points.size() % 3 != 0 || radii.size() != points.size() / 3) {
-    fail_at(file, array.position,
-            std::to_string(points.size()) + " coordinates and " + std::to_string(radii.size()) +
-                " radii",
-            "three and one per point");
+  if (points.size() % 3 != 0) {
+    fail_at(file, array.position, std::to_string(points.size()) + " coordinates",
+            "three per point");
   }
-  for (std::size_t p = 0; p < radii.size(); ++p) {
+  const std::size_t count = points.size() / 3;
+  const std::vector<double> radii = numbers_of_points(file, vtk_file, radius_array(piece), count);
+  const std::vector<double> lives =
+      numbers_of_points(file, vtk_file, array_named(piece.child("PointData"), "life"), count);
+  for (std::size_t p = 0; p < count; ++p) {
     const Eigen::RowVector3d point(points[3 * p], points[3 * p + 1], points[3 * p + 2]);
     if (!point.allFinite()) {
       fail_at(file, array.position,
@@ -63,7 +75,7 @@ void add_points(const FileBytes& file, const XmlElement& vtk_file, const XmlElem
                   (std::isnan(point.sum()) ? "NaN" : "infinite"),
               "finite numbers");
     }
-    graph.add(point, radii[p]);
+    graph.add(point, radii[p], lives[p]);
   }
 }
 
@@ -99,10 +111,10 @@ void add_cells(const FileBytes& file, const XmlElement& vtk_file, const XmlEleme
 
 /// The number of a node for which a GraphML key stands.
 struct GraphmlKeys {
-  std::unordered_map<std::string, std::size_t> column;  ///< key id -> x, y, z, radius
+  std::unordered_map<std::string, std::size_t> column;  ///< key id -> x, y, z, radius, life
 
   explicit GraphmlKeys(const XmlElement& root) {
-    constexpr std::array<std::string_view, 4> names{"x", "y", "z", "radius"};
+    constexpr std::array<std::string_view, 5> names{"x", "y", "z", "radius", "life"};
     for (const XmlElement* key : root.all("key")) {
       for (std::size_t k = 0; k < names.size(); ++k) {
         if (key->attribute("attr.name") == names[k] && key->attribute("for", "node") != "edge") {
@@ -128,8 +140,8 @@ double number_in(const FileBytes& file, const XmlElement& data) {
 
 void add_graphml_node(const FileBytes& file, const XmlElement& node, const GraphmlKeys& keys,
                       RawGraph& graph) {
-  std::array<double, 4> values{RawGraph::unknown, RawGraph::unknown, RawGraph::unknown,
-                               RawGraph::unknown};
+  std::array<double, 5> values;
+  values.fill(RawGraph::unknown);
   for (const XmlElement* data : node.all("data")) {
     const auto column = keys.column.find(std::string(data->attribute("key")));
     if (column != keys.column.end()) values[column->second] = number_in(file, *data);
@@ -139,7 +151,7 @@ void add_graphml_node(const FileBytes& file, const XmlElement& node, const Graph
     fail_at(file, node.position, "node " + in_quotes(node.attribute("id")) + " without x, y or z",
             "all three");
   }
-  graph.add(point, values[3]);
+  graph.add(point, values[3], values[4]);
 }
 
 }  // namespace

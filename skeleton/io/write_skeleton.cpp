@@ -67,16 +67,18 @@ std::string obj_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
 
 std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
   const bool has_radii = skeleton.radii.size() > 0;
+  const bool with_lives = has_lives(skeleton);
   std::string text = "ply\nformat ascii 1.0\n";
   if (!context.provenance.empty()) text += "comment " + context.provenance + "\n";
   text += "element vertex ";
   append_decimal(text, skeleton.nodes.rows());
   text += "\nproperty double x\nproperty double y\nproperty double z\n";
   if (has_radii) text += "property double radius\n";
+  if (with_lives) text += "property double life\n";
   text += "element edge ";
   append_decimal(text, skeleton.edges.rows());
   text += "\nproperty int vertex1\nproperty int vertex2\n";
-  if (has_lives(skeleton)) {
+  if (with_lives) {
     text += "property double life\nproperty int branch\nproperty int parent\n";
     text += "property double merge\n";
   }
@@ -87,13 +89,17 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
       text += ' ';
       append_decimal(text, skeleton.radii(node));
     }
+    if (with_lives) {
+      text += ' ';
+      append_decimal(text, skeleton.lives(node));
+    }
     text += '\n';
   }
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
   const std::vector<int> branch_of_edge = branch_of_edges(skeleton);
   for (Eigen::Index edge = 0; edge < skeleton.edges.rows(); ++edge) {
     append_decimals(text, skeleton.edges.row(edge), ' ');
-    if (has_lives(skeleton)) {
+    if (with_lives) {
       const BranchLevel& level = levels[idx(branch_of_edge[idx(edge)])];
       text += ' ';
       append_decimals(

@@ -1,8 +1,10 @@
 // CSV: tables of branches, of sections across them and of junctions.
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
@@ -16,6 +18,12 @@ void append_field(std::string& text, Number number, bool is_there = true) {
   text += ',';
   if constexpr (std::is_floating_point_v<Number>) is_there = is_there && !std::isnan(number);
   if (is_there) append_decimal(text, number);
+}
+
+/// The same of a life or merge: "inf" where it is for ever.
+void append_life(std::string& text, double life, bool is_there) {
+  append_field(text, life < lives_for_ever ? life : std::numeric_limits<double>::infinity(),
+               is_there);
 }
 
 /// A comma and the numbers with spaces between.
@@ -47,9 +55,10 @@ std::string csv_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   std::string text =
       "branch,start,end,start_x,start_y,start_z,end_x,end_y,end_z,nodes,length,mean_radius,life,"
       "parent,merge,kind,chord,tortuosity,radius_min,radius_max,curvature,torsion,parent_angle,"
-      "centrifugal_order,strahler_order,area,volume\n";
+      "centrifugal_order,strahler_order,area,volume,component\n";
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
   const std::vector<BranchMeasures> measures = branch_measures(skeleton, context.root);
+  const std::vector<int> components = component_of_node(skeleton);
   const BranchTerritories* parts = context.territories;
   std::size_t id = 0;
   for (const Branch& branch : branches(skeleton)) {
@@ -66,12 +75,13 @@ std::string csv_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
     append_field(text, branch.nodes.size());
     append_field(text, measures[id].length);
     append_field(text, measures[id].mean_radius);
-    append_field(text, level.life, has_lives(skeleton));
+    append_life(text, level.life, has_lives(skeleton));
     append_field(text, level.parent, level.parent >= 0);
-    append_field(text, level.merge, level.merge >= 0);
+    append_life(text, level.merge, level.merge >= 0);
     append_measures(text, measures[id]);
     append_field(text, parts == nullptr ? 0 : parts->areas[id], parts != nullptr);
     append_field(text, parts == nullptr ? 0 : parts->volumes[id], parts != nullptr);
+    append_field(text, components[idx(start)]);
     text += '\n';
     ++id;
   }

@@ -28,6 +28,25 @@ void append_cells(pugi::xml_node piece, const char* name, const std::vector<Bran
   XmlLines::end_line(piece);
 }
 
+/// Radii and lives of the nodes, as far as there are any.
+void append_point_data(pugi::xml_node piece, const CurveSkeleton& skeleton) {
+  const bool has_radii = skeleton.radii.size() > 0;
+  if (!has_radii && !has_lives(skeleton)) return;
+  pugi::xml_node data = XmlLines::open(piece, "PointData");
+  const auto append = [&](const char* name, const Eigen::VectorXd& numbers) {
+    append_array(data, "Float64", name, 1, idx(numbers.size()),
+                 [&](std::string& text, std::size_t node) {
+                   append_decimal(text, numbers(static_cast<Eigen::Index>(node)));
+                 });
+  };
+  if (has_radii) {
+    data.append_attribute("Scalars") = "radius";
+    append("radius", skeleton.radii);
+  }
+  if (has_lives(skeleton)) append("life", skeleton.lives);
+  XmlLines::end_line(piece);
+}
+
 /// Of the points alone and then of the branches.
 void append_levels(pugi::xml_node piece, const CurveSkeleton& skeleton, std::size_t points) {
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
@@ -67,7 +86,8 @@ void append_keys(pugi::xml_node file, bool has_lives) {
           {"r", "radius", "node", "double"},
           {"l", "length", "edge", "double"}});
   if (!has_lives) return;
-  append({{"life", "life", "edge", "double"},
+  append({{"t", "life", "node", "double"},
+          {"life", "life", "edge", "double"},
           {"branch", "branch", "edge", "int"},
           {"parent", "parent", "edge", "int"},
           {"merge", "merge", "edge", "double"}});
@@ -92,14 +112,7 @@ std::string vtp_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   XmlLines xml(context.provenance);
   const PolyDataElements elements = open_poly_data(xml, {nodes, points.size(), lines.size(), 0});
   pugi::xml_node piece = elements.piece;
-  if (skeleton.radii.size() > 0) {
-    pugi::xml_node data = XmlLines::open(piece, "PointData");
-    data.append_attribute("Scalars") = "radius";
-    append_array(data, "Float64", "radius", 1, nodes, [&](std::string& text, std::size_t node) {
-      append_decimal(text, skeleton.radii(static_cast<Eigen::Index>(node)));
-    });
-    XmlLines::end_line(piece);
-  }
+  append_point_data(piece, skeleton);
   if (has_lives(skeleton)) append_levels(piece, skeleton, points.size());
   append_array(XmlLines::open(piece, "Points"), "Float64", "points", 3, nodes,
                [&](std::string& text, std::size_t node) {
@@ -132,6 +145,7 @@ std::string graphml_from(const CurveSkeleton& skeleton, const SkeletonContext& c
     append_data(element, "y", skeleton.nodes(node, 1));
     append_data(element, "z", skeleton.nodes(node, 2));
     if (skeleton.radii.size() > 0) append_data(element, "r", skeleton.radii(node));
+    if (has_lives(skeleton)) append_data(element, "t", skeleton.lives(node));
     XmlLines::end_line(graph);
   }
   const std::vector<BranchLevel> levels = branch_levels(skeleton);

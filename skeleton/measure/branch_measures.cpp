@@ -106,7 +106,8 @@ std::vector<BranchMeasures> branch_measures(const CurveSkeleton& skeleton, int r
     measures.kind = kind_of(all_branches[b], degree);
     measures.length = curve.length();
     measures.chord = (curve.points.bottomRows<1>() - curve.points.topRows<1>()).norm();
-    measures.tortuosity = measures.chord > 0 ? measures.length / measures.chord - 1 : none;
+    measures.tortuosity =
+        measures.chord > 0 ? std::max(0.0, measures.length / measures.chord - 1) : none;
     measure_radii(curve, measures);
     measure_bends(curve, measures);
     const int parent = levels[b].parent;

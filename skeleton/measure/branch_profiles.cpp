@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <curveskel/advanced/graph.hpp>
@@ -15,6 +16,7 @@
 #include "base/parallel.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 #include "skeleton/measure/plane_section.hpp"
+#include "surface/mesh/lids.hpp"
 
 namespace curveskel {
 namespace {
@@ -39,6 +41,7 @@ std::vector<double> places_on(const BranchCurve& curve, double spacing) {
 struct Cutting {
   const Surface& surface;
   const SurfaceTree& tree;
+  const SurfaceTree* open_tree;  ///< of the surface without what closes holes; null = none are
   const CurveSkeleton& skeleton;
   std::vector<Branch> all_branches;
   std::vector<BranchCurve> curves;
@@ -47,8 +50,9 @@ struct Cutting {
   Eigen::VectorXi branch_of_face;  ///< empty without a vertex map
 };
 
-Cutting prepare(const Surface& surface, const SurfaceTree& tree, const CurveSkeleton& skeleton) {
-  Cutting cutting{surface, tree, skeleton, branches(skeleton), {}, {}, {}, {}};
+Cutting prepare(const Surface& surface, const SurfaceTree& tree, const SurfaceTree* open_tree,
+                const CurveSkeleton& skeleton) {
+  Cutting cutting{surface, tree, open_tree, skeleton, branches(skeleton), {}, {}, {}, {}};
   cutting.degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   cutting.branch_of_edge = branch_of_edges(skeleton);
   cutting.curves.reserve(cutting.all_branches.size());
@@ -61,12 +65,18 @@ Cutting prepare(const Surface& surface, const SurfaceTree& tree, const CurveSkel
   return cutting;
 }
 
+double inscribed_radius(const Cutting& cutting, const Eigen::Vector3d& place) {
+  const double closed = cutting.tree.inscribed_radius(place);
+  if (closed <= 0 || cutting.open_tree == nullptr) return closed;
+  return cutting.open_tree->nearest(place).distance;
+}
+
 bool in_ball_of_junction(const Cutting& cutting, const BranchSection& section) {
   const Branch& branch = cutting.all_branches[idx(section.branch)];
   for (const int node : {branch.nodes.front(), branch.nodes.back()}) {
     if (cutting.degree[idx(node)] < 3) continue;
     const Eigen::Vector3d centre = cutting.skeleton.nodes.row(node);
-    if ((section.position - centre).norm() <= cutting.tree.inscribed_radius(centre)) return true;
+    if ((section.position - centre).norm() <= inscribed_radius(cutting, centre)) return true;
   }
   return false;
 }
@@ -107,7 +117,7 @@ void cut(const Cutting& cutting, BranchSection& section) {
   const BranchCurve& curve = cutting.curves[idx(section.branch)];
   section.position = point_at(curve, section.s);
   section.tangent = derivatives_at(curve, section.s).first.normalized();
-  section.inscribed_radius = cutting.tree.inscribed_radius(section.position);
+  section.inscribed_radius = inscribed_radius(cutting, section.position);
   section.area = section.perimeter = section.equivalent_diameter = section.ellipticity = no_section;
   section.near_junction = in_ball_of_junction(cutting, section);
   if (section.tangent.isZero()) return;
@@ -135,7 +145,10 @@ std::vector<BranchSection> branch_profiles(const Surface& surface, const CurveSk
                                   ", needed 0 (at the nodes) or more");
   }
   const SurfaceTree tree(surface, options.threads);
-  const Cutting cutting = prepare(surface, tree, skeleton);
+  const Surface open = without_lids(surface, options.rims);
+  std::optional<SurfaceTree> open_tree;
+  if (open.triangles.rows() > 0) open_tree.emplace(open, options.threads);
+  const Cutting cutting = prepare(surface, tree, open_tree ? &*open_tree : nullptr, skeleton);
   std::vector<BranchSection> sections;
   for (std::size_t b = 0; b < cutting.curves.size(); ++b) {
     for (const double s : places_on(cutting.curves[b], options.spacing)) {

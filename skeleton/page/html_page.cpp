@@ -147,7 +147,7 @@ std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
       {"lines", std::move(lines)},
       {"colours", std::move(colours)},
       {"branches", format_skeleton(skeleton, SkeletonFormat::csv, context)},
-      {"profiles", format_profiles(branch_profiles(surface, skeleton, {0, threads}))},
+      {"profiles", format_profiles(branch_profiles(surface, skeleton, {0, threads, content.rims}))},
       {"junctions", format_junctions(skeleton)}};
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +

@@ -4,15 +4,14 @@ const byId = (id) => document.getElementById(id);
 
 // ---- Numbers ----
 function rowsOf(csv) {
-  const [head, ...lines] = csv.trim().split("\n").map((line) => line.split(","));
+  const [head, ...lines] = csv.trim().replace(/\binf\b/g, "Infinity").split("\n").map((line) => line.split(","));
   return { head, rows: lines.map((line) => Object.fromEntries(head.map((name, k) => [name, line[k]]))) };
 }
 const branches = rowsOf(data.branches);
 const profiles = rowsOf(data.profiles);
 const junctions = rowsOf(data.junctions);
 const isNumber = (text) => text !== "" && !Number.isNaN(Number(text));
-const forEver = "1e+09";
-const shown = (text) => text === forEver ? "\u221e" : shownNumber(text);
+const shown = (text) => text === "Infinity" ? "\u221e" : shownNumber(text);
 const shownNumber = (text) => (isNumber(text) && !Number.isInteger(Number(text)) ? Number(Number(text).toPrecision(4)).toString() : text);
 const colourOf = (branch) => data.colours[branch] || [0.63, 0.63, 0.63];
 const css = (branch) => `rgb(${colourOf(branch).map((part) => Math.round(255 * part)).join(",")})`;
@@ -399,7 +398,7 @@ byId("verdict").textContent = data.failures === "" ? "certificate holds" : data.
 byId("verdict").className = data.failures === "" ? "holds" : "fails";
 byId("certificate").textContent = data.certificate;
 byId("provenance").textContent = data.provenance;
-fillTable(byId("branches"), branches, ["branch", "kind", "length", "tortuosity", "mean_radius", "radius_min", "radius_max", "life", "parent", "parent_angle", "curvature", "torsion", "centrifugal_order", "strahler_order", "area", "volume", "nodes"], true);
+fillTable(byId("branches"), branches, ["branch", "kind", "length", "tortuosity", "mean_radius", "radius_min", "radius_max", "life", "parent", "parent_angle", "curvature", "torsion", "centrifugal_order", "strahler_order", "area", "volume", "nodes", "component"], true);
 fillTable(byId("junctions"), junctions, ["node", "degree", "branches", "angles", "planarity"], false);
 const named = /^#branch=(\d+)$/.exec(location.hash);
 choose(named && Number(named[1]) < branches.rows.length ? Number(named[1]) : -1);

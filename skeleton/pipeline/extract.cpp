@@ -22,10 +22,50 @@
 #include "skeleton/pipeline/component.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/stages.hpp"
+#include "surface/mesh/lids.hpp"
 #include "surface/mesh/overlaps.hpp"
 
 namespace curveskel {
 namespace {
+
+/// The faces and the vertices that they use. `number` is -1 of all vertices, before and after.
+Surface part_of(const Surface& surface, const std::vector<Eigen::Index>& faces,
+                std::vector<std::int32_t>& number) {
+  Surface part;
+  part.triangles = surface.triangles(faces, Eigen::all);
+  std::vector<std::int32_t> used;
+  for (std::int32_t& v : part.triangles.reshaped<Eigen::RowMajor>()) {
+    if (number[idx(v)] < 0) {
+      number[idx(v)] = static_cast<std::int32_t>(used.size());
+      used.push_back(v);
+    }
+    v = number[idx(v)];
+  }
+  part.positions = surface.positions(used, Eigen::all);
+  for (const std::int32_t v : used) number[idx(v)] = -1;
+  return part;
+}
+
+/// Of each component that has rims its faces without those that close holes.
+std::vector<Surface> open_components(
+    const Surface& surface, const Topology& counted,
+    const std::vector<std::vector<std::vector<std::int32_t>>>& rims_of_component) {
+  std::vector<std::vector<Eigen::Index>> faces(rims_of_component.size());
+  std::vector<std::vector<std::int32_t>> rims;
+  for (const auto& own : rims_of_component) rims.insert(rims.end(), own.begin(), own.end());
+  if (rims.empty()) return std::vector<Surface>(rims_of_component.size());
+  const std::vector<char> in_rim = faces_in_rims(surface, rims);
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    const std::size_t component = idx(counted.component_of_vertex[surface.triangles(f, 0)]);
+    if (rims_of_component[component].empty() || in_rim[idx(f)] != 0) continue;
+    faces[component].push_back(f);
+  }
+  std::vector<std::int32_t> number(idx(surface.positions.rows()), -1);
+  std::vector<Surface> open;
+  open.reserve(faces.size());
+  for (const auto& own : faces) open.push_back(part_of(surface, own, number));
+  return open;
+}
 
 /// The components' skeletons, those led on to their rims that have any. Each by its own surface: in
 /// another component, which may overlap it, it is as good as outside.
@@ -38,6 +78,7 @@ std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>
     if (rim.empty()) continue;
     own[idx(parts.counted.component_of_vertex[rim.front()])].push_back(rim);
   }
+  const std::vector<Surface> open = open_components(surface, parts.counted, own);
   std::vector<Shared<CurveSkeleton>> skeletons;
   skeletons.reserve(results.size());
   for (std::size_t c = 0; c < results.size(); ++c) {
@@ -46,7 +87,7 @@ std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>
     std::optional<SurfaceTree> its;
     if (results.size() > 1) its.emplace(parts.components[c].surface);
     CurveSkeleton led = *results[c].skeleton;
-    reach_rims(led, surface, its ? *its : tree_of_all, own[c]);
+    reach_rims(led, surface, its ? *its : tree_of_all, open[c], own[c]);
     skeletons.back() = std::make_shared<const CurveSkeleton>(std::move(led));
   }
   return skeletons;

@@ -110,9 +110,11 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
 /// thing tried, as noise that fairing takes off would have its curve below each of its spikes.
 Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
                                   ExtractionCache::Implementation* kept) {
-  const auto may_help = [](const ComponentRecord& one, const Certificate& found) {
-    return !found.correct() && is_quick_from_all_vertices(one) &&
-           (was_coarsened(one) || !found.inside_enough);
+  const bool embeds = options.embed.method == EmbedMethod::own;  // else nothing keeps it inside
+  const auto may_help = [embeds](const ComponentRecord& one, const Certificate& found) {
+    const bool leaves = embeds && !found.inside_enough;
+    const bool is_wrong = leaves || !found.topology_correct();
+    return is_wrong && is_quick_from_all_vertices(one) && (leaves || was_coarsened(one));
   };
   const auto why = [&options, may_help](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;

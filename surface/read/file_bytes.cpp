@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <system_error>
+#include <utility>
 
 #include "base/memory.hpp"
 #include "surface/read/gunzip.hpp"
@@ -75,6 +76,10 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
     monitor.report("read", 0);
   }
   file.content.resize(used);
+  return unpacked(std::move(file), monitor);
+}
+
+FileBytes unpacked(FileBytes file, const Monitor& monitor) {
   if (is_gzipped(file.content)) gunzip(file, monitor);
   if (is_utf16(file.content)) utf16_to_utf8(file);
   if (file.content.empty()) file.fail("0 bytes", "a surface", "export or fetch the file again");

@@ -22,6 +22,9 @@ struct FileBytes {
 /// Throws Error(Fault::input) for a file that is missing, unreadable, a directory, empty or broken.
 [[nodiscard]] FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor);
 
+/// The same of content that is in memory.
+[[nodiscard]] FileBytes unpacked(FileBytes file, const Monitor& monitor);
+
 /// At most 40 characters of the text in double quotes, unprintable ones escaped: for messages.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -58,4 +58,8 @@ void drop_unplaced_vertices(PolygonSoup& soup, const FileBytes& file) {
   }
 }
 
+void drop_unplaced_vertices(PolygonSoup& soup) {
+  drop_unplaced_vertices(soup, {soup.file.empty() ? "surface" : soup.file, {}});
+}
+
 }  // namespace curveskel

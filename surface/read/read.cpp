@@ -4,6 +4,7 @@
 #include <cctype>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "surface/read/file_bytes.hpp"
 #include "surface/read/foreign_formats.hpp"
@@ -98,7 +99,8 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",
-              "a surface as one of " + names_in(surface_formats), "convert it");
+              "a surface as one of " + names_in(surface_formats),
+              "convert it, or name it by the extension of its format");
   }
   PolygonSoup soup = read_as(*format, file, monitor, options);
   soup.file = file.path;
@@ -120,6 +122,12 @@ PolygonSoup read_polygons(const std::filesystem::path& path, const Monitor& moni
                           const ReadOptions& options) {
   monitor.report("read", 0);
   return read_content(read_file(path, monitor), monitor, options);
+}
+
+PolygonSoup read_polygons_in(std::string content, const std::filesystem::path& name,
+                             const Monitor& monitor, const ReadOptions& options) {
+  monitor.report("read", 0);
+  return read_content(unpacked({name, std::move(content)}, monitor), monitor, options);
 }
 
 }  // namespace curveskel

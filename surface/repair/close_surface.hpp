@@ -13,7 +13,8 @@ struct ClosedParts {
   Surface surface;  ///< every edge has two faces, neighbours agree; components may lie inward
   std::vector<std::int32_t> vertex_given;  ///< #V; where each comes from, -1 = added in a hole
   std::vector<std::int32_t> face_given;    ///< #F; where each comes from, -1 = closes a hole
-  std::vector<std::vector<std::int32_t>> holes;  ///< the vertices round each hole that was closed
+  std::vector<std::vector<std::int32_t>> holes;  ///< the vertices round each hole that was closed,
+                                                 ///< in order, what closes it on the left
   std::int64_t holes_narrowed = 0;               ///< of those, by rings since they were longer than
                                                  ///< most_edges_without_rings
   std::int64_t vertices_copied = 0;              ///< where the given faces met in no 2-manifold

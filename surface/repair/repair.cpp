@@ -90,8 +90,20 @@ void append_surface(Surface& surface, const Surface& more) {
   surface.triangles.bottomRows(more.triangles.rows()) = more.triangles.array() + vertices;
 }
 
+/// #V: 1 of those on components that are turned as they lie inward.
+std::vector<char> turned_vertices(const ClosedParts& closed, const JudgedParts& judged) {
+  std::vector<char> turned(closed.vertex_given.size(), 0);
+  for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
+    const std::int32_t component = judged.orientation.component_of_face[idx(f)];
+    if (judged.parts[idx(component)].volume >= 0) continue;
+    for (const std::int32_t v : closed.surface.triangles.row(f)) turned[idx(v)] = 1;
+  }
+  return turned;
+}
+
 void count_holes(const ClosedParts& closed, const JudgedParts& judged,
                  const std::vector<std::int32_t>& number, RepairedSurface& result) {
+  const std::vector<char> turned = turned_vertices(closed, judged);
   for (const auto& hole : closed.holes) {
     std::vector<std::int32_t> rim;
     rim.reserve(hole.size());
@@ -100,6 +112,7 @@ void count_holes(const ClosedParts& closed, const JudgedParts& judged,
     ++result.repairs.holes_closed;
     result.repairs.longest_hole =
         std::max(result.repairs.longest_hole, static_cast<std::int64_t>(rim.size()));
+    if (turned[idx(hole.front())] != 0) std::reverse(rim.begin(), rim.end());
     result.rims.push_back(std::move(rim));
   }
   for (std::size_t f = 0; f < closed.face_given.size(); ++f) {

@@ -264,6 +264,49 @@ class Repair(CommandLineTest):
         self.assertIn("1 open or flat part given a second side", result.err + result.out.decode())
 
 
+class StandardInput(CommandLineTest):
+    """Through a pipe, which can be read once and has no name."""
+
+    def piped(self, content, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], input=content, capture_output=True,
+                              cwd=self.folder, timeout=300)
+
+    def test_is_a_surface_in_any_format(self):
+        surfaces = [Y, MESHES / "free" / "spot-3k.obj", MESHES / "free" / "humanoid-10k.ply.gz"]
+        for extension in ("ply", "stl", "om", "obj"):
+            surfaces.append(self.folder / f"y.{extension}")
+            self.run_ok("fair", Y, "-o", surfaces[-1], "--iterations", "0")
+        for surface in surfaces:
+            with self.subTest(surface=surface.name):
+                self.run_ok("extract", surface, "-o", "file.ply", cwd=self.folder)
+                result = self.piped(surface.read_bytes(), "extract", "-", "-o", "piped.ply",
+                                    "--report", "piped.json")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout.startswith(b"standard input: "), result.stdout)
+                lines = {name: [line for line in (self.folder / name).read_text().splitlines()
+                                if not line.startswith("comment ")]
+                         for name in ("file.ply", "piped.ply")}
+                self.assertEqual(*lines.values())
+                report = json.loads((self.folder / "piped.json").read_text())
+                self.assertEqual(report["input"]["file"], "standard input")
+
+    def test_is_taken_by_every_verb(self):
+        content = Y.read_bytes()
+        self.run_ok("extract", Y, "-o", "y.ply", cwd=self.folder)
+        for arguments in (("evaluate", "-", "y.ply", "--strict"), ("rig", "-", "-o", "r.glb"),
+                          ("fair", "-", "-o", "f.ply"), ("contract", "-", "-o", "c.ply"),
+                          ("match", "-", Y, "-o", "m.json")):
+            result = self.piped(content, *arguments)
+            self.assertEqual(result.returncode, 0, (arguments, result.stderr))
+        self.assertEqual(self.piped(content, "match", "-", "-", "-o", "m.json").returncode, 2)
+
+    def test_that_is_no_surface_is_refused(self):
+        for content, words in ((b"", b"0 bytes"), (b"once upon a time", b"the extension of its")):
+            result = self.piped(content, "extract", "-", "-o", "x.obj")
+            self.assertEqual(result.returncode, 3)
+            self.assertIn(words, result.stderr)
+
+
 class TimeLimit(CommandLineTest):
     def test_ends_the_run_and_leaves_nothing(self):
         mesh = write_torus(self.folder / "torus.ply", 1500, 400)

@@ -65,6 +65,52 @@ class Files(Folder):
             self.assertEqual(len(curveskel.read(self.folder / "again.swc").vertices),
                              len(skeleton.vertices))
 
+    def test_what_is_read_and_saved_again_has_lives_and_the_same_bytes(self):
+        skeleton = curveskel.extract(MESHES / "free" / "spot-3k.obj")
+        for extension in ("ply", "vtp", "graphml", "json"):
+            with self.subTest(extension=extension):
+                skeleton.save(self.folder / f"first.{extension}")
+                again = curveskel.read(self.folder / f"first.{extension}")
+                numpy.testing.assert_array_equal(again.lives, skeleton.lives)
+                again.save(self.folder / f"second.{extension}")
+                curveskel.read(self.folder / f"second.{extension}").save(
+                    self.folder / f"third.{extension}")
+                self.assertEqual((self.folder / f"second.{extension}").read_bytes(),
+                                 (self.folder / f"third.{extension}").read_bytes())
+                if has("pandas"):
+                    columns = ["life", "parent", "merge", "component"]
+                    self.assertTrue(again.branches[columns].equals(skeleton.branches[columns]))
+
+    def test_a_name_may_ask_for_the_labelled_surface_as_with_the_program(self):
+        skeleton = curveskel.extract(Y)
+        skeleton.save_labelled(self.folder / "y.ply")
+        for name in ("labelled.ply", "y.labelled.ply"):
+            skeleton.save(self.folder / name)
+            self.assertEqual((self.folder / name).read_bytes(),
+                             (self.folder / "y.ply").read_bytes())
+
+    def test_levels_have_the_bytes_of_the_program(self):
+        spot = MESHES / "free" / "spot-3k.obj"
+        for extension in ("json", "csv"):
+            subprocess.run([PROGRAM, "extract", spot, "-o", self.folder / f"s.{extension}",
+                            "--levels", "4", "-q"], check=True)
+        skeleton = curveskel.extract(spot)
+        levels = skeleton.levels(4)
+        self.assertEqual(len(levels), 4)
+        for number, level in enumerate(levels, 1):
+            self.assertEqual((level.level["number"], level.level["of"]), (number, 4))
+            for extension in ("json", "csv"):
+                level.save(self.folder / f"m.{extension}")
+                self.assertEqual((self.folder / f"m.{extension}").read_bytes(),
+                                 (self.folder / f"s.{number}.{extension}").read_bytes())
+        skeleton.save(self.folder / "whole.ply")
+        again = curveskel.read(self.folder / "whole.ply").levels(4)
+        self.assertEqual([len(level.edges) for level in again],
+                         [len(level.edges) for level in levels])
+        for most in (0, 101, 2.5, "two"):
+            with self.assertRaises(curveskel.UsageError):
+                skeleton.levels(most)
+
     def test_a_failure_leaves_no_file(self):
         skeleton = curveskel.extract(Y)
         with self.assertRaises(curveskel.UsageError):
@@ -92,6 +138,63 @@ class Arrays(Folder):
             numpy.testing.assert_allclose(found.certificate["length"],
                                           expected.certificate["length"], rtol=0.02)
             self.assertEqual(found.certificate["tips"], 3)
+
+    def test_polygons_of_several_sizes_go_in_as_they_come_out(self):
+        text = "OFF\n12 8 0\n"
+        text += "".join(f"{x} {numpy.cos(a)} {numpy.sin(a)}\n" for x in (0, 6)
+                        for a in numpy.arange(6) * numpy.pi / 3)
+        text += "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n"
+        text += "".join(f"4 {k} {(k + 1) % 6} {6 + (k + 1) % 6} {6 + k}\n" for k in range(6))
+        (self.folder / "prism.off").write_text(text)
+        skeleton = curveskel.extract(self.folder / "prism.off")
+        vertices, faces = skeleton.given
+        self.assertEqual([len(face) for face in faces], [6, 6] + 6 * [4])
+        for given in (faces, [face.tolist() for face in faces], tuple(faces),
+                      numpy.array(faces, dtype=object)):
+            again = curveskel.extract((vertices, given))
+            numpy.testing.assert_array_equal(again.vertices, skeleton.vertices)
+            self.assertEqual(len(again.face_labels()), 8)
+        with self.assertRaisesRegex(curveskel.UsageError, "faces: .*not 2 as in face 8"):
+            curveskel.extract((vertices, [*faces, [0, 1]]))
+        with self.assertRaisesRegex(curveskel.UsageError, "list of faces"):
+            curveskel.extract((vertices, [3, *faces]))
+
+    def test_vertices_without_a_place_lose_their_faces_as_in_a_file(self):
+        places, faces = map(numpy.array, curveskel.extract(TORUS).mesh)
+        unused = numpy.concatenate((places, [[numpy.nan, 0, 0]]))
+        skeleton = curveskel.extract((unused, faces))
+        numpy.testing.assert_array_equal(skeleton.vertices,
+                                         curveskel.extract((places, faces)).vertices)
+        self.assertEqual(skeleton.mesh_map[-1], -1)
+        places[7, 1] = numpy.inf
+        rows = "".join("v {!r} {!r} {!r}\n".format(*row) for row in places.tolist())
+        rows += "".join("f {} {} {}\n".format(*row) for row in (faces + 1).tolist())
+        (self.folder / "spoilt.obj").write_text(rows)
+        by_file = curveskel.extract(self.folder / "spoilt.obj")
+        by_arrays = curveskel.extract((places, faces))
+        self.assertEqual(by_arrays.changes, by_file.changes)
+        numpy.testing.assert_array_equal(by_arrays.vertices, by_file.vertices)
+        numpy.testing.assert_array_equal(by_arrays.mesh_map, by_file.mesh_map)
+
+    def test_the_size_of_the_surface_is_in_its_units(self):
+        skeleton = curveskel.extract(Y)
+        vertices, faces = skeleton.mesh
+        a, b, c = (vertices[faces[:, k]] for k in range(3))
+        size = skeleton.surface
+        self.assertAlmostEqual(size["diagonal"], numpy.linalg.norm(numpy.ptp(vertices, axis=0)))
+        self.assertAlmostEqual(size["area"],
+                               numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum() / 2)
+        self.assertAlmostEqual(size["volume"], numpy.einsum("ij,ij->", a, numpy.cross(b, c)) / 6)
+        self.assertEqual(size, json.loads(self.by_program(Y, "json").read_text())["surface"])
+        self.assertEqual(pickle.loads(pickle.dumps(skeleton)).surface, size)
+
+    def test_labels_and_tables_are_made_once(self):
+        skeleton = curveskel.extract(Y)
+        self.assertIs(skeleton.vertex_labels(), skeleton.vertex_labels())
+        self.assertFalse(skeleton.face_labels().flags.writeable)
+        if has("pandas"):
+            skeleton.branches["length"] = 0  # of a table of one's own
+            self.assertTrue((skeleton.branches.length > 0).all())
 
     def test_maps_are_each_others_inverse(self):
         skeleton = curveskel.extract(TORUS)
@@ -175,6 +278,32 @@ class Arrays(Folder):
         self.assertTrue(all(data["radius"] > 0 for _, data in graph.nodes(data=True)))
         self.assertTrue(all(data["length"] > 0 for *_, data in graph.edges(data=True)))
 
+    @unittest.skipUnless(has("networkx"), "no networkx")
+    def test_networkx_writes_it_and_evaluate_takes_it(self):
+        import networkx
+
+        spot = MESHES / "free" / "spot-3k.obj"
+        skeleton = curveskel.extract(spot)
+        graph = skeleton.to_networkx()
+        levels = json.loads(self.by_program(spot, "json").read_text())["branches"]
+        for *_, data in graph.edges(data=True):
+            level = levels[data["branch"]]
+            self.assertEqual(data["life"], math.inf if level["life"] is None else level["life"])
+            self.assertEqual(data.get("parent"), level["parent"])
+            self.assertEqual(data.get("merge"), level.get("merge"))
+        networkx.write_graphml(graph, self.folder / "n.graphml")
+        again = curveskel.read(self.folder / "n.graphml")
+        for name in ("vertices", "edges", "radii", "lives"):
+            numpy.testing.assert_array_equal(getattr(again, name), getattr(skeleton, name))
+        expected = curveskel.evaluate(spot, skeleton)
+        self.assertEqual(curveskel.evaluate(spot, graph), expected)
+        with_pos = networkx.Graph(graph.edges)
+        with_pos.add_nodes_from((node, {"pos": tuple(place)})
+                                for node, place in enumerate(skeleton.vertices.tolist()))
+        self.assertAlmostEqual(curveskel.evaluate(spot, with_pos)["length"], expected["length"])
+        with self.assertRaisesRegex(curveskel.UsageError, "node 0 .* x, y and z"):
+            curveskel.evaluate(spot, networkx.path_graph(3))
+
 
 class Certificates(Folder):
     def test_of_an_extraction_is_found_again_from_arrays_and_from_a_file(self):
@@ -188,6 +317,25 @@ class Certificates(Folder):
                 for name, value in skeleton.certificate.items():
                     self.assertAlmostEqual(found[name], value, delta=0.01 * max(1, abs(value)),
                                            msg=name)
+
+    def test_beside_another_has_the_distances_of_the_program(self):
+        skeleton = curveskel.extract(Y)
+        skeleton.save(self.folder / "a.ply")
+        other = (skeleton.vertices + [0, 0.02, 0], skeleton.edges)
+        lines = "".join("v {!r} {!r} {!r}\n".format(*row) for row in other[0].tolist())
+        lines += "".join("l {} {}\n".format(*row) for row in (skeleton.edges + 1).tolist())
+        (self.folder / "b.obj").write_text(lines)
+        subprocess.run([PROGRAM, "evaluate", Y, self.folder / "a.ply", "--against",
+                        self.folder / "b.obj", "--json", self.folder / "e.json", "-q"], check=True)
+        expected = json.loads((self.folder / "e.json").read_text())["against"]
+        del expected["skeleton"]
+        for against in (other, self.folder / "b.obj"):
+            found = curveskel.evaluate(Y, skeleton, against=against)["against"]
+            self.assertEqual(found, expected)
+        self.assertLess(found["mean_distance"], 0.02 / skeleton.surface["diagonal"] + 1e-9)
+        same = curveskel.evaluate(Y, other, against=other)["against"]
+        self.assertLess(same["hausdorff_distance"], 1e-12)
+        self.assertNotIn("against", curveskel.evaluate(Y, skeleton))
 
     def test_of_a_wrong_skeleton_fails(self):
         skeleton = curveskel.extract(TORUS)
@@ -210,6 +358,9 @@ class Errors(Folder):
                 (curveskel.UsageError, 2, lambda: curveskel.extract(Y, details=0.5)),
                 (curveskel.UsageError, 2, lambda: curveskel.extract(Y, threads="two")),
                 (curveskel.UsageError, 2, lambda: curveskel.extract(3)),
+                (curveskel.UsageError, 2, lambda: curveskel.extract(Y, time_limit=-1)),
+                (curveskel.UsageError, 2, lambda: curveskel.extract(Y, time_limit="soon")),
+                (curveskel.UsageError, 2, lambda: curveskel.extract(Y, surgery="none")),
                 (curveskel.UsageError, 2, lambda: curveskel.extract((numpy.eye(3), [[0.5] * 3]))),
                 (curveskel.InputError, 3, lambda: curveskel.extract(MESHES / "none.off")),
                 (curveskel.InputError, 3, lambda: curveskel.read(Y)),
@@ -261,6 +412,36 @@ class Running(Folder):
 
         with self.assertRaises(LookupError):
             curveskel.extract(Y, progress=refuse)
+
+    def test_a_time_limit_ends_each_verb(self):
+        angles = numpy.arange(700) * 2 * numpy.pi / 700
+        u, v = (grid.ravel() for grid in numpy.meshgrid(angles, angles, indexing="ij"))
+        places = numpy.stack(((3 + numpy.cos(v)) * numpy.cos(u), (3 + numpy.cos(v)) * numpy.sin(u),
+                              numpy.sin(v)), axis=1)
+        at = numpy.arange(700 * 700).reshape(700, 700)
+        right, up = numpy.roll(at, -1, 0), numpy.roll(at, -1, 1)
+        corner = numpy.roll(right, -1, 1)
+        mesh = places, numpy.stack((at, right, corner, up), axis=-1).reshape(-1, 4)
+        path = [[0.0, 0, 0], [1, 0, 0]], [[0, 1]]
+        for call in (lambda: curveskel.extract(mesh, time_limit=0.3),
+                     lambda: curveskel.evaluate(mesh, path, time_limit=0.3),
+                     lambda: curveskel.rig(mesh, time_limit=0.3),
+                     lambda: curveskel.match(mesh, Y, time_limit=0.3)):
+            with self.assertRaisesRegex(curveskel.SolverError, "time limit of 0.3 s"):
+                call()
+        seen = []
+        curveskel.extract(Y, time_limit=300, progress=lambda stage, done: seen.append(stage))
+        self.assertTrue(seen)
+
+    def test_surgery_and_embedding_are_those_of_the_program(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            skeleton = curveskel.extract(Y, surgery="cgal", embed="none")
+        skeleton.save(self.folder / "m.json")
+        subprocess.run([PROGRAM, "extract", Y, "-o", self.folder / "p.json", "--surgery", "cgal",
+                        "--embed", "none", "-q"], capture_output=True)
+        self.assertEqual((self.folder / "m.json").read_bytes(),
+                         (self.folder / "p.json").read_bytes())
 
     def test_other_threads_run_meanwhile(self):
         results = {}

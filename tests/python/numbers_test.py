@@ -139,7 +139,10 @@ class Tables(unittest.TestCase):
             ["bufferView"]]
         content = binary[28 + length + view["byteOffset"]:][:view["byteLength"]]
         numpy.testing.assert_array_equal(numpy.frombuffer(content, "<f4"), labels)
-        with self.assertRaises(curveskel.OutputError):
+        for call in (skeleton.save_labelled, skeleton.save):
+            with self.assertRaises(curveskel.UsageError):
+                call(self.folder / "y.xyz")
+        with self.assertRaises(curveskel.UsageError):
             skeleton.save_labelled(self.folder / "y.obj")
 
     def test_the_page_is_the_program_s(self):
@@ -170,8 +173,51 @@ class Tables(unittest.TestCase):
         self.assertEqual(sorted(table.centrifugal_order), [1, 2, 2])
         self.assertEqual(sorted(table.strahler_order), [1, 1, 2])
         self.assertTrue(curveskel.extract(TORUS).branches.strahler_order.isna().all())
-        with self.assertRaises(curveskel.UsageError):
-            skeleton.branch_table(root=len(skeleton.vertices))
+        for root in (len(skeleton.vertices), -1, 1.7, "1"):
+            with self.assertRaisesRegex(curveskel.UsageError, "root"):
+                skeleton.branch_table(root=root)
+        self.assertTrue(skeleton.branch_table(root=numpy.int64(tip)).equals(table))
+
+    def test_components_lives_and_straight_branches(self):
+        rings = curveskel.extract(MESHES / "linked-rings.off").branches
+        self.assertEqual(rings.component.tolist(), list(range(len(rings))))
+        self.assertGreater(len(rings), 1)
+        self.assertTrue(numpy.isinf(rings.life).all())  # of rings, which stay at every level
+        y = curveskel.extract(Y).branches
+        self.assertEqual(numpy.isinf(y.life).sum(), 2)
+        self.assertEqual(set(y.component), {0})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertTrue((straight_tube(5).branches.tortuosity >= 0).all())
+
+    def test_an_open_tube_is_as_wide_at_its_ends_as_in_the_middle(self):
+        skeleton = straight_tube(10, is_open=True)
+        self.assertEqual(skeleton.certificate["tips"], 2)
+        sections = skeleton.profiles(0.25)
+        numpy.testing.assert_allclose(sections.inscribed_radius, 1, atol=0.01)
+        numpy.testing.assert_allclose(skeleton.radii, 1, atol=0.01)
+        path = self.folder / "tube.obj"
+        vertices, faces = skeleton.given
+        path.write_text("".join("v {!r} {!r} {!r}\n".format(*row) for row in vertices.tolist())
+                        + "".join("f {} {} {} {}\n".format(*row) for row in (faces + 1).tolist()))
+        subprocess.run([PROGRAM, "extract", path, "-o", self.folder / "s.obj", "--profiles",
+                        self.folder / "p.csv", "--spacing", "0.25", "-q"], check=True)
+        with open(self.folder / "p.csv", newline="") as file:
+            rows = [float(row["inscribed_radius"]) for row in csv.DictReader(file)]
+        numpy.testing.assert_array_equal(rows, sections.inscribed_radius)
+
+
+def straight_tube(length, is_open=False):
+    """The skeleton of a tube of radius 1 along x."""
+    angles = numpy.arange(48) * 2 * numpy.pi / 48
+    along = numpy.linspace(0, length, 8 * length + 1)
+    places = numpy.array([[x, math.cos(a), math.sin(a)] for x in along for a in angles])
+    at = numpy.arange(len(places)).reshape(len(along), 48)
+    across = numpy.roll(at, -1, 1)
+    faces = numpy.stack((at[:-1], across[:-1], across[1:], at[1:]), axis=-1).reshape(-1, 4)
+    if is_open:
+        return curveskel.extract((places, faces))
+    return curveskel.extract((places, [*faces, at[0][::-1], at[-1]]))
 
 
 def samples(vertices, edges, step):

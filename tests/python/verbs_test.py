@@ -1,6 +1,7 @@
 """`rig`, `match`, `fair` and `contract` of the module beside the program's verbs, and the stubs."""
 
 import ast
+import inspect
 import json
 import os
 import pathlib
@@ -154,6 +155,15 @@ class Verbs(unittest.TestCase):
             there = {member for member in vars(getattr(curveskel, name)) if member[0] != "_"}
             stubbed = {node.name for node in known[name].body if isinstance(node, ast.FunctionDef)}
             self.assertEqual(there, stubbed, name)
+            source = pathlib.Path(inspect.getsourcefile(getattr(curveskel, name))).read_text()
+            of_class = next(node for node in ast.walk(ast.parse(source))
+                            if isinstance(node, ast.ClassDef) and node.name == name)
+            kept = {node.attr for node in ast.walk(of_class) if isinstance(node, ast.Attribute)
+                    and isinstance(node.ctx, ast.Store) and node.attr[0] != "_"
+                    and isinstance(node.value, ast.Name) and node.value.id == "self"}
+            annotated = {node.target.id for node in known[name].body
+                         if isinstance(node, ast.AnnAssign)}
+            self.assertEqual(kept, annotated, name)
 
 
 if __name__ == "__main__":

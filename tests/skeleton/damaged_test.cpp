@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/branch_profiles.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/repair.hpp>
 #include "meshes/shapes.hpp"
@@ -78,6 +79,28 @@ TEST(Damaged, AnOpenTubesSkeletonReachesItsRims) {
       int tip = -1;
       EXPECT_LT(nearest_tip(found.skeleton, {side * end, 0, 0}, tip), 0.3 * radius);
       EXPECT_NEAR(found.skeleton.radii[tip], radius, 0.15 * radius);
+    }
+  }
+}
+
+/// Ends, where the repair has put caps, are as wide as the middle.
+TEST(Damaged, WidthsOfAnOpenTubeKnowNothingOfItsCaps) {
+  const auto unit = [](double) { return 1.0; };
+  for (const bool inside_out : {false, true}) {
+    Surface closed = straight_tube(10, 41, 48, unit, unit);
+    if (inside_out) closed = turned_inside_out(closed);
+    const auto soup =
+        part_of(closed, [](const auto& p) { return p.x() > 1e-9 && p.x() < 10 - 1e-9; });
+    const RepairedSurface repaired = repair(soup, {}, {});
+    ASSERT_EQ(repaired.repairs.holes_closed, 2);
+    const Extraction found = extracted(soup);
+    EXPECT_GT(found.skeleton.radii.minCoeff(), 0.99);
+    EXPECT_LT(found.skeleton.radii.maxCoeff(), 1.01);
+    const auto sections =
+        branch_profiles(repaired.surface, found.skeleton, {0.25, 0, repaired.rims});
+    EXPECT_LT(sections.front().position.x(), 0.1);
+    for (const BranchSection& section : sections) {
+      EXPECT_NEAR(section.inscribed_radius, 1, 0.01) << section.s;
     }
   }
 }

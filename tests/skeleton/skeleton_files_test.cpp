@@ -308,6 +308,27 @@ TEST(SkeletonLives, AreInFilesAsTheyAreInTheSkeleton) {
   }
 }
 
+class FormatWithLives : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(SkeletonFiles, FormatWithLives,
+                         testing::Values("ply", "vtp", "graphml", "json"),
+                         [](const auto& format) { return format.param; });
+
+/// Life, branch, parent and merge, too.
+TEST_P(FormatWithLives, GivesTheSameBytesWhenItIsReadAndWrittenAgain) {
+  for (const auto& [name, sample] : skeleton_samples()) {
+    for (const bool with_lives : {true, false}) {
+      CurveSkeleton skeleton = sample;
+      if (with_lives) skeleton.lives.setLinSpaced(skeleton.nodes.rows(), 0.25, 7);
+      if (skeleton.nodes.rows() == 0) continue;
+      const auto format = *choice_of(skeleton_formats, GetParam());
+      const std::string bytes = format_skeleton(skeleton, format, {});
+      const CurveSkeleton back = read_text("a." + GetParam(), bytes);
+      EXPECT_EQ(back.lives.size(), with_lives ? skeleton.nodes.rows() : 0) << name;
+      EXPECT_EQ(format_skeleton(back, format, {}), bytes) << name;
+    }
+  }
+}
+
 TEST(ForeignSkeletons, ChainsThatMeetInAPointAreJoined) {
   const auto expect_plus = [](const CurveSkeleton& skeleton, const std::string& what) {
     EXPECT_EQ(skeleton.nodes.rows(), 5) << what;

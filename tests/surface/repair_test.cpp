@@ -5,11 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -18,6 +20,7 @@
 #include <curveskel/certificate.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "surface/mesh/lids.hpp"
 #include "surface/read/placed_vertices.hpp"
 #include "surface/repair/close_surface.hpp"
 #include "tests/soups.hpp"
@@ -184,6 +187,32 @@ TEST(Repairing, ATubeOpenAtBothEnds) {
     for (const std::int32_t v : rim) {
       EXPECT_NEAR(std::abs(result.surface.positions(v, 0)), 2.5, 0.15);
     }
+  }
+}
+
+/// Rims lead to the faces that close their holes.
+TEST(Repairing, WithoutLidsTheSurfaceIsAsItWasGiven) {
+  const auto sorted_faces = [](const Surface& surface) {
+    std::multiset<std::array<long, 3>> middles;
+    for (const auto& t : surface.triangles.rowwise()) {
+      const Position middle = 1e9 * surface.positions(t.transpose(), Eigen::all).colwise().mean();
+      middles.insert({std::lround(middle.x()), std::lround(middle.y()), std::lround(middle.z())});
+    }
+    return middles;
+  };
+  for (const bool inward : {false, true}) {
+    PolygonSoup soup = open_tube();
+    for (std::size_t f = 0; inward && f + 1 < soup.offsets.size(); ++f) {
+      std::swap(soup.corners[static_cast<std::size_t>(soup.offsets[f])],
+                soup.corners[static_cast<std::size_t>(soup.offsets[f]) + 1]);
+    }
+    const RepairedSurface result = repair(soup, {}, {});
+    const auto lids = faces_in_rims(result.surface, result.rims);
+    EXPECT_EQ(std::count(lids.begin(), lids.end(), 1), result.repairs.faces_added);
+    const Surface open = without_lids(result.surface, result.rims);
+    EXPECT_EQ(sorted_faces(open).size(), soup.offsets.size() - 1);
+    EXPECT_EQ(sorted_faces(open), sorted_faces({soup.positions, triangulate(soup)}));
+    EXPECT_EQ(without_lids(result.surface, {}).triangles.rows(), 0);
   }
 }
 

@@ -32,17 +32,16 @@ std::vector<CurvePoint> shortcut(const std::vector<CurvePoint>& chain, const Sur
 class Keeper {
  public:
   Keeper(SkeletonGraph& graph, const WorkingSurface& working, const PartitionGraph& partition,
-         const SurfaceTree& tree, HomologyGuard& handles, const Surface* full,
-         const std::stop_token& stop)
+         const SurfaceTree& tree, HomologyGuard& handles, const InsideOptions& options)
       : graph_(graph),
         working_(working),
         balls_(working.balls()),
         partition_(partition),
         tree_(tree),
         handles_(handles),
-        stop_(stop),
+        options_(options),
         chains_(working, partition) {
-    if (full != nullptr) ways_below_.emplace(*full, tree, stop);
+    if (options.below != nullptr) ways_below_.emplace(*options.below, tree, options.stop);
   }
 
   int run() {
@@ -59,8 +58,9 @@ class Keeper {
       for (const int s : core(graph_)) on_cycle[idx(s)] = 1;
     }
     for (std::size_t s = 0; s < graph_.arcs.size(); ++s) {
-      throw_if_stopped(stop_);
+      throw_if_stopped(options_.stop);
       if (graph_.arcs[s].alive) cover_arc(graph_.arcs[s], on_cycle[s] != 0);
+      if (options_.all_or_nothing && uncovered_ > 0) break;
     }
     return uncovered_;
   }
@@ -360,7 +360,7 @@ class Keeper {
                                            const std::vector<int>& groups) {
     std::optional<Detour> best;
     while (true) {
-      throw_if_stopped(stop_);
+      throw_if_stopped(options_.stop);
       const auto vertices = balls_between(p, q, groups);
       if (vertices.empty()) break;
       Detour made = detour_by(vertices, p, q);
@@ -394,7 +394,7 @@ class Keeper {
   const PartitionGraph& partition_;
   const SurfaceTree& tree_;
   HomologyGuard& handles_;
-  const std::stop_token& stop_;
+  const InsideOptions& options_;
   std::optional<BelowSurface> below_;
   std::optional<WaysBelow> ways_below_;
   BallChains chains_;
@@ -409,8 +409,8 @@ class Keeper {
 
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
-                const Surface* full, const std::stop_token& stop) {
-  return Keeper(graph, working, partition, tree, handles, full, stop).run();
+                const InsideOptions& options) {
+  return Keeper(graph, working, partition, tree, handles, options).run();
 }
 
 }  // namespace curveskel

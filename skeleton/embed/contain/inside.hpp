@@ -11,6 +11,13 @@
 
 namespace curveskel {
 
+struct InsideOptions {
+  const Surface* below =
+      nullptr;                  ///< the surface of the tree, to go below where nothing else leads
+  bool all_or_nothing = false;  ///< ends with the first arc that has an edge not covered
+  std::stop_token stop = {};
+};
+
 /// Moves and adds points until the inscribed balls of the ends of every edge overlap: then the
 /// whole edge lies in two balls that lie inside the surface, and no sampling is needed to know it.
 ///
@@ -19,13 +26,13 @@ namespace curveskel {
 /// cheapest chain of the vertices' own inscribed balls through the arc's part of the surface, or
 /// goes along just below the surface from one ball to the next. An edge whose ends are inside and
 /// that meets no triangle counts as covered, too.
-/// Where that leads outside, too, an arc on no cycle goes just below `full`, the surface of `tree`,
-/// if that is given, see WaysBelow.
+/// Where that leads outside, too, an arc on no cycle goes just below the surface, if it is given,
+/// see WaysBelow.
 /// An arc that needs more than four such ways takes a single one from node to node instead.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
 /// edges that are still not covered. Precondition: D = 1. Throws Cancelled if a stop was requested.
 int keep_inside(SkeletonGraph& graph, const WorkingSurface& working,
                 const PartitionGraph& partition, const SurfaceTree& tree, HomologyGuard& handles,
-                const Surface* full = nullptr, const std::stop_token& stop = {});
+                const InsideOptions& options = {});
 
 }  // namespace curveskel

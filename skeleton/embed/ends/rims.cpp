@@ -277,8 +277,18 @@ class Reaching {
 }  // namespace
 
 void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const std::vector<std::vector<std::int32_t>>& rims) {
-  if (!rims.empty()) Reaching(skeleton, surface, tree, rims).run();
+                const Surface& open, const std::vector<std::vector<std::int32_t>>& rims) {
+  if (rims.empty()) return;
+  Reaching(skeleton, surface, tree, rims).run();
+  if (open.triangles.rows() == 0) return;
+  constexpr double rounding = 1e-9;  // of two trees over the same faces
+  const SurfaceTree open_tree(open);
+  for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
+    const Eigen::Vector3d place = skeleton.nodes.row(node);
+    const double closed = tree.inscribed_radius(place);
+    const double distance = open_tree.nearest(place).distance;
+    if (closed > 0 && distance > (1 + rounding) * closed) skeleton.radii[node] = distance;
+  }
 }
 
 }  // namespace curveskel

@@ -12,7 +12,8 @@ namespace curveskel {
 
 /// Adds a node in the middle of each rim that something leads to from near by: within 2.5 radii of
 /// ball or rim, the rim at least half as wide as the ball, the way to its middle inside, D/1000
-/// inside the closing of its hole; the node's radius is the least distance to the rim.
+/// inside the closing of its hole. Where what closes a hole is the nearest of the surface, the
+/// radius becomes the distance to the rest.
 ///
 /// A tip faces a rim if the way to its middle turns by less than 60 degrees from where the tip's
 /// limb arrives from outside the tip's ball; nodes at the tip that bend elsewhere move onto the
@@ -22,8 +23,9 @@ namespace curveskel {
 /// as wide as the ball of a node 1.1 radii away or more gets a branch from there, from a junction
 /// by preference: the waist of trousers; its life is its length over the ball's radius. A tip that
 /// is led on hands its life to the new one. Other nodes stay. `rims` name vertices of `surface`;
-/// `tree` is over it, or over the component that has skeleton and rims. O(nodes x rims).
+/// `tree` is over the component that has skeleton and rims, `open` is that component without what
+/// closes holes, or empty. O(nodes x rims + #F log #F).
 void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const std::vector<std::vector<std::int32_t>>& rims);
+                const Surface& open, const std::vector<std::vector<std::int32_t>>& rims);
 
 }  // namespace curveskel

@@ -83,7 +83,8 @@ TEST(EmbeddingSteps, StopWhenAsked) {
   settling.stop = stop;
   EXPECT_THROW(relax(graph, tree, tree, relaxing, guard, 2), Cancelled);
   EXPECT_THROW(settle(graph, tree, settling, guard, 2), Cancelled);
-  EXPECT_THROW((void)keep_inside(graph, working, partition, tree, guard, nullptr, stop), Cancelled);
+  EXPECT_THROW((void)keep_inside(graph, working, partition, tree, guard, {.stop = stop}),
+               Cancelled);
   EXPECT_THROW((void)reroute_bottlenecks(graph, working, partition, tree, {}, stop), Cancelled);
   EXPECT_THROW((void)grow_branches(graph, working, tree, partition, 0, {}, stop), Cancelled);
 }

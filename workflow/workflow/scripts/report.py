@@ -9,7 +9,7 @@ import numpy
 import pandas
 
 MEANINGS = {0: "done", 2: "usage", 3: "not a surface that can be repaired", 4: "no device",
-            5: "the certificate failed", 6: "could not be written", 124: "ran past the time limit"}
+            5: "the certificate failed, or the time limit was reached", 6: "could not be written"}
 HISTOGRAMS = {"vertices": True, "branches": True, "tips": True, "inside_fraction": False,
               "coverage": False, "centredness_median": False, "tube_share": False, "seconds": True}
 
@@ -39,12 +39,14 @@ def picture(row, program, limit):
     """The skeleton in its surface, as SVG; nothing where that fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / "picture.svg"
+        finest = pathlib.Path(folder) / "picture.1.svg"  # of several --levels
         subprocess.run([program, "extract", row["path"], "-o", output, "--quiet", "--time-limit",
                         str(limit), *str(row["options"]).split()], check=False,
                        capture_output=True)
-        if not output.exists():
+        found = next((file for file in (output, finest) if file.exists()), None)
+        if found is None:
             return ""
-        text = output.read_text()
+        text = found.read_text()
         return text[text.index("<svg"):]
 
 
@@ -58,9 +60,13 @@ def worst_first(surfaces):
                              ascending=[False, True, True], kind="stable")
 
 
+def meaning(status):
+    return MEANINGS.get(status, f"killed by signal {status - 128}" if status > 128 else "")
+
+
 def page(surfaces, program, worst, limit):
     counts = surfaces["status"].astype(int).value_counts().sort_index()
-    outcomes = "".join(f"<tr><td>{status}</td><td>{MEANINGS.get(status, '')}</td><td>{count}</td></tr>"
+    outcomes = "".join(f"<tr><td>{status}</td><td>{meaning(status)}</td><td>{count}</td></tr>"
                        for status, count in counts.items())
     charts = "".join(histogram(surfaces[name], name, logarithmic)
                      for name, logarithmic in HISTOGRAMS.items())

@@ -7,10 +7,11 @@ The first two hold nothing that depends on the machine or the day: the same surf
 import csv
 import json
 import pathlib
+import signal
 import sys
 
 COLUMNS = ("id", "path", "options", "status", "message", "vertices", "faces", "components", "genus",
-           "cycle_rank", "tips", "junctions", "branches", "length", "inside_fraction",
+           "diagonal", "area", "volume", "cycle_rank", "tips", "junctions", "branches", "length", "inside_fraction",
            "centredness_median", "coverage", "reach", "tube_share", "curve_like",
            "topology_correct", "holds", "repairs")
 
@@ -22,22 +23,31 @@ def certificate_of(report):
     return {column: value for column, value in known.items() if value is not None}
 
 
+def killed_by(number):
+    names = {int(one): f" ({one.name})" for one in signal.Signals}
+    return f"killed by signal {number}{names.get(number, '')}"
+
+
 def row_of(surface, work):
-    name = surface["id"]
+    folder = work / surface["id"]
     row = dict.fromkeys(COLUMNS, "")
     row.update(surface)
-    row["status"] = (work / f"{name}.status").read_text().strip()
-    lines = (work / f"{name}.err").read_text().strip().splitlines()
+    row["status"] = (folder / "status").read_text().splitlines()[0]
+    lines = (folder / "messages").read_text(errors="replace").strip().splitlines()
     row["message"] = lines[0].removeprefix("curveskel: ") if lines else ""
-    report = work / f"{name}.json"
+    if int(row["status"]) > 128:  # and its files may end anywhere
+        row["message"] = killed_by(int(row["status"]) - 128)
+        return row, [], ""
+    report = folder / "report.json"
     if not report.exists():
         return row, [], ""
     report = json.loads(report.read_text())
     row.update(certificate_of(report))
+    row.update((name, report["surface"][name]) for name in ("diagonal", "area", "volume"))
     row["vertices"] = report["input"]["vertices"]
     row["faces"] = report["input"]["polygons"]
     row["repairs"] = sum(value for value in report["repairs"].values() if type(value) is int)
-    tables = (work / f"{name}.csv", work / f"{name}.1.csv")  # the finest of several --levels
+    tables = (folder / "branches.csv", folder / "branches.1.csv")  # the finest of several --levels
     table = next((table for table in tables if table.exists()), None)
     branches = list(csv.DictReader(table.read_text().splitlines())) if table else []
     row["branches"] = len(branches)

@@ -1,0 +1,22 @@
+// The surface of a verb: a file, or standard input.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+
+namespace curveskel {
+
+/// The name that stands for standard input among the arguments.
+[[nodiscard]] bool is_standard_input(const std::filesystem::path& mesh);
+
+/// The file's name without its folder, for reports and messages; "standard input" of "-".
+[[nodiscard]] std::string name_of_input(const std::filesystem::path& mesh);
+
+/// `read_polygons`; of "-" everything that standard input gives, once. Its format follows from the
+/// content alone, and files beside it (buffers of a .gltf) are not found.
+[[nodiscard]] PolygonSoup read_surface(const std::filesystem::path& mesh, const Monitor& monitor);
+
+}  // namespace curveskel
