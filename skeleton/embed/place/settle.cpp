@@ -131,12 +131,15 @@ class Settling {
   }
 
   /// (1 + b + a) x_i - b x_{i-1} - a x_{i+1} = c_i, where b and a make the second derivative along
-  /// the arc from the neighbours' places, in units of half the width (Thomas' algorithm).
+  /// the arc from the neighbours' places, in units of half the width (Thomas' algorithm). With the
+  /// part of each point that does not hang on the next one, rest_i = 1 - upper_i, nothing is
+  /// subtracted: points that coincide make a and b so large that 1 + a + b - b upper would be 0.
   [[nodiscard]] static std::vector<Point> goals_on(const std::vector<Point>& line,
                                                    const std::vector<SectionSeen>& seen) {
     const std::size_t count = seen.size();
     std::vector<Point> goal(count);
     std::vector<double> upper(count);
+    double rest = 1;
     for (std::size_t i = 0; i < count; ++i) {
       const Point& here = line[i + 1];
       const double before = (here - line[i]).norm();
@@ -147,8 +150,10 @@ class Settling {
       const Point off = here - seen[i].section.centre;
       const Point sum = seen[i].section.centre + seen[i].along * seen[i].along.dot(off) +
                         b * (i == 0 ? line.front() : goal[i - 1]);
-      const double diagonal = 1 + a + b - (i == 0 ? 0 : b * upper[i - 1]);
+      const double own = 1 + b * rest;
+      const double diagonal = own + a;
       upper[i] = a / diagonal;
+      rest = own / diagonal;
       goal[i] = (i + 1 == count ? Point(sum + a * line.back()) : sum) / diagonal;
     }
     for (std::size_t i = count; i-- > 1;) goal[i - 1] += upper[i - 1] * goal[i];

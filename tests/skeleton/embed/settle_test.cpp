@@ -75,6 +75,22 @@ TEST(Settle, TakesAThinBandLikeATube) {
   }
 }
 
+// Where points coincided their arc's system was singular: all goals of the arc were NaN, none of its
+// points moved, and each looked for its nearest triangle in the whole surface.
+TEST(Settle, CentresAnArcOfWhichPointsCoincide) {
+  constexpr double radius = 0.05;
+  const SurfaceTree tree(
+      shapes::tube("tube", shapes::straight(1), shapes::constant(radius), 24).surface);
+  SkeletonGraph graph = wavy_arc(radius);
+  auto& points = graph.arcs.front().points;
+  const auto tenth = points.begin() + 10;
+  const CurvePoint again = *tenth;
+  points.insert(tenth, 4, again);
+  HomologyGuard guard;
+  settle(graph, tree, all_own(), guard, 1);
+  EXPECT_LT(farthest_from_axis(graph), 0.03 * radius);
+}
+
 /// Points that slide towards each other leave long gaps and never rest.
 TEST(Settle, LeavesPointsWhereTheyLieAlongTheCurve) {
   const SurfaceTree tree(
