@@ -119,7 +119,9 @@ Verb add_match(CLI::App& program) {
   const auto arguments = std::make_shared<MatchArguments>();
   CLI::App* parser = program.add_subcommand(
       "match", "Say which branch, junction and vertex of one surface is which in another");
-  parser->add_option("A", arguments->a, "surface file: " + names_in(surface_formats))
+  parser
+      ->add_option("A", arguments->a,
+                   "surface file: " + names_in(surface_formats) + ", or one of these gzipped")
       ->required()
       ->type_name("");
   parser
