@@ -4,6 +4,7 @@
 //
 // REAL          float or double: the precision of the arithmetic
 // STORED        float or double: the precision of the positions
+// LEAST_HEIGHT  of faces that have an area
 
 #ifdef cl_khr_fp64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -31,13 +32,15 @@ static complex3 add_times(complex3 sum, complex a, complex3 b) {
 }
 
 // Half the smoothing times the cotangents of the face (centre, first, second) at its corners, in
-// that order; 0 for a face without area.
+// that order; 0 for a face that is no higher than LEAST_HEIGHT over its longest side.
 static real3 corners(real3 first, real3 second, REAL half_smoothing) {
   const real3 edge = second - first;
   const real3 normal = cross(first, second);
   const REAL square = dot(normal, normal);
-  const REAL scale = square > 0 ? half_smoothing / sqrt(square) : 0;
-  return scale * (real3)(dot(first, second), -dot(first, edge), dot(second, edge));
+  const real3 at = (real3)(dot(first, second), -dot(first, edge), dot(second, edge));
+  const REAL longest = fmax(fmax(at.x + at.y, at.x + at.z), at.y + at.z);
+  const bool has_area = square > (REAL)(LEAST_HEIGHT * LEAST_HEIGHT) * longest;
+  return (has_area ? half_smoothing / sqrt(square) : 0) * at;
 }
 
 static real3 position(__global const stored4* positions, int i) {

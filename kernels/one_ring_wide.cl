@@ -6,6 +6,7 @@
 //
 // LARGEST_RING     the longest ring of a slice
 // SLICES_PER_ITEM  taken in turn by a work-item
+// LEAST_HEIGHT     of faces that have an area
 
 typedef struct {
   float16 re, im;
@@ -96,15 +97,20 @@ static void scatter(float16 x, float16 y, float16 z, __global float4* to) {
 }
 
 // Half the smoothing times the cotangents of the faces (centre, first, second) at their corners, in
-// that order; 0 where the doubled area is below what positions in single precision can tell.
+// that order; 0 for a face that is no higher than LEAST_HEIGHT over its longest side.
 static corners cotangents(vectors first, vectors second, float half_smoothing) {
   const vectors edge = minus(second, first);
   const vectors normal = {first.y * edge.z - first.z * edge.y, first.z * edge.x - first.x * edge.z,
                           first.x * edge.y - first.y * edge.x};
   const float16 square = dots(normal, normal);
-  const float16 scale = select((float16)0, half_smoothing / sqrt(square), square > 1e-30f);
-  const corners result = {scale * dots(first, second), -scale * dots(first, edge),
-                          scale * dots(second, edge)};
+  const float16 at_centre = dots(first, second);
+  const float16 at_first = -dots(first, edge);
+  const float16 at_second = dots(second, edge);
+  const float16 longest =
+      fmax(fmax(at_centre + at_first, at_centre + at_second), at_first + at_second);
+  const float16 scale = select((float16)0, half_smoothing / sqrt(square),
+                               square > LEAST_HEIGHT * LEAST_HEIGHT * longest);
+  const corners result = {scale * at_centre, scale * at_first, scale * at_second};
   return result;
 }
 

@@ -2,6 +2,7 @@
 // right-hand sides (docs/study/fairing.md, "The QR").
 //
 // REAL   float or double: positions and arithmetic
+// LEAST_HEIGHT   of faces that have an area
 // SLOTS  a multiple of 8: patches of up to SLOTS - 1 vertices, in private memory;
 //        0: of any size, in `workspace`, whose slots are an argument
 //
@@ -62,15 +63,18 @@ static void add_laplacian(SPACE REAL* matrix, int slots, int n, __global const r
     const real3 first = position(now, vertices[corner.y]) - base;
     const real3 second = position(now, vertices[corner.z]) - base;
     const real3 edge = second - first;
-    const REAL double_area = length(cross(first, second));
-    if (!(double_area > 0)) continue;
-    const REAL scale = half_smoothing / double_area;
+    const real3 normal = cross(first, second);
+    const REAL square = dot(normal, normal);
+    const real3 at = (real3)(dot(first, second), -dot(first, edge), dot(second, edge));
+    const REAL longest = fmax(fmax(at.x + at.y, at.x + at.z), at.y + at.z);
+    if (!(square > (REAL)(LEAST_HEIGHT * LEAST_HEIGHT) * longest)) continue;
+    const REAL scale = half_smoothing / sqrt(square);
     const int a = corner.x == 0 ? n - 1 : corner.x - 1;
     const int b = corner.y == 0 ? n - 1 : corner.y - 1;
     const int c = corner.z == 0 ? n - 1 : corner.z - 1;
-    add_edge(matrix, slots, b, c, scale * dot(first, second));
-    add_edge(matrix, slots, c, a, -scale * dot(first, edge));
-    add_edge(matrix, slots, a, b, scale * dot(second, edge));
+    add_edge(matrix, slots, b, c, scale * at.x);
+    add_edge(matrix, slots, c, a, scale * at.y);
+    add_edge(matrix, slots, a, b, scale * at.z);
   }
 }
 

@@ -133,11 +133,7 @@ Verb add_contract(CLI::App& program) {
   const auto arguments = std::make_shared<ContractArguments>();
   CLI::App* parser = program.add_subcommand(
       "contract", "Write the contracted surface: every vertex of the file where it ends up");
-  parser
-      ->add_option("MESH", arguments->mesh,
-                   "surface file: " + names_in(surface_formats) + "; - is standard input")
-      ->required()
-      ->type_name("");
+  add_mesh(*parser, arguments->mesh);
   parser
       ->add_option("-o,--output", arguments->output,
                    "the contracted surface: the file's own vertices and faces")

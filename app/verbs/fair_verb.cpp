@@ -38,12 +38,12 @@ struct FairArguments {
 
 /// The largest motion of a vertex, over the bounding box's diagonal.
 std::string moved(const Positions& from, const Positions& to) {
-  const Eigen::VectorXd distances = (to - from).rowwise().norm();
   const double diagonal = bounding_box_diagonal(from);
   if (!(diagonal > 0)) return {};
-  const double mean = std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size()));
-  return fmt::format("moved {:.2e} D root mean square, {:.2e} D at most\n", mean / diagonal,
-                     distances.maxCoeff() / diagonal);
+  const Eigen::VectorXd shares = ((to - from) / diagonal).rowwise().norm();
+  const double mean = std::sqrt(shares.squaredNorm() / static_cast<double>(shares.size()));
+  return fmt::format("moved {:.2e} D root mean square, {:.2e} D at most\n", mean,
+                     shares.maxCoeff());
 }
 
 int run_fair(const FairArguments& arguments, Session& session) {
@@ -76,11 +76,7 @@ Verb add_fair(CLI::App& program) {
   options.program_cache = kernel_cache();
   CLI::App* parser = program.add_subcommand(
       "fair", "Smooth a noisy surface by local Laplacian flow, its volume kept");
-  parser
-      ->add_option("MESH", arguments->mesh,
-                   "surface file: " + names_in(surface_formats) + "; - is standard input")
-      ->required()
-      ->type_name("");
+  add_mesh(*parser, arguments->mesh);
   parser
       ->add_option(
           "-o,--output", arguments->output,

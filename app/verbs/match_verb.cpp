@@ -125,7 +125,8 @@ Verb add_match(CLI::App& program) {
       "match", "Say which branch, junction and vertex of one surface is which in another");
   parser
       ->add_option("A", arguments->a,
-                   "surface file: " + names_in(surface_formats) + "; - is standard input")
+                   "surface file: " + names_in(surface_formats) +
+                       ", or one of these gzipped; - is standard input")
       ->required()
       ->type_name("");
   parser

@@ -32,15 +32,15 @@ std::size_t choose_device(const std::vector<Device>& candidates, const DeviceNee
   if (candidates.empty()) {
     message +=
         " needs an OpenCL device and none was found; install a driver (pocl-opencl-icd runs on any "
-        "processor)";
+        "processor) or ";
   } else {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       message += (i == 0 ? " needs " : "; ") + missing(candidates[i], needs) + ", which device '" +
                  candidates[i].name + "' does not offer";
     }
-    message += "; use another device";
+    message += "; ";
   }
-  throw Error(Fault::device, message + " or " + std::string(remedy));
+  throw Error(Fault::device, message + std::string(remedy));
 }
 
 }  // namespace curveskel

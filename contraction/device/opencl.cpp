@@ -46,7 +46,7 @@ std::string name_of_error(cl_int code) {
   return "error " + std::to_string(code);
 }
 
-constexpr const char* remedy = "; use another device or a method that runs on the host";
+constexpr const char* remedy = "; use a method or solver that runs on the host";
 
 void check(cl_int code, const std::string& call) {
   if (code != CL_SUCCESS) throw Error(Fault::device, call + ": " + name_of_error(code) + remedy);

@@ -1,24 +1,45 @@
 #include "contraction/device/program_cache.hpp"
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <system_error>
+
+#include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel::opencl {
 namespace {
 
-// FNV-1a; it only names the file, as the file holds the whole key.
-std::string file_name(std::string_view key) {
+/// FNV-1a, in 16 hexadecimal digits: against accidents, not against malice.
+std::string hash_of(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037U;
-  for (const char c : key) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  std::array<char, 24> name{};
-  std::snprintf(name.data(), name.size(), "%016llx.bin", static_cast<unsigned long long>(hash));
-  return name.data();
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  std::array<char, 24> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return digits.data();
+}
+
+std::filesystem::path file_for(const std::filesystem::path& folder, std::string_view key) {
+  return folder / (hash_of(key) + ".bin");
+}
+
+/// The file's bytes before the binary: drivers may crash on one that is not whole, so its length
+/// and hash are there, too.
+std::string head_of(const std::string& key, std::string_view binary) {
+  std::string head = key;
+  head += '\0';
+  return head + std::to_string(binary.size()) + ' ' + hash_of(binary) + '\n';
+}
+
+std::optional<std::string> content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace
@@ -26,16 +47,19 @@ std::string file_name(std::string_view key) {
 std::vector<unsigned char> cached_binary(const std::filesystem::path& folder,
                                          const std::string& key) {
   if (folder.empty()) return {};
-  std::ifstream file(folder / file_name(key), std::ios::binary);
-  if (!file) return {};
-  std::vector<unsigned char> content{std::istreambuf_iterator<char>(file), {}};
-  // Key, a zero, binary.
-  if (content.size() <= key.size() + 1 || content[key.size()] != 0) return {};
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    if (content[i] != static_cast<unsigned char>(key[i])) return {};
+  const std::filesystem::path file = file_for(folder, key);
+  const std::optional<std::string> content = content_of(file);
+  if (!content) return {};
+  const std::size_t line_end = content->find('\n', key.size());
+  if (line_end != std::string::npos) {
+    const std::string_view binary = std::string_view(*content).substr(line_end + 1);
+    if (content->compare(0, line_end + 1, head_of(key, binary)) == 0) {
+      return {binary.begin(), binary.end()};
+    }
   }
-  content.erase(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(key.size() + 1));
-  return content;
+  std::error_code failure;
+  std::filesystem::remove(file, failure);
+  return {};
 }
 
 void keep_binary(const std::filesystem::path& folder, const std::string& key,
@@ -43,26 +67,12 @@ void keep_binary(const std::filesystem::path& folder, const std::string& key,
   if (folder.empty() || binary.empty()) return;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  const std::filesystem::path target = folder / file_name(key);
-  // Two processes may write at once; each has its own file aside.
-  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  std::filesystem::path aside = target;
-  aside += '.';
-  aside += std::to_string(now);
-  aside += ".part";
-  {
-    std::ofstream file(aside, std::ios::binary);
-    file.write(key.data(), static_cast<std::streamsize>(key.size()));
-    file.put('\0');
-    for (const unsigned char byte : binary) file.put(static_cast<char>(byte));
-    if (!file.flush()) {
-      file.close();
-      std::filesystem::remove(aside, failure);
-      return;
-    }
+  const std::string bytes(binary.begin(), binary.end());
+  try {
+    write_file(file_for(folder, key), head_of(key, bytes) + bytes);
+  } catch (const Error&) {
+    return;  // no cache
   }
-  std::filesystem::rename(aside, target, failure);
-  if (failure) std::filesystem::remove(aside, failure);
 }
 
 }  // namespace curveskel::opencl

@@ -26,6 +26,7 @@ class CpuFlow final : public LocalFlow {
           const double part = static_cast<double>(v) / static_cast<double>(rings_.vertices());
           monitor.report("fair", (iteration + part) / iterations);
         }
+        throw_if_stopped(monitor.stop);  // a large patch takes a tenth of a second
         if (!rings_.of(v).empty()) move(static_cast<std::int32_t>(v));
       }
       now_.swap(next_);

@@ -1,12 +1,18 @@
 #include <curveskel/fair.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/topology.hpp>
 #include "base/option_ranges.hpp"
+#include "contraction/fairing/component_boxes.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/restore_volume.hpp"
 
@@ -14,11 +20,11 @@ namespace curveskel {
 namespace {
 
 std::unique_ptr<LocalFlow> make_flow(const Surface& surface, const OneRings& rings,
-                                     const FairOptions& options) {
+                                     const FairOptions& options, const Monitor& monitor) {
   const bool closed_form = options.rings == 1 && options.local_solver == LocalSolver::closed;
   const auto on_device = [&] {
     return closed_form ? make_opencl_flow(surface, rings, options)
-                       : make_opencl_patch_flow(surface, rings, options);
+                       : make_opencl_patch_flow(surface, rings, options, monitor.stop);
   };
   switch (choose_fair_method(options.method)) {
     case FairMethod::cpu:
@@ -41,23 +47,100 @@ class FrameSequence {
  public:
   FrameSequence(const Surface& first, const Monitor& monitor) : monitor_(monitor) {
     if (!monitor.frame) return;
-    area_ = area(first);
-    volume_ = std::abs(volume(first));
+    diagonal_ = bounding_box_diagonal(first.positions);
+    const Surface measured = scaled(first);
+    area_ = area(measured);
+    volume_ = std::abs(volume(measured));
     show(0, first);
   }
   void show(int iteration, const Surface& now) const {
     if (!monitor_.frame) return;
-    monitor_.frame({"fair", 0, iteration, ratio(area(now), area_),
-                    ratio(std::abs(volume(now)), volume_), 0, now});
+    const Surface measured = scaled(now);
+    monitor_.frame({"fair", 0, iteration, ratio(area(measured), area_),
+                    ratio(std::abs(volume(measured)), volume_), 0, now});
   }
 
  private:
   static double ratio(double now, double first) { return first > 0 ? now / first : 1; }
+  /// To a size whose cube is a number.
+  [[nodiscard]] Surface scaled(const Surface& surface) const {
+    return {diagonal_ > 0 ? Positions(surface.positions / diagonal_) : surface.positions,
+            surface.triangles};
+  }
 
   const Monitor& monitor_;
+  double diagonal_ = 1;
   double area_ = 0;
   double volume_ = 0;
 };
+
+/// The surface on its way to the flow and back.
+class Course {
+ public:
+  struct Result {
+    Surface surface;
+    int left = 0;  ///< components that stay as they were, see restore_volume
+  };
+
+  Course(const Surface& given, const OneRings& rings, const FairOptions& options)
+      : given_(given),
+        rule_(options.volume),
+        parts_(topology(given)),
+        boxes_(given.positions, parts_),
+        start_{boxes_.enter(given.positions), given.triangles},
+        held_(rings.vertices()) {
+    for (std::size_t v = 0; v < held_.size(); ++v) held_[v] = rings.of(v).empty();
+  }
+  Course(const Course&) = delete;
+  Course& operator=(const Course&) = delete;
+  ~Course() = default;
+
+  [[nodiscard]] const Surface& start() const { return start_; }
+  [[nodiscard]] int components() const {
+    return static_cast<int>(parts_.faces.size() -
+                            idx(std::count(parts_.faces.begin(), parts_.faces.end(), 0)));
+  }
+
+  /// `reached` is where the flow has taken the vertices of `start`.
+  [[nodiscard]] Result finished(Positions reached) const {
+    Result result{{std::move(reached), given_.triangles}, 0};
+    Positions& positions = result.surface.positions;
+    const std::vector<bool> failed =
+        restore_volume(result.surface, parts_, start_.positions, held_, rule_);
+    result.left = static_cast<int>(std::count(failed.begin(), failed.end(), true));
+    positions = boxes_.leave(positions);
+    for (std::size_t v = 0; v < held_.size(); ++v) {
+      const auto row = static_cast<Eigen::Index>(v);
+      const bool stays = held_[v] || failed[idx(parts_.component_of_vertex[row])];
+      if (stays) positions.row(row) = given_.positions.row(row);
+    }
+    return result;
+  }
+
+ private:
+  const Surface& given_;
+  VolumeRule rule_;
+  Topology parts_;
+  ComponentBoxes boxes_;
+  Surface start_;
+  std::vector<bool> held_;
+};
+
+std::string left_as_they_were(int left, int components) {
+  const std::string which = components == 1
+                                ? "the surface is"
+                                : std::to_string(left) + " of " + std::to_string(components) +
+                                      (left == 1 ? " components is" : " components are");
+  return which + " too coarse to be faired, which would cost its shape: left as " +
+         (left == 1 ? "it was" : "they were");
+}
+
+void require_measurable(const Positions& positions) {
+  if (std::isfinite(bounding_box_diagonal(positions))) return;
+  throw Error(Fault::input,
+              "fair: the diagonal of the bounding box is above 1.8e308, the largest number there "
+              "is; needed a smaller one: scale the surface down");
+}
 
 }  // namespace
 
@@ -82,43 +165,27 @@ Surface fair(const Surface& surface, const FairOptions& options, const Monitor& 
   require_valid(options);
   if (surface.triangles.rows() == 0) return surface;
   require_sound(surface, "fair");
+  require_measurable(surface.positions);
   monitor.report("fair", 0);
   const FrameSequence frames(surface, monitor);
-  const double diagonal = bounding_box_diagonal(surface.positions);
-  if (options.iterations <= 0 || !(diagonal > 0)) return surface;
-
-  // A power of two changes no digit, so the scale of the input does not show in the result.
-  const double scale = std::exp2(-std::ceil(std::log2(diagonal)));
-  const Eigen::RowVector3d origin =
-      (surface.positions.colwise().minCoeff() + surface.positions.colwise().maxCoeff()) / 2;
-  const Surface start{(surface.positions.rowwise() - origin) * scale, surface.triangles};
-  const OneRings rings = one_rings(start.triangles, start.positions.rows());
+  if (options.iterations <= 0) return surface;
+  const OneRings rings = one_rings(surface.triangles, surface.positions.rows());
   if (rings.neighbours.empty()) return surface;
-  std::vector<bool> held(rings.vertices());
-  for (std::size_t v = 0; v < held.size(); ++v) held[v] = rings.of(v).empty();
 
-  const auto flow = make_flow(start, rings, options);
-  const auto finished = [&] {
-    Surface result{flow->positions(), surface.triangles};
-    restore_volume(result, start.positions, held, options.volume);
-    result.positions = (result.positions / scale).rowwise() + origin;
-    for (std::size_t v = 0; v < held.size(); ++v) {
-      const auto row = static_cast<Eigen::Index>(v);
-      if (held[v]) result.positions.row(row) = surface.positions.row(row);
-    }
-    return result;
-  };
+  const Course course(surface, rings, options);
+  const auto flow = make_flow(course.start(), rings, options, monitor);
   if (monitor.frame) {
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
       flow->advance(1, of_one_iteration(monitor, iteration, options.iterations));
-      frames.show(iteration + 1, finished());
+      frames.show(iteration + 1, course.finished(flow->positions()).surface);
     }
   } else {
     flow->advance(options.iterations, monitor);
   }
-  Surface result = finished();
+  Course::Result result = course.finished(flow->positions());
+  if (result.left > 0) monitor.say(left_as_they_were(result.left, course.components()));
   monitor.report("fair", 1);
-  return result;
+  return std::move(result.surface);
 }
 
 }  // namespace curveskel

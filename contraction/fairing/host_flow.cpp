@@ -1,8 +1,10 @@
 // The local flow on all cores of the host: each patch in closed form, in double precision.
 // Derivation in docs/method.md, "Local flow".
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "base/parallel.hpp"
+#include "contraction/fairing/least_height.hpp"
 #include "contraction/fairing/local_flow.hpp"
 
 namespace curveskel {
@@ -44,9 +46,10 @@ struct Cotangents {
 Cotangents face_cotangents(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                            double half_smoothing) {
   const Eigen::Vector3d edge = second - first;
-  const double double_area = first.cross(second).norm();
-  const double scale = double_area > 0 ? half_smoothing / double_area : 0;
-  return {scale * first.dot(second), -scale * first.dot(edge), scale * second.dot(edge)};
+  const SideProducts of{first.dot(second), first.dot(edge), second.dot(edge)};
+  const double square = first.cross(second).squaredNorm();
+  const double scale = has_area(square, of) ? half_smoothing / std::sqrt(square) : 0;
+  return {scale * of.first_second, -scale * of.first_edge, scale * of.second_edge};
 }
 
 /// The motion of the patch's centre. The ring's system is eliminated from its first vertex to

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <stop_token>
 #include <string_view>
 
 #include <curveskel/fair.hpp>
@@ -49,10 +50,12 @@ class LocalFlow {
                                                          const OneRings& rings,
                                                          const FairOptions& options);
 /// On the device, in at most `memory_bytes` of it beside the positions (0 = half of its memory).
-/// Throws Error(Fault::device) when the patches need more.
+/// Throws Error(Fault::device) when the patches need more, Cancelled once `stop` is requested:
+/// finding and placing them takes its time.
 [[nodiscard]] std::unique_ptr<LocalFlow> make_opencl_patch_flow(const Surface& surface,
                                                                 const OneRings& rings,
                                                                 const FairOptions& options,
+                                                                const std::stop_token& stop,
                                                                 std::size_t memory_bytes = 0);
 /// The flow of `resident`, with `copy_through_host` after every iteration.
 [[nodiscard]] std::unique_ptr<LocalFlow> make_transfer_flow(std::unique_ptr<LocalFlow> resident);

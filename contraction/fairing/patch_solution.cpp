@@ -2,8 +2,11 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseLU>
+#include <cmath>
 #include <complex>
 #include <vector>
+
+#include "contraction/fairing/least_height.hpp"
 
 namespace curveskel {
 namespace {
@@ -28,13 +31,14 @@ void for_each_patch_weight(const Patch& patch, const Positions& relative, double
   for (const auto& [a, b, c] : patch.triangles) {
     const Eigen::RowVector3d first = relative.row(b) - relative.row(a);
     const Eigen::RowVector3d second = relative.row(c) - relative.row(a);
-    const double double_area = first.cross(second).norm();
-    if (!(double_area > 0)) continue;
-    const double scale = 0.5 * smoothing / double_area;
     const Eigen::RowVector3d edge = second - first;
-    add(b, c, scale * first.dot(second));
-    add(c, a, -scale * first.dot(edge));
-    add(a, b, scale * second.dot(edge));
+    const SideProducts of{first.dot(second), first.dot(edge), second.dot(edge)};
+    const double square = first.cross(second).squaredNorm();
+    if (!has_area(square, of)) continue;
+    const double scale = 0.5 * smoothing / std::sqrt(square);
+    add(b, c, scale * of.first_second);
+    add(c, a, -scale * of.first_edge);
+    add(a, b, scale * of.second_edge);
   }
 }
 

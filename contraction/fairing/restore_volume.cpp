@@ -3,13 +3,12 @@
 #include "contraction/fairing/restore_volume.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
-#include <string>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
-#include <curveskel/topology.hpp>
 
 namespace curveskel {
 namespace {
@@ -81,45 +80,56 @@ class Restoration {
   double target_;
 };
 
-[[noreturn]] void fail(const std::string& what, double found, double target, VolumeRule rule) {
-  char text[120];
-  std::snprintf(text, sizeof text,
-                " was faired to the volume %.3g, from which %s cannot restore %.3g", found,
-                std::string(name_of(volume_rules, rule)).c_str(), target);
-  throw Error(Fault::solver, what + text + "; take fewer iterations, or keep the volume as it is");
+/// Of the volume that was, before it is restored, and of the area, once it is: surfaces within
+/// these limits have their old shape (docs/study/fairing.md, "What is too coarse").
+constexpr double least_volume_kept = 0.1;
+constexpr double most_volume_kept = 2;
+constexpr double most_area = 1.5;
+constexpr double least_volume = 1e-12;  // in the unit box; below lies the rounding of its sum
+
+/// Takes the component to the volume of `original`; false where it cannot be done, or should not.
+bool restore(Surface& component, const Surface& original, VolumeRule rule) {
+  const double wanted = volume(original);
+  const double kept = volume(component) / wanted;
+  if (!(kept >= least_volume_kept && kept <= most_volume_kept)) return false;
+  Restoration restoration(component, wanted);
+  // The second step takes away the rounding of the first.
+  for (int step = 0; step < 3 && !restoration.done(); ++step) {
+    const bool moved = rule == VolumeRule::offset ? restoration.offset() : restoration.scale();
+    if (!moved) return false;
+  }
+  return area(component) <= most_area * area(original);
+}
+
+Positions rows_of(const Positions& positions, const std::vector<int>& rows) {
+  Positions result(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.row(static_cast<Eigen::Index>(i)) = positions.row(rows[i]);
+  }
+  return result;
 }
 
 }  // namespace
 
-void restore_volume(Surface& surface, const Positions& before, const std::vector<bool>& held,
-                    VolumeRule rule) {
-  if (rule == VolumeRule::keep) return;
-  const Topology parts = topology(surface);
+std::vector<bool> restore_volume(Surface& surface, const Topology& parts, const Positions& before,
+                                 const std::vector<bool>& held, VolumeRule rule) {
+  std::vector<bool> failed(idx(parts.components()));
+  if (rule == VolumeRule::keep) return failed;
   std::vector<Component> components = split_components(surface, parts);
   for (std::size_t i = 0; i < components.size(); ++i) {
     auto& [component, vertex_in_whole] = components[i];
-    Surface original{Positions(component.positions.rows(), 3), component.triangles};
-    bool closed = component.triangles.rows() > 0;
-    for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
-      closed = closed && !held[static_cast<std::size_t>(vertex_in_whole[v])];
-      original.positions.row(static_cast<Eigen::Index>(v)) = before.row(vertex_in_whole[v]);
-    }
-    const double target = volume(original);
-    if (!closed || target == 0) continue;
-    const double found = volume(component);
-    Restoration restoration(component, target);
-    // The second step takes away the rounding of the first.
-    for (int step = 0; step < 3 && !restoration.done(); ++step) {
-      const bool moved = rule == VolumeRule::offset ? restoration.offset() : restoration.scale();
-      if (moved) continue;
-      fail(components.size() == 1 ? "the surface" : "component " + std::to_string(i), found, target,
-           rule);
-    }
+    const bool closed = std::none_of(vertex_in_whole.begin(), vertex_in_whole.end(),
+                                     [&](int v) -> bool { return held[idx(v)]; });
+    if (!closed) continue;
+    const Surface original{rows_of(before, vertex_in_whole), component.triangles};
+    if (std::abs(volume(original)) <= least_volume) continue;
+    failed[i] = !restore(component, original, rule);
     for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {
       surface.positions.row(vertex_in_whole[v]) =
           component.positions.row(static_cast<Eigen::Index>(v));
     }
   }
+  return failed;
 }
 
 }  // namespace curveskel

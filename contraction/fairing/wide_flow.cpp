@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "contraction/device/opencl.hpp"
+#include "contraction/fairing/least_height.hpp"
 #include "contraction/fairing/wide_slices.hpp"
 #include "kernels/sources.hpp"
 
@@ -110,8 +111,8 @@ class WideFlow final : public LocalFlow {
   opencl::Kernel build_wide(const FairOptions& options) const {
     return session_
         .build(one_ring_wide_source,
-               "-DLARGEST_RING=" + std::to_string(largest_wide_ring) +
-                   " -DSLICES_PER_ITEM=" + std::to_string(slices_per_item),
+               "-DLARGEST_RING=" + std::to_string(largest_wide_ring) + " -DSLICES_PER_ITEM=" +
+                   std::to_string(slices_per_item) + std::string(least_height_option),
                options.program_cache)
         .kernel("one_ring_wide");
   }
@@ -119,7 +120,9 @@ class WideFlow final : public LocalFlow {
   opencl::Kernel build_stream(const FairOptions& options) const {
     const std::string real = session_.device().double_precision ? "double" : "float";
     return session_
-        .build(one_ring_stream_source, "-DREAL=" + real + " -DSTORED=float", options.program_cache)
+        .build(one_ring_stream_source,
+               "-DREAL=" + real + " -DSTORED=float" + std::string(least_height_option),
+               options.program_cache)
         .kernel("one_ring_stream");
   }
 

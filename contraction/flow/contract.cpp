@@ -26,7 +26,8 @@ constexpr int step_halvings = 6;        // of the way to the solution before it 
 constexpr double stalled_ratio = 0.99;  // area and volume both above this share ...
 constexpr int stalled_iterations = 6;   // ... for so many iterations
 
-/// Model units to the unit box (D = 1) and back, so that any scale meets the same rounding.
+/// Model units to the unit box (D = 1) and back, so that weights and limits mean the same at any
+/// scale. Scales that are powers of two meet the same rounding, others nearly the same.
 struct UnitBox {
   Eigen::RowVector3d centre;
   double diagonal;

@@ -3,8 +3,8 @@
 
 namespace curveskel {
 
-/// While one lives, OpenBLAS runs on one thread, so that every run rounds in the same way; the
-/// fronts of our factorisations are too small for more. The number belongs to the whole process, in
+/// While one lives, OpenBLAS runs on one thread, so that every run of SuiteSparseQR, the one solver
+/// with a BLAS behind it, rounds in the same way. The number belongs to the whole process, in
 /// which others may use the same BLAS: it is set for a factorisation or a solve only, and when the
 /// last guard of several threads goes it is what the first one found. Does nothing with another
 /// BLAS.

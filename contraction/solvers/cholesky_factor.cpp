@@ -10,6 +10,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/monitor.hpp>
+#include "base/memory.hpp"
 #include "base/wide_vectors.hpp"
 #include "contraction/solvers/elimination_tree.hpp"
 
@@ -110,8 +112,10 @@ struct CholeskyFactor::Implementation {
       panel[i] = panels;
       panels += idx(tree.nodes[i].pivot_count()) * front_rows(tree.nodes[i]);
     }
+    const std::size_t updates = place_updates();
+    require_room(panels + updates);
     panel_values.resize(panels);
-    place_updates();
+    update_values.resize(updates);
     inner.assign(h.innerIndexPtr(), h.innerIndexPtr() + h.nonZeros());
     outer.assign(h.outerIndexPtr(), h.outerIndexPtr() + h.outerSize() + 1);
   }
@@ -122,7 +126,7 @@ struct CholeskyFactor::Implementation {
 
   /// In a subtree what a node leaves is made above what its children left, a stack, and moved down
   /// to where theirs began.
-  void place_updates() {
+  [[nodiscard]] std::size_t place_updates() {
     update.assign(tree.nodes.size(), 0);
     made.assign(tree.nodes.size(), 0);
     std::size_t begin = 0;
@@ -146,7 +150,17 @@ struct CholeskyFactor::Implementation {
         begin += size_of_triangle(tree.nodes[idx(node)].border.size());
       }
     }
-    update_values.resize(begin);
+    return begin;
+  }
+
+  /// For so many numbers. The system is not asked about sizes that it always has.
+  void require_room(std::size_t numbers) const {
+    constexpr std::size_t always_there = std::size_t{1} << 25U;  // 256 MiB
+    if (numbers <= always_there) return;
+    require_memory(
+        sizeof(double) * static_cast<double>(numbers), available_memory_bytes(),
+        "the factor of a matrix of " + std::to_string(tree.unknown_at.size()) + " unknowns",
+        Fault::solver, "use a coarser surface");
   }
 
   /// The row of a front that belongs to a place; `from` is a row at or before it.
@@ -193,7 +207,7 @@ struct CholeskyFactor::Implementation {
     }
   }
 
-  void eliminate(const SparseMatrix& h, int number) {
+  void eliminate(const SparseMatrix& h, int number, const std::stop_token& stop) {
     const EliminationNode& node = tree.nodes[idx(number)];
     const int pivots = node.pivot_count();
     const int border = node.border_count();
@@ -205,6 +219,7 @@ struct CholeskyFactor::Implementation {
     add_entries(h, node, block);
     for (const int child : tree.children[idx(number)]) add_update(node, child, block, rest);
     for (int j = 0; j < pivots; ++j) {
+      throw_if_stopped(stop);
       double* column = block + idx(j) * idx(rows) + j;
       subtract_products(column, block + j, idx(rows), j, rows - j);
       if (!(column[0] > 0)) throw NotDefinite{tree.unknown_at[idx(node.pivots + j)]};
@@ -212,6 +227,7 @@ struct CholeskyFactor::Implementation {
       for (int i = 0; i < rows - j; ++i) column[i] /= root;
     }
     for (int j = 0; j < border; ++j) {
+      throw_if_stopped(stop);
       subtract_products(rest + column_of_triangle(idx(border), idx(j)), block + pivots + j,
                         idx(rows), pivots, border - j);
     }
@@ -296,20 +312,20 @@ CholeskyFactor::CholeskyFactor(int threads)
     : implementation_(std::make_unique<Implementation>(threads)) {}
 CholeskyFactor::~CholeskyFactor() = default;
 
-void CholeskyFactor::factorize(const SparseMatrix& h) {
+void CholeskyFactor::factorize(const SparseMatrix& h, const std::stop_token& stop) {
   Implementation& own = *implementation_;
   const auto matrix = [&] { return "the matrix of " + std::to_string(h.rows()) + " unknowns "; };
   try {
     if (!own.same_pattern(h)) own.analyse(h);
-    own.tree.visit(own.threads, [&](int node) { own.eliminate(h, node); });
+    own.tree.visit(own.threads, [&](int node) { own.eliminate(h, node, stop); });
   } catch (const std::bad_alloc&) {
     throw Error(Fault::solver,
-                matrix() + "could not be factorised: out of memory; use a coarser resolution");
+                matrix() + "could not be factorised: out of memory; use a coarser surface");
   } catch (const NotDefinite& at) {
     throw Error(Fault::solver, matrix() + "is not positive definite at row " +
                                    std::to_string(at.unknown) + " (reciprocal condition estimate " +
                                    scientific(own.reciprocal_condition()) +
-                                   "); use smaller weights or the solver sparse-qr");
+                                   "); use the solver sparse-qr or a coarser surface");
   }
 }
 

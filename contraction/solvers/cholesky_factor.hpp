@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <stop_token>
 
 #include <curveskel/advanced/laplacian.hpp>
 
@@ -21,8 +22,9 @@ class CholeskyFactor {
 
   /// H n x n, both triangles stored. The symbolic analysis of the last matrix is used again where
   /// the pattern is the same. Throws Error(Fault::solver) where H is not positive definite or
-  /// memory does not suffice.
-  void factorize(const SparseMatrix& h);
+  /// memory does not suffice, Cancelled once `stop` is requested; the factor may be used for
+  /// another matrix afterwards.
+  void factorize(const SparseMatrix& h, const std::stop_token& stop = {});
 
   /// Memory of a solve beside the factor, kept between solves; one for each thread that solves.
   class Workspace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -40,9 +41,18 @@ class Dissection {
 
   EliminationTree run(int threads) {
     const int all = static_cast<int>(order_.size());
-    nodes_.push_back({0, 0, all, -1, {}});
+    const int first_hub = hubs_to_the_end();
+    nodes_.push_back({0, first_hub, all, -1, {}});
     std::vector<Domain> domains;
-    if (all > 0) domains.push_back({0, 0, all, far_unknown(), 0, 0});
+    if (first_hub > 0 && first_hub < all) {
+      nodes_.push_back({0, 0, first_hub, 0, {}});
+      for (int i = 0; i < first_hub; ++i) domain_[idx(order_[idx(i)])] = 1;
+      for (int i = first_hub; i < all; ++i) domain_[idx(order_[idx(i)])] = -1;
+      domains.push_back({1, 0, first_hub, far_unknown(1, first_hub), 0, 0});
+    } else if (all > 0) {
+      nodes_.back().pivots = 0;
+      domains.push_back({0, 0, all, far_unknown(0, all), 0, 0});
+    }
     while (!domains.empty()) {
       parallel_for(domains.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) split(domains[i]);
@@ -81,9 +91,19 @@ class Dissection {
     return tail;
   }
 
-  int far_unknown() {
-    std::fill(level_.begin(), level_.end(), unseen(0));
-    return queue_[idx(search(0, 0, 0) - 1)];
+  /// Moves the hubs to the end of the order, the others keep theirs; the place of the first hub.
+  int hubs_to_the_end() {
+    const double most = 10 * std::sqrt(static_cast<double>(order_.size()));
+    const auto first = std::stable_partition(order_.begin(), order_.end(), [&](int v) -> bool {
+      return static_cast<double>(neighbours(v).size()) <= most;
+    });
+    return static_cast<int>(first - order_.begin());
+  }
+
+  /// Of the unknowns at [0, end), those of the first node to be split.
+  int far_unknown(int node, int end) {
+    for (int i = 0; i < end; ++i) level_[idx(order_[idx(i)])] = unseen(node);
+    return queue_[idx(search(order_[0], 0, node) - 1)];
   }
 
   void split(Domain& domain) {

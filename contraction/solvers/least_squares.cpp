@@ -79,7 +79,7 @@ bool needs_device(Solver solver) {
   return false;
 }
 
-Solver choose_solver(Solver wanted, int /*unknowns*/, const Device* /*device*/) {
+Solver choose_solver(Solver wanted) {
   return wanted == Solver::automatic ? Solver::cholesky : wanted;
 }
 
@@ -97,12 +97,10 @@ struct LeastSquares::Implementation {
   Solver used = Solver::automatic;
   std::unique_ptr<LeastSquaresBackend> backend;
 
-  LeastSquaresBackend& backend_for(int unknowns) {
-    // Drivers take 0.1 s to load, which no device makes up for so far: none is looked for.
-    const Solver chosen = choose_solver(options.solver, unknowns, nullptr);
-    if (!backend || chosen != used) {
-      backend = make_backend(chosen, options);
-      used = chosen;
+  LeastSquaresBackend& chosen_backend() {
+    if (!backend) {
+      used = choose_solver(options.solver);
+      backend = make_backend(used, options);
     }
     return *backend;
   }
@@ -128,8 +126,7 @@ Solution LeastSquares::solve(const SparseMatrix& a, const Positions& b, const Mo
   require(a.rows() >= a.cols() && a.cols() > 0 && b.rows() == a.rows(), a, b,
           "at least as many rows as columns, and as many right-hand rows");
   SparseMatrix copy;
-  Solution solution = implementation_->backend_for(static_cast<int>(a.cols()))
-                          .solve(compressed(a, copy), b, monitor);
+  Solution solution = implementation_->chosen_backend().solve(compressed(a, copy), b, monitor);
   require_finite(solution, solver());
   const Positions difference = a * solution.x - b;
   const Positions gradient = a.transpose() * difference;
@@ -143,8 +140,8 @@ Solution LeastSquares::solve_definite(const SparseMatrix& h, const Positions& r,
   require(h.rows() == h.cols() && h.cols() > 0 && r.rows() == h.rows(), h, r,
           "a square matrix, and as many right-hand rows");
   SparseMatrix copy;
-  Solution solution = implementation_->backend_for(static_cast<int>(h.cols()))
-                          .solve_definite(compressed(h, copy), r, monitor);
+  Solution solution =
+      implementation_->chosen_backend().solve_definite(compressed(h, copy), r, monitor);
   require_finite(solution, solver());
   const Positions difference = h * solution.x - r;
   solution.residual = ratio(difference.norm(), r.norm());

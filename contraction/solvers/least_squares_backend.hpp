@@ -33,7 +33,7 @@ class LeastSquaresBackend {
 [[nodiscard]] std::unique_ptr<LeastSquaresBackend> make_cg(const SolverOptions& options);
 
 /// Throws Error(Fault::solver), before anything is allocated, if a dense method that holds `copies`
-/// times the matrix's entries does not fit into the machine's memory; says what would.
+/// times the matrix's entries does not fit into the memory that is available; says what would.
 void require_memory(std::string_view solver, const SparseMatrix& a, double copies);
 
 }  // namespace curveskel

@@ -72,14 +72,16 @@ void require_valid(const FairOptions& options);
 /// attraction rows of its patch (min ||mu L X||^2 + ||X - V||^2, L the cotangent Laplacian of the
 /// faces round all vertices within K - 1 edges) puts the centre; all vertices at once. Boundary
 /// vertices and those whose faces are not one fan are held. The volume of every closed component is
-/// then restored by `volume` to within 1e-9 (relative). Any scale and position; the triangles are
-/// returned as they came. An iteration costs O(#V n) in closed form, O(#V n^3) by QR, n the size of
-/// a patch, about 3 K^2 + 3 K + 1. Frame k is the result of k iterations; without a callback
-/// for frames nothing is spent on them.
+/// then restored by `volume` to within 1e-9 (relative). A component so coarse that the flow leaves
+/// less than a tenth of its volume, or that its volume cannot be restored without half as much area
+/// again, stays as it was; a note tells how many do. Each component is faired in a unit box of its
+/// own: any scale and position, beside components of any other. The triangles are returned as they
+/// came. An iteration costs O(#V n) in closed form, O(#V n^3) by QR, n the size of a patch, about
+/// 3 K^2 + 3 K + 1. Frame k is the result of k iterations; without a callback for frames nothing is
+/// spent on them.
 /// Throws Error(Fault::device) when OpenCL was asked for and no device can do it or hold the
-/// patches, Error(Fault::solver) when a component was smoothed until it has no volume left to
-/// restore, Error(Fault::input) for corners that are no vertices and
-/// coordinates that are no finite numbers.
+/// patches, Error(Fault::input) for corners that are no vertices, coordinates that are no finite
+/// numbers, and a bounding box whose diagonal is above 1.8e308.
 [[nodiscard]] Surface fair(const Surface& surface, const FairOptions& options = {},
                            const Monitor& monitor = {});
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "skeleton/pipeline/component.hpp"
@@ -65,19 +67,6 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
   return size;
 }
 
-/// As they come, or the smallest first: a part too thin to be faired is mostly small, and shows
-/// before the time for the others is spent.
-std::vector<std::size_t> order_of(const Topology& counted, bool smallest_first) {
-  std::vector<std::size_t> order(counted.genus.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (smallest_first) {
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return counted.vertices[a] < counted.vertices[b];
-    });
-  }
-  return order;
-}
-
 /// Puts the components' tries one after the other, and tells each component its own.
 void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<ComponentResult>& all) {
   for (std::size_t c = 0; c < logs.size(); ++c) {
@@ -87,6 +76,37 @@ void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<Compon
     }
   }
 }
+
+/// The notes of a surface's components: each line once, with the number of those it is about.
+class NotesOfComponents {
+ public:
+  explicit NotesOfComponents(const Monitor& monitor) : monitor_(monitor), listening_(monitor) {
+    listening_.note = [this](std::string_view line) { ++times_of(line); };
+  }
+  NotesOfComponents(const NotesOfComponents&) = delete;
+  NotesOfComponents& operator=(const NotesOfComponents&) = delete;
+  ~NotesOfComponents() = default;
+
+  /// That of the components.
+  [[nodiscard]] const Monitor& monitor() const { return listening_; }
+
+  void say_all() const {
+    for (const auto& [line, times] : lines_) {
+      monitor_.say(times == 1 ? line : line + " (" + std::to_string(times) + " components)");
+    }
+  }
+
+ private:
+  int& times_of(std::string_view line) {
+    const auto found = std::find_if(lines_.begin(), lines_.end(),
+                                    [&](const auto& known) { return known.first == line; });
+    return found != lines_.end() ? found->second : lines_.emplace_back(line, 0).second;
+  }
+
+  const Monitor& monitor_;
+  Monitor listening_;
+  std::vector<std::pair<std::string, int>> lines_;
+};
 
 }  // namespace
 
@@ -121,6 +141,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   std::vector<ComponentResult> all(whole.components.size());
   std::vector<TryLog> logs(whole.components.size());
   std::vector<std::size_t> side_by_side;
+  NotesOfComponents notes(monitor);
   const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
     all[c] = component_result(parts[c], its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],
                               part_of);
@@ -130,7 +151,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
                        options.contraction.solver == Solver::cholesky;
   const bool watched = monitor.frame || monitor.curve;
   int next = log.next();  // what is shown has the number that it is written down with
-  for (const std::size_t c : order_of(counted, options.fairing && !watched)) {
+  for (std::size_t c = 0; c < parts.size(); ++c) {
     if (standing[c]) {
       all[c] = std::move(*standing[c]);
       continue;
@@ -141,7 +162,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
       side_by_side.push_back(c);
     } else {
       logs[c].first = next;
-      contribute(c, options, monitor);
+      contribute(c, options, notes.monitor());
       next = logs[c].next();
     }
   }
@@ -154,8 +175,9 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   const std::thread::id caller = std::this_thread::get_id();
   parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
     const bool here = std::this_thread::get_id() == caller;
-    contribute(side_by_side[i], alone, here ? monitor : silent);
+    contribute(side_by_side[i], alone, here ? notes.monitor() : silent);
   });
+  notes.say_all();
   write_down(logs, log, all);
   return all;
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include "surface/mesh/whole.hpp"
 
@@ -158,6 +160,17 @@ std::string defect_words(const Defects& defects) {
               std::string(purpose) + ": the surface has " + found + ", needed " + needed);
 }
 
+/// The squares of lengths have to be numbers.
+void require_usual_size(const Surface& surface, std::string_view purpose) {
+  constexpr double least = 1e-150;
+  constexpr double most = 1e150;
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  if (diagonal == 0 || (diagonal >= least && diagonal <= most)) return;
+  std::ostringstream found;
+  found << "a bounding box with the diagonal " << diagonal;
+  refuse(purpose, found.str(), "one between 1e-150 and 1e150: scale the surface");
+}
+
 }  // namespace
 
 void require_sound(const Surface& surface, std::string_view purpose) {
@@ -183,6 +196,7 @@ void require_sound(const Surface& surface, std::string_view purpose) {
 
 void require_closed_manifold(const Surface& surface, std::string_view purpose, int threads) {
   require_sound(surface, purpose);
+  require_usual_size(surface, purpose);
   if (is_whole(surface, threads)) return;
   refuse(purpose, defect_words(defects_of(surface)), "a closed manifold; repair() makes one of it");
 }

@@ -37,7 +37,11 @@ double volume(const Surface& surface) {
 
 double bounding_box_diagonal(const Positions& positions) {
   if (positions.rows() == 0) return 0;
-  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+  const Eigen::RowVector3d extent = positions.colwise().maxCoeff() - positions.colwise().minCoeff();
+  const double largest = extent.maxCoeff();
+  // Squares of such lengths are no numbers, or have lost their digits.
+  const bool squared = largest > 1e-140 && largest < 1e150;
+  return squared || !(largest > 0) ? extent.norm() : largest * (extent / largest).norm();
 }
 
 Positions vertex_normals(const Surface& surface) {

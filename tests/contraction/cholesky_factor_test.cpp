@@ -7,6 +7,7 @@
 #include <cstring>
 #include <future>
 #include <random>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -192,6 +193,38 @@ TEST(EliminationTree, SeparatesWhatItCallsApart) {
                     std::binary_search(border.begin(), border.end(), high));
       }
     }
+  }
+}
+
+double factor_entries(const SparseMatrix& h) {
+  double entries = 0;
+  for (const EliminationNode& node : dissect(h, 1).nodes) {
+    entries += node.pivot_count() * (0.5 * node.pivot_count() + node.border_count());
+  }
+  return entries;
+}
+
+/// The two ends of a cone are one fan each: hubs that all sides are joined to.
+TEST(EliminationTree, HubsFillNothing) {
+  for (const int sides : {1000, 4000}) {
+    const SparseMatrix h = laplacian_and_areas(shapes::cone(1, 2, sides).surface, 1);
+    EXPECT_LT(factor_entries(h), 60 * static_cast<double>(h.rows())) << sides;
+  }
+}
+
+TEST(CholeskyFactor, StopsWhenAskedAndIsAsGoodAsNew) {
+  std::stop_source source;
+  CholeskyFactor factor(2);
+  CholeskyFactor::Workspace workspace;
+  for (const SparseMatrix& h : definite_matrices()) {
+    const Eigen::MatrixXd r = random_columns(h.rows(), 2, 9);
+    factor.factorize(h, source.get_token());
+    const Eigen::MatrixXd wanted = factor.solve(r, workspace);
+    std::stop_source stopped;
+    stopped.request_stop();
+    EXPECT_THROW(factor.factorize(h, stopped.get_token()), Cancelled);
+    factor.factorize(h, source.get_token());
+    EXPECT_EQ(Eigen::MatrixXd(factor.solve(r, workspace)), wanted);
   }
 }
 

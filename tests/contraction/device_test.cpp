@@ -2,14 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <curveskel/error.hpp>
 #include <curveskel/fair.hpp>
 #include "contraction/device/opencl.hpp"
+#include "contraction/device/program_cache.hpp"
 
 namespace curveskel::device_laws {
 namespace {
+
+namespace fs = std::filesystem;
 
 Device named(const std::string& name, bool gpu, bool double_precision, bool gl_sharing) {
   Device device;
@@ -102,6 +110,81 @@ TEST(Session, ABrokenKernelIsADeviceFaultWithTheCompilersLog) {
     EXPECT_TRUE(holds(error.what(), "no_such_name")) << error.what();
     EXPECT_TRUE(holds(error.what(), session.device().name)) << error.what();
   }
+}
+
+/// A folder of its own, gone afterwards.
+class ProgramCache : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("curveskel-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path only_file() const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_)) files.push_back(entry.path());
+    EXPECT_EQ(files.size(), 1U);
+    return files.empty() ? fs::path() : files.front();
+  }
+  void write(const std::string& bytes) const {
+    std::ofstream(only_file(), std::ios::binary) << bytes;
+  }
+  [[nodiscard]] std::string read() const {
+    std::ifstream in(only_file(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  fs::path folder_;
+};
+
+std::vector<unsigned char> some_binary() {
+  std::vector<unsigned char> binary(300);
+  for (std::size_t i = 0; i < binary.size(); ++i) binary[i] = static_cast<unsigned char>(7 * i);
+  return binary;
+}
+
+TEST_F(ProgramCache, GivesBackWhatWasKeptForThisKeyAlone) {
+  EXPECT_TRUE(opencl::cached_binary(folder_, "key").empty());
+  opencl::keep_binary(folder_, "key", some_binary());
+  EXPECT_EQ(opencl::cached_binary(folder_, "key"), some_binary());
+  EXPECT_TRUE(opencl::cached_binary(folder_, "another key").empty());
+  const std::vector<unsigned char> shorter(3, 10);
+  opencl::keep_binary(folder_, "key", shorter);
+  EXPECT_EQ(opencl::cached_binary(folder_, "key"), shorter);
+}
+
+TEST_F(ProgramCache, NeverGivesADamagedBinary) {
+  opencl::keep_binary(folder_, "key\nof two lines", some_binary());
+  const std::string whole = read();
+  const auto expect_refused = [&](const std::string& bytes, std::size_t at) {
+    opencl::keep_binary(folder_, "key\nof two lines", some_binary());
+    write(bytes);
+    EXPECT_TRUE(opencl::cached_binary(folder_, "key\nof two lines").empty()) << at;
+    EXPECT_TRUE(fs::is_empty(folder_)) << at;
+  };
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    expect_refused(whole.substr(0, at), at);
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 16);
+    expect_refused(flipped, at);
+  }
+  expect_refused(whole + '\0', whole.size());
+}
+
+TEST_F(ProgramCache, ADamagedFileIsCompiledAnewAndReplaced) {
+  if (devices().empty()) GTEST_SKIP() << "no OpenCL device on this machine";
+  constexpr std::string_view source =
+      "__kernel void one(__global int* x) { x[get_global_id(0)] = 1; }";
+  const opencl::Session session(0);
+  (void)session.build(source, "", folder_);
+  const std::string whole = read();
+  write(whole.substr(0, whole.size() / 2));
+  (void)session.build(source, "", folder_).kernel("one");
+  EXPECT_GT(read().size(), whole.size() / 2);
+  EXPECT_NO_THROW((void)session.build(source, "", folder_).kernel("one"));
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
 // Laws of the local flow over patches of more than one ring, and by a QR per vertex.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <stop_token>
 
 #include <curveskel/clean.hpp>
 #include <curveskel/contract.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/repair.hpp>
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/patch_solution.hpp"
 #include "tests/contraction/faired.hpp"
@@ -143,6 +146,9 @@ TEST(FairRings, PatchesOfAnySizeWillDo) {
     const Surface host = fair(cone.surface, with_rings(FairMethod::host, 2, 1), {});
     const Surface device = fair(cone.surface, with_rings(FairMethod::opencl, 2, 1, true), {});
     EXPECT_LT(largest_difference(device, host), 1e-12) << sides;
+    FairOptions options = with_rings(FairMethod::opencl, 2, 1, true);
+    options.threads = 1;
+    EXPECT_EQ(fair(cone.surface, options, {}).positions, device.positions) << sides;
   }
 }
 
@@ -167,7 +173,7 @@ TEST(FairRings, PatchesThatFillTheDeviceAreRefused) {
   const Device& device = found[choose_device(found, {}, "this test", "")];
   const auto placed = [&](int rings, std::size_t memory_bytes) {
     const FairOptions options = with_rings(FairMethod::opencl, rings, 1);
-    (void)make_opencl_patch_flow(surface, around, options, memory_bytes);
+    (void)make_opencl_patch_flow(surface, around, options, {}, memory_bytes);
   };
   const std::size_t enough = bytes_on_device(surface, 2, device);
   EXPECT_NO_THROW(placed(1, enough));
@@ -185,6 +191,38 @@ TEST(FairRings, PatchesThatFillTheDeviceAreRefused) {
       EXPECT_NE(message.find(said), std::string::npos) << said << " is not in: " << message;
     }
   }
+}
+
+/// A token of a stop that was asked for.
+std::stop_token stopped() {
+  std::stop_source source;
+  source.request_stop();
+  return source.get_token();
+}
+
+TEST(FairRings, PlacingPatchesOnADeviceStopsWhenAsked) {
+  SKIP_WITHOUT_DEVICE();
+  Surface surface = shapes::ellipsoid({1, 1.5, 2}, 3).surface;
+  surface.positions /= bounding_box_diagonal(surface.positions);
+  const OneRings around = one_rings(surface.triangles, surface.positions.rows());
+  const FairOptions options = with_rings(FairMethod::opencl, 2, 1);
+  EXPECT_THROW((void)make_opencl_patch_flow(surface, around, options, stopped()), Cancelled);
+}
+
+TEST(FairRings, TheReferenceStopsBetweenTwoVertices) {
+  const Surface few = shapes::ellipsoid({1, 1, 1}, 1).surface;  // than are reported together
+  const OneRings around = one_rings(few.triangles, few.positions.rows());
+  const FairOptions options = with_rings(FairMethod::cpu, 2, 1);
+  std::stop_source source;
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  int reports = 0;
+  monitor.progress = [&](std::string_view, double) {
+    ++reports;
+    source.request_stop();
+  };
+  EXPECT_THROW(make_cpu_flow(few, around, options)->advance(1, monitor), Cancelled);
+  EXPECT_EQ(reports, 1);
 }
 
 TEST(FairRings, AnyValenceWillDoByEveryMethodAndLocalSolver) {
@@ -296,6 +334,37 @@ TEST(FairRings, NothingIsLostWhereAllIsHeld) {
 TEST(FairRings, NeedsARing) {
   EXPECT_THROW(
       (void)fair(shapes::torus(2, 0.6, 12).surface, with_rings(FairMethod::host, 0, 1), {}), Error);
+}
+
+/// Models as artists make them, of parts that are mostly coarse.
+std::vector<std::filesystem::path> models() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& folder : real_surface_folders()) {
+    for (const char* of : {"real", "characters", "rigs"}) {
+      if (!std::filesystem::exists(folder / of)) continue;
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / of)) {
+        if (entry.path().extension() == ".glb") files.push_back(entry.path());
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(RealModels, AreFairedHoweverCoarseTheirParts) {
+  const std::vector<std::filesystem::path> files = models();
+  ASSERT_FALSE(files.empty());
+  for (const auto& file : files) {
+    const Surface surface = repair(read_polygons(file, {}), {}, {}).surface;
+    for (const VolumeRule rule : {VolumeRule::offset, VolumeRule::scale}) {
+      FairOptions options = with(FairMethod::host, 3);
+      options.volume = rule;
+      const Surface faired = fair(surface, options, {});
+      const bool offset = rule == VolumeRule::offset;
+      EXPECT_LT(largest_difference(faired, surface), offset ? 0.25 : 0.5) << file;
+      EXPECT_LT(area(faired), (offset ? 1.2 : 1.5) * area(surface)) << file;
+    }
+  }
 }
 
 /// The negative result of the paper: the local flow does not contract to zero volume.

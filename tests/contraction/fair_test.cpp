@@ -78,11 +78,17 @@ TEST(Fair, ChangesNoTriangleAndMovesWithTheSurface) {
   const Shape shape = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 5);
   const Surface faired = fair(shape.surface, with(FairMethod::host, 5), {});
   EXPECT_EQ(faired.triangles, shape.surface.triangles);
-  for (const double factor : {1e-9, 1e-3, 1e3, 1e9}) {
+  for (const double factor : {1e-300, 1e-170, 1e-9, 1e-3, 1e3, 1e9, 1e160, 1e300}) {
     Surface expected = faired;
     expected.positions *= factor;
+    Monitor monitor;
+    monitor.frame = [](const Frame& frame) {
+      EXPECT_NEAR(frame.area_ratio, 0.98, 0.03);
+      EXPECT_NEAR(frame.volume_ratio, 1, 1e-9);
+    };
     const Surface scaled =
-        fair(shapes::scaled(shape, factor).surface, with(FairMethod::host, 5), {});
+        fair(shapes::scaled(shape, factor).surface, with(FairMethod::host, 5), monitor);
+    ASSERT_TRUE(scaled.positions.allFinite()) << factor;
     EXPECT_LT(largest_difference(scaled, expected), 1e-12) << factor;
   }
   Surface expected = faired;
@@ -90,6 +96,17 @@ TEST(Fair, ChangesNoTriangleAndMovesWithTheSurface) {
   const Surface moved =
       fair(shapes::translated(shape, {100, -200, 300}).surface, with(FairMethod::host, 5), {});
   EXPECT_LT(largest_difference(moved, expected), 1e-11);
+}
+
+TEST(Fair, RefusesASurfaceTooLargeForNumbers) {
+  const Surface huge = shapes::scaled(shapes::torus(2, 0.6, 12), 5e307).surface;
+  try {
+    (void)fair(huge, {}, {});
+    FAIL() << "it was faired";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    EXPECT_NE(std::string(error.what()).find("scale the surface down"), std::string::npos);
+  }
 }
 
 TEST(Fair, SameBytesForAnyNumberOfThreads) {
@@ -125,6 +142,87 @@ TEST(Fair, EveryComponentGetsItsVolumeBack) {
   FairOptions options = with(FairMethod::host, 10);
   options.volume = VolumeRule::keep;
   EXPECT_LT(volume(fair(ball.surface, options, {})), 0.99 * volume(ball.surface));
+}
+
+/// A cube of eight vertices: one iteration takes nine tenths of its volume.
+Shape coarse_cube() { return shapes::box({0.2, 0.2, 0.2}, 1); }
+
+TEST(Fair, ComponentsTooCoarseForTheFlowStayAsTheyWere) {
+  const Shape cube = coarse_cube();
+  const Shape ball = shapes::noisy(shapes::ellipsoid({1, 1.5, 2}, 3), 0.02, 2);
+  const Shape both = shapes::together("both", {cube, shapes::translated(ball, {5, 0, 0})});
+  const Eigen::Index corners = cube.surface.positions.rows();
+  for (const VolumeRule rule : {VolumeRule::offset, VolumeRule::scale}) {
+    FairOptions options = with(FairMethod::host, 3);
+    options.volume = rule;
+    std::string notes;
+    Monitor monitor;
+    monitor.note = [&](std::string_view line) { notes += line; };
+    const Surface faired = fair(both.surface, options, monitor);
+    EXPECT_EQ(faired.positions.topRows(corners), both.surface.positions.topRows(corners));
+    EXPECT_NE(notes.find("1 of 2 components is too coarse"), std::string::npos) << notes;
+    Surface rest = fair(ball.surface, options, {});
+    rest.positions.rowwise() += Eigen::RowVector3d(5, 0, 0);
+    EXPECT_LT((faired.positions.bottomRows(rest.positions.rows()) - rest.positions).norm(), 1e-12);
+  }
+  EXPECT_EQ(fair(cube.surface, with(FairMethod::host, 1), {}).positions, cube.surface.positions);
+}
+
+/// A square sheet of two sides, the inner vertices of one moved within it: its volume is rounding.
+Surface flat_sheet() {
+  Surface sheet = shapes::box({1, 1, 1}, 8).surface;
+  for (Eigen::Index v = 0; v < sheet.positions.rows(); ++v) {
+    const Eigen::RowVector3d p = sheet.positions.row(v);
+    const double shift = 0.01 * std::sin(37 * p.z());
+    sheet.positions.row(v) << p.x() + shift, p.y(), 0;
+  }
+  return sheet;
+}
+
+TEST(Fair, ASheetWithoutVolumeIsNotBlownUp) {
+  const Surface sheet = flat_sheet();
+  for (int turn = 0; turn < 8; ++turn) {
+    const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.3 + 0.41 * turn, axis).matrix();
+    Surface turned = sheet;
+    turned.positions = sheet.positions * rotation.transpose();
+    for (const VolumeRule rule : {VolumeRule::offset, VolumeRule::scale}) {
+      FairOptions options = with(FairMethod::host, 3);
+      options.volume = rule;
+      EXPECT_LT(largest_difference(fair(turned, options, {}), turned), 0.2) << turn;
+    }
+  }
+}
+
+TEST(Fair, NoComponentLosesDigitsToALargerOne) {
+  const Shape ball = shapes::noisy(shapes::ellipsoid({1, 1.5, 2}, 3), 0.02, 2);
+  const Shape small = shapes::translated(shapes::scaled(ball, 1e-7), {10, 0, 0});
+  const Shape both = shapes::together("both", {ball, small});
+  const Eigen::Index vertices = ball.surface.positions.rows();
+  std::vector<FairMethod> methods{FairMethod::host};
+  if (!devices().empty()) methods.push_back(FairMethod::opencl);
+  for (const FairMethod method : methods) {
+    const Surface alone = fair(small.surface, with(FairMethod::host, 3), {});
+    const Surface faired = fair(both.surface, with(method, 3), {});
+    const Surface part{faired.positions.bottomRows(vertices), ball.surface.triangles};
+    EXPECT_LT(largest_difference(part, alone), 1e-4) << name_of(fair_methods, method);
+  }
+}
+
+TEST(Fair, AVertexWithoutFacesFarOffIsNoMatter) {
+  Surface open = shapes::noisy(shapes::torus(2, 0.6, 12), 0.02, 9).surface;
+  open.triangles.conservativeResize(open.triangles.rows() - 7, 3);
+  Surface with_far_vertex = open;
+  with_far_vertex.positions.conservativeResize(open.positions.rows() + 1, 3);
+  with_far_vertex.positions.bottomRows(1) << 1e9, 0, 0;
+  std::vector<FairMethod> methods{FairMethod::cpu, FairMethod::host};
+  if (!devices().empty()) methods.push_back(FairMethod::opencl);
+  for (const FairMethod method : methods) {
+    const Positions faired = fair(with_far_vertex, with(method, 3), {}).positions;
+    const Surface alone = fair(open, with(method, 3), {});
+    EXPECT_EQ(faired.topRows(open.positions.rows()), alone.positions);
+    EXPECT_EQ(faired.bottomRows(1), with_far_vertex.positions.bottomRows(1));
+  }
 }
 
 TEST(Fair, NormalErrorOfANoisySurfaceHalves) {

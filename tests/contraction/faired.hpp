@@ -28,8 +28,10 @@ inline std::vector<shapes::Shape> noisy_and_clean_shapes() {
 
 /// Of corresponding vertices, over the bounding box's diagonal.
 inline double largest_difference(const Surface& a, const Surface& b) {
-  return (a.positions - b.positions).rowwise().norm().maxCoeff() /
-         bounding_box_diagonal(b.positions);
+  return ((a.positions - b.positions) / bounding_box_diagonal(b.positions))
+      .rowwise()
+      .norm()
+      .maxCoeff();
 }
 
 inline FairOptions with(FairMethod method, int iterations, bool double_precision = false) {

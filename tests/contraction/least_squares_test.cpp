@@ -180,6 +180,20 @@ TEST_P(EverySolver, RefusesAMatrixWithoutFullRank) {
   EXPECT_LE(solver.solve(systems()[0].a, systems()[0].b).residual, 1e-10);
 }
 
+TEST_P(EverySolver, StopsWhenAsked) {
+  const System& system = systems()[1];
+  const SparseMatrix h = normal_matrix(system);
+  std::stop_source source;
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  LeastSquares solver(GetParam());
+  const Solution before = solver.solve(system.a, system.b, monitor);
+  source.request_stop();
+  EXPECT_THROW((void)solver.solve(system.a, system.b, monitor), Cancelled);
+  EXPECT_THROW((void)solver.solve_definite(h, system.b.topRows(h.rows()), monitor), Cancelled);
+  EXPECT_EQ(solver.solve(system.a, system.b).x, before.x);  // of use afterwards
+}
+
 TEST_P(EverySolver, RefusesShapesThatDoNotFit) {
   const System& system = systems()[0];
   LeastSquares solver(GetParam());
@@ -263,6 +277,17 @@ INSTANTIATE_TEST_SUITE_P(LeastSquares, EveryIteration,
                          testing::Values(Solver::cg, Solver::gauss_seidel, Solver::jor,
                                          Solver::jacobi),
                          test_name);
+
+/// The matrices of the first-order flow are strictly diagonally dominant.
+TEST(Jacobi, ConvergesInTheFirstOrderFlow) {
+  const Surface ring = shapes::torus(3, 1, 12).surface;
+  for (const double contraction : {3.0, 1000.0}) {
+    SparseMatrix h = -contraction * intrinsic_delaunay_laplacian(ring);
+    h.diagonal().array() += 2;
+    const Solution solution = LeastSquares(Solver::jacobi).solve_definite(h, ring.positions);
+    EXPECT_LE(solution.residual, 1e-10) << contraction;
+  }
+}
 
 TEST(Jacobi, DivergesWhereSomethingContractsAndSaysSo) {
   for (const double contraction : {10.0, 100.0, 1000.0}) {
@@ -348,18 +373,6 @@ TEST_P(EveryDeviceQr, TakesAnyShapeAndLeavesOutZerosOnly) {
   }
 }
 
-TEST_P(EveryDeviceQr, StopsWhenAsked) {
-  const System system = filled_down_to(100, 90, 10);
-  std::stop_source source;
-  Monitor monitor;
-  monitor.stop = source.get_token();
-  LeastSquares solver(GetParam());
-  const Solution before = solver.solve(system.a, system.b, monitor);
-  source.request_stop();
-  EXPECT_THROW((void)solver.solve(system.a, system.b, monitor), Cancelled);
-  EXPECT_EQ(solver.solve(system.a, system.b).x, before.x);  // of use afterwards
-}
-
 INSTANTIATE_TEST_SUITE_P(LeastSquares, EveryDeviceQr,
                          testing::Values(Solver::vcl_qr, Solver::vcl_lsm), test_name);
 
@@ -423,66 +436,17 @@ TEST(DenseSolvers, RefuseWhatDoesNotFitBeforeTheyAllocate) {
   }
 }
 
-/// None, and all that devices may or may not have.
-std::vector<const Device*> any_device() {
-  static const std::vector<Device> kinds = [] {
-    std::vector<Device> all;
-    for (const bool gpu : {false, true}) {
-      for (const bool double_precision : {false, true}) {
-        for (const std::size_t gigabytes : {1U, 80U}) {
-          Device device;
-          device.gpu = gpu;
-          device.double_precision = double_precision;
-          device.memory_bytes = gigabytes << 30U;
-          all.push_back(device);
-        }
-      }
-    }
-    return all;
-  }();
-  std::vector<const Device*> result{nullptr};
-  for (const Device& kind : kinds) result.push_back(&kind);
-  return result;
-}
-
-TEST(ChooseSolver, KeepsWhatWasAskedForAndNeverStaysAutomatic) {
+TEST(ChooseSolver, IsCholeskyUnlessAnotherWasAskedFor) {
   for (const auto& entry : solvers) {
-    for (const int unknowns : {1, 1000, 1000000}) {
-      for (const Device* device : any_device()) {
-        const Solver chosen = choose_solver(entry.value, unknowns, device);
-        EXPECT_NE(chosen, Solver::automatic);
-        if (entry.value != Solver::automatic) {
-          EXPECT_EQ(chosen, entry.value);
-        }
-      }
-    }
-  }
-}
-
-TEST(ChooseSolver, TakesWhatTheDeviceCanRun) {
-  for (const int unknowns : {1, 1000, 1000000}) {
-    for (const Device* device : any_device()) {
-      const Solver chosen = choose_solver(Solver::automatic, unknowns, device);
-      const bool can = device != nullptr && serves(*device, {.double_precision = true});
-      EXPECT_TRUE(can || !needs_device(chosen)) << name_of(solvers, chosen);
-      EXPECT_EQ(chosen, choose_solver(Solver::automatic, unknowns, device));
-    }
-  }
-}
-
-TEST(ChooseSolver, TakesWhatWasMeasuredToBeFastest) {
-  for (const int unknowns : {648, 1416, 5664, 14952, 200000}) {
-    for (const Device* device : any_device()) {
-      EXPECT_EQ(choose_solver(Solver::automatic, unknowns, device), Solver::cholesky);
-    }
+    const bool automatic = entry.value == Solver::automatic;
+    EXPECT_EQ(choose_solver(entry.value), automatic ? Solver::cholesky : entry.value);
   }
 }
 
 TEST(LeastSquares, SaysWhichSolverItUsed) {
   LeastSquares solver(Solver::automatic);
   (void)solver.solve(systems()[0].a, systems()[0].b);
-  EXPECT_EQ(solver.solver(),
-            choose_solver(Solver::automatic, static_cast<int>(systems()[0].a.cols()), nullptr));
+  EXPECT_EQ(solver.solver(), Solver::cholesky);
 }
 
 }  // namespace

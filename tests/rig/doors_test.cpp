@@ -169,6 +169,19 @@ TEST(Doors, RefuseWhatIsNoClosedManifoldAndSayWhere) {
   }
 }
 
+TEST(Doors, RefuseSizesWhoseSquaresAreNoNumbers) {
+  for (const double scale : {1e-310, 1e-170, 1e160, 1e200}) {
+    Surface scaled = torus();
+    scaled.positions *= scale;
+    for (const Door& door : doors()) {
+      if (!door.needs_closed) continue;
+      const std::string message = refusal(door, scaled);
+      EXPECT_TRUE(message.starts_with(door.name + ": ")) << door.name << ": " << message;
+      EXPECT_NE(message.find("scale the surface"), std::string::npos) << message;
+    }
+  }
+}
+
 TEST(Doors, LetInAnOpenSurfaceWhereOneIsNotNeededClosed) {
   const Surface open = flaws().front().surface;
   for (const Door& door : doors()) {

@@ -5,6 +5,7 @@
 #include "contraction/device/opencl.hpp"
 #include "contraction/fairing/device/fairing_device.hpp"
 #include "contraction/fairing/device/position_memory.hpp"
+#include "contraction/fairing/least_height.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/wide_flow.hpp"
 #include "contraction/fairing/wide_slices.hpp"
@@ -52,8 +53,10 @@ class OpenClFlow final : public LocalFlow {
   opencl::Program build(const FairOptions& options) {
     const std::string stored = sizeof(Real) == sizeof(float) ? "float" : "double";
     const std::string real = memory_.session.device().double_precision ? "double" : "float";
-    return memory_.session.build(one_ring_stream_source, "-DREAL=" + real + " -DSTORED=" + stored,
-                                 options.program_cache);
+    return memory_.session.build(
+        one_ring_stream_source,
+        "-DREAL=" + real + " -DSTORED=" + stored + std::string(least_height_option),
+        options.program_cache);
   }
 
   PositionMemory memory_;

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <curveskel/error.hpp>
+#include "base/parallel.hpp"
 #include "contraction/device/opencl.hpp"
 #include "contraction/fairing/device/fairing_device.hpp"
 #include "contraction/fairing/device/position_memory.hpp"
+#include "contraction/fairing/least_height.hpp"
 #include "contraction/fairing/local_flow.hpp"
 #include "contraction/fairing/patch_solution.hpp"
 #include "kernels/sources.hpp"
@@ -71,15 +73,16 @@ template <typename Real>
 class OpenClPatchFlow final : public LocalFlow {
  public:
   OpenClPatchFlow(const Surface& surface, const OneRings& rings, const FairOptions& options,
-                  std::size_t memory_bytes)
+                  const std::stop_token& stop, std::size_t memory_bytes)
       : memory_(place_positions(options, pack_positions<Real>(surface.positions))),
         options_(options),
         lent_bytes_(memory_bytes > 0 ? memory_bytes : session().device().memory_bytes / 2),
         vertices_(surface.positions.rows()),
+        triangles_(surface.triangles),
         corners_(corners_by_vertex(surface.triangles, vertices_)),
         patches_(surface.triangles, corners_, options.rings),
         smoothing_(static_cast<Real>(options.smoothing)) {
-    place_all(rings);
+    place_all(rings, stop);
   }
 
   void advance(int iterations, const Monitor& monitor) override {
@@ -111,9 +114,10 @@ class OpenClPatchFlow final : public LocalFlow {
 
  private:
   /// Chooses the way of moving each vertex, and uploads its data.
-  void place_all(const OneRings& rings) {
+  void place_all(const OneRings& rings, const std::stop_token& stop) {
     std::array<std::vector<PatchSize>, slot_classes.size()> by_class;
     for (std::size_t v = 0; v < rings.vertices(); ++v) {
+      throw_if_stopped(stop);
       const auto ring = rings.of(v);
       if (ring.empty()) continue;
       const auto centre = static_cast<std::int32_t>(v);
@@ -132,7 +136,7 @@ class OpenClPatchFlow final : public LocalFlow {
                      [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
     check_memory(by_class);
     for (std::size_t i = 0; i < by_class.size(); ++i) {
-      if (!by_class[i].empty()) make_batches(i, by_class[i]);
+      if (!by_class[i].empty()) make_batches(i, by_class[i], stop);
     }
     if (!giant_rings_.empty()) stream_.emplace(build_stream().kernel("one_ring_stream"));
     if (!on_host_.empty()) {
@@ -163,7 +167,8 @@ class OpenClPatchFlow final : public LocalFlow {
     return std::min(largest_workspace_bytes, session().device().memory_bytes / 16);
   }
 
-  void make_batches(std::size_t slot_class, const std::vector<PatchSize>& sizes) {
+  void make_batches(std::size_t slot_class, const std::vector<PatchSize>& sizes,
+                    const std::stop_token& stop) {
     build_class(slot_class);
     BatchIndices indices;
     double operations = 0;
@@ -180,6 +185,7 @@ class OpenClPatchFlow final : public LocalFlow {
       operations = 0;
     };
     for (const PatchSize& size : sizes) {
+      throw_if_stopped(stop);
       const std::size_t next_largest = std::max(largest, size.vertices);
       const bool full =
           indices.vertices.size() + indices.triangles.size() > indices_per_batch ||
@@ -231,12 +237,16 @@ class OpenClPatchFlow final : public LocalFlow {
     if (on_host_.empty()) return {};
     const Positions now = positions();
     Positions moved(static_cast<Eigen::Index>(on_host_.size()), 3);
-    for (std::size_t i = 0; i < on_host_.size(); ++i) {
-      if (monitor.stop.stop_requested()) throw Cancelled();
-      const std::int32_t v = on_host_[i];
-      moved.row(static_cast<Eigen::Index>(i)) =
-          now.row(v) + centre_step(patches_.of(v), now, options_.smoothing);
-    }
+    constexpr std::size_t grain = 8;  // a patch takes a hundredth of a second or more
+    parallel_for(on_host_.size(), grain, options_.threads, [&](std::size_t begin, std::size_t end) {
+      PatchFinder patches(triangles_, corners_, options_.rings);
+      for (std::size_t i = begin; i < end; ++i) {
+        throw_if_stopped(monitor.stop);
+        const std::int32_t v = on_host_[i];
+        moved.row(static_cast<Eigen::Index>(i)) =
+            now.row(v) + centre_step(patches.of(v), now, options_.smoothing);
+      }
+    });
     return pack_positions<Real>(moved);
   }
 
@@ -248,18 +258,21 @@ class OpenClPatchFlow final : public LocalFlow {
   }
 
   void build_class(std::size_t slot_class) {
-    const opencl::Program program =
-        session().build(patch_qr_source,
-                        "-DREAL=" + real() + " -DSLOTS=" + std::to_string(slot_classes[slot_class]),
-                        options_.program_cache);
+    const opencl::Program program = session().build(
+        patch_qr_source,
+        "-DREAL=" + real() + " -DSLOTS=" + std::to_string(slot_classes[slot_class]) +
+            std::string(least_height_option),
+        options_.program_cache);
     kernels_[slot_class].emplace(program.kernel("patch_qr"));
     place_.emplace(program.kernel("place"));
   }
 
   opencl::Program build_stream() const {
     const std::string arithmetic = session().device().double_precision ? "double" : "float";
-    return session().build(one_ring_stream_source, "-DREAL=" + arithmetic + " -DSTORED=" + real(),
-                           options_.program_cache);
+    return session().build(
+        one_ring_stream_source,
+        "-DREAL=" + arithmetic + " -DSTORED=" + real() + std::string(least_height_option),
+        options_.program_cache);
   }
 
   [[nodiscard]] const opencl::Session& session() const { return memory_.session; }
@@ -270,6 +283,7 @@ class OpenClPatchFlow final : public LocalFlow {
   const FairOptions& options_;
   std::size_t lent_bytes_;
   Eigen::Index vertices_;
+  const Triangles& triangles_;
   CornersByVertex corners_;
   PatchFinder patches_;
   std::array<std::optional<opencl::Kernel>, slot_classes.size()> kernels_;
@@ -286,11 +300,12 @@ class OpenClPatchFlow final : public LocalFlow {
 
 std::unique_ptr<LocalFlow> make_opencl_patch_flow(const Surface& surface, const OneRings& rings,
                                                   const FairOptions& options,
+                                                  const std::stop_token& stop,
                                                   std::size_t memory_bytes) {
   if (options.double_precision) {
-    return std::make_unique<OpenClPatchFlow<double>>(surface, rings, options, memory_bytes);
+    return std::make_unique<OpenClPatchFlow<double>>(surface, rings, options, stop, memory_bytes);
   }
-  return std::make_unique<OpenClPatchFlow<float>>(surface, rings, options, memory_bytes);
+  return std::make_unique<OpenClPatchFlow<float>>(surface, rings, options, stop, memory_bytes);
 }
 
 }  // namespace curveskel

@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include <curveskel/error.hpp>
+#include "base/memory.hpp"
 #include "contraction/solvers/least_squares_backend.hpp"
 
 namespace curveskel {
@@ -23,8 +22,7 @@ void require_memory(std::string_view solver, const SparseMatrix& a, double copie
   const double bytes_per_entry = copies * sizeof(double);
   const double columns = static_cast<double>(a.cols());
   const double needed = bytes_per_entry * static_cast<double>(a.rows()) * columns;
-  const double present =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double present = available_memory_bytes();
   if (needed <= present) return;
   const double rows_per_column = static_cast<double>(a.rows()) / columns;
   const double fits = std::sqrt(present / (bytes_per_entry * rows_per_column));

@@ -27,14 +27,13 @@ void require_positive_diagonal(std::string_view solver, const SparseMatrix& h) {
 }
 
 void fail_iteration(std::string_view solver, const std::string& what) {
-  throw Error(Fault::solver, std::string(solver) + ": " + what +
-                                 "; use the solver cholesky, sparse-qr or cg, or a smaller "
-                                 "contraction weight");
+  throw Error(Fault::solver,
+              std::string(solver) + ": " + what + "; use the solver cholesky, sparse-qr or cg");
 }
 
 std::string rounded_count(double count) {
   std::array<char, 32> text{};
-  if (!std::isfinite(count)) return "infinitely many";
+  if (!std::isfinite(count)) return "too many";
   if (count < 1e6) {
     std::snprintf(text.data(), text.size(), "%.0f", count);
   } else {

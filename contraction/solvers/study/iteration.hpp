@@ -1,4 +1,4 @@
-// Code shared by Jacobi's and by Gauss' and Seidel's iterations. Internal to contraction/.
+// Code that the iterative solvers share: Jacobi's, Gauss' and Seidel's, conjugate gradients.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ struct NormalEquations {
 /// Throws Error(Fault::solver) unless all diagonal entries are positive.
 void require_positive_diagonal(std::string_view solver, const SparseMatrix& h);
 
-/// "jor: REASON; use cholesky, sparse-qr or cg, or a smaller contraction weight".
+/// Throws Error(Fault::solver): "jor: WHAT; use the solver cholesky, sparse-qr or cg".
 [[noreturn]] void fail_iteration(std::string_view solver, const std::string& what);
 
-/// "12,345" or "3.2 million": how an estimate is told.
+/// "12345", "3.2 million", or "too many" for what is no finite number: how an estimate is told.
 [[nodiscard]] std::string rounded_count(double count);
 /// Four significant digits, with an exponent where needed.
 [[nodiscard]] std::string rounded_number(double value);

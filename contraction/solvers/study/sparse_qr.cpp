@@ -72,7 +72,8 @@ class SparseQr final : public LeastSquaresBackend {
   SparseQr(const SparseQr&) = delete;
   SparseQr& operator=(const SparseQr&) = delete;
 
-  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& /*monitor*/) override {
+  Solution solve(const SparseMatrix& a, const Positions& b, const Monitor& monitor) override {
+    throw_if_stopped(monitor.stop);  // and between the library's steps, which hear of nothing
     const OneBlasThread one_thread;
     const bool known = same_pattern(a);
     if (!known) {
@@ -94,6 +95,7 @@ class SparseQr final : public LeastSquaresBackend {
     if (!known) {
       library_.free(&factor_, &common_);
       factor_ = library_.symbolic(SPQR_ORDERING_DEFAULT, 1, &view, &common_);
+      throw_if_stopped(monitor.stop);
     }
     if (factor_ == nullptr || library_.numeric(SPQR_DEFAULT_TOL, &view, factor_, &common_) == 0) {
       fail(a, "could not be factorised");
@@ -101,6 +103,7 @@ class SparseQr final : public LeastSquaresBackend {
     if (factors().rank < a.cols()) {
       fail(a, "has numerical rank " + std::to_string(factors().rank));
     }
+    throw_if_stopped(monitor.stop);
     Solution solution;
     solution.x = least_squares(b);
     return solution;
@@ -148,7 +151,7 @@ class SparseQr final : public LeastSquaresBackend {
     if (result.size() == 0) {
       throw Error(Fault::solver, "sparse QR: back substitution failed for " +
                                      std::to_string(b.rows()) +
-                                     " rows: out of memory; use a coarser resolution");
+                                     " rows: out of memory; use a coarser surface");
     }
     return result;
   }
@@ -157,8 +160,8 @@ class SparseQr final : public LeastSquaresBackend {
     std::string message = "sparse QR: the matrix of " + std::to_string(a.rows()) + " x " +
                           std::to_string(a.cols()) + " " + what;
     message += common_.status == CHOLMOD_OUT_OF_MEMORY
-                   ? ": out of memory; use a coarser resolution or the solver cholesky"
-                   : "; full column rank is needed: use smaller weights";
+                   ? ": out of memory; use a coarser surface or the solver cholesky"
+                   : "; full column rank is needed: use the solver cholesky";
     library_.free(&factor_, &common_);
     throw Error(Fault::solver, message);
   }

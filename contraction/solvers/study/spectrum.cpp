@@ -24,7 +24,6 @@ Eigen::VectorXd scattered_vector(Eigen::Index size) {
 }  // namespace
 
 double Spectrum::jacobi_radius() const { return std::max(largest - 1, 1 - least); }
-double Spectrum::relaxation() const { return 2 / (least + largest); }
 double Spectrum::jor_radius() const { return (largest - least) / (largest + least); }
 
 // C. Lanczos 1950, without reorthogonalisation: what rounding brings back are copies of extreme

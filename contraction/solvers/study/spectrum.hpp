@@ -14,9 +14,8 @@ struct Spectrum {
 
   /// Of Jacobi's iteration, at least.
   [[nodiscard]] double jacobi_radius() const;
-  /// The relaxation 2 / (least + largest) with which the extrapolated iteration (JOR) is fastest.
-  [[nodiscard]] double relaxation() const;
-  /// Of JOR with that relaxation, at least.
+  /// Of the extrapolated iteration (JOR), at least, with the relaxation 2 / (least + largest), with
+  /// which it is fastest.
   [[nodiscard]] double jor_radius() const;
 };
 

@@ -62,7 +62,7 @@ Positions solve_upper(const std::string& solver, const Eigen::Ref<const Eigen::M
   if (!(diagonal.minCoeff() > rounding * diagonal.maxCoeff())) {
     throw Error(Fault::solver, solver + ": the matrix of " + std::to_string(rows) + " x " +
                                    std::to_string(r.cols()) +
-                                   " has no full column rank; use smaller weights");
+                                   " has no full column rank; use the solver cholesky");
   }
   return r.triangularView<Eigen::Upper>().solve(y);
 }

@@ -15,8 +15,9 @@ void require_sound(const Surface& surface, std::string_view purpose);
 
 /// The same, and the surface must be closed and manifold: every edge lies in two faces that run
 /// through it in opposite directions, every vertex has one fan of faces, no two faces have the same
-/// three vertices. The message counts the open and the non-manifold edges and names the first.
-/// Outwardness is not looked at. O(#V + #F), on `threads` threads (0 = one per core).
+/// three vertices. The message counts the open and the non-manifold edges and names the first. The
+/// bounding box's diagonal must lie between 1e-150 and 1e150, or be 0, so that its square is a
+/// number. Outwardness is not looked at. O(#V + #F), on `threads` threads (0 = one per core).
 void require_closed_manifold(const Surface& surface, std::string_view purpose, int threads = 0);
 
 }  // namespace curveskel

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <curveskel/advanced/device.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/monitor.hpp>
@@ -37,16 +36,15 @@ inline constexpr NameTable<Solver, 10> solvers{{
     {Solver::vcl_lsm, "vcl-lsm", "dense QR on the OpenCL device without forming Q: method 3"},
     {Solver::cg, "cg", "preconditioned conjugate gradients on the OpenCL device"},
     {Solver::gauss_seidel, "gauss-seidel",
-     "Gauss-Seidel by graph colouring on the OpenCL device; slow under strong contraction"},
-    {Solver::jor, "jor", "extrapolated Jacobi; millions of iterations under strong contraction"},
-    {Solver::jacobi, "jacobi", "Jacobi: diverges wherever anything contracts, and says so"},
+     "Gauss-Seidel by graph colouring on the OpenCL device; slow in the flow paper"},
+    {Solver::jor, "jor", "extrapolated Jacobi; millions of iterations in the flow paper"},
+    {Solver::jacobi, "jacobi",
+     "Jacobi: diverges in the flow paper wherever anything contracts, and says so"},
 }};
 
-/// The meaning of `auto`: a pure function of the size and of the OpenCL device at hand (null =
-/// none). Never a solver that needs a device without one, or without double precision. Cholesky was
-/// the fastest at every size from 648 to 200,000 unknowns and beside every device that was
-/// measured, all of them processors (docs/benchmarks.md), so for now it is the answer to all.
-[[nodiscard]] Solver choose_solver(Solver wanted, int unknowns, const Device* device);
+/// The meaning of `auto`: always cholesky, which was the fastest at every size from 648 to 200,000
+/// unknowns and beside every device that was measured (docs/benchmarks.md). Pure.
+[[nodiscard]] Solver choose_solver(Solver wanted);
 
 /// True if the solver runs on an OpenCL device, which must then offer double precision.
 [[nodiscard]] bool needs_device(Solver solver);

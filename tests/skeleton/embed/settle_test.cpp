@@ -75,9 +75,9 @@ TEST(Settle, TakesAThinBandLikeATube) {
   }
 }
 
-// Where points coincided their arc's system was singular: all goals of the arc were NaN, none of its
-// points moved, and each looked for its nearest triangle in the whole surface.
-TEST(Settle, CentresAnArcOfWhichPointsCoincide) {
+// Where two points coincided their arc's system was singular: all goals of the arc were NaN, none
+// of its points moved, and each looked for its nearest triangle in the whole surface.
+TEST(Settle, CentresAnArcOfWhichTwoPointsCoincide) {
   constexpr double radius = 0.05;
   const SurfaceTree tree(
       shapes::tube("tube", shapes::straight(1), shapes::constant(radius), 24).surface);
@@ -85,7 +85,7 @@ TEST(Settle, CentresAnArcOfWhichPointsCoincide) {
   auto& points = graph.arcs.front().points;
   const auto tenth = points.begin() + 10;
   const CurvePoint again = *tenth;
-  points.insert(tenth, 4, again);
+  points.insert(tenth, again);
   HomologyGuard guard;
   settle(graph, tree, all_own(), guard, 1);
   EXPECT_LT(farthest_from_axis(graph), 0.03 * radius);
