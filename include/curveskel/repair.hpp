@@ -62,7 +62,8 @@ void require_valid(const RepairOptions& options);
 struct Merging {
   struct Covered {
     int component = 0;
-    int inside = 0;  ///< the smallest component around it
+    int inside = 0;  ///< the smallest component around it, or the first of the body in whose filled
+                     ///< cavity it lies
   };
   struct Apart {
     int component = 0;
@@ -80,6 +81,7 @@ struct Merging {
 /// The repairs beyond those that `Changes` counts. `lines` says the same in words.
 struct Repairs {
   std::int64_t vertices_joined = 0;  ///< with another that lay within the join distance
+  std::int64_t edges_split = 0;      ///< of rims, at vertices of another rim that lie on them
   std::int64_t vertices_copied = 0;  ///< where faces met in no orientable 2-manifold
   std::int64_t holes_closed = 0;
   std::int64_t longest_hole = 0;    ///< edges round the longest of them

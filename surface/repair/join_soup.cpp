@@ -6,6 +6,9 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "surface/mesh/half_edges.hpp"
+#include "surface/mesh/loose_parts.hpp"
+#include "surface/repair/repeated_polygons.hpp"
+#include "surface/repair/split_edges.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -45,6 +48,30 @@ std::int64_t unused_vertices(const PolygonSoup& soup) {
   return std::count(used.begin(), used.end(), false);
 }
 
+/// Parts of less than `least_area` of the largest set no scale, unless they make up a good part of
+/// the whole: then the surface is in pieces that are still to be joined.
+double extent_without_specks(const Surface& surface, double least_area) {
+  constexpr double most_in_specks = 0.01;  // of the area
+  const LooseParts parts = loose_parts(surface);
+  if (parts.areas.empty()) return 0;
+  const double least = least_area * *std::max_element(parts.areas.begin(), parts.areas.end());
+  double all = 0;
+  double in_specks = 0;
+  for (const double its : parts.areas) {
+    all += its;
+    if (its < least) in_specks += its;
+  }
+  if (in_specks == 0 || in_specks > most_in_specks * all) return extent_of_faces(surface);
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    if (parts.areas[idx(parts.part_of_face[idx(f)])] < least) continue;
+    for (const std::int32_t v : surface.triangles.row(f)) {
+      box.extend(surface.positions.row(v).transpose());
+    }
+  }
+  return box.diagonal().norm();
+}
+
 }  // namespace
 
 double extent_of_faces(const Surface& surface) {
@@ -55,9 +82,10 @@ double extent_of_faces(const Surface& surface) {
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-Joined join_soup(const PolygonSoup& soup, double distance_of_extent, Changes& changes,
-                 std::int64_t& vertices_joined) {
-  Joined joined{{soup.positions, triangulate(soup)}, {}};
+Joined join_soup(const PolygonSoup& soup, const JoinOptions& options, Changes& changes,
+                 JoinCounts& counts) {
+  const auto once = without_repeated_polygons(soup, changes.duplicate_faces_dropped);
+  Joined joined{{soup.positions, triangulate(once ? *once : soup, options.stop)}, {}};
   joined.merged_into.resize(idx(joined.surface.positions.rows()));
   std::iota(joined.merged_into.begin(), joined.merged_into.end(), 0);
   for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
@@ -70,12 +98,15 @@ Joined join_soup(const PolygonSoup& soup, double distance_of_extent, Changes& ch
   const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
   changes.vertices_merged = merge(joined, exactly);
   drop_repeats(joined, changes);
-  const double distance = distance_of_extent * extent_of_faces(joined.surface);
+  const double distance =
+      options.distance_of_extent * extent_without_specks(joined.surface, options.least_area);
   const auto open = on_boundary(joined);
   if (distance > 0 && std::find(open.begin(), open.end(), true) != open.end()) {
     const auto nearly = nearby_vertices(joined.surface.positions, open, distance);
-    vertices_joined = merge(joined, nearly);
+    counts.vertices_joined = merge(joined, nearly);
     drop_repeats(joined, changes);
+    counts.edges_split = split_edges_at_vertices(joined.surface, distance);
+    if (counts.edges_split > 0) drop_repeats(joined, changes);
   }
   return joined;
 }
