@@ -25,8 +25,8 @@ inline constexpr NameTable<Wrapping, 3> wrappings{{
 }};
 
 struct RepairOptions {
-  /// Vertices on the boundary that lie nearer to each other become one, of D. Rounding tears a
-  /// surface by 1e-7 D.
+  /// Vertices on the boundary that lie nearer to each other become one, of D, but no farther apart
+  /// than a quarter of the median edge there. Rounding tears a surface by 1e-7 D.
   double join_distance = 1e-6;
   /// Components with less area are left out, of the largest component's area; 0 keeps all.
   double least_area = 1e-4;

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/loose_parts.hpp"
 #include "surface/repair/repeated_polygons.hpp"
@@ -72,6 +74,28 @@ double extent_without_specks(const Surface& surface, double least_area) {
   return box.diagonal().norm();
 }
 
+/// Of the edges with one face.
+double median_boundary_edge(const Surface& surface, const HalfEdges& half_edges) {
+  std::vector<double> lengths;
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(half_edges.twin.size()); ++h) {
+    if (half_edges.twin[idx(h)] >= 0) continue;
+    const std::int32_t from = surface.triangles.data()[h];
+    const std::int32_t to = surface.triangles.data()[next_half_edge(h)];
+    lengths.push_back((surface.positions.row(to) - surface.positions.row(from)).norm());
+  }
+  return lengths.empty() ? 0 : median_of(std::move(lengths));
+}
+
+/// What lies far away must not make it as long as the edges of rims: it would eat them.
+double distance_to_join(const Surface& surface, const JoinOptions& options) {
+  constexpr double most_of_an_edge = 0.25;
+  const double wanted =
+      options.distance_of_extent * extent_without_specks(surface, options.least_area);
+  const auto vertices = static_cast<std::int32_t>(surface.positions.rows());
+  const double edge = median_boundary_edge(surface, pair_half_edges(surface.triangles, vertices));
+  return std::min(wanted, most_of_an_edge * edge);
+}
+
 }  // namespace
 
 double extent_of_faces(const Surface& surface) {
@@ -98,8 +122,7 @@ Joined join_soup(const PolygonSoup& soup, const JoinOptions& options, Changes& c
   const auto exactly = coincident_vertices(joined.surface.positions, on_boundary(joined));
   changes.vertices_merged = merge(joined, exactly);
   drop_repeats(joined, changes);
-  const double distance =
-      options.distance_of_extent * extent_without_specks(joined.surface, options.least_area);
+  const double distance = distance_to_join(joined.surface, options);
   const auto open = on_boundary(joined);
   if (distance > 0 && std::find(open.begin(), open.end(), true) != open.end()) {
     const auto nearly = nearby_vertices(joined.surface.positions, open, distance);

@@ -35,9 +35,9 @@ struct JoinCounts {
 
 /// Drops repeated polygons, triangulates, drops degenerate and repeated faces, merges coincident
 /// vertices on the boundary, then those within `distance_of_extent` x the extent (of the parts that
-/// are no specks), and splits boundary edges at boundary vertices that lie within that distance of
-/// them. Adds its work to `changes` and `counts`. Nothing says that a manifold comes out. Throws
-/// Cancelled on a stop.
+/// are no specks; no more than a quarter of the median boundary edge), and splits boundary edges at
+/// boundary vertices that lie within that distance of them. Adds its work to `changes` and
+/// `counts`. Nothing says that a manifold comes out. Throws Cancelled on a stop.
 [[nodiscard]] Joined join_soup(const PolygonSoup& soup, const JoinOptions& options,
                                Changes& changes, JoinCounts& counts);
 

@@ -199,15 +199,31 @@ class Reaching {
            });
   }
 
+  /// True if the nodes from the tip to node k lie so near to the straight way from it to the rim
+  /// that nothing is given up if they move to that way.
+  [[nodiscard]] bool keeps_cover(const Limb& limb, std::size_t k, const Rim& rim) const {
+    constexpr double least_cover = 1.25;  // of the ball at node k or the rim
+    const double farthest = least_cover * std::max(skeleton_.radii[limb[k]], rim.least_radius);
+    const Eigen::Vector3d from = skeleton_.nodes.row(limb[k]);
+    const Eigen::Vector3d way = end_of(rim, from) - from;
+    return std::all_of(limb.begin(), limb.begin() + static_cast<std::ptrdiff_t>(k), [&](int node) {
+      const Eigen::Vector3d p = skeleton_.nodes.row(node);
+      const double along = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      return (from + along * way - p).norm() <= farthest;
+    });
+  }
+
   /// The nodes from the tip on that would have to move for the limb to go on to the rim without
-  /// turning back; -1 = it cannot.
+  /// turning back; -1 = it cannot. A hole may be long but narrow, a slit along the limb: its width
+  /// bounds the way back from the tip, not its length.
   [[nodiscard]] int nodes_to_move(const Limb& limb, const Rim& rim) const {
     double walked = 0;
     for (std::size_t k = 0; k < limb.size(); ++k) {
       if (k > 0) walked += (skeleton_.nodes.row(limb[k]) - skeleton_.nodes.row(limb[k - 1])).norm();
       if (k > 0 && k + 1 == limb.size()) break;
-      if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.mean_radius)) break;
-      if (faces(limb, k, rim) && is_near(limb[k], rim, usual_width)) return static_cast<int>(k);
+      if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.least_radius)) break;
+      if (!faces(limb, k, rim) || !is_near(limb[k], rim, usual_width)) continue;
+      if (keeps_cover(limb, k, rim)) return static_cast<int>(k);
     }
     return -1;
   }
@@ -241,6 +257,7 @@ class Reaching {
   /// place that makes it no spur.
   void reach_from_the_side() {
     constexpr double least_width_of_side = 0.7;
+    constexpr double least_width_of_slit = 0.5;  // at its narrowest; rims are jagged
     constexpr double least_length = 1.1;
     constexpr double junction_cost = 0.7;  // a rim near a junction hangs from it
     const std::vector<int> degree = degrees(skeleton_.nodes.rows(), skeleton_.edges);
@@ -252,6 +269,7 @@ class Reaching {
         const double distance = (rims_[o].middle - skeleton_.nodes.row(node).transpose()).norm();
         const double cost = distance * (degree[idx(node)] > 2 ? junction_cost : 1);
         if (distance < least_length * skeleton_.radii[node] || cost >= nearest) continue;
+        if (rims_[o].least_radius < least_width_of_slit * skeleton_.radii[node]) continue;
         if (!is_near(node, rims_[o], least_width_of_side)) continue;
         best = node;
         nearest = cost;
