@@ -129,16 +129,22 @@ class Reaching {
            rim.mean_radius >= least_width * radius && way_is_inside(tree_, p, end_of(rim, p));
   }
 
-  /// The limb arrives at its node k from outside the ball there; within, it has no direction.
-  [[nodiscard]] bool faces(const Limb& limb, std::size_t k, const Rim& rim) const {
-    constexpr double cosine = 0.5;
+  /// The direction in which the limb arrives at its node k from outside the ball there; within, it
+  /// has none, zero.
+  [[nodiscard]] Eigen::Vector3d direction(const Limb& limb, std::size_t k) const {
     const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
     for (std::size_t i = k + 1; i < limb.size(); ++i) {
       const Eigen::Vector3d way = p - skeleton_.nodes.row(limb[i]).transpose();
-      if (way.norm() < skeleton_.radii[limb[k]] && i + 1 < limb.size()) continue;
-      return way.normalized().dot((rim.middle - p).normalized()) >= cosine;
+      if (way.norm() >= skeleton_.radii[limb[k]] || i + 1 == limb.size()) return way.normalized();
     }
-    return true;
+    return Eigen::Vector3d::Zero();
+  }
+
+  [[nodiscard]] bool faces(const Limb& limb, std::size_t k, const Rim& rim) const {
+    constexpr double cosine = 0.5;
+    const Eigen::Vector3d arrives = direction(limb, k);
+    const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
+    return arrives.isZero() || arrives.dot((rim.middle - p).normalized()) >= cosine;
   }
 
   /// The nodes lie evenly between two places from now on.
@@ -199,17 +205,14 @@ class Reaching {
            });
   }
 
-  /// True if the nodes from the tip to node k lie so near to the straight way from it to the rim
-  /// that nothing is given up if they move to that way.
-  [[nodiscard]] bool keeps_cover(const Limb& limb, std::size_t k, const Rim& rim) const {
-    constexpr double least_cover = 1.25;  // of the ball at node k or the rim
-    const double farthest = least_cover * std::max(skeleton_.radii[limb[k]], rim.least_radius);
-    const Eigen::Vector3d from = skeleton_.nodes.row(limb[k]);
-    const Eigen::Vector3d way = end_of(rim, from) - from;
+  /// True if no node from the tip to node k reaches much farther ahead than the rim: only what
+  /// turns aside there may move to the way to it.
+  [[nodiscard]] bool keeps_reach(const Limb& limb, std::size_t k, const Rim& rim) const {
+    constexpr double most_lost = 1.25;  // of the ball at node k or the rim
+    const double farthest = most_lost * std::max(skeleton_.radii[limb[k]], rim.least_radius);
+    const Eigen::Vector3d ahead = direction(limb, k);
     return std::all_of(limb.begin(), limb.begin() + static_cast<std::ptrdiff_t>(k), [&](int node) {
-      const Eigen::Vector3d p = skeleton_.nodes.row(node);
-      const double along = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
-      return (from + along * way - p).norm() <= farthest;
+      return (skeleton_.nodes.row(node).transpose() - rim.middle).dot(ahead) <= farthest;
     });
   }
 
@@ -223,7 +226,7 @@ class Reaching {
       if (k > 0 && k + 1 == limb.size()) break;
       if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.least_radius)) break;
       if (!faces(limb, k, rim) || !is_near(limb[k], rim, usual_width)) continue;
-      if (keeps_cover(limb, k, rim)) return static_cast<int>(k);
+      if (keeps_reach(limb, k, rim)) return static_cast<int>(k);
     }
     return -1;
   }
