@@ -77,6 +77,7 @@ Json to_json(const Merging& m) {
 
 Json to_json(const Repairs& r) {
   return {{"vertices_joined", r.vertices_joined},
+          {"edges_split", r.edges_split},
           {"vertices_copied", r.vertices_copied},
           {"holes_closed", r.holes_closed},
           {"longest_hole", r.longest_hole},

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ struct CleanSurface {
 /// right, corners keep their order. Returns the triangles in the polygons' order: #corners - 2 for
 /// each after leaving out corners that repeat the one before them, and one triangle with a repeated
 /// corner for a polygon with one or two. Where it can, it avoids diagonals that are an edge or a
-/// diagonal of another polygon too. O(k^2) at worst for a polygon of k corners.
-[[nodiscard]] Triangles triangulate(const PolygonSoup& given);
+/// diagonal of another polygon too. O(k log k) for a polygon of k corners, O(k^2) at worst. Throws
+/// Cancelled on a stop.
+[[nodiscard]] Triangles triangulate(const PolygonSoup& given, const std::stop_token& stop = {});
 
 /// Triangulates, merges coincident vertices (exactly equal positions, and only where that does not
 /// make a manifold edge or vertex non-manifold), drops duplicate and degenerate faces and isolated

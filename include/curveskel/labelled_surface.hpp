@@ -37,8 +37,8 @@ struct BranchLabels {
 
 /// The bytes of the file: vertices and polygons as given, in order, with the number of the branch
 /// (-1 = of none) and its colour; GLB has triangles and single precision. Precondition: one label
-/// for each vertex, one for each polygon. `provenance` is one line, no newline, may be empty.
-/// O(#V + corners).
+/// for each vertex, one for each polygon. Line ends in `provenance` become blanks; it may be
+/// empty. O(#V + corners).
 [[nodiscard]] std::string format_labelled_surface(const PolygonSoup& soup,
                                                   const BranchLabels& labels, LabelledFormat format,
                                                   std::string_view provenance = {});

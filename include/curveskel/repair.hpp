@@ -25,8 +25,8 @@ inline constexpr NameTable<Wrapping, 3> wrappings{{
 }};
 
 struct RepairOptions {
-  /// Vertices on the boundary that lie nearer to each other become one, of D. Rounding tears a
-  /// surface by 1e-7 D.
+  /// Vertices on the boundary that lie nearer to each other become one, of D, but no farther apart
+  /// than a quarter of the median edge there. Rounding tears a surface by 1e-7 D.
   double join_distance = 1e-6;
   /// Components with less area are left out, of the largest component's area; 0 keeps all.
   double least_area = 1e-4;
@@ -62,7 +62,8 @@ void require_valid(const RepairOptions& options);
 struct Merging {
   struct Covered {
     int component = 0;
-    int inside = 0;  ///< the smallest component around it
+    int inside = 0;  ///< the smallest component around it, or the first of the body in whose filled
+                     ///< cavity it lies
   };
   struct Apart {
     int component = 0;
@@ -80,6 +81,7 @@ struct Merging {
 /// The repairs beyond those that `Changes` counts. `lines` says the same in words.
 struct Repairs {
   std::int64_t vertices_joined = 0;  ///< with another that lay within the join distance
+  std::int64_t edges_split = 0;      ///< of rims, at vertices of another rim that lie on them
   std::int64_t vertices_copied = 0;  ///< where faces met in no orientable 2-manifold
   std::int64_t holes_closed = 0;
   std::int64_t longest_hole = 0;    ///< edges round the longest of them

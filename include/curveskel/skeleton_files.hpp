@@ -34,7 +34,7 @@ inline constexpr NameTable<SkeletonFormat, 10> skeleton_formats{{
 /// surface, the others use the provenance line as a comment where the format has comments.
 struct SkeletonContext {
   const Surface* surface = nullptr;  ///< for pictures
-  std::string provenance;            ///< "curveskel 0.1.0, model.obj" : one line, no newline
+  std::string provenance;            ///< "curveskel 0.1.0, model.obj"; line ends become blanks
   /// A JSON object (parameters, certificate, ...) or empty. Its members become members of the JSON
   /// file, beside "format", "version", "provenance", "nodes", "edges", "radii",
   /// "node_of_vertex" and "root", which it must not have.

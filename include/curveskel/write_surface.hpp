@@ -16,10 +16,10 @@ inline constexpr NameTable<SurfaceFormat, 5> written_surface_formats{
 
 /// The bytes of an OBJ, OFF, PLY (binary, little-endian, double), STL (binary, float) or OM
 /// (double) file; give them to `write_file`. Reading all but STL gives the same doubles and the
-/// same order back. `provenance` becomes a comment, which OM has none of: one line, no newline, may
-/// be empty. Throws Error(Fault::output) for formats that are only read, for STL where single
-/// precision would move a vertex by more than 1e-4 of the bounding box's diagonal, and for OM where
-/// the faces are no oriented 2-manifold, with or without boundary. O(#V + #F).
+/// same order back. `provenance` becomes a comment, which OM has none of: line ends in it become
+/// blanks; may be empty. Throws Error(Fault::output) for formats that are only read, for STL where
+/// single precision would move a vertex by more than 1e-4 of the bounding box's diagonal, and for
+/// OM where the faces are no oriented 2-manifold, with or without boundary. O(#V + #F).
 [[nodiscard]] std::string format_surface(const Surface& surface, SurfaceFormat format,
                                          std::string_view provenance = {});
 

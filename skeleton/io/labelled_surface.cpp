@@ -10,6 +10,7 @@
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/clean.hpp>
 #include "base/decimal.hpp"
+#include "base/one_line.hpp"
 #include "skeleton/io/xml_lines.hpp"
 
 namespace curveskel {
@@ -47,7 +48,7 @@ std::string ply_of(const Labelled& labelled) {
   const std::string colour =
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int branch\n";
   std::string bytes = "ply\nformat binary_little_endian 1.0\n";
-  if (!labelled.provenance.empty()) bytes += "comment " + std::string(labelled.provenance) + "\n";
+  if (!labelled.provenance.empty()) bytes += "comment " + in_one_line(labelled.provenance) + "\n";
   bytes += "element vertex " + std::to_string(labelled.vertices()) +
            "\nproperty double x\nproperty double y\nproperty double z\n" + colour;
   bytes += "element face " + std::to_string(labelled.polygons()) + "\nproperty list " +

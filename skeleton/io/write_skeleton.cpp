@@ -6,6 +6,7 @@
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "base/decimal.hpp"
+#include "base/one_line.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 #include "skeleton/picture/picture.hpp"
 
@@ -46,7 +47,7 @@ std::vector<int> isolated_nodes(const CurveSkeleton& skeleton) {
 
 std::string obj_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
   std::string text;
-  if (!context.provenance.empty()) text += "# " + context.provenance + "\n";
+  if (!context.provenance.empty()) text += "# " + in_one_line(context.provenance) + "\n";
   for (const auto& node : skeleton.nodes.rowwise()) {
     text += "v ";
     append_decimals(text, node, ' ');
@@ -69,7 +70,7 @@ std::string ply_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   const bool has_radii = skeleton.radii.size() > 0;
   const bool with_lives = has_lives(skeleton);
   std::string text = "ply\nformat ascii 1.0\n";
-  if (!context.provenance.empty()) text += "comment " + context.provenance + "\n";
+  if (!context.provenance.empty()) text += "comment " + in_one_line(context.provenance) + "\n";
   text += "element vertex ";
   append_decimal(text, skeleton.nodes.rows());
   text += "\nproperty double x\nproperty double y\nproperty double z\n";

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/union_find.hpp>
 #include "base/decimal.hpp"
+#include "base/one_line.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 
 namespace curveskel {
@@ -95,7 +96,7 @@ double placeholder_radius(const CurveSkeleton& skeleton) {
 std::string swc_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
   constexpr int undefined_type = 0;
   std::string text;
-  if (!context.provenance.empty()) text += "# " + context.provenance + "\n";
+  if (!context.provenance.empty()) text += "# " + in_one_line(context.provenance) + "\n";
   text += "# id type x y z radius parent\n";
   if (skeleton.nodes.rows() == 0) return text;
 

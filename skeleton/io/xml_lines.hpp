@@ -1,11 +1,12 @@
 // XML that is written line by line.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <pugixml.hpp>
 #include <string>
 #include <utility>
+
+#include "base/one_line.hpp"
 
 namespace curveskel {
 
@@ -18,8 +19,7 @@ class XmlLines {
     head.append_attribute("encoding") = "UTF-8";
     end_line(document);
     if (provenance.empty()) return;
-    std::string text = " " + provenance + " ";
-    std::replace_if(text.begin(), text.end(), is_control, ' ');
+    const std::string text = " " + in_one_line(provenance) + " ";
     document.append_child(pugi::node_comment).set_value(text.c_str());
     end_line(document);
   }
@@ -45,9 +45,6 @@ class XmlLines {
   }
 
   pugi::xml_document document;
-
- private:
-  static bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20; }
 };
 
 /// A DataArray with one line per call of `append_row(text, row)`.

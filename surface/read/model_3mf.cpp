@@ -151,7 +151,8 @@ class Model3mfParser {
       if (!numbers_.emplace(id, model_.objects.size()).second) {
         fail("a second object " + in_quotes(id), "different ids");
       }
-      model_.objects.emplace_back();
+      const std::string_view type = attributes.find("type").value_or("model");
+      model_.objects.emplace_back().is_support = type == "support" || type == "solidsupport";
     } else if (name == "component") {
       Placed3mf placed = placement(attributes);
       if (placed.object + 1 >= model_.objects.size()) {
@@ -159,7 +160,8 @@ class Model3mfParser {
       }
       object().components.push_back(std::move(placed));
     } else if (name == "item") {
-      model_.items.push_back(placement(attributes));
+      Placed3mf placed = placement(attributes);
+      if (!model_.objects[placed.object].is_support) model_.items.push_back(std::move(placed));
     }
   }
 
@@ -222,6 +224,7 @@ class Model3mfParser {
     const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
     for (int k = 0; k < 12; ++k) {
       at = std::find_if_not(at, end, blank);
+      if (at != end && *at == '+') ++at;
       const auto [next, error] = fast_float::from_chars(at, end, frame(k % 3, k / 3));
       if (error != std::errc() || !std::isfinite(frame(k % 3, k / 3))) {
         fail("the transform " + in_quotes(text), "twelve finite numbers");

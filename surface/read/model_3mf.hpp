@@ -21,12 +21,13 @@ struct Object3mf {
   std::vector<double> coordinates;    ///< x y z x y z ...
   std::vector<std::int32_t> corners;  ///< three per triangle, all within its vertices
   std::vector<Placed3mf> components;
+  bool is_support = false;  ///< holds others while they are printed, and is broken off
 };
 
 struct Model3mf {
   double millimetres = 1;  ///< of the file's unit
   std::vector<Object3mf> objects;
-  std::vector<Placed3mf> items;  ///< what is to be built
+  std::vector<Placed3mf> items;  ///< what is to be built, without supports
 };
 
 /// Throws Error(Fault::input) with the line, and for extensions that are required and unknown here,

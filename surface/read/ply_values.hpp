@@ -54,7 +54,14 @@ class AsciiPlyValues {
     }
     text_.skip_space(0);
     if (text_.done()) fail(place, "the end of the file", "a value");
+    const TextCursor start = text_;
     const std::int64_t value = text_.integer("an integer");
+    if (text_.peek() == '.') {  // some writers have 4.0
+      text_ = start;
+      const double number = text_.number("an integer");
+      if (number != std::floor(number)) start.fail("an integer", ply_remedy);
+      return integer_from(number);
+    }
     text_.expect_word_end("an integer");
     return value;
   }

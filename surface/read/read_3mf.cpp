@@ -1,11 +1,13 @@
 // 3MF: a ZIP archive whose relationships name the model, in millimetres.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/memory.hpp"
+#include "base/uri.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/model_3mf.hpp"
 #include "surface/read/xml.hpp"
@@ -108,16 +110,34 @@ PolygonSoup built(const Model3mf& model, const Monitor& monitor) {
   return soup;
 }
 
+std::string lower_name(std::string_view name) {
+  std::string result(name);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// As the archive has it: names of parts are alike in any case.
+std::string name_in_archive(const ZipArchive& archive, const std::string& name) {
+  if (archive.holds(name)) return name;
+  const auto alike =
+      std::find_if(archive.names().begin(), archive.names().end(),
+                   [&](const std::string& other) { return lower_name(other) == lower_name(name); });
+  return alike == archive.names().end() ? name : *alike;
+}
+
 /// The model's name in the archive; empty where no relationship names one.
 std::string model_name(const ZipArchive& archive, const Monitor& monitor) {
-  const std::string name(relationships);
+  const std::string name = name_in_archive(archive, std::string(relationships));
   if (!archive.holds(name)) return {};
   const FileBytes part = archive.unpack(name, monitor);
   const XmlElement root = parse_xml(part);
   for (const XmlElement* relationship : root.all("Relationship")) {
     if (relationship->attribute("Type") != model_type) continue;
-    std::string target(relationship->attribute("Target"));
-    return target.starts_with('/') ? target.substr(1) : target;
+    std::string_view target = relationship->attribute("Target");
+    if (target.starts_with('/')) target.remove_prefix(1);
+    const std::string as_it_is = name_in_archive(archive, std::string(target));
+    return archive.holds(as_it_is) ? as_it_is : name_in_archive(archive, without_escapes(target));
   }
   return {};
 }

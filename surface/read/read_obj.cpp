@@ -12,6 +12,9 @@
 namespace curveskel {
 namespace {
 
+/// Under its old name, too.
+bool accept_face(TextCursor& text) { return text.accept("f") || text.accept("fo"); }
+
 constexpr std::string_view index_remedy =
     "OBJ counts vertices from 1, or from -1 backwards; export the file again";
 
@@ -35,6 +38,24 @@ void read_face(TextCursor& text, std::int64_t vertices, PolygonSoup& soup) {
   end_polygon(soup);
 }
 
+/// Counts of elements that are no polygons.
+struct OtherElements {
+  std::int64_t lines = 0;
+  std::int64_t free_forms = 0;
+};
+
+void refuse_without_faces(const FileBytes& file, const OtherElements& others) {
+  if (others.free_forms > 0) {
+    file.fail("free-form surfaces: " + std::to_string(others.free_forms) +
+                  " of them (\"surf\") and no faces",
+              "polygons", "export it as a mesh, in the program that wrote it");
+  }
+  if (others.lines > 0) {
+    file.fail("a drawing of lines: " + std::to_string(others.lines) + " lines (\"l\") and no faces",
+              "a surface with faces", "give the surface, of which a skeleton can be made");
+  }
+}
+
 /// A face may come before its vertices, so the upper bound can be checked at the end only; the
 /// line is then found by going through the file once more.
 void check_indices(const FileBytes& file, const PolygonSoup& soup) {
@@ -48,7 +69,7 @@ void check_indices(const FileBytes& file, const PolygonSoup& soup) {
   TextCursor text(file);
   for (std::int64_t faces = 0; !text.done(); text.skip_continued_line()) {
     text.skip_blanks();
-    if (text.accept("f") && faces++ == polygon) break;
+    if (accept_face(text) && faces++ == polygon) break;
   }
   text.fail("a vertex index of at most " + std::to_string(vertices), index_remedy,
             "vertex " + std::to_string(std::int64_t{*bad} + 1));
@@ -61,20 +82,22 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
   soup.format = SurfaceFormat::obj;
   soup.offsets.push_back(0);
   std::vector<double> coordinates;
-  std::int64_t lines = 0;
+  OtherElements others;
   TextCursor text(file);
   for (std::int64_t row = 0; !text.done(); ++row) {
     if (row % rows_per_report == 0) monitor.report("read", text.fraction());
     text.skip_blanks();
     if (text.accept("v")) {
       text.read_vertex(coordinates);
-    } else if (text.accept("f")) {
+    } else if (accept_face(text)) {
       read_face(text, static_cast<std::int64_t>(coordinates.size() / 3), soup);
     } else if (text.peek() == '#') {
       text.skip_line();
       continue;
     } else if (text.accept("l")) {
-      ++lines;
+      ++others.lines;
+    } else if (text.accept("surf")) {
+      ++others.free_forms;
     }
     text.skip_continued_line();
   }
@@ -88,10 +111,7 @@ PolygonSoup read_obj(const FileBytes& file, const Monitor& monitor) {
               "vertices and faces of an OBJ file",
               "check the file's content, or name it by its format");
   }
-  if (soup.corners.empty() && lines > 0) {
-    file.fail("a drawing of lines: " + std::to_string(lines) + " lines (\"l\") and no faces",
-              "a surface with faces", "give the surface, of which a skeleton can be made");
-  }
+  if (soup.corners.empty()) refuse_without_faces(file, others);
   soup.positions = positions_from(coordinates);
   check_indices(file, soup);
   return soup;

@@ -1,5 +1,8 @@
 // Geomview's Object File Format. Prefixes of the keyword announce colours (C), normals (N) and
 // texture coordinates (ST) behind each position; they are passed over with the rest of the line.
+// Without them the rest of the line is passed over, too, where each vertex and face seems to have a
+// line of its own; else numbers stand on any line.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -15,6 +18,7 @@ namespace {
 struct OffCounts {
   std::int64_t vertices = 0;
   std::int64_t faces = 0;
+  bool own_lines = true;  ///< for each vertex
 };
 
 /// Steps over the keyword, which may be missing altogether.
@@ -42,6 +46,66 @@ std::optional<std::size_t> begin_of_binary(TextCursor text) {
   return text.position() + (text.done() ? 0 : 1);
 }
 
+/// Nothing more on the line but blanks and a comment.
+bool ends_line(TextCursor text) {
+  text.skip_blanks();
+  return text.at_line_end() || text.peek() == '#';
+}
+
+/// True if nothing but an integer stands on the next line that is not empty.
+bool integer_alone(TextCursor text) {
+  text.skip_space('#');
+  const std::string_view word = text.word();
+  const bool digits = !word.empty() && std::all_of(word.begin(), word.end(),
+                                                   [](char c) { return c >= '0' && c <= '9'; });
+  return digits && ends_line(text);
+}
+
+/// True if at least this many lines follow that are neither empty nor comments.
+bool has_lines(TextCursor text, std::int64_t least) {
+  for (std::int64_t lines = 0; lines < least; ++lines) {
+    text.skip_space('#');
+    if (text.done()) return false;
+    text.skip_line();
+  }
+  return true;
+}
+
+std::int64_t words_on_line(TextCursor& text) {
+  std::int64_t words = 0;
+  for (; !ends_line(text); ++words) {
+    text.skip_blanks();
+    text.word();
+  }
+  return words;
+}
+
+/// True if as many lines as there are vertices, or to the end of the file, have equally many words:
+/// a position and more behind it. The file's last line may be cut off.
+bool has_rows(TextCursor text, std::int64_t vertices) {
+  std::int64_t first = 0;
+  for (std::int64_t row = 0; row < vertices; ++row) {
+    text.skip_space('#');
+    const std::int64_t words = words_on_line(text);
+    text.skip_space('#');
+    if (row == 0) first = words;
+    if (text.done()) break;
+    if (words != first) return false;
+  }
+  return first > 3 && first < 3 * vertices;
+}
+
+bool has_extras(const std::optional<OffKeyword>& keyword) {
+  return keyword && (keyword->texture || keyword->colours || keyword->normals);
+}
+
+/// The number of edges, which many writers leave out or zero. `on_one_line`: the counts before it.
+void skip_edges(TextCursor& text, bool on_one_line) {
+  if (ends_line(text) && on_one_line && !integer_alone(text)) return;
+  text.skip_space('#');
+  text.word();
+}
+
 OffCounts read_header(TextCursor& text, const std::optional<OffKeyword>& keyword) {
   TextCursor start = text;
   if (keyword) {
@@ -56,9 +120,13 @@ OffCounts read_header(TextCursor& text, const std::optional<OffKeyword>& keyword
   text.skip_space('#');
   start = text;
   counts.vertices = text.integer("the number of vertices");
+  const bool on_one_line = !ends_line(text);
   text.skip_space('#');
   counts.faces = text.integer("the number of faces");
-  text.skip_line();  // the number of edges, which many writers leave out or zero
+  if (!has_extras(keyword)) skip_edges(text, on_one_line);
+  TextCursor rest = text;
+  rest.skip_line();
+  if (has_extras(keyword) || ends_line(text)) text = rest;
 
   // "0 0 0\n" is the shortest vertex, "0\n" the shortest face.
   const auto left = static_cast<std::int64_t>(text.bytes_left()) + 1;
@@ -69,6 +137,9 @@ OffCounts read_header(TextCursor& text, const std::optional<OffKeyword>& keyword
                std::to_string(counts.vertices) + " vertices and " + std::to_string(counts.faces) +
                    " faces announced");
   }
+  counts.own_lines = has_extras(keyword) || has_lines(rest, counts.vertices + counts.faces) ||
+                     has_rows(text, counts.vertices);
+  if (counts.own_lines) text = rest;
   return counts;
 }
 
@@ -80,7 +151,7 @@ void check_not_done(const TextCursor& text, std::int64_t row, std::int64_t rows,
             "the end of the file after " + std::to_string(row));
 }
 
-void read_vertices(TextCursor& text, PolygonSoup& soup, const Monitor& monitor) {
+void read_vertices(TextCursor& text, PolygonSoup& soup, bool own_lines, const Monitor& monitor) {
   constexpr std::array<std::string_view, 3> needed{"the x coordinate of a vertex",
                                                    "the y coordinate of a vertex",
                                                    "the z coordinate of a vertex"};
@@ -91,7 +162,7 @@ void read_vertices(TextCursor& text, PolygonSoup& soup, const Monitor& monitor) 
       if (k == 0) check_not_done(text, i, soup.positions.rows(), "vertices");
       soup.positions(i, k) = text.coordinate(needed[static_cast<std::size_t>(k)]);
     }
-    text.skip_line();
+    if (own_lines) text.skip_line();
   }
 }
 
@@ -113,7 +184,6 @@ void read_face(TextCursor& text, PolygonSoup& soup) {
     soup.corners.push_back(static_cast<std::int32_t>(vertex));
   }
   text.expect_word_end("an integer");
-  text.skip_line();  // colours
   end_polygon(soup);
 }
 
@@ -136,7 +206,8 @@ PolygonSoup read_off(const FileBytes& file, const Monitor& monitor) {
               "at most " + std::to_string(most_vertices), "split or decimate the surface first");
   }
   soup.positions.resize(counts.vertices, 3);
-  read_vertices(text, soup, monitor);
+  read_vertices(text, soup, counts.own_lines, monitor);
+  const bool own_lines = counts.own_lines || has_lines(text, counts.faces);
   soup.offsets.reserve(static_cast<std::size_t>(counts.faces) + 1);
   soup.corners.reserve(static_cast<std::size_t>(counts.faces) * 3);
   soup.offsets.push_back(0);
@@ -145,6 +216,7 @@ PolygonSoup read_off(const FileBytes& file, const Monitor& monitor) {
     text.skip_space('#');
     check_not_done(text, i, counts.faces, "faces");
     read_face(text, soup);
+    if (own_lines) text.skip_line();  // colours
   }
   return soup;
 }

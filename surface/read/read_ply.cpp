@@ -9,6 +9,7 @@
 #include "surface/read/formats.hpp"
 #include "surface/read/ply_header.hpp"
 #include "surface/read/ply_values.hpp"
+#include "surface/read/triangle_strip.hpp"
 
 namespace curveskel {
 namespace {
@@ -35,28 +36,20 @@ void read_polygon(Values& values, const PlyPlace& place, PolygonSoup& soup) {
   end_polygon(soup);
 }
 
-/// Each vertex past the second makes a triangle with the two before it, of alternating orientation;
 /// -1 starts a new strip.
 template <typename Values>
 void read_strip(Values& values, const PlyPlace& place, PolygonSoup& soup) {
-  std::int32_t first = -1;
-  std::int32_t second = -1;
-  bool odd = false;
+  std::vector<std::int32_t> strip;
   for (std::int64_t left = list_length(values, place); left > 0; --left) {
     const std::int32_t vertex = vertex_index(values, place, soup.positions.rows(), -1);
-    if (vertex < 0) {
-      first = second = -1;
-      odd = false;
+    if (vertex >= 0) {
+      strip.push_back(vertex);
       continue;
     }
-    if (first >= 0) {
-      soup.corners.insert(soup.corners.end(), {odd ? second : first, odd ? first : second, vertex});
-      end_polygon(soup);
-      odd = !odd;
-    }
-    first = second;
-    second = vertex;
+    append_strip(strip, soup);
+    strip.clear();
   }
+  append_strip(strip, soup);
 }
 
 template <typename Values>

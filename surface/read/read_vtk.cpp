@@ -1,6 +1,8 @@
 // VTK's legacy format, PolyData only: text, or big-endian numbers between lines of text; cells with
 // their sizes (up to version 4.2) or as offsets and connectivity (from 5.0 on).
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <span>
 #include <string>
@@ -29,7 +31,7 @@ constexpr std::array<VtkTypeName, 16> vtk_types{{{"float", VtkType::float32},
                                                  {"double", VtkType::float64},
                                                  {"int", VtkType::int32},
                                                  {"unsigned_int", VtkType::uint32},
-                                                 {"vtkIdType", VtkType::int32},
+                                                 {"vtkidtype", VtkType::int32},
                                                  {"vtktypeint64", VtkType::int64},
                                                  {"vtktypeuint64", VtkType::uint64},
                                                  {"vtktypeint32", VtkType::int32},
@@ -41,6 +43,22 @@ constexpr std::array<VtkTypeName, 16> vtk_types{{{"float", VtkType::float32},
                                                  {"char", VtkType::int8},
                                                  {"unsigned_char", VtkType::uint8},
                                                  {"signed_char", VtkType::int8}}};
+
+/// VTK reads its keywords and names of types in any case.
+std::string lower_keyword(std::string_view word) {
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// True if the next word is this keyword, given in lower case; if so it is stepped over.
+bool accept_keyword(TextCursor& text, std::string_view keyword) {
+  TextCursor next = text;
+  if (lower_keyword(next.word()) != keyword) return false;
+  text = next;
+  return true;
+}
 
 double take_number(BinaryCursor& bytes, VtkType type) {
   switch (type) {
@@ -91,14 +109,15 @@ class VtkReader {
     text_.skip_line();
     text_.skip_line();  // the title
     text_.skip_space(0);
-    binary_ = text_.accept("BINARY");
-    if (!binary_ && !text_.accept("ASCII")) text_.fail("\"ASCII\" or \"BINARY\"", vtk_remedy);
+    binary_ = accept_keyword(text_, "binary");
+    if (!binary_ && !accept_keyword(text_, "ascii"))
+      text_.fail("\"ASCII\" or \"BINARY\"", vtk_remedy);
     text_.skip_space(0);
-    if (text_.accept("FIELD")) skip_fields();
+    if (accept_keyword(text_, "field")) skip_fields();
     text_.skip_space(0);
-    if (!text_.accept("DATASET")) text_.fail("\"DATASET\"", vtk_remedy);
+    if (!accept_keyword(text_, "dataset")) text_.fail("\"DATASET\"", vtk_remedy);
     text_.skip_blanks();
-    if (!text_.accept("POLYDATA")) {
+    if (!accept_keyword(text_, "polydata")) {
       text_.fail("POLYDATA",
                  "extract its surface, in ParaView by Filters, Extract Surface, and save that as "
                  ".vtp or .ply");
@@ -109,20 +128,20 @@ class VtkReader {
   bool read_section() {
     const TextCursor start = text_;
     monitor_.report("read", text_.fraction());
-    const std::string_view name = text_.word();
-    if (name == "POINTS") {
+    const std::string name = lower_keyword(text_.word());
+    if (name == "points") {
       read_points();
-    } else if (name == "POLYGONS") {
+    } else if (name == "polygons") {
       read_cells(Cells::polygons);
-    } else if (name == "TRIANGLE_STRIPS") {
+    } else if (name == "triangle_strips") {
       read_cells(Cells::strips);
-    } else if (name == "VERTICES" || name == "LINES") {
+    } else if (name == "vertices" || name == "lines") {
       read_cells(Cells::passed_over);
-    } else if (name == "METADATA") {
+    } else if (name == "metadata") {
       skip_metadata();
-    } else if (name == "FIELD") {
+    } else if (name == "field") {
       skip_fields();
-    } else if (name == "POINT_DATA" || name == "CELL_DATA") {
+    } else if (name == "point_data" || name == "cell_data") {
       return false;
     } else {
       start.fail("POINTS, POLYGONS, TRIANGLE_STRIPS or data", vtk_remedy);
@@ -143,7 +162,7 @@ class VtkReader {
   [[nodiscard]] VtkType type() {
     text_.skip_blanks();
     const TextCursor start = text_;
-    const std::string_view word = text_.word();
+    const std::string word = lower_keyword(text_.word());
     for (const VtkTypeName& known : vtk_types) {
       if (known.name == word) return known.type;
     }
@@ -189,12 +208,12 @@ class VtkReader {
     next.skip_space(0);
     std::vector<double> ends;
     std::vector<double> corners;
-    if (next.accept("OFFSETS")) {
+    if (accept_keyword(next, "offsets")) {
       text_ = next;
       const VtkType of_offsets = type();
       ends = numbers(cells, of_offsets, "an offset");
       text_.skip_space(0);
-      if (!text_.accept("CONNECTIVITY")) text_.fail("\"CONNECTIVITY\"", vtk_remedy);
+      if (!accept_keyword(text_, "connectivity")) text_.fail("\"CONNECTIVITY\"", vtk_remedy);
       const VtkType of_corners = type();
       corners = numbers(size, of_corners, "a point index");
     } else {
@@ -256,7 +275,7 @@ class VtkReader {
     const std::size_t arrays = count("the number of arrays");
     for (std::size_t a = 0; a < arrays; ++a) {
       text_.skip_space(0);
-      if (text_.accept("METADATA")) {
+      if (accept_keyword(text_, "metadata")) {
         skip_metadata();
         text_.skip_space(0);
       }
@@ -266,8 +285,41 @@ class VtkReader {
       if (rows > 0 && components > file_.content.size() / rows) {
         text_.fail("an array that fits into the file", vtk_remedy);
       }
+      skip_array(components * rows);
+    }
+  }
+
+  /// Arrays of fields may be of strings and bits, too.
+  void skip_array(std::size_t values) {
+    text_.skip_blanks();
+    if (accept_keyword(text_, "string")) return skip_strings(values);
+    if (binary_ && accept_keyword(text_, "bit")) {
+      (void)numbers((values + 7) / 8, VtkType::uint8, "bits");
+    } else if (accept_keyword(text_, "bit")) {
+      (void)numbers(values, VtkType::uint8, "a bit");
+    } else {
       const VtkType of = type();
-      (void)numbers(components * rows, of, "a number");
+      (void)numbers(values, of, "a number");
+    }
+  }
+
+  /// A line for each, or in binary files the length before it: two bits tell how many bytes it has.
+  void skip_strings(std::size_t strings) {
+    text_.skip_line();
+    for (std::size_t s = 0; s < strings; ++s) {
+      if (!binary_) {
+        text_.skip_line();
+        continue;
+      }
+      BinaryCursor bytes(file_, text_.position(), std::endian::big);
+      bytes.require(1);
+      const auto first = bytes.take<std::uint8_t>();
+      const std::size_t more = (std::size_t{8} >> (first >> 6U)) - 1;
+      bytes.require(more);
+      std::size_t length = first & 0x3FU;
+      for (std::size_t k = 0; k < more; ++k) length = length << 8U | bytes.take<std::uint8_t>();
+      bytes.require(length);
+      text_.skip(bytes.place() + length - text_.position());
     }
   }
 

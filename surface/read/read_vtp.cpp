@@ -1,5 +1,8 @@
 // VTK's XML PolyData: the polygons and the strips of triangles of every piece.
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,7 +54,8 @@ class VtpReader {
     const XmlElement* points = piece.child("Points");
     const XmlElement* array = points == nullptr ? nullptr : points->child("DataArray");
     if (array == nullptr) fail_at(file_, piece.position, "a piece without points", "<Points>");
-    const std::vector<double> values = vtk_values(file_, root_, *array);
+    const std::vector<double> values =
+        vtk_values(file_, root_, *array, 3 * number_of(piece, "NumberOfPoints"));
     if (values.size() % 3 != 0) {
       fail_at(file_, array->position, std::to_string(values.size()) + " coordinates",
               "three per point");
@@ -61,6 +65,16 @@ class VtpReader {
       file_.fail("more than " + std::to_string(most_vertices) + " vertices", "fewer",
                  "split or decimate the surface first");
     }
+  }
+
+  /// Infinity where the piece does not say it.
+  static double number_of(const XmlElement& piece, std::string_view key) {
+    const std::string_view text = piece.attribute(key);
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size()
+               ? double(number)
+               : std::numeric_limits<double>::infinity();
   }
 
   static const XmlElement* array_of(const XmlElement& cells, std::string_view name) {

@@ -29,12 +29,17 @@ double TextCursor::fraction() const {
   return static_cast<double>(at_ - begin_) / std::max(1.0, static_cast<double>(end_ - begin_));
 }
 
-bool TextCursor::skip_continuation() {
-  const char* next = at_ + 1;
+const char* TextCursor::continuation(const char* c) const {
+  if (*c != '\\') return nullptr;
+  const char* next = c + 1;
   if (*next == '\r' && line_end_ != '\r') ++next;
-  if (*next != line_end_ || next == end_) return false;
-  at_ = next;
-  return true;
+  return *next == line_end_ && next != end_ ? next : nullptr;
+}
+
+bool TextCursor::skip_continuation() {
+  const char* const next = continuation(at_);
+  if (next != nullptr) at_ = next;
+  return next != nullptr;
 }
 
 void TextCursor::skip_space(char comment) {
@@ -71,7 +76,7 @@ bool TextCursor::accept(std::string_view word) {
 
 std::string_view TextCursor::word() {
   const char* begin = at_;
-  while (!ends_word(at_)) ++at_;
+  while (!ends_word(at_) && continuation(at_) == nullptr) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 

@@ -41,7 +41,8 @@ class TextCursor {
 
   /// True if the next word is exactly this one; if so it is stepped over.
   bool accept(std::string_view word);
-  /// Characters up to the next blank or line end; empty only at one. Stepped over.
+  /// Characters up to the next blank, line end or backslash that continues the line; empty only at
+  /// one. Stepped over.
   std::string_view word();
   /// A finite number that ends at a blank, a line end, a comment or the end of the text. `needed`
   /// says what stands here, for the message of the Error(Fault::input) thrown otherwise.
@@ -71,6 +72,8 @@ class TextCursor {
   [[nodiscard]] bool ends_word(const char* c) const {
     return is_blank(*c) || *c == line_end_ || c == end_;
   }
+  /// The line end behind a backslash that continues the line; nullptr = `c` is no such backslash.
+  [[nodiscard]] const char* continuation(const char* c) const;
   bool skip_continuation();
 
   const FileBytes* file_;

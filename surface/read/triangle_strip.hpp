@@ -9,7 +9,8 @@
 
 namespace curveskel {
 
-/// Every second triangle is turned round, as VTK has them; fewer than three corners give none.
+/// Every second triangle is turned round, as VTK and PLY have them; fewer than three corners give
+/// none.
 inline void append_strip(std::span<const std::int32_t> strip, PolygonSoup& soup) {
   for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
     const std::size_t turned = i % 2;

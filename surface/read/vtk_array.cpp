@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "base/base64.hpp"
+#include "base/memory.hpp"
 
 namespace curveskel {
 namespace {
@@ -61,10 +62,12 @@ std::vector<double> values_of(std::string_view bytes, bool swapped) {
 /// One array, and all that a message about it needs.
 class ArrayReader {
  public:
-  ArrayReader(const FileBytes& file, const XmlElement& vtk_file, const XmlElement& array)
+  ArrayReader(const FileBytes& file, const XmlElement& vtk_file, const XmlElement& array,
+              double most_values)
       : file_(file),
         vtk_file_(vtk_file),
         array_(array),
+        most_values_(most_values),
         swapped_(vtk_file.attribute("byte_order", "LittleEndian") == "BigEndian") {
     static_assert(std::endian::native == std::endian::little);
   }
@@ -93,7 +96,7 @@ class ArrayReader {
       at = std::find_if_not(at, end, blank);
       if (at == end) return values;
       double value = 0;
-      const auto [next, error] = fast_float::from_chars(at, end, value);
+      const auto [next, error] = fast_float::from_chars(*at == '+' ? at + 1 : at, end, value);
       if (error != std::errc() || (next != end && !blank(*next))) {
         fail(in_quotes(
                  std::string_view(at, static_cast<std::size_t>(std::find_if(at, end, blank) - at))),
@@ -140,6 +143,25 @@ class ArrayReader {
     return bytes;
   }
 
+  /// For an array of so many bytes once it is unpacked, and its numbers as doubles.
+  void require_room(double bytes) const {
+    const double values = bytes / static_cast<double>(bytes_of_type());
+    if (values > most_values_) {
+      fail(std::to_string(static_cast<std::int64_t>(values)) + " values",
+           std::to_string(static_cast<std::int64_t>(most_values_)) + ", as its piece says");
+    }
+    // Numbers are copied once more, with room to grow.
+    require_memory(2 * bytes + 3 * sizeof(double) * values, available_memory_bytes(),
+                   file_.path.string() + ", unpacked", Fault::input,
+                   "it is too large for this machine, or no honest file");
+  }
+
+  /// 1 for types that are none, which `typed` refuses.
+  [[nodiscard]] std::size_t bytes_of_type() const {
+    const std::string_view type = array_.attribute("type");
+    return type.ends_with("64") ? 8 : type.ends_with("32") ? 4 : type.ends_with("16") ? 2 : 1;
+  }
+
   [[nodiscard]] std::string unpacked(Blocks blocks) const {
     const std::string_view compressor = vtk_file_.attribute("compressor");
     if (compressor.empty()) return taken(blocks, header(blocks, 1)[0]);
@@ -152,7 +174,12 @@ class ArrayReader {
       fail("a header of impossible sizes", "blocks that fit into the file");
     }
     const auto packed_sizes = header(blocks, sizes[0]);
+    const double whole = static_cast<double>(sizes[0] - std::min<std::uint64_t>(sizes[0], 1)) *
+                             static_cast<double>(sizes[1]) +
+                         static_cast<double>(sizes[2] > 0 ? sizes[2] : sizes[1]);
+    require_room(whole);
     std::string all;
+    all.reserve(static_cast<std::size_t>(whole));
     for (std::size_t b = 0; b < packed_sizes.size(); ++b) {
       const bool last = b + 1 == packed_sizes.size();
       const std::uint64_t size = last && sizes[2] > 0 ? sizes[2] : sizes[1];
@@ -190,14 +217,15 @@ class ArrayReader {
   const FileBytes& file_;
   const XmlElement& vtk_file_;
   const XmlElement& array_;
+  double most_values_;
   bool swapped_;
 };
 
 }  // namespace
 
 std::vector<double> vtk_values(const FileBytes& file, const XmlElement& vtk_file,
-                               const XmlElement& data_array) {
-  return ArrayReader(file, vtk_file, data_array).values();
+                               const XmlElement& data_array, double most_values) {
+  return ArrayReader(file, vtk_file, data_array, most_values).values();
 }
 
 }  // namespace curveskel

@@ -15,6 +15,7 @@
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/whole.hpp"
 #include "surface/repair/orient.hpp"
+#include "surface/repair/repeated_polygons.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -206,7 +207,9 @@ void describe_changes(Changes& changes, const Monitor& monitor) {
 
 CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
   monitor.report("clean", 0);
-  Draft draft{soup, {soup.positions, triangulate(soup)}, {}};
+  Draft draft{soup, {soup.positions, {}}, {}};
+  const auto once = without_repeated_polygons(soup, draft.changes.duplicate_faces_dropped);
+  draft.surface.triangles = triangulate(once ? *once : soup, monitor.stop);
   draft.changes.polygons_triangulated = count_polygons_to_split(soup);
   draft.changes.unplaced_vertices_dropped = soup.unplaced_vertices;
   draft.changes.unplaced_polygons_dropped = soup.unplaced_polygons;

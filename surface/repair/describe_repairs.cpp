@@ -79,6 +79,8 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
     line(repairs, monitor, count, one, many, what);
   };
   said(repairs.vertices_joined, "vertex", "vertices", "joined with one that nearly coincides");
+  said(repairs.edges_split, "edge of a hole", "edges of holes",
+       "split at vertices of another that lie on it");
   said(repairs.vertices_copied, "copy of a vertex", "copies of vertices",
        "made where faces met in no orientable 2-manifold");
   said(repairs.holes_closed, "hole", "holes",

@@ -36,6 +36,50 @@ int outermost(const Overlaps& overlaps, int component) {
   return component;
 }
 
+/// Components that are outermost and belong together: each body's, and each of no body alone.
+std::vector<std::vector<int>> solids_of(const Overlaps& overlaps, const Unions& unions) {
+  std::vector<std::vector<int>> solids;
+  std::vector<char> in_body(overlaps.around.size(), 0);
+  for (const UnitedBody& body : unions.bodies) {
+    solids.push_back(body.parts);
+    for (const int part : body.parts) in_body[idx(part)] = 1;
+  }
+  for (int c = 0; c < static_cast<int>(in_body.size()); ++c) {
+    if (in_body[idx(c)] == 0 && overlaps.around[idx(c)] < 0) solids.push_back({c});
+  }
+  return solids;
+}
+
+bool meet(const Overlaps& overlaps, const std::vector<int>& one, const std::vector<int>& other) {
+  return std::any_of(one.begin(), one.end(), [&](int c) {
+    const auto& met = overlaps.met[idx(c)];
+    return std::any_of(other.begin(), other.end(),
+                       [&](int o) { return std::binary_search(met.begin(), met.end(), o); });
+  });
+}
+
+/// A cavity that the parts of a body close in between them is filled: components in it lie inside
+/// the body from now on, of which the first part stands for all.
+void cover_in_cavities(const std::vector<Component>& parts, Unions& unions, Overlaps& overlaps) {
+  const auto solids = solids_of(overlaps, unions);
+  for (const UnitedBody& body : unions.bodies) {
+    if (body.cavities == 0) continue;
+    const SurfaceTree tree(body.surface);
+    for (const std::vector<int>& solid : solids) {
+      if (overlaps.around[idx(solid.front())] >= 0 || solid == body.parts) continue;
+      const Eigen::Vector3d vertex = parts[idx(solid.front())].surface.positions.row(0);
+      if (!tree.inside(vertex) || meet(overlaps, solid, body.parts)) continue;
+      for (const int c : solid) overlaps.around[idx(c)] = body.parts.front();
+    }
+  }
+  const auto is_covered = [&](int c) { return overlaps.around[idx(c)] >= 0; };
+  std::erase_if(unions.bodies,
+                [&](const UnitedBody& body) { return is_covered(body.parts.front()); });
+  std::erase_if(unions.refused, [&](const RefusedUnion& one) {
+    return is_covered(one.one) || is_covered(one.other);
+  });
+}
+
 Merging record_of(const Topology& counted, const Overlaps& overlaps, const Unions& unions) {
   Merging merging;
   merging.components = static_cast<int>(overlaps.around.size());
@@ -118,9 +162,10 @@ class MergedSurface {
 
 void merge_overlapping(RepairedSurface& result, const Monitor& monitor) {
   const Topology counted = topology(result.surface);
-  const Overlaps overlaps = overlaps_of(result.surface, counted, monitor);
+  Overlaps overlaps = overlaps_of(result.surface, counted, monitor);
   const auto parts = split_components(result.surface, counted);
-  const Unions unions = unite(parts, pairs_to_unite(overlaps), monitor);
+  Unions unions = unite(parts, pairs_to_unite(overlaps), monitor);
+  cover_in_cavities(parts, unions, overlaps);
   result.repairs.merging = record_of(counted, overlaps, unions);
   if (unions.bodies.empty() && result.repairs.merging.covered.empty()) return;
   const MergedSurface merged(parts, overlaps, unions, result.surface.positions.rows());

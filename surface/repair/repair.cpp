@@ -150,11 +150,14 @@ void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
 
 /// Faces as they were joined; the refusal stands where there are none, or too many to count.
 Joined joined_faces(const PolygonSoup& soup, const RepairOptions& options, const Error& refusal,
-                    RepairedSurface& result) {
+                    const std::stop_token& stop, RepairedSurface& result) {
   constexpr std::int64_t most_corners = 2147483647 / 2;
   if (static_cast<std::int64_t>(soup.corners.size()) > most_corners) throw refusal;
+  JoinCounts counts;
   Joined joined =
-      join_soup(soup, options.join_distance, result.changes, result.repairs.vertices_joined);
+      join_soup(soup, {options.join_distance, options.least_area, stop}, result.changes, counts);
+  result.repairs.vertices_joined = counts.vertices_joined;
+  result.repairs.edges_split = counts.edges_split;
   if (joined.surface.triangles.rows() == 0) throw refusal;
   return joined;
 }
@@ -194,8 +197,8 @@ std::optional<RepairedSurface> wrap_all(const PolygonSoup& soup, const RepairOpt
                                         const Monitor& monitor) {
   const std::string file = soup.file.empty() ? "surface" : soup.file.string();
   RepairedSurface result;
-  const Joined joined =
-      joined_faces(soup, options, Error(Fault::input, file + ": found no faces to wrap"), result);
+  const Joined joined = joined_faces(
+      soup, options, Error(Fault::input, file + ": found no faces to wrap"), monitor.stop, result);
   const Surface given = what_to_wrap(joined.surface, options, result.repairs);
   std::optional<WrappedSolid> wrapped;
   if (options.wrap_gap > 0) {
@@ -244,7 +247,7 @@ std::int64_t add_thick_sheets(const ClosedParts& closed, const JudgedParts& judg
 RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
   RepairedSurface result;
-  const Joined joined = joined_faces(soup, options, refusal, result);
+  const Joined joined = joined_faces(soup, options, refusal, monitor.stop, result);
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;

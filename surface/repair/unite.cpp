@@ -11,7 +11,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -208,12 +207,19 @@ std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& j
 
 /// Bodies that grow from the parts, and the pairs that are still to be united.
 class Uniting {
+  using Pairs = std::vector<std::size_t>;
+
  public:
   Uniting(const std::vector<Component>& parts, const std::vector<std::pair<int, int>>& meeting)
       : meeting_(meeting),
         is_open_(meeting.size(), 1),
         joined_(static_cast<std::int64_t>(parts.size())),
-        bodies_(parts.size()) {
+        bodies_(parts.size()),
+        pairs_of_(parts.size()) {
+    for (std::size_t pair = 0; pair < meeting.size(); ++pair) {
+      pairs_of_[idx(meeting[pair].first)].push_back(pair);
+      pairs_of_[idx(meeting[pair].second)].push_back(pair);
+    }
     std::vector<std::string> unfit(parts.size());
     Eigen::AlignedBox3d box;
     for (const auto& [a, b] : meeting) {
@@ -253,8 +259,6 @@ class Uniting {
   }
 
  private:
-  using Pairs = std::vector<std::size_t>;
-
   [[nodiscard]] std::size_t triangles(int root) const {
     return bodies_[idx(root)].mesh.number_of_faces();
   }
@@ -277,24 +281,20 @@ class Uniting {
   }
 
   /// An open pair for each of several bodies that meet the hub, but not one another; `first` is one
-  /// of the pairs.
+  /// of the pairs. None is larger than the hub: a body that took every part in turn would be gone
+  /// through for each.
   Pairs pairs_at(int hub, std::size_t first) {
     const int root = joined_.root(hub);
-    std::map<int, std::set<int>> met;
-    Pairs at_hub{first};
-    for (std::size_t pair = 0; pair < meeting_.size(); ++pair) {
-      const int a = joined_.root(meeting_[pair].first);
-      const int b = joined_.root(meeting_[pair].second);
-      met[a].insert(b);
-      met[b].insert(a);
-      if (is_open_[pair] && (a == root) != (b == root) && pair != first) at_hub.push_back(pair);
-    }
+    Pairs at_hub = pairs_of_[idx(root)];
+    std::sort(at_hub.begin(), at_hub.end());
+    at_hub.insert(at_hub.begin(), first);
     Pairs chosen;
     std::set<int> barred{root};
     for (const std::size_t pair : at_hub) {
       const int other = other_than(root, pair);
+      if (!is_open_[pair] || triangles(other) > triangles(root)) continue;
       if (!barred.insert(other).second) continue;
-      barred.insert(met[other].begin(), met[other].end());
+      for (const std::size_t its : pairs_of_[idx(other)]) barred.insert(other_than(other, its));
       chosen.push_back(pair);
     }
     return chosen;
@@ -330,17 +330,28 @@ class Uniting {
         refused_.push_back({a, b, outcome.why});
         continue;
       }
-      bodies_[idx(joined_.root(a))].mesh.clear();
-      bodies_[idx(joined_.root(b))].mesh.clear();
-      joined_.unite(a, b);
+      join(joined_.root(a), joined_.root(b));
     }
     if (outcome.body) bodies_[idx(joined_.root(hub))] = std::move(*outcome.body);
+  }
+
+  /// Two bodies; the mesh of the union is still to be given to the one that stands for it.
+  void join(int one, int other) {
+    bodies_[idx(one)].mesh.clear();
+    bodies_[idx(other)].mesh.clear();
+    Pairs pairs = std::move(pairs_of_[idx(one)]);
+    Pairs more = std::move(pairs_of_[idx(other)]);
+    if (pairs.size() < more.size()) pairs.swap(more);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    joined_.unite(one, other);
+    pairs_of_[idx(joined_.root(one))] = std::move(pairs);
   }
 
   const std::vector<std::pair<int, int>>& meeting_;
   std::vector<char> is_open_;
   UnionFind joined_;
   std::vector<Growing> bodies_;
+  std::vector<Pairs> pairs_of_;  // with a part of the body, by the part that stands for it
   std::vector<RefusedUnion> refused_;
   double extent_ = 0;  ///< of all parts together
 };

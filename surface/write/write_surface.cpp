@@ -9,6 +9,7 @@
 
 #include <curveskel/error.hpp>
 #include "base/decimal.hpp"
+#include "base/one_line.hpp"
 #include "surface/mesh/single_precision.hpp"
 #include "surface/write/write_om.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 void append_comment(std::string& text, std::string_view keyword, std::string_view provenance) {
-  if (!provenance.empty()) text.append(keyword).append(" ").append(provenance).append("\n");
+  if (!provenance.empty())
+    text.append(keyword).append(" ").append(in_one_line(provenance)).append("\n");
 }
 
 template <typename Value>
@@ -93,7 +95,7 @@ std::string format_stl(const Surface& surface, std::string_view provenance) {
   constexpr std::size_t bytes_per_face = 50;
   require_single_precision(surface.positions, "STL", "write obj, off or ply instead, or ");
   // A header that begins with "solid" would announce the text variant.
-  std::string bytes = "binary STL " + std::string(provenance);
+  std::string bytes = "binary STL " + in_one_line(provenance);
   bytes.resize(header_bytes, ' ');
   bytes.reserve(header_bytes + 4 +
                 bytes_per_face * static_cast<std::size_t>(surface.triangles.rows()));

@@ -164,7 +164,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   }
   {
     using O = EmbedOptions;
-    [[maybe_unused]] const auto& [method, a, b, c, d, e, f, g, h, i, j] = O{};
+    [[maybe_unused]] const auto& [method, a, b, c, d, e, f, g, h, i, j, below] = O{};
     const std::string radii = "0..1000";
     const std::string rounds = "0..1000000";
     expect_ranges<O>(

@@ -148,6 +148,26 @@ TEST(Damaged, TheRimOfAHoleInASideIsNotReached) {
   EXPECT_LT(hausdorff_distance(whole.skeleton, found.skeleton, 0.02), 0.15);
 }
 
+/// A closed cylinder without a window in its side: long, short, at its middle and near an end.
+TEST(Damaged, AWindowInASideLeavesBothTips) {
+  const auto tube = shapes::tube("tube", shapes::straight(14), shapes::constant(1), 32);
+  const auto whole = extracted(soup_of(tube.surface));
+  for (const double cosine : {0.92, 0.7}) {  // of half of the window's angle
+    for (const auto& [from, to] : {std::pair{-6.6, 6.6}, std::pair{-6.6, 2.5}, std::pair{-1.2, 1.2},
+                                   std::pair{-6.5, -4.0}}) {
+      SCOPED_TRACE(testing::Message() << cosine << ", " << from << " to " << to);
+      const auto found = extracted(part_of(tube.surface, [&, begin = from, end = to](auto& p) {
+        return p.x() < begin || p.x() > end || p.y() < cosine * p.tail(2).norm();
+      }));
+      if (cosine > 0.9) EXPECT_EQ(found.certificate.tips, 2);  // a wide one gets a branch
+      for (const double side : {-1.0, 1.0}) {
+        EXPECT_NEAR((side * found.skeleton.nodes.col(0)).maxCoeff(),
+                    (side * whole.skeleton.nodes.col(0)).maxCoeff(), 0.35);
+      }
+    }
+  }
+}
+
 /// A star of five arms under noise of `share` of the diagonal, which is some .3 of their radius per
 /// hundredth: a fur.
 Surface furry_star(double share, std::uint64_t seed) {

@@ -137,7 +137,7 @@ TEST_P(EveryFormat, WritesTheSameBytesTwice) {
 }
 
 TEST_P(EveryFormat, StaysSoundWhateverTheProvenanceSays) {
-  const SkeletonContext context{nullptr, "a <b> & \"c\" -- --> ]]> \\", {}};
+  const SkeletonContext context{nullptr, "a <b> & \"c\" -- --> ]]>\nv 9 9 9\r\nl 1 2 \\", {}};
   const CurveSkeleton skeleton = skeleton_samples()[2].skeleton;
   EXPECT_EQ(shape_of(round_trip(skeleton, GetParam(), context), false), shape_of(skeleton, false));
 }

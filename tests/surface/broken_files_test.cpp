@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,18 @@ std::string ply_header(const std::string& vertices, const std::string& faces,
   return "ply\nformat " + encoding + " 1.0\nelement vertex " + vertices +
          "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
          "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+/// A Points array, packed: the numbers of its header, and no data to speak of.
+std::string vtp_that_announces(const std::string& piece, const std::string& type,
+                               const std::vector<std::uint32_t>& header) {
+  std::string bytes;
+  for (const std::uint32_t number : header) encodings::append(bytes, number);
+  return "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData>\n"
+         "<" +
+         piece + "><Points><DataArray Name=\"Points\" type=\"" + type + "\" format=\"binary\">" +
+         encodings::base64(bytes) + encodings::base64(std::string(300, 'x')) +
+         "</DataArray></Points></Piece></PolyData></VTKFile>";
 }
 
 std::vector<Broken> broken_files() {
@@ -56,6 +69,10 @@ std::vector<Broken> broken_files() {
        {"1 of 4 vertices", "vertex 3", "1 of 1 faces"}},
       {"obj_too_large", "a.obj", three + "v 0 1e999 0\nf 1 2 4\n", {"1 of 4 vertices"}},
       {"obj_lines", "a.obj", three + "l 1 2 3\n", {"1 lines", "no faces"}},
+      {"obj_free_forms",
+       "a.obj",
+       three + "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 1\nend\n",
+       {"free-form surfaces: 1", "export it as a mesh"}},
       {"obj_points", "a.obj", three, {"point cloud", "3 vertices"}},
       {"obj_utf16_odd", "a.obj", encodings::utf16(three, true) + "x", {"an odd number of bytes"}},
       {"off_words",
@@ -216,6 +233,16 @@ std::vector<Broken> broken_files() {
        "<VTKFile type=\"UnstructuredGrid\"/>",
        {"UnstructuredGrid", "Extract Surface"}},
       {"vtp_without_data", "a.vtp", "<VTKFile type=\"PolyData\"/>", {"line 1", "<PolyData>"}},
+      {"vtp_of_too_many_points",
+       "a.vtp",
+       vtp_that_announces("Piece NumberOfPoints=\"8\"", "Float64", {2, 30000, 30000, 100, 100}),
+       {"line 2", "7500 values", "24, as its piece says"}},
+      {"vtp_that_would_take_all_memory",
+       "a.vtp",
+       vtp_that_announces("Piece", "UInt8",
+                          std::vector<std::uint32_t>{16, 4294967295U, 0, 9, 9, 9, 9, 9, 9, 9, 9, 9,
+                                                     9, 9, 9, 9, 9, 9, 9}),
+       {"a.vtp, unpacked", "no honest file"}},
       {"vtk_grid",
        "a.vtk",
        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\n",

@@ -133,6 +133,29 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shapes_given()),
 
 // ---- Touching parts -----------------------------------------------------------------------------
 
+/// Of a cube's faces, all or some, copies in either order that begin at any corner.
+TEST(Cleaning, KnowsPolygonsThatAreThereTwice) {
+  const PolygonSoup given = cube();
+  const CleanSurface once = clean(given, {});
+  for (int start = 0; start < 4; ++start) {
+    for (const bool reversed : {false, true}) {
+      for (const std::size_t copies : {3U, 6U}) {
+        PolygonSoup soup = given;
+        for (std::size_t p = 0; p < copies; ++p) {
+          std::vector<std::int32_t> face(given.corners.begin() + given.offsets[p],
+                                         given.corners.begin() + given.offsets[p + 1]);
+          std::rotate(face.begin(), face.begin() + start, face.end());
+          if (reversed) std::reverse(face.begin(), face.end());
+          append(soup, face);
+        }
+        const CleanSurface cleaned = clean(soup, {});
+        EXPECT_EQ(cleaned.surface.triangles, once.surface.triangles);
+        EXPECT_EQ(cleaned.changes.duplicate_faces_dropped, 2 * copies);
+      }
+    }
+  }
+}
+
 TEST(Cleaning, LeavesCoincidentVerticesOfAWholeSurfaceApart) {
   // The second cube's corner 0 is where the first one's corner 6 is.
   const PolygonSoup soup = together(cube(), cube(), {1, 1, 1});

@@ -76,6 +76,34 @@ inline std::string obj_with_everything() {
   return text;
 }
 
+/// Corners with texture coordinates, the line continued directly behind the second one.
+inline std::string obj_continued(const std::string& line_end) {
+  std::string text;
+  for (const auto& p : corners) text.append("v ").append(spaced(p)).append(line_end);
+  for (const auto& q : quads) {
+    text += "f";
+    for (const int v : q) {
+      text.append(" ").append(std::to_string(v + 1)).append("/1");
+      if (v == q[1]) text.append("\\").append(line_end);
+    }
+    text += line_end;
+  }
+  return text;
+}
+
+/// Line ends, in order, stand behind the keyword, each count, each vertex and each face.
+inline std::string off_lines(const std::string& keyword, const std::string& count,
+                             const std::string& vertex, const std::string& face) {
+  std::string text = "OFF" + keyword + "8" + count + "6" + count + "12" + count;
+  for (const auto& p : corners) text += spaced(p) + vertex;
+  for (const auto& q : quads) {
+    text += "4";
+    for (const int v : q) text += " " + std::to_string(v);
+    text += face;
+  }
+  return text;
+}
+
 /// `extra` stands behind every position, `colour` behind every face.
 inline std::string off(const std::string& header, const std::string& extra = {},
                        const std::string& colour = {}) {
@@ -84,6 +112,13 @@ inline std::string off(const std::string& header, const std::string& extra = {},
   for (const auto& q : quads) {
     text += "4 " + std::to_string(q[0]) + " " + std::to_string(q[1]) + "  " + std::to_string(q[2]) +
             "\t" + std::to_string(q[3]) + colour + "\n";
+  }
+  return text;
+}
+
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
   }
   return text;
 }
@@ -113,10 +148,10 @@ void append(std::string& bytes, Value value, bool big_endian = false) {
   bytes.append(raw.data(), raw.size());
 }
 
-inline std::string stl_binary(std::string_view header) {
+inline std::string stl_binary(std::string_view header, std::uint32_t announced = 12) {
   std::string bytes(header);
   bytes.resize(80, ' ');
-  append(bytes, static_cast<std::uint32_t>(triangles().size()));
+  append(bytes, announced);
   for (const auto& t : triangles()) {
     for (int k = 0; k < 3; ++k) append(bytes, 0.0F);
     for (const int v : t) {
@@ -306,11 +341,19 @@ inline std::vector<Encoding> all() {
       {"obj_of_old_macs", ".obj", carriage_returns},
       {"obj_in_utf16_little_endian", ".obj", utf16(obj(), false)},
       {"obj_in_utf16_big_endian", ".obj", utf16(obj(), true)},
+      {"obj_continued_behind_texture", ".obj", obj_continued("\n")},
+      {"obj_continued_behind_texture_crlf", ".obj", obj_continued("\r\n")},
+      {"obj_with_faces_of_old", ".obj", with(obj(), "\nf ", "\nfo ")},
       {"obj_named_otherwise", ".off", obj()},
       {"off", ".off", off("OFF\n8 6 12\n")},
       {"off_counts_on_first_line", ".off", off("OFF 8 6 12\n")},
       {"off_without_keyword", ".off", off("8 6 12\n")},
       {"off_without_edge_count", ".off", off("OFF # comment\n\n# 1 2 3\n8 6\n")},
+      {"off_counts_on_lines", ".off", off_lines("\n", "\n", "\n", "\n")},
+      {"off_on_one_line", ".off", off_lines(" ", " ", " ", " ")},
+      {"off_vertices_on_one_line", ".off", off_lines("\n", "\n", " ", "\n")},
+      {"off_faces_on_one_line", ".off", off_lines("\n", " ", "\n", " ")},
+      {"off_more_behind_vertices", ".off", off("OFF\n8 6 12\n", " 1 2 3", " 3 0.1 0.2 0.3")},
       {"off_colours", ".off", off("COFF\n8 6 12\n", " 255 0 0 255", " 3 0.1 0.2 0.3")},
       {"off_normals", ".off", off("NOFF\r\n8 6 12\r\n", " 0 0 1\r", " # c\r")},
       {"off_all_prefixes", ".off", off("STCNOFF\n8 6 0\n", " 0 0 1 9 9 9 9 0 0")},
@@ -320,8 +363,17 @@ inline std::vector<Encoding> all() {
       {"off_binary_of_openmesh", ".off", off_binary("NOFF", 3, false)},
       {"off_dimension_given", ".off", off("nOFF 3\n8 6 0\n")},
       {"stl_text", ".stl", stl_text(), false},
+      {"stl_on_one_line", ".stl", with(stl_text(), "\n", " "), false},
+      {"stl_commented", ".stl",
+       "; by hand\n# for a test\n" +
+           with(stl_text(), "solid vertex 1 2 3\n", "solid a box\nof two lines\n"),
+       false},
+      {"stl_binary_count_of_none", ".stl", stl_binary("a box", 0), false},
+      {"stl_binary_count_of_half", ".stl", stl_binary("a box", 6), false},
       {"stl_binary", ".stl", stl_binary("a box"), false},
       {"stl_binary_solid", ".stl", stl_binary("solid box"), false},
+      {"ply_indices_with_point", ".ply",
+       with(ply("ascii", "float", "uchar", "int"), "4 4 5 6 7", "4.0 4. 5.000 6 7")},
       {"ply_of_old_macs", ".ply", ply("ascii", "float", "uchar", "int", "\r")},
       {"ply_crlf_binary", ".ply", ply("binary_little_endian", "float", "uchar", "int", "\r\n")},
       {"gltf", ".gltf", gltf_embedded(), false},

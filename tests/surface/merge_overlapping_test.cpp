@@ -244,16 +244,35 @@ TEST(Merging, LeavesApartWhatCrossesItselfAndSaysSo) {
 }
 
 /// Six slabs round a hollow.
-TEST(Merging, FillsTheHollowsBetweenParts) {
+std::vector<Shape> hollow() {
   std::vector<Shape> slabs;
   for (const double side : {-2.0, 2.0}) {
     slabs.push_back(at(shapes::box({1, 5, 5}, 5), side, 0, 0));
     slabs.push_back(at(shapes::box({5, 1, 4.9}, 5), 0, side, 0));
     slabs.push_back(at(shapes::box({4.8, 4.9, 1}, 5), 0, 0, side));
   }
-  const RepairedSurface result = merged(turned(slabs, 2));
+  return slabs;
+}
+
+TEST(Merging, FillsTheHollowsBetweenParts) {
+  const RepairedSurface result = merged(turned(hollow(), 2));
   expect_one_body(result, 6);
   EXPECT_EQ(result.repairs.merging.cavities_filled, 1);
+}
+
+TEST(Merging, LeavesOutWhatLiesInAHollowThatItFills) {
+  std::vector<Shape> parts = hollow();
+  parts.push_back(ball());
+  parts.push_back(at(shapes::ellipsoid({0.5, 0.5, 0.5}, 2), 0.8, 0, 0.1));  // crosses the ball
+  parts.push_back(shapes::ellipsoid({0.2, 0.2, 0.2}, 2));
+  const RepairedSurface result = merged(turned(parts, 2));
+  const Merging& merging = result.repairs.merging;
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_EQ(topology(result.surface).components(), 1);
+  EXPECT_EQ(merging.bodies, (std::vector<std::vector<int>>{{0, 1, 2, 3, 4, 5}}));
+  EXPECT_EQ(merging.covered.size(), 3U);
+  EXPECT_GE(result.vertex_of_input.minCoeff(), 0);
+  EXPECT_NEAR(volume(result.surface), volume(merged(turned(hollow(), 2)).surface), 1e-6);
 }
 
 /// Four bars of a frame.

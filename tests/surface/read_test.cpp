@@ -124,12 +124,20 @@ TEST(Reading, OfACountedFormatCutOffAnywhereIsRefused) {
     // The comment or colour behind the last face may be missing; so may everything behind a solid.
     const std::string& bytes = encoding.bytes;
     std::size_t whole = bytes.find_last_not_of(" \r\n") + 1;
-    if (encoding.name == "off_colours") whole = bytes.rfind(" 3 ");
+    if (encoding.name == "off_colours" || encoding.name == "off_more_behind_vertices") {
+      whole = bytes.rfind(" 3 ");
+    }
     if (encoding.name == "off_normals") whole = bytes.rfind(" # c");
     if (encoding.extension == ".vtk") {
-      whole = bytes.find_last_not_of(" \n", bytes.find("POINT_DATA") - 1) + 1;
+      whole = bytes.find_last_not_of(
+                  " \n", std::min(bytes.find("POINT_DATA"), bytes.find("point_data")) - 1) +
+              1;
     }
-    if (encoding.name == "stl_text") whole = bytes.find("endsolid") + 8;
+    if (encoding.name == "stl_text" || encoding.name == "stl_on_one_line" ||
+        encoding.name == "stl_commented") {
+      whole = bytes.find("endsolid") + 8;
+    }
+    if (encoding.name.find("stl_binary_count") == 0) continue;  // a whole facet may be cut off
     for (std::size_t size = 0; size < whole; ++size) {
       const FileBytes file{"cut" + encoding.extension, encoding.bytes.substr(0, size)};
       EXPECT_NE(refusal_of([&] { return read_content(file, {}); }), "")
@@ -217,6 +225,15 @@ TEST(Reading, TakesEveryCharacterOfUtf16) {
   ASSERT_TRUE(is_utf16(file.content));
   utf16_to_utf8(file);
   EXPECT_EQ(file.content, "#\u00e9\u20ac\U0001F600\uFFFD\n");
+}
+
+TEST(Reading, OfAnStlWhoseCountIsTooSmallIsSaid) {
+  const OwnFolder folder;
+  std::string said;
+  Monitor monitor;
+  monitor.note = [&](std::string_view text) { said += text; };
+  (void)read_polygons(folder.write("box.stl", encodings::stl_binary("a box", 6)), monitor);
+  EXPECT_NE(said.find("announces 6 facets and has 12"), std::string::npos) << said;
 }
 
 TEST(Reading, StopsWhenAsked) {

@@ -216,6 +216,38 @@ TEST(Repairing, WithoutLidsTheSurfaceIsAsItWasGiven) {
   }
 }
 
+/// Two open boxes, one on the other: their rims coincide, but not the vertices within their edges.
+TEST(Repairing, JoinsRimsOfDifferentVertices) {
+  const auto half = [](int cells, double side) {
+    PolygonSoup soup = soup_of(shapes::box({2, 2, 2}, cells).surface);
+    soup.positions.col(2).array() += side;
+    return with_polygons(soup,
+                         [&](std::size_t p) { return std::abs(middle_of(soup, p).z()) > 1e-9; });
+  };
+  for (const int cells : {1, 3, 4, 7}) {
+    const RepairedSurface result = repair(together(half(2, 1), half(cells, -1), {0, 0, 0}), {}, {});
+    SCOPED_TRACE(cells);
+    expect_closed_outward_manifold(result.surface);
+    EXPECT_EQ(topology(result.surface).components(), 1);
+    EXPECT_NEAR(volume(result.surface), 16, 1e-9);
+    EXPECT_EQ(result.repairs.holes_closed, 0);
+    EXPECT_GT(result.repairs.edges_split, 0);
+  }
+}
+
+/// A speck far away must not make the distance of joining as long as a rim's edges.
+TEST(Repairing, ACupBesideAFarSpeck) {
+  const PolygonSoup whole = soup_of(shapes::box({2, 2, 2}, 8).surface);
+  const PolygonSoup cup =
+      with_polygons(whole, [&](std::size_t p) { return middle_of(whole, p).z() < 1 - 1e-9; });
+  PolygonSoup speck = soup_of(shapes::box({1e-3, 1e-3, 1e-3}, 1).surface);
+  const RepairedSurface alone = repair(cup, {}, {});
+  const RepairedSurface beside = repair(together(cup, speck, {1e6, 0, 0}), {}, {});
+  EXPECT_EQ(beside.repairs.vertices_joined, 0);
+  EXPECT_EQ(beside.repairs.longest_hole, alone.repairs.longest_hole);
+  EXPECT_NEAR(volume(beside.surface), 8, 1e-9);
+}
+
 /// The lower half of a ball, its rim with so many teeth of random height.
 PolygonSoup jagged_bowl(int teeth, double height) {
   constexpr int rows = 4;

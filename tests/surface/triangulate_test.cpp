@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <map>
 #include <random>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,21 @@ PolygonSoup spiral(Eigen::Index steps) {
   return soup;
 }
 
+/// Slanting teeth on a bar: most corners are no ears until others are gone.
+PolygonSoup comb(int teeth) {
+  PolygonSoup soup;
+  soup.positions.resize(2 * teeth + 2, 3);
+  for (int i = 0; i < teeth; ++i) {
+    soup.positions.row(2 * i) << i, 0, 0;
+    soup.positions.row(2 * i + 1) << i + 20.5, 9, 0;
+  }
+  soup.positions.row(2 * teeth) << teeth, 0, 0;
+  soup.positions.row(2 * teeth + 1) << teeth / 2.0, -3, 0;
+  for (std::int32_t i = 2 * teeth + 1; i >= 0; --i) soup.corners.push_back(i);
+  soup.offsets = {0, 2 * std::int64_t{teeth} + 2};
+  return soup;
+}
+
 Eigen::Vector3d vector_area(const PolygonSoup& soup) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < soup.corners.size(); ++i) {
@@ -88,7 +104,53 @@ TEST(Triangulation, TilesStarShapedPolygons) {
   }
 }
 
-TEST(Triangulation, TilesASpiral) { expect_tiled(spiral(200)); }
+TEST(Triangulation, TilesASpiral) {
+  for (const Eigen::Index steps : {20, 50, 51, 200, 1000}) expect_tiled(spiral(steps));
+}
+
+TEST(Triangulation, TilesPolygonsOfManyCorners) {
+  expect_tiled(star_shaped(101, 1));
+  expect_tiled(star_shaped(3000, 2));
+  expect_tiled(comb(2000));
+}
+
+/// All that the corners of a large polygon lie on is a line, or one point.
+TEST(Triangulation, EndsOnDegeneratePolygonsOfManyCorners) {
+  for (const double height : {0.0, 1e-320, 1e-15}) {
+    PolygonSoup soup = comb(200);
+    soup.positions.col(1) *= height;
+    EXPECT_EQ(triangulate(soup).rows(), 400);
+    soup.positions *= 0;
+    EXPECT_EQ(triangulate(soup).rows(), 400);
+  }
+}
+
+TEST(Triangulation, StopsWhenAsked) {
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW((void)triangulate(spiral(200), source.get_token()), Cancelled);
+}
+
+/// Copies of a square with vertices of their own have the same diagonal, wherever they begin.
+TEST(Triangulation, OfASquareDoesNotDependOnItsFirstCorner) {
+  Positions square(4, 3);
+  square << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const Eigen::AngleAxisd rotation(turn, Eigen::Vector3d(1, 2, turn).normalized());
+    const Positions turned = square * rotation.toRotationMatrix();
+    for (const auto& corners : {std::vector<std::int32_t>{0, 1, 2, 3},
+                                {1, 2, 3, 0},
+                                {2, 3, 0, 1},
+                                {3, 0, 1, 2},
+                                {3, 2, 1, 0},
+                                {0, 3, 2, 1}}) {
+      const Triangles triangles = triangulate(soup_of(turned, {corners}));
+      for (const auto& t : triangles.rowwise()) {
+        EXPECT_TRUE((t.array() == 0).any() && (t.array() == 2).any()) << turn;
+      }
+    }
+  }
+}
 
 TEST(Triangulation, TilesAPolygonWithACollinearCorner) {
   Positions positions(5, 3);

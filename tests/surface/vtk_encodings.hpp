@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -165,8 +166,35 @@ inline std::string vtk(bool binary, int version) {
   return bytes + "POINT_DATA 8\nNORMALS n float\n";
 }
 
+/// With arrays of bits and strings among the fields; strings of 5 and 70 bytes.
+inline std::string vtk_with_other_fields(bool binary) {
+  std::string fields = "FIELD FieldData 3\nflags 1 9 bit\n";
+  fields += binary ? "\xAA\x80\n" : "1 0 1 0 1 0 1 0 1\n";
+  fields += "names 1 2 string\n";
+  const std::string name = "hello";
+  const std::string longer(70, 'x');
+  fields += binary ? "\xC5" + name + "\x80\x46" + longer + "\n" : name + "\n" + longer + "\n";
+  return with(vtk(binary, 3), "FIELD FieldData 1\n", fields);
+}
+
+/// Keywords and types in lower case, behind the title.
+inline std::string vtk_in_lower_case() {
+  std::string bytes = vtk(false, 3);
+  const std::size_t title = bytes.find("ASCII");
+  std::transform(bytes.begin() + static_cast<std::ptrdiff_t>(title), bytes.end(),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(title), [](unsigned char c) {
+                   return static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+                 });
+  return bytes;
+}
+
 inline std::vector<Encoding> all_of_vtk() {
-  std::vector<Encoding> result;
+  std::vector<Encoding> result{
+      {"vtk_other_fields_text", ".vtk", vtk_with_other_fields(false)},
+      {"vtk_other_fields_binary", ".vtk", vtk_with_other_fields(true)},
+      {"vtk_in_lower_case", ".vtk", vtk_in_lower_case()},
+      {"vtp_with_signs", ".vtp", with(vtp({}, false), " 1.0", " +1.0")},
+  };
   for (const bool binary : {false, true}) {
     for (const int version : {2, 5}) {
       result.push_back({"vtk_" + std::to_string(version) + (binary ? "_binary" : "_text"), ".vtk",

@@ -147,7 +147,7 @@ TEST_F(WriteFile, SurfacesComeBackToTheLastBit) {
   for (const auto format :
        {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply, SurfaceFormat::om}) {
     const fs::path file = folder / ("s." + std::string(name_of(surface_formats, format)));
-    write_file(file, format_surface(surface, format, "made by a test"));
+    write_file(file, format_surface(surface, format, "made by a\nv 9 9 9\rtest"));
     const PolygonSoup soup = read_polygons(file, {});
     EXPECT_EQ(soup.format, format);
     ASSERT_EQ(soup.positions.rows(), surface.positions.rows()) << file;

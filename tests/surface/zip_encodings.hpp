@@ -54,17 +54,18 @@ inline std::string zip(const std::vector<std::pair<std::string, std::string>>& f
 inline const std::string core_3mf =
     R"(xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02")";
 
-/// `model`: the whole part.
-inline std::string archive_3mf(const std::string& model, bool packed = true) {
+/// `model`: the whole part; `target` names it, `name` is its name in the archive.
+inline std::string archive_3mf(const std::string& model, bool packed = true,
+                               const std::string& target = "/3D/box.model",
+                               const std::string& name = "3D/box.model") {
   const std::string relationships =
       R"(<?xml version="1.0"?><Relationships
  xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
 <Relationship Id="r0" Type="http://schemas.openxmlformats.org/thumbnail" Target="/a.png"/>
-<Relationship Id="r1" Target="/3D/box.model"
+<Relationship Id="r1" Target=")" +
+      target + R"("
  Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
-  return zip({{"[Content_Types].xml", "<Types/>"},
-              {"_rels/.rels", relationships},
-              {"3D/box.model", model}},
+  return zip({{"[Content_Types].xml", "<Types/>"}, {"_rels/.rels", relationships}, {name, model}},
              packed);
 }
 
@@ -98,6 +99,18 @@ inline std::vector<Encoding> all_of_3mf() {
   const std::string moved = "<component objectid=\"7\" transform=\"10 0 0 0 10 0 0 0 10 -5 0 0\"/>";
   return {{"threemf_stored", ".3mf", archive_3mf(simple_3mf(), false), false},
           {"threemf_packed", ".3mf", archive_3mf(simple_3mf()), false},
+          {"threemf_with_a_blank", ".3mf",
+           archive_3mf(simple_3mf(), true, "/3D/my%20box.model", "3D/my box.model"), false},
+          {"threemf_in_another_case", ".3mf",
+           archive_3mf(simple_3mf(), true, "/3D/box.model", "3d/Box.model"), false},
+          {"threemf_with_support", ".3mf",
+           archive_3mf(model_3mf("",
+                                 "<object id=\"7\">" + mesh_3mf() +
+                                     "</object><object id=\"8\" type=\"support\">" + mesh_3mf(2) +
+                                     "</object>",
+                                 "<item objectid=\"8\"/><item objectid=\"7\" transform=\"+1 0 0 "
+                                 "0 +1 0 0 0 1 0 0 0\"/>")),
+           false},
           {"threemf_placed_in_centimetres", ".3mf",
            archive_3mf(model_3mf("unit=\"centimeter\"",
                                  "<object id=\"7\">" + mesh_3mf() + "</object>\n<object id=\"8\">" +

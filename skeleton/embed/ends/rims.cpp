@@ -129,16 +129,22 @@ class Reaching {
            rim.mean_radius >= least_width * radius && way_is_inside(tree_, p, end_of(rim, p));
   }
 
-  /// The limb arrives at its node k from outside the ball there; within, it has no direction.
-  [[nodiscard]] bool faces(const Limb& limb, std::size_t k, const Rim& rim) const {
-    constexpr double cosine = 0.5;
+  /// The direction in which the limb arrives at its node k from outside the ball there; within, it
+  /// has none, zero.
+  [[nodiscard]] Eigen::Vector3d direction(const Limb& limb, std::size_t k) const {
     const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
     for (std::size_t i = k + 1; i < limb.size(); ++i) {
       const Eigen::Vector3d way = p - skeleton_.nodes.row(limb[i]).transpose();
-      if (way.norm() < skeleton_.radii[limb[k]] && i + 1 < limb.size()) continue;
-      return way.normalized().dot((rim.middle - p).normalized()) >= cosine;
+      if (way.norm() >= skeleton_.radii[limb[k]] || i + 1 == limb.size()) return way.normalized();
     }
-    return true;
+    return Eigen::Vector3d::Zero();
+  }
+
+  [[nodiscard]] bool faces(const Limb& limb, std::size_t k, const Rim& rim) const {
+    constexpr double cosine = 0.5;
+    const Eigen::Vector3d arrives = direction(limb, k);
+    const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
+    return arrives.isZero() || arrives.dot((rim.middle - p).normalized()) >= cosine;
   }
 
   /// The nodes lie evenly between two places from now on.
@@ -199,15 +205,28 @@ class Reaching {
            });
   }
 
+  /// True if no node from the tip to node k reaches much farther ahead than the rim: only what
+  /// turns aside there may move to the way to it.
+  [[nodiscard]] bool keeps_reach(const Limb& limb, std::size_t k, const Rim& rim) const {
+    constexpr double most_lost = 1.25;  // of the ball at node k or the rim
+    const double farthest = most_lost * std::max(skeleton_.radii[limb[k]], rim.least_radius);
+    const Eigen::Vector3d ahead = direction(limb, k);
+    return std::all_of(limb.begin(), limb.begin() + static_cast<std::ptrdiff_t>(k), [&](int node) {
+      return (skeleton_.nodes.row(node).transpose() - rim.middle).dot(ahead) <= farthest;
+    });
+  }
+
   /// The nodes from the tip on that would have to move for the limb to go on to the rim without
-  /// turning back; -1 = it cannot.
+  /// turning back; -1 = it cannot. A hole may be long but narrow, a slit along the limb: its width
+  /// bounds the way back from the tip, not its length.
   [[nodiscard]] int nodes_to_move(const Limb& limb, const Rim& rim) const {
     double walked = 0;
     for (std::size_t k = 0; k < limb.size(); ++k) {
       if (k > 0) walked += (skeleton_.nodes.row(limb[k]) - skeleton_.nodes.row(limb[k - 1])).norm();
       if (k > 0 && k + 1 == limb.size()) break;
-      if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.mean_radius)) break;
-      if (faces(limb, k, rim) && is_near(limb[k], rim, usual_width)) return static_cast<int>(k);
+      if (walked > nearness * std::max(skeleton_.radii[limb[k]], rim.least_radius)) break;
+      if (!faces(limb, k, rim) || !is_near(limb[k], rim, usual_width)) continue;
+      if (keeps_reach(limb, k, rim)) return static_cast<int>(k);
     }
     return -1;
   }
@@ -241,6 +260,7 @@ class Reaching {
   /// place that makes it no spur.
   void reach_from_the_side() {
     constexpr double least_width_of_side = 0.7;
+    constexpr double least_width_of_slit = 0.5;  // at its narrowest; rims are jagged
     constexpr double least_length = 1.1;
     constexpr double junction_cost = 0.7;  // a rim near a junction hangs from it
     const std::vector<int> degree = degrees(skeleton_.nodes.rows(), skeleton_.edges);
@@ -252,6 +272,7 @@ class Reaching {
         const double distance = (rims_[o].middle - skeleton_.nodes.row(node).transpose()).norm();
         const double cost = distance * (degree[idx(node)] > 2 ? junction_cost : 1);
         if (distance < least_length * skeleton_.radii[node] || cost >= nearest) continue;
+        if (rims_[o].least_radius < least_width_of_slit * skeleton_.radii[node]) continue;
         if (!is_near(node, rims_[o], least_width_of_side)) continue;
         best = node;
         nearest = cost;
