@@ -22,7 +22,7 @@ ComponentBoxes::ComponentBoxes(const Positions& positions, const Topology& parts
     : parts_(parts), boxes_(idx(parts.components())) {
   constexpr double beyond_all = std::numeric_limits<double>::infinity();
   Positions ends(2 * parts.components(), 3);  // the least and the largest corner of each box
-  for (int i = 0; i < parts.components(); ++i) {
+  for (Eigen::Index i = 0; i < parts.components(); ++i) {
     ends.row(2 * i).setConstant(beyond_all);
     ends.row(2 * i + 1).setConstant(-beyond_all);
   }
@@ -31,7 +31,7 @@ ComponentBoxes::ComponentBoxes(const Positions& positions, const Topology& parts
     ends.row(2 * i) = ends.row(2 * i).cwiseMin(positions.row(v));
     ends.row(2 * i + 1) = ends.row(2 * i + 1).cwiseMax(positions.row(v));
   }
-  for (int i = 0; i < parts.components(); ++i) {
+  for (Eigen::Index i = 0; i < parts.components(); ++i) {
     if (parts.faces[idx(i)] == 0) continue;
     const Positions corners = ends.middleRows(2 * i, 2);
     boxes_[idx(i)] = {corners.row(0) / 2 + corners.row(1) / 2,

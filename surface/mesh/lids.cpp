@@ -63,8 +63,10 @@ std::vector<char> faces_in_rims(const Surface& surface,
   }
   const HalfEdges pairs =
       pair_half_edges(surface.triangles, static_cast<std::int32_t>(surface.positions.rows()));
-  for (std::size_t next = 0; next < reached.size(); ++next) {
-    for (std::int32_t h = 3 * reached[next]; h < 3 * reached[next] + 3; ++h) {
+  while (!reached.empty()) {
+    const std::int32_t face = reached.back();
+    reached.pop_back();
+    for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
       const std::int32_t twin = pairs.twin[idx(h)];
       if (on_rim[idx(h)] == 0 && twin >= 0) reach(twin / 3);
     }

@@ -54,15 +54,16 @@ PolygonSoup spiral(Eigen::Index steps) {
 }
 
 /// Slanting teeth on a bar: most corners are no ears until others are gone.
-PolygonSoup comb(int teeth) {
+PolygonSoup comb(std::int32_t teeth) {
   PolygonSoup soup;
-  soup.positions.resize(2 * teeth + 2, 3);
-  for (int i = 0; i < teeth; ++i) {
-    soup.positions.row(2 * i) << i, 0, 0;
-    soup.positions.row(2 * i + 1) << i + 20.5, 9, 0;
+  const Eigen::Index all = teeth;
+  soup.positions.resize(2 * all + 2, 3);
+  for (Eigen::Index i = 0; i < all; ++i) {
+    soup.positions.row(2 * i) << double(i), 0, 0;
+    soup.positions.row(2 * i + 1) << double(i) + 20.5, 9, 0;
   }
-  soup.positions.row(2 * teeth) << teeth, 0, 0;
-  soup.positions.row(2 * teeth + 1) << teeth / 2.0, -3, 0;
+  soup.positions.row(2 * all) << teeth, 0, 0;
+  soup.positions.row(2 * all + 1) << teeth / 2.0, -3, 0;
   for (std::int32_t i = 2 * teeth + 1; i >= 0; --i) soup.corners.push_back(i);
   soup.offsets = {0, 2 * std::int64_t{teeth} + 2};
   return soup;
