@@ -197,7 +197,8 @@ CurveSkeleton skeleton_of(const Surface& surface, Program program) {
     }
     return skeleton;
   }
-  RepairedSurface whole{surface, {}, {}, {}, {}};
+  RepairedSurface whole;
+  whole.surface = surface;
   whole.vertex_of_input.setLinSpaced(surface.positions.rows(), 0,
                                      static_cast<int>(surface.positions.rows()) - 1);
   return extract_repaired(whole, {}, {}, {}).extraction.skeleton;

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -38,8 +38,9 @@ std::string head_of(const std::string& key, std::string_view binary) {
 
 std::optional<std::string> content_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream content;
+  if (!in || !(content << in.rdbuf())) return std::nullopt;
+  return content.str();
 }
 
 }  // namespace
