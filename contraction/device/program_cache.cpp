@@ -38,8 +38,9 @@ std::string head_of(const std::string& key, std::string_view binary) {
 
 std::optional<std::string> content_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
   std::ostringstream content;
-  if (!in || !(content << in.rdbuf())) return std::nullopt;
+  content << in.rdbuf();
   return content.str();
 }
 
