@@ -34,7 +34,7 @@ struct PythonExtraction {
 [[nodiscard]] PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
                                             const Monitor& monitor);
 
-/// What `curveskel extract --levels` writes, see `levels_of`.
+/// The levels that `curveskel extract --levels` writes, see `levels_of`.
 [[nodiscard]] std::vector<PythonExtraction> levels_of(const PythonExtraction& extraction, int most,
                                                       const Monitor& monitor);
 

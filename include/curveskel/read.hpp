@@ -74,9 +74,9 @@ struct ReadOptions {
                                            const Monitor& monitor = {},
                                            const ReadOptions& options = {});
 
-/// What reading does with vertices that have NaN or infinity, for polygons from elsewhere: those of
-/// such vertices go, the vertices keep their rows, at the place of another, and both are counted in
-/// the soup. So positions are finite on return. Throws Error(Fault::input) where more polygons
+/// Vertices that have NaN or infinity, in polygons from elsewhere, as reading takes them: polygons
+/// of such vertices go, the vertices keep their rows, at the place of another, and both are counted
+/// in the soup. So positions are finite on return. Throws Error(Fault::input) where more polygons
 /// would go than stay. O(#V + corners).
 void drop_unplaced_vertices(PolygonSoup& soup);
 

@@ -106,8 +106,8 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
 }
 
 /// Limbs as thin as the coarsened triangles are long have other handles there, and no way inside.
-/// Where there is none in all vertices' surface either, the curve goes just below it: the last
-/// thing tried, as noise that fairing takes off would have its curve below each of its spikes.
+/// A curve that has no way inside all vertices' surface either goes just below it: the last thing
+/// tried, as noise that fairing takes off would have its curve below each of its spikes.
 Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
                                   ExtractionCache::Implementation* kept) {
   const bool embeds = options.embed.method == EmbedMethod::own;  // else nothing keeps it inside

@@ -86,7 +86,7 @@ double median_boundary_edge(const Surface& surface, const HalfEdges& half_edges)
   return lengths.empty() ? 0 : median_of(std::move(lengths));
 }
 
-/// What lies far away must not make it as long as the edges of rims: it would eat them.
+/// A speck far away must not make it as long as the edges of rims, which it would eat.
 double distance_to_join(const Surface& surface, const JoinOptions& options) {
   constexpr double most_of_an_edge = 0.25;
   const double wanted =

@@ -7,6 +7,15 @@
 
 namespace curveskel {
 
+InnerSide inner_side(const Surface& surface, std::int32_t face) {
+  const Point a = surface.positions.row(surface.triangles(face, 0));
+  const Point ab = Point(surface.positions.row(surface.triangles(face, 1))) - a;
+  const Point ac = Point(surface.positions.row(surface.triangles(face, 2))) - a;
+  const Point normal = ab.cross(ac);
+  const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+  return {-normal.normalized(), longest > 0 ? normal.norm() / longest : 0};
+}
+
 BelowSurface::BelowSurface(const WorkingSurface& working)
     : surface_(working.surface()), half_(working.half_edges()), out_(working.leaving()) {}
 
@@ -64,13 +73,8 @@ std::int32_t BelowSurface::half_edge(const std::array<int, 2>& edge) const {
 BelowSurface::Place BelowSurface::below_face(std::int32_t face) const {
   constexpr double share = 0.01;  // of the least height
   constexpr double least = 5e-7;  // linking numbers need it
-  const Point a = place(3 * face);
-  const Point ab = place(3 * face + 1) - a;
-  const Point ac = place(3 * face + 2) - a;
-  const Point normal = ab.cross(ac);
-  const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-  const double height = longest > 0 ? normal.norm() / longest : 0;
-  return {-normal.normalized(), std::max(least, share * height)};
+  const InnerSide side = inner_side(surface_, face);
+  return {side.inwards, std::max(least, share * side.height)};
 }
 
 Point BelowSurface::below_triangle(std::int32_t face) const {

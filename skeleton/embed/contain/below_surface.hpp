@@ -10,6 +10,13 @@
 
 namespace curveskel {
 
+/// The inner side of a triangle; no direction if it has no area.
+struct InnerSide {
+  Point inwards = Point::Zero();
+  double height = 0;  ///< the triangle's least
+};
+[[nodiscard]] InnerSide inner_side(const Surface& surface, std::int32_t face);
+
 /// From triangle to triangle, as below a vertex there may be no inside at all; a hundredth of a
 /// triangle's least height below it, and 5e-7 at least. Such a curve lies inside unless the surface
 /// meets itself, or comes as near to itself as that. Precondition: closed, oriented, D = 1.

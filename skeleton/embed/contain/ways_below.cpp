@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/monitor.hpp>
+#include "skeleton/embed/contain/below_surface.hpp"
 
 namespace curveskel {
 namespace {
@@ -100,7 +101,7 @@ std::optional<std::vector<std::int32_t>> WaysBelow::edges_between(const SurfaceT
     Reached& here = reached.at(h);
     if (std::exchange(here.done, true)) continue;
     if (h >= 0) {
-      leave(half_edges_->twin[idx(h)] / 3, h, middle(h), Reached(here).length);
+      leave(half_edges_->twin[idx(h)] / 3, h, middle(h), here.length);
       continue;
     }
     std::vector<std::int32_t> way;
@@ -112,34 +113,21 @@ std::optional<std::vector<std::int32_t>> WaysBelow::edges_between(const SurfaceT
 }
 
 Point WaysBelow::below(std::int32_t face, const Point& place) const {
-  return place + depth_share * height(face) * inwards(face);
+  const InnerSide side = inner_side(surface_, face);
+  return place + depth_share * side.height * side.inwards;
 }
 
 Point WaysBelow::below_edge(std::int32_t h) const {
-  const std::int32_t other = half_edges_->twin[idx(h)] / 3;
-  const double depth = depth_share * std::min(height(h / 3), height(other));
-  return middle(h) + depth * (inwards(h / 3) + inwards(other)).normalized();
+  const InnerSide one = inner_side(surface_, h / 3);
+  const InnerSide other = inner_side(surface_, half_edges_->twin[idx(h)] / 3);
+  const double depth = depth_share * std::min(one.height, other.height);
+  return middle(h) + depth * (one.inwards + other.inwards).normalized();
 }
 
 Point WaysBelow::middle(std::int32_t h) const {
   const Point a = surface_.positions.row(surface_.triangles(h / 3, h % 3));
   const Point b = surface_.positions.row(surface_.triangles(h / 3, (h + 1) % 3));
   return 0.5 * (a + b);
-}
-
-Point WaysBelow::inwards(std::int32_t face) const {
-  const Point a = surface_.positions.row(surface_.triangles(face, 0));
-  const Point b = surface_.positions.row(surface_.triangles(face, 1));
-  const Point c = surface_.positions.row(surface_.triangles(face, 2));
-  return -(b - a).cross(c - a).normalized();
-}
-
-double WaysBelow::height(std::int32_t face) const {
-  const Point a = surface_.positions.row(surface_.triangles(face, 0));
-  const Point b = surface_.positions.row(surface_.triangles(face, 1));
-  const Point c = surface_.positions.row(surface_.triangles(face, 2));
-  const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
-  return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
 }
 
 }  // namespace curveskel

@@ -18,7 +18,7 @@ namespace curveskel {
 /// The last resort where no chain of inscribed balls stays inside: limbs thinner than the triangles
 /// of the working surface are long, pockets where the surface meets itself, balls that were taken
 /// from their neighbours. Just below its triangles there is a way, unless the surface goes through
-/// itself. D = 1.
+/// itself. BelowSurface follows edges that are given, here the way is sought. D = 1.
 class WaysBelow {
  public:
   /// The tree's surface, closed and oriented; both kept by reference.
@@ -42,8 +42,6 @@ class WaysBelow {
   [[nodiscard]] Point below(std::int32_t face, const Point& place) const;
   [[nodiscard]] Point below_edge(std::int32_t half_edge) const;
   [[nodiscard]] Point middle(std::int32_t half_edge) const;
-  [[nodiscard]] Point inwards(std::int32_t face) const;
-  [[nodiscard]] double height(std::int32_t face) const;
 
   const Surface& surface_;
   const SurfaceTree& tree_;

@@ -77,13 +77,11 @@ TEST(WaysBelow, StayInsideOnAnyShape) {
 // The tube's own sheets cross each other in the middle of the eight. Right below one of them there
 // may be no inside, so that a way has to go round.
 TEST(WaysBelow, GoRoundPlacesWhereTheSurfaceGoesThroughItself) {
-  const Surface surface =
-      of_unit_size(shapes::tube("eight", eight, shapes::constant(0.5), 12).surface);
+  const Surface whole = shapes::tube("eight", eight, shapes::constant(0.5), 12).surface;
+  const Surface surface = of_unit_size(whole);
   const SurfaceTree tree(surface);
   WaysBelow ways(surface, tree);
-  const double size =
-      1 / bounding_box_diagonal(
-              shapes::tube("eight", eight, shapes::constant(0.5), 12).surface.positions);
+  const double size = 1 / bounding_box_diagonal(whole.positions);
   for (const double t : {0.01, 0.02, 0.05}) {  // before and behind the crossing
     const Point from = size * eight(-t);
     const Point to = size * eight(t);
