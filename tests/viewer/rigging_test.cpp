@@ -356,10 +356,10 @@ TEST_F(Rigging, TurnsGoWithTheRig) {
   open_y();
   make_rig();
   bench.turn_joint(0, Eigen::Quaterniond(0, 1, 0, 0));
-  EXPECT_NE(bench.scene->turns, nullptr);
+  EXPECT_NE(bench.scene->turns(), nullptr);
   bench.rig();
   ASSERT_TRUE(wait([&] { return !bench.busy(); }));
-  EXPECT_EQ(bench.scene->turns, nullptr);
+  EXPECT_EQ(bench.scene->turns(), nullptr);
 }
 
 TEST_F(Rigging, ARoleIsSavedAsItWasCorrected) {
@@ -371,7 +371,7 @@ TEST_F(Rigging, ARoleIsSavedAsItWasCorrected) {
   EXPECT_EQ(bench.selected_joint(), 0);
   bench.turn_joint(0, Eigen::Quaterniond(0, 1, 0, 0));
   bench.set_role("head");
-  EXPECT_NE(bench.scene->turns, nullptr) << "the pose stays";
+  EXPECT_NE(bench.scene->turns(), nullptr) << "the pose stays";
   const std::filesystem::path file = folder.path() / "roles.glb";
   bench.save(file);
   const auto character = bench.scene->character();

@@ -48,8 +48,8 @@ class DrawnAgain : public testing::Test {
 TEST_F(DrawnAgain, WhereAJointIsTurnedAndTurnedBack) {
   JointTurns turns(scene->rig()->names.size(), Eigen::Quaterniond::Identity());
   turns[1] = turn_by({40, 60, 0});
-  EXPECT_TRUE(after([&] { scene->turns = std::make_shared<const JointTurns>(turns); }));
-  EXPECT_TRUE(after([&] { scene->turns = nullptr; }));
+  EXPECT_TRUE(after([&] { scene->turn(turns); }));
+  EXPECT_TRUE(after([&] { scene->turn_back(); }));
 }
 
 TEST_F(DrawnAgain, WhereTheRigIsAnotherOne) {

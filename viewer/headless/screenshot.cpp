@@ -257,7 +257,7 @@ void turn_joints(Scene& scene, const std::vector<JointTurn>& wished) {
     turns.resize(scene.rig()->names.size(), Eigen::Quaterniond::Identity());
     turns[joint] = turn_by(wish.degrees) * turns[joint];
   }
-  scene.turns = std::make_shared<const JointTurns>(std::move(turns));
+  scene.turn(std::move(turns));
 }
 
 void place_camera(Scene& scene, const ViewOptions& options) {

@@ -110,10 +110,19 @@ std::shared_ptr<const CharacterRig> Scene::character() const {
   return recording.moments()[moment].character;
 }
 
+std::shared_ptr<const JointTurns> Scene::turns() const {
+  if (!turns_ || turns_->rig != rig()) return nullptr;
+  return {turns_, &turns_->turns};
+}
+
+void Scene::turn(JointTurns turns) {
+  turns_ = std::make_shared<const TurnedRig>(TurnedRig{rig(), std::move(turns)});
+}
+
 Positions Scene::joints_now() const {
   const auto shown = rig();
-  const bool is_turned = turns && turns->size() == shown->names.size();
-  return is_turned ? moved_joints(*shown, joint_motions(*shown, *turns)) : shown->joints;
+  const auto turned = turns();
+  return turned ? moved_joints(*shown, joint_motions(*shown, *turned)) : shown->joints;
 }
 
 bool Scene::shows_curve() const {
@@ -253,9 +262,8 @@ bool Scene::upload(Renderer& renderer) {
   now.curve = shows_curve();
   now.look = look_now();
   now.highlights = highlights;
-  const bool can_turn = now.rig && turns && turns->size() == now.rig->names.size() &&
-                        now.rig->weights.rows() == document.surface.positions.rows();
-  if (can_turn) now.turns = turns;
+  const bool can_turn = now.rig && now.rig->weights.rows() == document.surface.positions.rows();
+  if (can_turn) now.turns = turns();
   // Lit up vertices need colours of their own.
   const bool own_look = now.look.surface_colour == ColourBy::file && highlights.nodes.empty() &&
                         highlights.failed_faces.empty();

@@ -36,8 +36,6 @@ class Scene {
 
   /// Of the document's file; null where it has none, or none are known yet.
   std::shared_ptr<const DrawnMaterials> materials;
-  /// By hand, of the joints of the rig that is shown; null = none is turned.
-  std::shared_ptr<const JointTurns> turns;
 
   /// The skeleton that is shown now, or null.
   [[nodiscard]] std::shared_ptr<const CurveSkeleton> skeleton() const;
@@ -45,6 +43,12 @@ class Scene {
   [[nodiscard]] std::shared_ptr<const Rig> rig() const;
   /// Plan and parts of that rig; null where it is the file's.
   [[nodiscard]] std::shared_ptr<const CharacterRig> character() const;
+  /// By hand, of the joints of the rig that is shown; null = none is turned.
+  [[nodiscard]] std::shared_ptr<const JointTurns> turns() const;
+  /// Of the rig that is shown, in place of all turns before; they are gone where another rig is.
+  /// Precondition: there is a rig; a turn for each joint.
+  void turn(JointTurns turns);
+  void turn_back() { turns_ = nullptr; }
   /// The rig's joints where they stand now. Precondition: there is a rig.
   [[nodiscard]] Positions joints_now() const;
   /// True if the curve is seen now; bones stand for it if it was made a rig of.
@@ -70,6 +74,10 @@ class Scene {
   [[nodiscard]] Look look_now() const;
 
  private:
+  struct TurnedRig {
+    std::shared_ptr<const Rig> rig;
+    JointTurns turns;
+  };
   struct Uploaded {
     std::shared_ptr<const ShownSurface> faired;      // kept, so that no other can have its address
     std::shared_ptr<const ShownSurface> contracted;  // the latest of the components shown
@@ -94,6 +102,7 @@ class Scene {
   Bounds bounds_;
   glm::mat3 best_axes_{1};
   std::optional<Uploaded> uploaded_;
+  std::shared_ptr<const TurnedRig> turns_;
 };
 
 /// The joint of the rig that is shown with this name. Throws Error(Fault::input) where there is

@@ -249,7 +249,7 @@ std::array<float, 3> angles_of(const Eigen::Quaterniond& turn) {
 
 /// `joint` may be none.
 void turn_controls(Workbench& bench, int joint) {
-  const auto turns = bench.scene->turns;
+  const auto turns = bench.scene->turns();
   const Eigen::Quaterniond now = turns && joint >= 0 ? (*turns)[static_cast<std::size_t>(joint)]
                                                      : Eigen::Quaterniond::Identity();
   std::array<float, 3> angles = angles_of(now);
@@ -288,7 +288,7 @@ void chosen_joint(Workbench& bench, const Rig& rig) {
   if (const auto character = bench.scene->character()) role_choice(bench, *character, joint);
   turn_controls(bench, joint);
   ImGui::EndDisabled();
-  ImGui::BeginDisabled(!bench.scene->turns);
+  ImGui::BeginDisabled(!bench.scene->turns());
   if (ImGui::Button("Turn all back")) bench.turn_back();
   ImGui::EndDisabled();
   ImGui::PopItemWidth();

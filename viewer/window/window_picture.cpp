@@ -47,7 +47,7 @@ bool WindowPicture::draw(Scene& scene, int width, int height) {
             scene.highlights,
             scene.skeleton(),
             scene.rig(),
-            scene.turns,
+            scene.turns(),
             scene.materials,
             &scene,
             scene.moment,

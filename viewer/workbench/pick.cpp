@@ -136,7 +136,7 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
     }
   }
   // Faces are found where the file has them.
-  if (scene.look.surface == SurfaceStyle::hidden || scene.turns) return {};
+  if (scene.look.surface == SurfaceStyle::hidden || scene.turns()) return {};
   return pick_face(scene, ray_through(scene.camera, at.x, at.y, width, height));
 }
 

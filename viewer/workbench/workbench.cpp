@@ -166,6 +166,7 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   opened->look = scene->look;
   if (same_place) opened->camera = scene->camera;
   scene = std::move(opened);
+  shown_rig_ = scene->rig();
   wants_fit = !same_place;
   run_memory_ = std::make_shared<RunMemory>();
   result_.reset();

@@ -68,7 +68,7 @@ void Workbench::show_state() {
   }
   if (rig != shown_rig_) {
     selected_joint_ = -1;
-    scene->turns = nullptr;
+    scene->turn_back();
   }
   shown_rig_ = rig;
   set_highlights();
@@ -302,6 +302,7 @@ void Workbench::set_root() {
   next.corrected = true;
   history_.add(std::move(next));
   drop_rig();
+  show_state();
   say("the root is node " + std::to_string(history_.now().root));
 }
 

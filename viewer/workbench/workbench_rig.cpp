@@ -117,11 +117,11 @@ void Workbench::place_rig() {
 /// Pose and chosen joint stay.
 void Workbench::change_roles() {
   if (!has_rig()) return;
-  const auto turns = scene->turns;
+  const auto turns = scene->turns();
   const int joint = selected_joint_;
   place_rig();
   show_state();
-  scene->turns = turns;
+  if (turns) scene->turn(*turns);
   select_joint(joint);
 }
 
@@ -129,10 +129,10 @@ void Workbench::turn_joint(int joint, const Eigen::Quaterniond& more) {
   const auto rig = scene->rig();
   if (!rig || joint < 0 || joint >= rig->joints.rows()) return;
   JointTurns turns(rig->names.size(), Eigen::Quaterniond::Identity());
-  if (scene->turns && scene->turns->size() == turns.size()) turns = *scene->turns;
+  if (const auto before = scene->turns()) turns = *before;
   Eigen::Quaterniond& turn = turns[static_cast<std::size_t>(joint)];
   turn = (more * turn).normalized();
-  scene->turns = std::make_shared<const JointTurns>(std::move(turns));
+  scene->turn(std::move(turns));
 }
 
 void Workbench::pull_joint(int joint, const glm::vec3& place) {
@@ -144,15 +144,16 @@ void Workbench::pull_joint(int joint, const glm::vec3& place) {
   const Eigen::Vector3d wanted = model_point(place, scene->document.space);
   Eigen::Quaterniond way = Eigen::Quaterniond::FromTwoVectors(
       (now.row(joint) - now.row(parent)).transpose(), wanted - now.row(parent).transpose());
-  if (scene->turns && above >= 0) {
+  const auto turns = scene->turns();
+  if (turns && above >= 0) {
     const Eigen::Matrix3d turned =
-        joint_motions(*rig, *scene->turns)[static_cast<std::size_t>(above)].linear();
+        joint_motions(*rig, *turns)[static_cast<std::size_t>(above)].linear();
     way = Eigen::Quaterniond(turned.transpose() * way * turned);
   }
   turn_joint(parent, way);
 }
 
-void Workbench::turn_back() { scene->turns = nullptr; }
+void Workbench::turn_back() { scene->turn_back(); }
 
 void Workbench::set_role(const std::string& role) {
   const auto shown = scene->character();

@@ -121,6 +121,7 @@ void Workbench::show_all_tries(bool all) {
 }
 
 void Workbench::take_moments(std::vector<Moment> moments) {
+  const bool cuts = first_moment_ && !moments.empty();
   for (Moment& moment : moments) {
     if (first_moment_) {
       // Moments that this run shows anew take the place of those of an earlier run.
@@ -131,6 +132,7 @@ void Workbench::take_moments(std::vector<Moment> moments) {
     scene->recording.add(std::move(moment));
   }
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
+  if (cuts) show_state();  // a rig that was shown has gone, and the choice of its joint
 }
 
 CurveSkeleton Workbench::at_level(const CurveSkeleton& whole) const {
