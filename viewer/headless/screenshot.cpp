@@ -15,6 +15,7 @@
 #include "app/output_files.hpp"
 #include "viewer/headless/headless.hpp"
 #include "viewer/headless/png.hpp"
+#include "viewer/model/ground.hpp"
 #include "viewer/model/rigging.hpp"
 
 namespace curveskel::viewer {
@@ -27,10 +28,20 @@ using Part = Renderer::Part;
 constexpr int largest_side = 16384;
 
 void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
-             const Certificate* certificate, const CharacterOptions& character,
+             const Certificate& certificate, const CharacterOptions& character,
              const Monitor& monitor) {
   scene.recording.add(
-      moment_of(rig_of(scene.document, repaired, skeleton, certificate, character, monitor)));
+      moment_of(rig_of(scene.document, repaired, skeleton, &certificate, character, monitor)));
+}
+
+/// Of the skeleton that was opened, as the window makes it.
+void add_rig_of_file(Scene& scene, const RunOptions& options, const Monitor& monitor) {
+  const auto ground = ground_of(std::make_shared<const RepairedSurface>(
+      repair(*scene.document.polygons(), options.repair, monitor)));
+  const CurveSkeleton& skeleton = *scene.own_skeleton;
+  const Certificate certificate =
+      certificate_of(*ground, skeleton, options.extract.certificate, monitor);
+  add_rig(scene, *ground->repaired, skeleton, certificate, options.character, monitor);
 }
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
@@ -45,7 +56,7 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
       scene.recording.settle(news.result->extraction->history);
       if (options.stage.stage != "rig") return;
       add_rig(scene, *news.result->repaired, *news.result->skeleton,
-              &news.result->extraction->certificate, options.pipeline.character, monitor);
+              news.result->extraction->certificate, options.pipeline.character, monitor);
       return;
     }
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
@@ -288,9 +299,7 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
   if (options.stage.stage == "input") {
     if (scene.document.has_surface()) scene.own_skeleton = nullptr;
   } else if (options.stage.stage == "rig" && scene.own_skeleton && scene.document.has_surface()) {
-    const RepairedSurface repaired =
-        repair(*scene.document.polygons(), options.pipeline.repair, monitor);
-    add_rig(scene, repaired, *scene.own_skeleton, nullptr, options.pipeline.character, monitor);
+    add_rig_of_file(scene, options.pipeline, monitor);
     go_to(scene, options.stage);
     look_at_rig(scene, options.joint);
   } else if (scene.document.has_surface() && wants_run &&

@@ -6,10 +6,8 @@
 #include <exception>
 #include <utility>
 
-#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
-#include <curveskel/topology.hpp>
 #include "app/report.hpp"
 #include "viewer/software/priority.hpp"
 
@@ -326,23 +324,16 @@ void Workbench::judge() {
                                              repair_options = pipeline.repair]() mutable {
     give_way();
     Judgement found;
+    found.scene = held;
     found.skeleton = skeleton;
     try {
       if (!repaired) {
         repaired = std::make_shared<const RepairedSurface>(
             repair(*held->document.polygons(), repair_options, Monitor{}));
       }
-      if (!ground || ground->repaired != repaired) {
-        const Topology counted = topology(repaired->surface);
-        ground = std::make_shared<const Ground>(
-            Ground{repaired, SurfaceTree(repaired->surface),
-                   bounding_box_diagonal(repaired->surface.positions), counted.components(),
-                   counted.total_genus()});
-      }
+      if (!ground || ground->repaired != repaired) ground = ground_of(repaired);
       found.ground = ground;
-      found.certificate = evaluate({ground->repaired->surface, ground->tree, ground->diagonal,
-                                    ground->components, ground->genus},
-                                   *skeleton, options, Monitor{});
+      found.certificate = certificate_of(*ground, *skeleton, options, Monitor{});
       found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, Monitor{});
     } catch (const std::exception& error) {
       found.error = error.what();
@@ -354,6 +345,10 @@ void Workbench::judge() {
 bool Workbench::take_judgement() {
   if (!is_ready(judging_)) return false;
   Judgement found = judging_.get();
+  if (found.scene != scene) {  // of another file, or of the same one before it changed
+    judge();
+    return false;
+  }
   if (found.ground) ground_ = found.ground;
   if (found.skeleton == scene->skeleton()) {
     judgement_ = std::move(found);

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include <curveskel/advanced/tree.hpp>
 #include <curveskel/edit.hpp>
 #include <curveskel/findings.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "viewer/model/defects.hpp"
+#include "viewer/model/ground.hpp"
 #include "viewer/model/history.hpp"
 #include "viewer/model/run.hpp"
 #include "viewer/render/scene.hpp"
@@ -34,17 +34,9 @@ struct Message {
   std::chrono::steady_clock::time_point since;
 };
 
-/// The surface that skeletons are judged against.
-struct Ground {
-  std::shared_ptr<const RepairedSurface> repaired;
-  SurfaceTree tree;
-  double diagonal = 0;  ///< D
-  int components = 0;
-  int genus = 0;
-};
-
 /// A certificate and where it fails, of one skeleton.
 struct Judgement {
+  std::shared_ptr<const Scene> scene;  ///< whose surface it is
   std::shared_ptr<const CurveSkeleton> skeleton;
   std::shared_ptr<const Ground> ground;
   Certificate certificate;
@@ -170,6 +162,7 @@ class Workbench {
     std::string error;
   };
   struct Rigged {
+    std::shared_ptr<const Scene> scene;
     Edited of;
     std::shared_ptr<const CharacterRig> rig;  // null where it was stopped
     std::string on_sheets;                    // see words_on_sheets

@@ -33,29 +33,34 @@ void Workbench::rig() {
   rigging_stop_ = {};
   CharacterOptions options = pipeline.character;
   options.rig.joints.root = history_.now().root;
+  // Always that of this very skeleton, so that a rig does not depend on when it was asked for.
   std::optional<Certificate> certificate;
   if (judgement_ && judgement_->error.empty() && judgement_->skeleton == history_.now().skeleton) {
     certificate = judgement_->certificate;
-  } else if (result_) {
-    certificate = result_->extraction->certificate;
   }
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
   rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
-                                             certificate, repair_options = pipeline.repair,
+                                             certificate, ground = ground_,
+                                             certificate_options = pipeline.extract.certificate,
+                                             repair_options = pipeline.repair,
                                              stop = rigging_stop_.get_token()]() mutable {
     give_way();
     Monitor monitor;
     monitor.stop = stop;
     Rigged made;
+    made.scene = held;
     made.of = of;
     try {
       if (!repaired) {
         repaired = std::make_shared<const RepairedSurface>(
             repair(*held->document.polygons(), repair_options, monitor));
       }
-      made.rig = rig_of(held->document, *repaired, *of.skeleton,
-                        certificate ? &*certificate : nullptr, options, monitor);
+      if (!certificate) {
+        if (!ground || ground->repaired != repaired) ground = ground_of(repaired);
+        certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
+      }
+      made.rig = rig_of(held->document, *repaired, *of.skeleton, &*certificate, options, monitor);
       made.on_sheets = words_on_sheets(*repaired, repair_options);
     } catch (const Cancelled&) {
     } catch (const std::exception& error) {
@@ -71,7 +76,7 @@ bool Workbench::take_rig() {
   if (!ready) return false;
   const Rigged made = rigging_.get();
   const bool stopped = !made.rig && made.error.empty();  // by a change, even one taken back
-  const bool stale = stopped || run_ || history_.empty() ||
+  const bool stale = stopped || run_ || made.scene != scene || history_.empty() ||
                      made.of.skeleton != history_.now().skeleton ||
                      made.of.root != history_.now().root;
   const bool again = std::exchange(rig_again_, false) || (stale && !save_rig_to_.empty());

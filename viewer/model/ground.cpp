@@ -1,0 +1,28 @@
+#include "viewer/model/ground.hpp"
+
+#include <utility>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/topology.hpp>
+
+namespace curveskel::viewer {
+
+std::shared_ptr<const Ground> ground_of(std::shared_ptr<const RepairedSurface> repaired) {
+  const Surface& surface = repaired->surface;
+  const Topology counted = topology(surface);
+  SurfaceTree tree(surface);
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  return std::make_shared<const Ground>(Ground{std::move(repaired), std::move(tree), diagonal,
+                                               counted.components(), counted.total_genus()});
+}
+
+Certificate certificate_of(const Ground& ground, const CurveSkeleton& skeleton,
+                           const CertificateOptions& options, const Monitor& monitor) {
+  Certificate found = evaluate(
+      {ground.repaired->surface, ground.tree, ground.diagonal, ground.components, ground.genus},
+      skeleton, options, monitor);
+  found.wrap_followed = ground.repaired->repairs.wrap_followed;
+  return found;
+}
+
+}  // namespace curveskel::viewer

@@ -1,0 +1,28 @@
+// The surface that skeletons are judged against.
+#pragma once
+
+#include <memory>
+
+#include <curveskel/advanced/tree.hpp>
+#include <curveskel/certificate.hpp>
+#include <curveskel/repair.hpp>
+
+namespace curveskel::viewer {
+
+struct Ground {
+  std::shared_ptr<const RepairedSurface> repaired;
+  SurfaceTree tree;
+  double diagonal = 0;  ///< D
+  int components = 0;
+  int genus = 0;
+};
+
+/// O(#F log #F).
+[[nodiscard]] std::shared_ptr<const Ground> ground_of(
+    std::shared_ptr<const RepairedSurface> repaired);
+
+/// That of the skeleton, with what repair says about the surface.
+[[nodiscard]] Certificate certificate_of(const Ground& ground, const CurveSkeleton& skeleton,
+                                         const CertificateOptions& options, const Monitor& monitor);
+
+}  // namespace curveskel::viewer
