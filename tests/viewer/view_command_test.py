@@ -1,5 +1,6 @@
 """curveskel view without a window: what it writes, what it refuses."""
 
+import json
 import os
 import pathlib
 import signal
@@ -179,6 +180,15 @@ class Stages(ViewTest):
         rig = self.picture(Y, "--stage", "rig")
         numpy.testing.assert_array_equal(self.picture(Y, extracted, "--stage", "rig"), rig)
         self.assert_differ(self.picture(Y, "--stage", "rig", "--joint", "root"), rig)
+
+    def test_rig_of_a_given_skeleton_has_the_root_that_it_names(self):
+        extracted = self.skeleton()
+        usual = self.picture(Y, extracted, "--stage", "rig", "--joint", "root")
+        skeleton = json.loads(extracted.read_text())
+        skeleton["root"] = len(skeleton["nodes"]) - 1
+        extracted.write_text(json.dumps(skeleton))
+        rooted = self.picture(Y, extracted, "--stage", "rig", "--joint", "root")
+        self.assert_differ(rooted, usual)
 
     def test_a_rig_has_joints_in_sheets_unless_told_otherwise(self):
         head, counts, *lines = pathlib.Path(Y).read_text().splitlines()

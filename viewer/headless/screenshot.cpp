@@ -37,11 +37,14 @@ void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton&
 /// Of the skeleton that was opened, as the window makes it.
 void add_rig_of_file(Scene& scene, const RunOptions& options, const Monitor& monitor) {
   const auto ground = ground_of(std::make_shared<const RepairedSurface>(
-      repair(*scene.document.polygons(), options.repair, monitor)));
+                                    repair(*scene.document.polygons(), options.repair, monitor)),
+                                monitor);
   const CurveSkeleton& skeleton = *scene.own_skeleton;
   const Certificate certificate =
       certificate_of(*ground, skeleton, options.extract.certificate, monitor);
-  add_rig(scene, *ground->repaired, skeleton, certificate, options.character, monitor);
+  CharacterOptions character = options.character;
+  character.rig.joints.root = scene.document.root;
+  add_rig(scene, *ground->repaired, skeleton, certificate, character, monitor);
 }
 
 /// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.

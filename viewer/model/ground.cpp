@@ -7,10 +7,13 @@
 
 namespace curveskel::viewer {
 
-std::shared_ptr<const Ground> ground_of(std::shared_ptr<const RepairedSurface> repaired) {
+std::shared_ptr<const Ground> ground_of(std::shared_ptr<const RepairedSurface> repaired,
+                                        const Monitor& monitor) {
   const Surface& surface = repaired->surface;
   const Topology counted = topology(surface);
+  throw_if_stopped(monitor.stop);
   SurfaceTree tree(surface);
+  throw_if_stopped(monitor.stop);
   const double diagonal = bounding_box_diagonal(surface.positions);
   return std::make_shared<const Ground>(Ground{std::move(repaired), std::move(tree), diagonal,
                                                counted.components(), counted.total_genus()});

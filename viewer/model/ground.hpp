@@ -19,7 +19,7 @@ struct Ground {
 
 /// O(#F log #F).
 [[nodiscard]] std::shared_ptr<const Ground> ground_of(
-    std::shared_ptr<const RepairedSurface> repaired);
+    std::shared_ptr<const RepairedSurface> repaired, const Monitor& monitor);
 
 /// That of the skeleton, with what repair says about the surface.
 [[nodiscard]] Certificate certificate_of(const Ground& ground, const CurveSkeleton& skeleton,
