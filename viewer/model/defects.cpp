@@ -10,15 +10,31 @@
 namespace curveskel::viewer {
 namespace {
 
+/// Asks now and then for a stop, within sorts, too.
+class Heed {
+ public:
+  explicit Heed(const Monitor& monitor) : monitor_(monitor) {}
+  void operator()() {
+    constexpr unsigned every = 1U << 16U;
+    if (++calls_ % every == 0) throw_if_stopped(monitor_.stop);
+  }
+
+ private:
+  const Monitor& monitor_;
+  unsigned calls_ = 0;
+};
+
 /// For each vertex the lowest one at its place.
-std::vector<int> places_of(const Positions& positions) {
+std::vector<int> places_of(const Positions& positions, Heed& heed) {
   std::vector<int> order(static_cast<std::size_t>(positions.rows()));
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int v) {
     return std::array{positions(v, 0), positions(v, 1), positions(v, 2)};
   };
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    heed();
+    return std::pair(key(a), a) < std::pair(key(b), b);
+  });
   std::vector<int> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
@@ -48,8 +64,9 @@ void sort_out(std::vector<int>& faces) {
 
 }  // namespace
 
-Defects defects_of(const Surface& surface) {
-  const std::vector<int> place = places_of(surface.positions);
+Defects defects_of(const Surface& surface, const Monitor& monitor) {
+  Heed heed(monitor);
+  const std::vector<int> place = places_of(surface.positions, heed);
   Defects defects;
   std::vector<FaceEdge> face_edges;
   face_edges.reserve(3 * static_cast<std::size_t>(surface.triangles.rows()));
@@ -66,7 +83,8 @@ Defects defects_of(const Surface& surface) {
       if (a != b) face_edges.push_back({{std::min(a, b), std::max(a, b)}, face, a < b});
     }
   }
-  std::sort(face_edges.begin(), face_edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
+  std::sort(face_edges.begin(), face_edges.end(), [&](const FaceEdge& a, const FaceEdge& b) {
+    heed();
     return a.ends != b.ends ? a.ends < b.ends : a.face < b.face;
   });
   for (std::size_t first = 0; first < face_edges.size();) {

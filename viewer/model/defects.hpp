@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <curveskel/monitor.hpp>
 #include <curveskel/surface.hpp>
 
 namespace curveskel::viewer {
@@ -19,6 +20,6 @@ struct Defects {
 };
 
 /// O(#F log #F). Vertices at the same place count as one, as in a file of loose triangles.
-[[nodiscard]] Defects defects_of(const Surface& surface);
+[[nodiscard]] Defects defects_of(const Surface& surface, const Monitor& monitor = {});
 
 }  // namespace curveskel::viewer

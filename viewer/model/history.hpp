@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/embed.hpp>
 #include <curveskel/curve_skeleton.hpp>
 
 namespace curveskel::viewer {
@@ -28,6 +29,8 @@ struct Edited {
   /// As it was made or read, with all its branches: levels are of it. With its root.
   std::shared_ptr<const CurveSkeleton> whole = nullptr;
   int whole_root = -1;
+  double detail = EmbedOptions().detail;       ///< of the level that is shown
+  double detail_made = EmbedOptions().detail;  ///< of the whole, of which other levels are parts
 };
 
 /// States in order; the past is kept whole, the future until something else is done.

@@ -75,8 +75,10 @@ std::string words_on_sheets(const RepairedSurface& repaired, const RepairOptions
   const auto left_out = repaired.repairs.sheets_dropped;
   if (left_out == 0 || options.least_sheet > 0) return {};
   return fmt::format(
-      "{} open or flat part{} no joints: --least-sheet {} gives large ones their own", left_out,
-      left_out == 1 ? " has" : "s have", repair_for_rigs().least_sheet);
+      "{} open or flat part{} no joints; open the file with --least-sheet {}, which gives large "
+      "ones "
+      "their own",
+      left_out, left_out == 1 ? " has" : "s have", repair_for_rigs().least_sheet);
 }
 
 }  // namespace curveskel::viewer

@@ -42,6 +42,12 @@ void give_back_memory() {
 #endif
 }
 
+Monitor heeding(const std::stop_source& source) {
+  Monitor monitor;
+  monitor.stop = source.get_token();
+  return monitor;
+}
+
 std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -54,9 +60,8 @@ Workbench::Workbench(ViewOptions options)
     : scene(std::make_shared<Scene>(Document{})),
       pipeline(options.pipeline),
       options_(std::move(options)),
-      run_memory_(std::make_shared<RunMemory>()),
-      detail_shown_(pipeline.extract.embed.detail) {
-  news_.state = Run::State::cancelled;
+      run_memory_(std::make_shared<RunMemory>()) {
+  news_.state = Run::State::finished;
   scene->look = options_.look;
   if (!options_.files.empty()) open(options_.files);
 }
@@ -66,6 +71,8 @@ Workbench::~Workbench() {
   if (run_) run_->cancel();
   for (const auto& run : retired_) run->cancel();
   rigging_stop_.request_stop();
+  opening_stop_.request_stop();
+  document_stop_.request_stop();
 }
 
 void Workbench::say(std::string text, bool bad) {
@@ -105,12 +112,15 @@ void Workbench::open(const std::vector<fs::path>& files) {
     return;
   }
   say("opening " + names_of(files));
-  opening_ = std::async(std::launch::async, [files] {
+  opening_stop_ = {};
+  opening_ = std::async(std::launch::async, [files, monitor = heeding(opening_stop_)] {
     Opened opened;
     opened.files = files;
     for (const fs::path& file : files) opened.times.push_back(time_of(file));
     try {
-      opened.scene = std::make_shared<Scene>(open_document(files, Monitor{}));
+      Document document = open_document(files, monitor);
+      throw_if_stopped(monitor.stop);
+      opened.scene = std::make_shared<Scene>(std::move(document));
     } catch (const std::bad_alloc&) {
       opened.error = names_of(files) + ": out of memory";
     } catch (const std::exception& error) {
@@ -124,6 +134,12 @@ void Workbench::open(const std::vector<fs::path>& files) {
 bool Workbench::take_opened() {
   if (!is_ready(opening_)) return false;
   Opened opened = opening_.get();
+  if (opening_stop_.stop_requested()) {
+    // The same state of a file is not read again by itself.
+    if (std::exchange(reloading_, false)) read_times_ = opened.times;
+    say("opening was cancelled");
+    return true;
+  }
   // If another file could not be opened, the open ones have not changed.
   if (opened.scene || reloading_) read_times_ = opened.times;
   if (!opened.scene) {
@@ -158,6 +174,8 @@ void Workbench::choose_wished_joint() {
 void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   retire_run();
   rigging_stop_.request_stop();
+  document_stop_.request_stop();
+  document_stop_ = {};
   rig_again_ = false;
   save_rig_to_.clear();
   wants_to_replace.reset();
@@ -167,6 +185,8 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   shown_rig_ = scene->rig();
   wants_fit = !same_place;
   run_memory_ = std::make_shared<RunMemory>();
+  news_ = {};
+  news_.state = Run::State::finished;
   result_.reset();
   judgement_.reset();
   ground_.reset();
@@ -181,12 +201,16 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   failed_faces_.clear();
   if (scene->own_skeleton) {
     const int root = scene->document.root;
-    show_made({scene->own_skeleton, root, false, {}, scene->own_skeleton, root}, true);
+    Edited read{scene->own_skeleton, root, false, {}, scene->own_skeleton, root};
+    read.detail = pipeline.extract.embed.detail;
+    show_made(std::move(read), true);
   } else if (!history_.empty()) {
     show_state();
   }
   inspect();
 }
+
+void Workbench::cancel_opening() { opening_stop_.request_stop(); }
 
 void Workbench::reload() {
   if (files_.empty() || opening_.valid()) return;
@@ -205,8 +229,8 @@ void Workbench::watch_files() {
 }
 
 void Workbench::save(const fs::path& file, bool may_replace) {
-  if (history_.empty() && !scene->skeleton()) {
-    say("there is no skeleton to save yet", true);
+  if (history_.empty()) {
+    say(run_ ? "the skeleton is not there yet" : "there is no skeleton to save yet", true);
     return;
   }
   std::error_code none;
@@ -239,7 +263,7 @@ void Workbench::save(const fs::path& file, bool may_replace) {
 }
 
 void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
-  const Edited now = history_.empty() ? Edited{scene->skeleton(), -1, false, {}} : history_.now();
+  const Edited& now = history_.now();
   SkeletonContext context;
   context.root = now.root;
   context.provenance = program_and_version() + ", " + names_of(files_) +
@@ -248,6 +272,17 @@ void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
   write_file(file, format_skeleton(*now.skeleton, format, context));
   note_saved(file);
   say("saved " + file.string());
+}
+
+std::string Workbench::suggested_name() const {
+  const Document& document = scene->document;
+  fs::path name = (document.has_surface() ? document.mesh_file : document.skeleton_file).filename();
+  if (extension_of(name) == "gz") name.replace_extension();
+  const std::string stem = name.empty() ? "skeleton" : name.stem().string();
+  const char* const extension = shows_made_rig() ? ".glb" : ".json";
+  const std::string wanted = stem + extension;
+  return wanted == name.string() ? stem + (shows_made_rig() ? "-rig" : "-skeleton") + extension
+                                 : wanted;
 }
 
 /// Its own change of an open file is none to be read again.
@@ -271,17 +306,18 @@ void Workbench::inspect() {
   leave(materials_);
   std::erase_if(background_, [](const std::future<void>& one) { return is_ready(one); });
   if (scene->document.surface.triangles.rows() == 0) return;
-  inspecting_ = std::async(std::launch::async, [held = scene] {
+  const Monitor monitor = heeding(document_stop_);
+  inspecting_ = std::async(std::launch::async, [held = scene, monitor] {
     give_way();
-    auto found = std::make_shared<const Defects>(defects_of(held->document.surface));
+    auto found = std::make_shared<const Defects>(defects_of(held->document.surface, monitor));
     give_back_memory();
     return found;
   });
-  materials_ = std::async(std::launch::async, [held = scene] {
+  materials_ = std::async(std::launch::async, [held = scene, monitor] {
     give_way();
     auto found =
         materials_of(held->document.mesh_file,
-                     static_cast<std::size_t>(held->document.surface.positions.rows()), {});
+                     static_cast<std::size_t>(held->document.surface.positions.rows()), monitor);
     give_back_memory();
     return found;
   });
@@ -319,27 +355,28 @@ void Workbench::judge() {
   if (!skeleton || !scene->document.has_surface() || judging_.valid() || judgement() != nullptr)
     return;
   auto repaired = result_ ? result_->repaired : nullptr;
-  judging_ = std::async(std::launch::async, [skeleton, repaired, ground = ground_, held = scene,
-                                             options = pipeline.extract.certificate,
-                                             repair_options = pipeline.repair]() mutable {
-    give_way();
-    Judgement found;
-    found.scene = held;
-    found.skeleton = skeleton;
-    try {
-      if (!repaired) {
-        repaired = std::make_shared<const RepairedSurface>(
-            repair(*held->document.polygons(), repair_options, Monitor{}));
-      }
-      if (!ground || ground->repaired != repaired) ground = ground_of(repaired);
-      found.ground = ground;
-      found.certificate = certificate_of(*ground, *skeleton, options, Monitor{});
-      found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, Monitor{});
-    } catch (const std::exception& error) {
-      found.error = error.what();
-    }
-    return found;
-  });
+  judging_ = std::async(
+      std::launch::async,
+      [skeleton, repaired, ground = ground_, held = scene, options = pipeline.extract.certificate,
+       monitor = heeding(document_stop_), repair_options = pipeline.repair]() mutable {
+        give_way();
+        Judgement found;
+        found.scene = held;
+        found.skeleton = skeleton;
+        try {
+          if (!repaired) {
+            repaired = std::make_shared<const RepairedSurface>(
+                repair(*held->document.polygons(), repair_options, monitor));
+          }
+          if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
+          found.ground = ground;
+          found.certificate = certificate_of(*ground, *skeleton, options, monitor);
+          found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, monitor);
+        } catch (const std::exception& error) {
+          found.error = error.what();
+        }
+        return found;
+      });
 }
 
 bool Workbench::take_judgement() {

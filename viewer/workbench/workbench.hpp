@@ -57,9 +57,12 @@ class Workbench {
   /// True if another thread is at work, so that `update` should be called soon again.
   [[nodiscard]] bool busy() const;
   [[nodiscard]] bool opening() const { return opening_.valid(); }
+  [[nodiscard]] bool judging() const { return judging_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
   void open(const std::vector<std::filesystem::path>& files);
+  /// The open files stay.
+  void cancel_opening();
   void reload();
   /// Reloads if the files on the disk are newer than those that were read.
   void watch_files();
@@ -68,18 +71,22 @@ class Workbench {
   /// be replaced, `wants_to_replace` is set instead, unless it may be.
   void save(const std::filesystem::path& file, bool may_replace = false);
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// For the skeleton, or for the rig where that is shown: after the open file, and never its own.
+  [[nodiscard]] std::string suggested_name() const;
 
   // The run.
   void start(bool paused);
   void pause();
   void resume();  ///< starts one where none is under way
-  void step();    ///< one moment on: of the run, or of the recording
+  /// One moment on: of the run, or of the recording. At the end of all, a rig is begun, but not by
+  /// a key that is held.
+  void step(bool held = false);
   void cancel();
   void rewind();
   /// Hides and shows branches of the skeleton that was made, by the detail wanted.
   void show_level();
-  /// The detail of the last run, of which coarser levels are parts.
-  [[nodiscard]] double detail_made() const { return detail_made_; }
+  /// The detail of the run that goes on, or of what is shown, of which coarser levels are parts.
+  [[nodiscard]] double detail_made() const;
   [[nodiscard]] Run::State run_state() const { return news_.state; }
   [[nodiscard]] bool running() const { return run_ != nullptr; }
   [[nodiscard]] const Run::News& news() const { return news_; }
@@ -101,12 +108,15 @@ class Workbench {
   void show_spurs();
   /// Colours faces of the given surface red and flies to the first.
   void show_faces(const std::vector<int>& faces);
+  /// Nothing is red any more. `show_...` of what is red already does the same.
+  void clear_faults();
 
   /// Makes joints and skin weights of the skeleton as it is, beside what goes on; they become the
   /// last moment of the timeline, until the skeleton changes.
   void rig();
   /// True if a rig is being made, of a skeleton chosen before now.
   [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
+  [[nodiscard]] bool shows_made_rig() const { return scene->character() != nullptr; }
   [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
   /// Turns a joint about itself, in the surface's coordinates, on top of how it is turned; those
@@ -184,6 +194,7 @@ class Workbench {
   void retire_run();
   [[nodiscard]] CurveSkeleton at_level(const CurveSkeleton& whole) const;
   void heed_time_limit();
+  void put_back_skeleton();
   void choose_wished_joint();
   void save_skeleton(const std::filesystem::path& file, SkeletonFormat format);
   void note_saved(const std::filesystem::path& file);
@@ -196,19 +207,21 @@ class Workbench {
   void show_state();
   void judge();
   void set_highlights();
+  [[nodiscard]] bool show_or_hide(std::vector<int>& red, std::vector<int> wanted);
 
   ViewOptions options_;
   std::vector<std::filesystem::path> files_;
   std::vector<std::filesystem::file_time_type> read_times_;
+  std::stop_source opening_stop_;
   std::future<Opened> opening_;
+  std::stop_source document_stop_;  // of all work for the present one but runs and rigs
   bool reloading_ = false;
   std::unique_ptr<Run> run_;
   std::vector<std::unique_ptr<Run>> retired_;  // cancelled, not yet at their ends
   std::optional<bool> wants_start_;            // paused or not, once those are gone
   std::shared_ptr<RunMemory> run_memory_;
   Run::News news_;
-  double detail_made_ = EmbedOptions().detail;
-  double detail_shown_ = EmbedOptions().detail;
+  double run_detail_ = EmbedOptions().detail;
   std::chrono::steady_clock::time_point updated_ = std::chrono::steady_clock::now();
   double run_seconds_ = 0;  // without pauses
   bool first_moment_ = true;

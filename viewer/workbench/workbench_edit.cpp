@@ -139,16 +139,31 @@ void Workbench::set_highlights() {
   scene->highlights = std::move(lit);
 }
 
+/// True if they are red now; false where they were so before.
+bool Workbench::show_or_hide(std::vector<int>& red, std::vector<int> wanted) {
+  const bool was_red = !wanted.empty() && red == wanted;
+  red = was_red ? std::vector<int>{} : std::move(wanted);
+  set_highlights();
+  return !was_red;
+}
+
+void Workbench::clear_faults() {
+  failed_edges_.clear();
+  failed_faces_.clear();
+  set_highlights();
+}
+
 void Workbench::show_exits() {
   const Judgement* found = judgement();
   if (found == nullptr) return;
-  failed_edges_.clear();
+  std::vector<int> edges;
   const Exit* worst = nullptr;
   for (const Exit& exit : found->findings.exits) {
     if (exit.edge < 0) continue;
-    failed_edges_.push_back(exit.edge);
+    edges.push_back(exit.edge);
     if (worst == nullptr || exit.depth > worst->depth) worst = &exit;
   }
+  if (!show_or_hide(failed_edges_, std::move(edges))) return;
   if (worst != nullptr) {
     const Eigen::RowVector3d from =
         found->skeleton->nodes.row(found->skeleton->edges(worst->edge, 0));
@@ -158,17 +173,17 @@ void Workbench::show_exits() {
   } else {
     say("no edge leaves the surface");
   }
-  set_highlights();
 }
 
 void Workbench::show_spurs() {
   const Judgement* found = judgement();
   if (found == nullptr) return;
-  failed_edges_.clear();
+  std::vector<int> edges;
   for (const Branch& spur : found->findings.spurs) {
-    const std::vector<int> edges = edges_along(*found->skeleton, spur.nodes);
-    failed_edges_.insert(failed_edges_.end(), edges.begin(), edges.end());
+    const std::vector<int> along = edges_along(*found->skeleton, spur.nodes);
+    edges.insert(edges.end(), along.begin(), along.end());
   }
+  if (!show_or_hide(failed_edges_, std::move(edges))) return;
   if (found->findings.spurs.empty()) {
     say("there is no spur");
   } else {
@@ -176,17 +191,15 @@ void Workbench::show_spurs() {
         shown_point(found->skeleton->nodes.row(found->findings.spurs.front().nodes.front()),
                     scene->document.space);
   }
-  set_highlights();
 }
 
 void Workbench::show_faces(const std::vector<int>& faces) {
-  failed_faces_ = faces;
+  if (!show_or_hide(failed_faces_, faces)) return;
   if (!faces.empty()) {
     const auto corners = scene->document.surface.triangles.row(faces.front());
     wants_look_at =
         shown_point(scene->document.surface.positions.row(corners[0]), scene->document.space);
   }
-  set_highlights();
 }
 
 /// Else says why a correction would not be of it.
@@ -311,6 +324,7 @@ void Workbench::go_in_history(const std::function<void()>& way) {
   const Edited before = history_.now();
   way();
   const Edited& now = history_.now();
+  if (!run_) pipeline.extract.embed.detail = now.detail;  // which a run shows at its end
   if (now.skeleton == before.skeleton && now.root == before.root) {
     change_roles();
     return;

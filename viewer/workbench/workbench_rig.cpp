@@ -57,7 +57,7 @@ void Workbench::rig() {
             repair(*held->document.polygons(), repair_options, monitor));
       }
       if (!certificate) {
-        if (!ground || ground->repaired != repaired) ground = ground_of(repaired);
+        if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
         certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
       }
       made.rig = rig_of(held->document, *repaired, *of.skeleton, &*certificate, options, monitor);

@@ -32,7 +32,7 @@ void Workbench::start(bool paused) {
   options.extract.fairing = options.extract.fair.iterations > 0;
   // Coarser levels are parts of the one that is made.
   options.extract.embed.detail = std::max(options.extract.embed.detail, EmbedOptions().detail);
-  detail_made_ = options.extract.embed.detail;
+  run_detail_ = options.extract.embed.detail;
   // One core stays for the picture; the result is the same.
   if (options.extract.threads == 0) {
     options.extract.threads =
@@ -73,7 +73,7 @@ void Workbench::resume() {
   }
 }
 
-void Workbench::step() {
+void Workbench::step(bool held) {
   if (scene->moment + 1 < scene->recording.moments().size()) {
     go_to(scene->moment + 1);
   } else if (run_) {
@@ -81,7 +81,7 @@ void Workbench::step() {
     run_->step();
   } else if (!result_) {
     start(true);  // up to its first moment
-  } else if (!has_rig()) {
+  } else if (!has_rig() && !making_rig() && !held) {
     rig();
   }
 }
@@ -89,8 +89,23 @@ void Workbench::step() {
 void Workbench::cancel() {
   if (!run_) return;
   retire_run();
+  put_back_skeleton();
   show_state();
   say("cancelled; what was recorded is kept");
+}
+
+/// After a run that did not come to its end: what there was before is the last moment again.
+void Workbench::put_back_skeleton() {
+  const auto& moments = scene->recording.moments();
+  const bool is_there = std::any_of(moments.begin(), moments.end(),
+                                    [](const Moment& one) { return one.stage == "skeleton"; });
+  if (is_there || history_.empty() || moments.size() == 1) return;
+  const Edited& now = history_.now();
+  Moment last;
+  last.stage = "skeleton";
+  last.skeleton = now.whole ? now.whole : now.skeleton;
+  if (result_) last.seconds = result_->seconds;
+  scene->recording.add(std::move(last));
 }
 
 /// A limit is for the work, not for the person who looks at it.
@@ -139,19 +154,26 @@ CurveSkeleton Workbench::at_level(const CurveSkeleton& whole) const {
   return level_of(whole, least_life(pipeline.extract.embed.detail));
 }
 
+double Workbench::detail_made() const {
+  if (run_) return run_detail_;
+  return history_.empty() ? EmbedOptions().detail : history_.now().detail_made;
+}
+
 void Workbench::show_level() {
   double& detail = pipeline.extract.embed.detail;
-  // A run shows its own at its end; a finer one than was made needs a run.
-  if (run_ || detail == detail_shown_ || (history_.corrected() && detail > detail_made_)) return;
-  if (history_.corrected()) {
-    detail = detail_shown_;
+  if (run_ || history_.empty()) return;  // a run shows its own at its end
+  const Edited& now = history_.now();
+  // A finer one than was made needs a run.
+  if (detail == now.detail || (now.corrected && detail > now.detail_made)) return;
+  if (now.corrected) {
+    detail = now.detail;
     say("a level is of the skeleton as it was made: take the corrections back (Ctrl-Z) first",
         true);
     return;
   }
-  if (history_.empty() || history_.now().whole == nullptr) return;
-  detail_shown_ = detail;
-  Edited whole = history_.now();
+  if (now.whole == nullptr) return;
+  Edited whole = now;
+  whole.detail = detail;
   whole.skeleton = whole.whole;
   whole.root = whole.whole_root;
   show_made(changed_with_root(whole, [&](const CurveSkeleton& one) { return at_level(one); }),
@@ -166,9 +188,10 @@ void Workbench::take_result(RunResult result) {
   scene->moment = std::min(scene->moment, scene->recording.moments().size() - 1);
   if (follow_) scene->moment = scene->recording.moments().size() - 1;
   const bool had_root = root() >= 0;
-  detail_shown_ = pipeline.extract.embed.detail;
   Edited made{std::make_shared<const CurveSkeleton>(at_level(*result.skeleton)), -1, false, {}};
   made.whole = result.skeleton;
+  made.detail = pipeline.extract.embed.detail;
+  made.detail_made = run_detail_;
   if (!history_.empty()) made.roles = history_.now().roles;
   show_made(std::move(made), true);
   if (had_root) say("the root was a node of the skeleton before; set it again (T)");
@@ -191,6 +214,7 @@ bool Workbench::take_news() {
   news_ = std::move(news);
   if (done) {
     run_.reset();
+    put_back_skeleton();
     show_state();
   }
   return changed;
