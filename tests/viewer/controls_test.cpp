@@ -123,6 +123,14 @@ TEST_F(Controlled, EscapeInAFieldOrListIsForThatAlone) {
   EXPECT_FALSE(panels.help);
 }
 
+TEST_F(Controlled, EscapeClearsWhatIsChosenAndWhatIsRed) {
+  open_y(false);
+  bench.show_faces({0, 1});
+  EXPECT_FALSE(bench.scene->highlights.failed_faces.empty());
+  type(GLFW_KEY_ESCAPE);
+  EXPECT_TRUE(bench.scene->highlights.failed_faces.empty());
+}
+
 TEST_F(Controlled, NoKeyLeavesWhileAFieldIsEdited) {
   const auto field = [] {
     ImGui::Begin("panel");

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <array>
+#include <cmath>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -112,11 +115,49 @@ TEST_F(OnScreen, ButtonsStandBesideEachOtherWhereTheyFit) {
   }
 }
 
+// Beyond 90 degrees about y, all three sprang to other angles of the same turn.
+TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
+  open_rig();
+  TurnAngles kept;
+  const std::array<float, 3> none{};
+  for (const std::array<float, 3>& wished :
+       {std::array<float, 3>{10, 0, 0}, {170, 89, -20}, {-120, 90, 33}, {180, -90, 180}}) {
+    set_angles(kept, bench, 1, wished);
+    frame();
+    EXPECT_EQ(angles_of(kept, bench, 1), wished);
+    const Eigen::Quaterniond turn = (*bench.scene->turns())[1];
+    const Eigen::Quaterniond expected = turn_by({wished[0], wished[1], wished[2]});
+    EXPECT_NEAR(std::abs(turn.dot(expected)), 1, 1e-9);
+  }
+  EXPECT_EQ(angles_of(kept, bench, 2), none);
+  set_angles(kept, bench, 1, {10, 20, 30});
+  bench.turn_joint(1, turn_by({0, 0, 5}));
+  const std::array<float, 3> turned = angles_of(kept, bench, 1);
+  EXPECT_NEAR(turned[0], 10, 1e-3);
+  EXPECT_NEAR(turned[1], 20, 1e-3);
+  EXPECT_NEAR(turned[2], 35, 1e-3);
+  bench.turn_back();
+  EXPECT_EQ(angles_of(kept, bench, 1), none);
+}
+
+// It ended the program, with all corrections.
+TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const std::filesystem::path gone = folder.path() / "gone";
+  std::filesystem::create_directory(gone);
+  std::filesystem::current_path(gone);
+  std::filesystem::remove(gone);
+  FileBrowser browser;
+  EXPECT_NO_THROW(browser.ask(FileBrowser::Purpose::save, "Save the skeleton", "y.json"));
+  EXPECT_NO_THROW(frame([&] { (void)browser.draw(); }));
+  std::filesystem::current_path(before);
+}
+
 TEST_F(OnScreen, TheFileWindowIsAsLargeAsItsLetters) {
   const auto size = [&](float scale) {
     ImGui::GetIO().FontGlobalScale = scale;
     FileBrowser browser;
-    browser.ask(FileBrowser::Purpose::open, "");
+    browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "");
     for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
     const ImVec2 found = ImGui::FindWindowByName("Open a surface or a skeleton")->SizeFull;
     browser.close();

@@ -142,6 +142,19 @@ TEST_F(RigView, JointsArePickedWhereTheyAreSeen) {
   }
 }
 
+TEST_F(RigView, JointsAreAsEasyToPickOnAFineDisplay) {
+  constexpr int width = 640;
+  constexpr int height = 400;
+  Scene scene(document());
+  scene.look.surface = SurfaceStyle::hidden;
+  fit(scene.camera, scene.points(), float(width) / height);
+  const glm::vec3 place = shown_point(scene.document.rig->joints.row(0), scene.document.space);
+  const glm::vec2 at(pixel_of(scene.camera, scene.bounds(), place, width, height));
+  const glm::vec2 beside = at + glm::vec2(0, 14);
+  EXPECT_EQ(pick(scene, beside, width, height).kind, Pick::Kind::nothing);
+  EXPECT_EQ(pick(scene, beside, width, height, 2).kind, Pick::Kind::joint);
+}
+
 TEST_F(RigView, JointThatThereIsNotIsNamed) {
   Scene scene(document());
   scene.look = {};

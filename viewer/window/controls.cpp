@@ -116,7 +116,7 @@ bool Controls::begin_drag(const Workbench& bench, const Panels& panels) {
 void Controls::drag(Workbench& bench, const Area& picture) {
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   travelled_ += std::abs(moved.x) + std::abs(moved.y);
-  if (travelled_ < click_pixels || (moved.x == 0 && moved.y == 0)) return;
+  if (travelled_ < click_pixels * scale_ || (moved.x == 0 && moved.y == 0)) return;
   flight_.reset();
   Camera& camera = bench.scene->camera;
   const float turn = 4.0F / std::max(picture.height, 1.0F);
@@ -151,13 +151,13 @@ void Controls::pull(Workbench& bench, const Area& picture) const {
 void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& picture) {
   const Drag ended = std::exchange(drag_, Drag::none);
   const auto skeleton = bench.scene->skeleton();
-  if (ended == Drag::node && travelled_ >= click_pixels && skeleton &&
+  if (ended == Drag::node && travelled_ >= click_pixels * scale_ && skeleton &&
       dragged_ < skeleton->nodes.rows()) {
     const glm::vec3 place = shown_point(skeleton->nodes.row(dragged_), bench.scene->document.space);
     bench.move(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
     return;
   }
-  if (travelled_ >= click_pixels || button_ != 0) return;
+  if (travelled_ >= click_pixels * scale_ || button_ != 0) return;
   if (doubled_ && panels.hovered.kind != Pick::Kind::nothing) {
     look_at(bench, panels.hovered.place);
     return;
@@ -167,20 +167,21 @@ void Controls::end_drag(Workbench& bench, const Panels& panels, const Area& pict
 
 void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   const ImGuiIO& io = ImGui::GetIO();
+  scale_ = panels.scale;
   const glm::vec2 at = pointer_in(picture);
   const bool over = !io.WantCaptureMouse && holds(picture, at);
   bool began = false;
   if (drag_ == Drag::none) {
     panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
-                                 static_cast<int>(picture.height))
+                                 static_cast<int>(picture.height), scale_)
                           : Pick{};
     began = over && begin_drag(bench, panels);
   }
   if (drag_ != Drag::none) {
     if (!began) drag(bench, picture);  // the way to the place where it began is none of it
-    if (drag_ == Drag::node && travelled_ >= click_pixels) {
-      ImGui::GetForegroundDrawList()->AddCircle({at.x + picture.x, at.y + picture.y}, 8,
-                                                IM_COL32(255, 200, 0, 255), 0, 2.5F);
+    if (drag_ == Drag::node && travelled_ >= click_pixels * scale_) {
+      ImGui::GetForegroundDrawList()->AddCircle({at.x + picture.x, at.y + picture.y}, 8 * scale_,
+                                                IM_COL32(255, 200, 0, 255), 0, 2.5F * scale_);
     }
     if (!ImGui::IsMouseDown(button_)) end_drag(bench, panels, picture);
   }
@@ -205,16 +206,19 @@ void Controls::escape(Workbench& bench, Panels& panels) const {
   if (ImGui::IsAnyItemActive() || is_list_open()) return;  // it is for those
   if (panels.help) {
     panels.help = false;
+  } else if (bench.opening()) {
+    bench.cancel_opening();
   } else if (bench.running()) {
     bench.cancel();
   } else {
     bench.clear_selection();
+    bench.clear_faults();
   }
 }
 
 void Controls::command_keys(Workbench& bench, Panels& panels) const {
-  if (pressed(GLFW_KEY_O)) panels.browser.ask(FileBrowser::Purpose::open, "");
-  if (pressed(GLFW_KEY_S)) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
+  if (pressed(GLFW_KEY_O)) ask_to_open(panels);
+  if (pressed(GLFW_KEY_S)) ask_to_save(bench, panels);
   if (pressed(GLFW_KEY_Z) && !ImGui::GetIO().KeyShift) bench.undo();
   if (pressed(GLFW_KEY_Y) || (pressed(GLFW_KEY_Z) && ImGui::GetIO().KeyShift)) bench.redo();
 }
@@ -282,7 +286,7 @@ void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
     const bool active = bench.running() && bench.run_state() == Run::State::running;
     active ? bench.pause() : bench.resume();
   }
-  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) bench.step();
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) bench.step(!pressed(GLFW_KEY_RIGHT));
   const std::size_t moment = bench.scene->moment;
   if (ImGui::IsKeyPressed(GLFW_KEY_LEFT) && moment > 0) bench.go_to(moment - 1);
   if (pressed(GLFW_KEY_HOME)) bench.rewind();

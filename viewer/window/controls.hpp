@@ -47,9 +47,9 @@ class Controls {
   Drag drag_ = Drag::none;
   int button_ = 0;
   int dragged_ = -1;     // node or joint
+  float scale_ = 1;      // of the display
   float travelled_ = 0;  // pixels since the button went down
   bool doubled_ = false;
-  glm::vec2 picked_at_{-1};
   std::optional<Flight> flight_;
 };
 

@@ -11,8 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* title_of_open = "Open a surface or a skeleton";
-constexpr const char* title_of_save = "Save the skeleton";
+/// The working directory, if it is still there.
+fs::path first_folder() {
+  std::error_code error;
+  const fs::path here = fs::current_path(error);
+  return error ? fs::path("/") : here;
+}
 
 }  // namespace
 
@@ -27,10 +31,12 @@ void FileBrowser::list() {
   entries_.clear();
   error_.clear();
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+  fs::directory_iterator entry(folder_, error);
+  while (!error && entry != fs::directory_iterator()) {
     std::error_code unknown;
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with('.')) entries_.push_back({name, entry.is_directory(unknown)});
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with('.')) entries_.push_back({name, entry->is_directory(unknown)});
+    entry.increment(error);
   }
   if (error) error_ = folder_.string() + ": " + error.message();
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
@@ -38,17 +44,19 @@ void FileBrowser::list() {
   });
 }
 
-void FileBrowser::ask(Purpose purpose, const std::string& suggested_name) {
+void FileBrowser::ask(Purpose purpose, const std::string& title,
+                      const std::string& suggested_name) {
   purpose_ = purpose;
+  title_ = title;
   name_ = suggested_name;
   shown_ = opens_now_ = true;
   frames_to_open_ = 5;  // ImGui takes two
-  go_to(folder_.empty() ? fs::current_path() : folder_);
+  go_to(folder_.empty() ? first_folder() : folder_);
 }
 
 std::optional<fs::path> FileBrowser::draw() {
   if (!shown_) return std::nullopt;
-  const char* const title = purpose_ == Purpose::open ? title_of_open : title_of_save;
+  const char* const title = title_.c_str();
   if (opens_now_) ImGui::OpenPopup(title);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float letter = ImGui::GetFontSize();

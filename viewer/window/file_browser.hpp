@@ -12,8 +12,8 @@ class FileBrowser {
  public:
   enum class Purpose { open, save };
 
-  /// Shows up at the next `draw`, in the folder last seen.
-  void ask(Purpose purpose, const std::string& suggested_name);
+  /// Shows up at the next `draw`, in the folder last seen. `title`: of the dialogue.
+  void ask(Purpose purpose, const std::string& title, const std::string& suggested_name);
   /// Within an ImGui frame; the chosen file, once.
   [[nodiscard]] std::optional<std::filesystem::path> draw();
   [[nodiscard]] Purpose purpose() const { return purpose_; }
@@ -31,6 +31,7 @@ class FileBrowser {
   void list();
 
   Purpose purpose_ = Purpose::open;
+  std::string title_;
   bool shown_ = false;
   bool opens_now_ = false;
   int frames_to_open_ = 0;  // at most

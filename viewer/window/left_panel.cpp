@@ -62,6 +62,24 @@ void run_buttons(Workbench& bench) {
   tip("stop the run, keep what was recorded (Esc)");
 }
 
+/// Of the run that goes on, or how the last one ended.
+void progress(const Workbench& bench, const Glance& glance) {
+  float done = 0;
+  std::string word;
+  if (bench.running()) {
+    done = static_cast<float>(glance.fraction);
+    word = bench.news().stage;
+  } else if (bench.run_state() == Run::State::cancelled) {
+    word = "cancelled";
+  } else if (bench.run_state() == Run::State::failed) {
+    word = "failed";
+  } else if (bench.result() != nullptr) {
+    done = 1;
+    word = "done";
+  }
+  ImGui::ProgressBar(done, {-1, 0}, word.c_str());
+}
+
 void parameters(Workbench& bench) {
   const ExtractOptions standard;
   ExtractOptions& options = bench.pipeline.extract;
@@ -187,10 +205,10 @@ void kept_messages(const Workbench& bench) {
 
 void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("run", area)) return;
-  if (ImGui::Button("Open")) panels.browser.ask(FileBrowser::Purpose::open, "");
+  if (ImGui::Button("Open")) ask_to_open(panels);
   tip("Ctrl-O, or drop a file on the window");
   beside_if_it_fits("Save");
-  if (ImGui::Button("Save")) panels.browser.ask(FileBrowser::Purpose::save, "skeleton.json");
+  if (ImGui::Button("Save")) ask_to_save(bench, panels);
   tip("Ctrl-S; the format follows from the extension");
   beside_if_it_fits("Picture");
   if (ImGui::Button("Picture")) panels.wants_picture = true;
@@ -200,13 +218,7 @@ void draw_left_panel(Workbench& bench, Panels& panels, const Area& area) {
   tip("H");
   ImGui::Separator();
   run_buttons(bench);
-  if (bench.running()) {
-    ImGui::ProgressBar(static_cast<float>(panels.glance.fraction), {-1, 0},
-                       bench.news().stage.c_str());
-  } else {
-    ImGui::ProgressBar(bench.result() != nullptr ? 1.0F : 0.0F, {-1, 0},
-                       bench.result() != nullptr ? "done" : "");
-  }
+  progress(bench, panels.glance);
   if (ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen)) parameters(bench);
   if (ImGui::CollapsingHeader("Corrections", ImGuiTreeNodeFlags_DefaultOpen)) corrections(bench);
   if (ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) rig(bench);

@@ -58,22 +58,23 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   ImGui::End();
 }
 
-void messages(const Workbench& bench, const Area& picture) {
+void messages(const Workbench& bench, const Area& picture, float scale) {
   const auto now = std::chrono::steady_clock::now();
-  float y = picture.y + 10;
+  float y = picture.y + 10 * scale;
   for (const Message& message : bench.messages()) {
     const double shown_seconds = message.bad ? 12 : 4;
     const double age = std::chrono::duration<double>(now - message.since).count();
     if (age > shown_seconds) continue;
-    const float widest = picture.width - 40;
+    const float widest = picture.width - 40 * scale;
     const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, widest);
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
-    const ImVec2 low(picture.x + 12, y);
-    list.AddRectFilled(low, {low.x + size.x + 16, low.y + size.y + 10}, back, 5);
-    list.AddText(nullptr, 0, {low.x + 8, low.y + 5}, IM_COL32(255, 255, 255, 255),
+    const ImVec2 low(picture.x + 12 * scale, y);
+    list.AddRectFilled(low, {low.x + size.x + 16 * scale, low.y + size.y + 10 * scale}, back,
+                       5 * scale);
+    list.AddText(nullptr, 0, {low.x + 8 * scale, low.y + 5 * scale}, IM_COL32(255, 255, 255, 255),
                  message.text.c_str(), nullptr, widest);
-    y += size.y + 14;
+    y += size.y + 14 * scale;
   }
 }
 
@@ -219,6 +220,16 @@ std::string description_of_joint(int joint, const Rig& rig) {
 
 }  // namespace
 
+void ask_to_open(Panels& panels) {
+  panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "");
+}
+
+void ask_to_save(const Workbench& bench, Panels& panels) {
+  panels.browser.ask(FileBrowser::Purpose::save,
+                     bench.shows_made_rig() ? "Save the rig" : "Save the skeleton",
+                     bench.suggested_name());
+}
+
 Area whole_pixels(const Area& area) {
   const float x = std::floor(area.x);
   const float y = std::floor(area.y);
@@ -331,7 +342,7 @@ void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   draw_right_panel(bench, panels, layout.right);
   draw_timeline(bench, layout.timeline);
   status_bar(bench, panels, layout.status);
-  messages(bench, layout.picture);
+  messages(bench, layout.picture, panels.scale);
   hint(bench, layout.picture);
   help(panels);
   browser(bench, panels);

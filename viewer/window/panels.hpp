@@ -1,7 +1,10 @@
 // The panels round the picture: run and parameters, look, certificate, timeline, status.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <array>
 #include <chrono>
+#include <memory>
 #include <string>
 
 #include "viewer/model/hierarchy.hpp"
@@ -40,6 +43,14 @@ struct Glance {
   std::chrono::steady_clock::time_point since;
 };
 
+/// The angles of the chosen joint as a person set them; one turn has several.
+struct TurnAngles {
+  std::shared_ptr<const Rig> rig;
+  int joint = -1;
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< theirs
+  std::array<float, 3> degrees{};                            ///< about x, then y, then z
+};
+
 /// State that the panels keep from one frame to the next.
 struct Panels {
   bool shown = true;
@@ -48,6 +59,8 @@ struct Panels {
   bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
   Outline outline;  ///< of the rig
+  TurnAngles angles;
+  float scale = 1;  ///< of letters, by the display
   FrameTimes times;
   Glance glance;
   Pick hovered;
@@ -67,6 +80,16 @@ void draw_timeline(Workbench& bench, const Area& area);
 
 /// Colours and roundness; light or dark.
 void style_panels(Theme theme, float scale);
+
+void ask_to_open(Panels& panels);
+/// Opens the dialogue that names a file for the skeleton, or for the rig where it is shown.
+void ask_to_save(const Workbench& bench, Panels& panels);
+
+/// The angles of the joint's turn: those that were set last, where they still are its.
+[[nodiscard]] const std::array<float, 3>& angles_of(TurnAngles& kept, const Workbench& bench,
+                                                    int joint);
+/// Turns the joint so, and keeps the angles.
+void set_angles(TurnAngles& kept, Workbench& bench, int joint, const std::array<float, 3>& degrees);
 
 /// Text beside the pointer: the thing under it, in numbers and units.
 [[nodiscard]] std::string description_of(const Pick& picked, const Workbench& bench);

@@ -53,13 +53,21 @@ void certificate_line(const char* name, const std::string& value, int verdict, T
   }
 }
 
+const char* why_not_judged(const Workbench& bench) {
+  const bool has_surface = bench.scene->document.has_surface();
+  if (bench.scene->skeleton() && !has_surface) {
+    return "open the surface and the skeleton together to judge it";
+  }
+  if (bench.running() || bench.judging() || !has_surface) return "not there yet";
+  return bench.history().empty() ? "extract the skeleton (Space), which is judged then"
+                                 : "of the skeleton, at the end of the timeline (End)";
+}
+
 void certificate(Workbench& bench) {
   const Judgement* found = bench.judgement();
   if (found == nullptr) {
-    const bool alone = bench.scene->skeleton() && !bench.scene->document.has_surface();
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped(alone ? "open the surface and the skeleton together to judge it"
-                             : "not there yet");
+    ImGui::TextWrapped("%s", why_not_judged(bench));
     ImGui::PopStyleColor();
     return;
   }
@@ -140,7 +148,7 @@ void times(const Workbench& bench) {
   }
 }
 
-/// Repairs that were made, or could not be.
+/// Of the file itself.
 void input_defects(Workbench& bench) {
   const Defects& found = *bench.defects();
   const auto line = [&](const char* name, const std::vector<int>& faces, const char* meaning) {
@@ -236,7 +244,7 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
 }
 
 /// Degrees about x, then y, then z; none is shown as "-0.0".
-std::array<float, 3> angles_of(const Eigen::Quaterniond& turn) {
+std::array<float, 3> angles_of_turn(const Eigen::Quaterniond& turn) {
   const Eigen::Matrix3d r = turn.toRotationMatrix();
   const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
   const auto degrees = [](double angle) {
@@ -247,18 +255,34 @@ std::array<float, 3> angles_of(const Eigen::Quaterniond& turn) {
   return {degrees(std::atan2(r(2, 1), r(2, 2))), degrees(y), degrees(std::atan2(r(1, 0), r(0, 0)))};
 }
 
-/// `joint` may be none.
-void turn_controls(Workbench& bench, int joint) {
+Eigen::Quaterniond turn_of(const Workbench& bench, int joint) {
   const auto turns = bench.scene->turns();
-  const Eigen::Quaterniond now = turns && joint >= 0 ? (*turns)[static_cast<std::size_t>(joint)]
-                                                     : Eigen::Quaterniond::Identity();
-  std::array<float, 3> angles = angles_of(now);
-  if (ImGui::SliderFloat3("turn", angles.data(), -180, 180, "%.1f", ImGuiSliderFlags_AlwaysClamp)) {
-    std::array<double, 3> degrees{};
-    std::copy(angles.begin(), angles.end(), degrees.begin());
-    bench.turn_joint(joint, turn_by(degrees) * now.conjugate());
+  const bool is_turned = turns && joint >= 0 && static_cast<std::size_t>(joint) < turns->size();
+  return is_turned ? (*turns)[static_cast<std::size_t>(joint)] : Eigen::Quaterniond::Identity();
+}
+
+/// `joint` may be none. Half a degree for a pixel, as a slider of this width would be too coarse.
+void turn_controls(Workbench& bench, TurnAngles& kept, int joint) {
+  std::array<float, 3> angles = angles_of(kept, bench, joint);
+  constexpr std::array<const char*, 3> names{"##x", "##y", "##z"};
+  constexpr std::array<float, 3> most{180, 90, 180};  // all turns, each once
+  bool changed = false;
+  ImGui::BeginGroup();
+  const float between = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float wide = std::floor((ImGui::CalcItemWidth() - 2 * between) / 3);
+  for (std::size_t axis = 0; axis < angles.size(); ++axis) {
+    if (axis > 0) ImGui::SameLine(0, between);
+    ImGui::SetNextItemWidth(wide);
+    changed = ImGui::DragFloat(names[axis], &angles[axis], 0.5F, -most[axis], most[axis], "%.1f",
+                               ImGuiSliderFlags_AlwaysClamp) ||
+              changed;
   }
-  tip("degrees about x, y, z; Ctrl + drag of a joint does the same by hand");
+  ImGui::SameLine(0, between);
+  ImGui::TextUnformatted("turn");
+  ImGui::EndGroup();
+  tip("degrees about x, y, z: drag, or double-click to type; Ctrl + drag of a joint does the same "
+      "by hand");
+  if (changed) set_angles(kept, bench, joint, angles);
 }
 
 /// The role of the chosen joint, to be corrected.
@@ -279,14 +303,14 @@ void role_choice(Workbench& bench, const CharacterRig& character, int joint) {
 }
 
 /// Of the same height whether one is chosen or not, so that the list below stays under the pointer.
-void chosen_joint(Workbench& bench, const Rig& rig) {
+void chosen_joint(Workbench& bench, TurnAngles& angles, const Rig& rig) {
   const bool is_chosen = bench.selected_joint() >= 0 && bench.selected_joint() < rig.joints.rows();
   const int joint = is_chosen ? bench.selected_joint() : -1;
   ImGui::TextDisabled(is_chosen ? "the chosen joint:" : "choose a joint to turn or correct it");
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.7F);
   ImGui::BeginDisabled(!is_chosen);
   if (const auto character = bench.scene->character()) role_choice(bench, *character, joint);
-  turn_controls(bench, joint);
+  turn_controls(bench, angles, joint);
   ImGui::EndDisabled();
   ImGui::BeginDisabled(!bench.scene->turns());
   if (ImGui::Button("Turn all back")) bench.turn_back();
@@ -315,6 +339,22 @@ void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
 
 }  // namespace
 
+const std::array<float, 3>& angles_of(TurnAngles& kept, const Workbench& bench, int joint) {
+  const Eigen::Quaterniond now = turn_of(bench, joint);
+  const bool are_its = kept.rig == bench.scene->rig() && kept.joint == joint &&
+                       kept.turn.coeffs().isApprox(now.coeffs());
+  if (!are_its) kept = {bench.scene->rig(), joint, now, angles_of_turn(now)};
+  return kept.degrees;
+}
+
+void set_angles(TurnAngles& kept, Workbench& bench, int joint,
+                const std::array<float, 3>& degrees) {
+  std::array<double, 3> exact{};
+  std::copy(degrees.begin(), degrees.end(), exact.begin());
+  bench.turn_joint(joint, turn_by(exact) * turn_of(bench, joint).conjugate());
+  kept = {bench.scene->rig(), joint, turn_of(bench, joint), degrees};
+}
+
 void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("look", area)) return;
   if (ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -324,18 +364,18 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
     colour_bar(bench);
   }
   if (ImGui::CollapsingHeader("Certificate", ImGuiTreeNodeFlags_DefaultOpen)) certificate(bench);
+  const bool defective = bench.defects() != nullptr && !bench.defects()->none();
+  if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {
+    input_defects(bench);
+  }
   if (ImGui::CollapsingHeader("Times")) times(bench);
   const auto rig = bench.scene->rig();
   panels.outline.show(rig);
   if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
     const auto& character = bench.scene->recording.moments()[bench.scene->moment].character;
     if (character) ImGui::TextWrapped("%s", words_of(*character).c_str());
-    chosen_joint(bench, *rig);
+    chosen_joint(bench, panels.angles, *rig);
     hierarchy(bench, panels.outline, *rig);
-  }
-  const bool defective = bench.defects() != nullptr && !bench.defects()->none();
-  if (defective && ImGui::CollapsingHeader("Input", ImGuiTreeNodeFlags_DefaultOpen)) {
-    input_defects(bench);
   }
   ImGui::End();
 }

@@ -7,13 +7,16 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <curveskel/advanced/write_file.hpp>
@@ -60,8 +63,10 @@ class Viewer {
     while (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave &&
            !session_.interruption.token().stop_requested()) {
       wait_for_events();
-      take_files();
-      if (bench_.update()) awake();
+      (void)attempt([&] {
+        take_files();
+        if (bench_.update()) awake();
+      });
       // Keys typed while a dialogue opens are for the dialogue.
       if (panels_.browser.opening() || !window_.type()) awake();
       if (!wants_frame()) continue;
@@ -76,6 +81,20 @@ class Viewer {
   }
 
  private:
+  /// An action that fails says why; the window stays, and with it all corrections. False if so.
+  template <typename Action>
+  [[nodiscard]] bool attempt(const Action& action) {
+    try {
+      action();
+      return true;
+    } catch (const std::bad_alloc&) {
+      bench_.say("out of memory; save what is of worth, and close other programs", true);
+    } catch (const std::exception& problem) {
+      bench_.say(problem.what(), true);
+    }
+    return false;
+  }
+
   void awake() { frames_to_come_ = 3; }  // ImGui takes a few to settle
 
   /// Sleeps until something happens; at most sixty times a second where something moves.
@@ -110,6 +129,10 @@ class Viewer {
     if (bench_.files() == remembered_) return;
     remembered_ = bench_.files();
     for (const fs::path& file : remembered_) remember_file(file);
+    std::error_code error;
+    if (!remembered_.empty()) {
+      panels_.browser.go_to(fs::absolute(remembered_.front(), error).parent_path());
+    }
   }
 
   /// The open files, the shown moment, and a flag for more to come.
@@ -174,10 +197,14 @@ class Viewer {
     ImGui::NewFrame();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Layout layout = lay_out(size.x, size.y, window_.scale(), panels_.shown);
-    controls_.update(bench_, panels_, layout.picture);
-    panels_.coarse = picture_.coarse();
-    draw_panels(bench_, panels_, layout);
-    if (panels_.wants_picture) save_picture();
+    panels_.scale = window_.scale();
+    const bool done = attempt([&] {
+      controls_.update(bench_, panels_, layout.picture);
+      panels_.coarse = picture_.coarse();
+      draw_panels(bench_, panels_, layout);
+      if (panels_.wants_picture) save_picture();
+    });
+    if (!done) ImGui::ErrorCheckEndFrameRecover(nullptr);  // ends what was begun
     ImGui::Render();
     return layout;
   }
@@ -187,7 +214,12 @@ class Viewer {
     if (width < 1 || height < 1) return 0;
     const Clock::time_point began = Clock::now();
     picture_.may_be_coarse = panels_.may_be_coarse;
-    return picture_.draw(*bench_.scene, width, height) ? seconds_since(began) : 0;
+    bool drawn = false;
+    if (!attempt([&] { drawn = picture_.draw(*bench_.scene, width, height); })) {
+      picture_.forget();
+      bench_.scene->forget_uploads();
+    }
+    return drawn ? seconds_since(began) : 0;
   }
 
   void save_picture() {

@@ -28,12 +28,13 @@ class Projection {
 };
 
 /// The nearest of these points within reach; of those that lie over each other, the one in front.
-Pick pick_point(const std::vector<glm::vec3>& pixels, const glm::vec2& at, Pick::Kind kind) {
+Pick pick_point(const std::vector<glm::vec3>& pixels, const glm::vec2& at, Pick::Kind kind,
+                float scale) {
   Pick best;
-  float best_cost = node_pixels;
+  float best_cost = node_pixels * scale;
   for (std::size_t node = 0; node < pixels.size(); ++node) {
     const float distance = glm::length(glm::vec2(pixels[node]) - at);
-    if (!(distance <= node_pixels)) continue;
+    if (!(distance <= node_pixels * scale)) continue;
     const float cost = distance + pixels[node].z;  // depth is -1..1: it decides between equals
     if (cost >= best_cost) continue;
     best_cost = cost;
@@ -54,9 +55,9 @@ std::vector<glm::vec3> pixels_of(const Projection& projection, const Positions& 
 }
 
 Pick pick_edge(const CurveSkeleton& skeleton, const std::vector<glm::vec3>& pixels,
-               const glm::vec2& at, float& share) {
+               const glm::vec2& at, float scale, float& share) {
   Pick best;
-  float nearest = edge_pixels;
+  float nearest = edge_pixels * scale;
   for (Eigen::Index row = 0; row < skeleton.edges.rows(); ++row) {
     const glm::vec2 a(pixels[static_cast<std::size_t>(skeleton.edges(row, 0))]);
     const glm::vec2 b(pixels[static_cast<std::size_t>(skeleton.edges(row, 1))]);
@@ -104,14 +105,14 @@ glm::vec3 pixel_of(const Camera& camera, const Bounds& bounds, const glm::vec3& 
   return Projection(camera, bounds, width, height).pixel(point);
 }
 
-Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
+Pick pick(const Scene& scene, const glm::vec2& at, int width, int height, float scale) {
   const auto skeleton = scene.skeleton();
   const bool covered = scene.look.surface == SurfaceStyle::opaque && !scene.look.through;
   const Projection projection(scene.camera, scene.bounds(), width, height);
   const auto rig = scene.rig();
   if (rig && scene.look.bones && !covered) {
     const Positions joints = scene.joints_now();
-    Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint);
+    Pick found = pick_point(pixels_of(projection, joints, scene), at, Pick::Kind::joint, scale);
     if (found.kind == Pick::Kind::joint) {
       found.place = shown_point(joints.row(found.index), scene.document.space);
       return found;
@@ -122,13 +123,13 @@ Pick pick(const Scene& scene, const glm::vec2& at, int width, int height) {
     const auto shown = [&](Eigen::Index node) {
       return shown_point(skeleton->nodes.row(node), scene.document.space);
     };
-    Pick found = pick_point(pixels, at, Pick::Kind::node);
+    Pick found = pick_point(pixels, at, Pick::Kind::node, scale);
     if (found.kind == Pick::Kind::node) {
       found.place = shown(found.index);
       return found;
     }
     float share = 0;
-    found = pick_edge(*skeleton, pixels, at, share);
+    found = pick_edge(*skeleton, pixels, at, scale, share);
     if (found.kind == Pick::Kind::edge) {
       found.place = glm::mix(shown(skeleton->edges(found.index, 0)),
                              shown(skeleton->edges(found.index, 1)), share);

@@ -19,9 +19,11 @@ struct Pick {
 };
 
 /// (x, y) in pixels from the upper left corner of a picture of width x height. Joints come before
-/// nodes, nodes before edges, edges before the surface, if they can be seen there.
+/// nodes, nodes before edges, edges before the surface, if they can be seen there. `scale`: of the
+/// display, on which a hand is so much coarser in pixels.
 /// O(#J + #N + #E), and what `FaceBlocks` takes.
-[[nodiscard]] Pick pick(const Scene& scene, const glm::vec2& at, int width, int height);
+[[nodiscard]] Pick pick(const Scene& scene, const glm::vec2& at, int width, int height,
+                        float scale = 1);
 
 /// A point in the picture, in pixels from the upper left corner; z: depth, -1..1 if it is within
 /// the picture's depth.
