@@ -1,6 +1,8 @@
 #include "viewer/render/gl_meshes.hpp"
 
 #include <cstdint>
+#include <map>
+#include <utility>
 
 namespace curveskel::viewer {
 namespace {
@@ -89,17 +91,24 @@ void GlMesh::set_pictures(const DrawnMaterials* materials) {
   if (materials == nullptr && runs_.empty()) return;
   ++version_;
   runs_.clear();
+  textures_.clear();
   glBindVertexArray(array_.get());
   if (materials == nullptr) {
     glDisableVertexAttribArray(place_in_picture);
   } else {
     fill(places_in_picture_, GL_ARRAY_BUFFER, std::span(materials->places));
     bind_attribute(place_in_picture, places_in_picture_, 2, GL_FLOAT, false, 0, 0);
+    std::map<std::pair<int, std::array<bool, 2>>, GLuint> made;  // runs share them
     for (const DrawnMaterials::Run& run : materials->runs) {
-      runs_.push_back({run, {}});
+      runs_.push_back({run});
       if (run.picture < 0) continue;
-      runs_.back().picture =
-          texture_of(materials->pictures[static_cast<std::size_t>(run.picture)], run.repeats);
+      GLuint& texture = made[{run.picture, run.repeats}];
+      if (texture == 0) {
+        textures_.push_back(
+            texture_of(materials->pictures[static_cast<std::size_t>(run.picture)], run.repeats));
+        texture = textures_.back().get();
+      }
+      runs_.back().picture = texture;
     }
   }
   glBindVertexArray(0);
@@ -119,9 +128,9 @@ void GlMesh::draw(const GlProgram& program, const glm::vec3& plain, bool few) co
     return;
   }
   for (const Run& run : runs_) {
-    program.set("has_picture", run.picture ? 1 : 0);
+    program.set("has_picture", run.picture != 0 ? 1 : 0);
     program.set("cut_out", run.drawn.is_cut_out ? 1 : 0);
-    if (run.picture) bind_texture(picture_unit, run.picture.get());
+    if (run.picture != 0) bind_texture(picture_unit, run.picture);
     const std::size_t offset = 3 * sizeof(std::uint32_t) * run.drawn.first;
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.drawn.count), GL_UNSIGNED_INT,
                    // OpenGL's way to say an offset.

@@ -37,7 +37,7 @@ class GlMesh {
  private:
   struct Run {
     DrawnMaterials::Run drawn;
-    GlTexture picture;
+    GLuint picture = 0;  // one of the textures; 0 = none
   };
 
   GlArray array_;
@@ -47,6 +47,7 @@ class GlMesh {
   GlBuffer places_in_picture_;
   GlBuffer triangles_;
   GlBuffer fewer_;
+  std::vector<GlTexture> textures_;
   std::vector<Run> runs_;
   GLsizei corners_ = 0;
   GLsizei fewer_corners_ = 0;

@@ -146,7 +146,6 @@ Look Scene::look_now() const {
 
 /// The surface that stands for the given one now, and its simpler forms.
 void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
-  renderer.set_pictures(now.faired ? nullptr : now.materials.get());
   if (now.faired) {
     renderer.set_surface(Layer::given, recording.faired_at(moment));
     for (const Layer layer : simpler_layers) renderer.set_surface(layer, ShownSurface{});
@@ -213,6 +212,8 @@ bool Scene::upload_surfaces(Renderer& renderer, Uploaded& now, bool all) {
   const bool had_faired = uploaded_ && uploaded_->faired != nullptr;
   const bool anew = all || now.faired != uploaded_->faired || now.turns != uploaded_->turns ||
                     now.materials != uploaded_->materials;
+  const auto pictures = [](const Uploaded& one) { return one.faired ? nullptr : one.materials; };
+  if (all || pictures(now) != pictures(*uploaded_)) renderer.set_pictures(pictures(now).get());
   if (anew) upload_given(renderer, now);
   const bool recoloured = anew || now.skeleton != uploaded_->skeleton ||
                           now.rig != uploaded_->rig || now.highlights != uploaded_->highlights ||
