@@ -10,30 +10,32 @@
 namespace curveskel::viewer {
 namespace {
 
-std::size_t bytes_of(const Moment& moment) {
-  if (!moment.surface) return 0;
-  const ShownSurface& surface = *moment.surface;
-  return surface.positions.size() * (sizeof(glm::vec3) + sizeof(std::uint32_t)) +
-         (surface.triangles.size() + surface.fewer.size()) * sizeof(glm::uvec3);
-}
+struct TriangleLists {
+  std::vector<glm::uvec3> all;
+  std::vector<glm::uvec3> fewer;
+};
 
-void append(ShownSurface& whole, const ShownSurface& part) {
+/// Positions and normals to the surface, triangles to the lists.
+void append(ShownSurface& whole, TriangleLists& lists, const ShownSurface& part) {
   const auto first = static_cast<unsigned>(whole.positions.size());
   whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
   whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
-  const auto add = [first](std::vector<glm::uvec3>& to, const std::vector<glm::uvec3>& from) {
+  const auto add = [first](std::vector<glm::uvec3>& to, const SharedTriangles& from) {
     std::transform(from.begin(), from.end(), std::back_inserter(to),
                    [&](const glm::uvec3& triangle) { return triangle + first; });
   };
-  add(whole.triangles, part.triangles);
-  add(whole.fewer, part.fewer.empty() ? part.triangles : part.fewer);
+  add(lists.all, part.triangles);
+  add(lists.fewer, part.fewer.empty() ? part.triangles : part.fewer);
 }
 
 /// A simpler form that is not simpler is none.
 ShownSurface put_together(const std::map<int, const ShownSurface*>& parts) {
+  if (parts.size() == 1) return *parts.begin()->second;
   ShownSurface whole;
-  for (const auto& [component, surface] : parts) append(whole, *surface);
-  if (whole.fewer.size() == whole.triangles.size()) whole.fewer.clear();
+  TriangleLists lists;
+  for (const auto& [component, surface] : parts) append(whole, lists, *surface);
+  if (lists.fewer.size() < lists.all.size()) whole.fewer = std::move(lists.fewer);
+  whole.triangles = std::move(lists.all);
   return whole;
 }
 
@@ -91,7 +93,6 @@ Recording::Recording() {
 }
 
 void Recording::add(Moment moment) {
-  bytes_ += bytes_of(moment);
   moments_.push_back(moment);
   all_.push_back({std::move(moment)});
 }
@@ -124,11 +125,7 @@ void Recording::choose() {
 void Recording::cut_from(std::string_view stage) {
   const int first = order_of(stage);
   std::erase_if(moments_, [first](const Moment& one) { return order_of(one.stage) >= first; });
-  std::erase_if(all_, [this, first](const Recorded& one) {
-    if (order_of(one.moment.stage) < first) return false;
-    bytes_ -= bytes_of(one.moment);
-    return true;
-  });
+  std::erase_if(all_, [first](const Recorded& one) { return order_of(one.moment.stage) >= first; });
   has_other_tries_ =
       std::any_of(all_.begin(), all_.end(), [](const Recorded& one) { return one.aside; });
 }
@@ -211,6 +208,7 @@ Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
   ShownSurface shown = shown_surface(frame.surface, space);
   constexpr std::size_t simple = 3000;  // vertices
   if (before != nullptr && before->triangles == shown.triangles) {
+    shown.triangles = before->triangles;
     shown.fewer = before->fewer;
   } else if (shown.positions.size() > 2 * simple) {
     shown.fewer = fewer_triangles(shown, simple);

@@ -54,7 +54,6 @@ class Recording {
   /// Forgets the moments of `stage` and of those that come after it, of all components.
   void cut_from(std::string_view stage);
   [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
-  [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   /// The components' surfaces as they were at moment `index` in the try that it is of, put
   /// together; empty where none has changed yet or the skeleton is there. O(vertices shown +
@@ -83,14 +82,13 @@ class Recording {
   std::vector<Moment> moments_;  // those of `all_` that are shown
   bool shows_all_tries_ = false;
   bool has_other_tries_ = false;
-  std::size_t bytes_ = 0;
   // The curves that were last put together, and what they became.
   mutable std::vector<std::shared_ptr<const CurveSkeleton>> curves_;
   mutable std::shared_ptr<const CurveSkeleton> all_curves_;
 };
 
 /// A moment from a stage's frame. `before` is null or an earlier moment's surface, whose simpler
-/// form it takes over where the triangles are the same.
+/// form it takes over where the triangles are the same, which both share then.
 [[nodiscard]] Moment moment_of(const Frame& frame, const DrawnSpace& space, double seconds,
                                const ShownSurface* before = nullptr);
 /// The component's curve alone.

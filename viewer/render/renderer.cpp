@@ -50,7 +50,7 @@ Renderer::Renderer()
 }
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface) {
-  set_surface(layer, surface, std::as_bytes(std::span(surface.triangles)));
+  set_surface(layer, surface, std::as_bytes(std::span(surface.triangles.list())));
 }
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface, const Triangles& triangles) {
@@ -60,7 +60,7 @@ void Renderer::set_surface(Layer layer, const ShownSurface& surface, const Trian
 
 void Renderer::set_surface(Layer layer, const ShownSurface& surface,
                            std::span<const std::byte> corners) {
-  mesh(layer).set_triangles(corners, surface.fewer);
+  mesh(layer).set_triangles(corners, surface.fewer.list());
   move_surface(layer, surface);
   set_colours(layer, surface.colours);
 }

@@ -90,11 +90,12 @@ void move_surface(ShownSurface& shown, const Positions& positions, const DrawnSp
 
 ShownSurface shown_surface(const Surface& surface, const DrawnSpace& space) {
   ShownSurface shown;
-  shown.triangles.resize(static_cast<std::size_t>(surface.triangles.rows()));
+  std::vector<glm::uvec3> triangles(static_cast<std::size_t>(surface.triangles.rows()));
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-    shown.triangles[static_cast<std::size_t>(f)] =
+    triangles[static_cast<std::size_t>(f)] =
         glm::uvec3(surface.triangles(f, 0), surface.triangles(f, 1), surface.triangles(f, 2));
   }
+  shown.triangles = std::move(triangles);
   move_surface(shown, surface.positions, space);
   return shown;
 }

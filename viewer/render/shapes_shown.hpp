@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -22,13 +24,38 @@ struct DrawnSpace {
 /// Of all these points.
 [[nodiscard]] DrawnSpace space_round(const Positions& points);
 
+/// A list of triangles that copies share: a recording has the same ones at hundreds of moments.
+class SharedTriangles {
+ public:
+  using List = std::vector<glm::uvec3>;
+
+  SharedTriangles() = default;
+  /// By assignment, as a list is made first and shared then.
+  SharedTriangles(List list) : list_(std::make_shared<const List>(std::move(list))) {}  // NOLINT
+  [[nodiscard]] const List& list() const {
+    static const List none;
+    return list_ ? *list_ : none;
+  }
+  [[nodiscard]] std::size_t size() const { return list().size(); }
+  [[nodiscard]] bool empty() const { return list().empty(); }
+  [[nodiscard]] const glm::uvec3& operator[](std::size_t f) const { return list()[f]; }
+  [[nodiscard]] List::const_iterator begin() const { return list().begin(); }
+  [[nodiscard]] List::const_iterator end() const { return list().end(); }
+  bool operator==(const SharedTriangles& other) const {
+    return list_ == other.list_ || list() == other.list();
+  }
+
+ private:
+  std::shared_ptr<const List> list_;
+};
+
 struct ShownSurface {
   std::vector<glm::vec3> positions;    ///< in a `DrawnSpace`
   std::vector<std::uint32_t> normals;  ///< packed as GL_INT_2_10_10_10_REV
-  std::vector<glm::uvec3> triangles;
+  SharedTriangles triangles;
   std::vector<Rgba> colours;  ///< per vertex, or empty: the plain colour
   /// Of a simpler form with some of the vertices, for slow machines; empty where it is simple.
-  std::vector<glm::uvec3> fewer;
+  SharedTriangles fewer;
 };
 
 /// With normals, without colours. O(#V + #F).

@@ -61,12 +61,14 @@ SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices) 
     surface.positions.push_back(sum / static_cast<float>(last - first));
     first = last;
   }
+  std::vector<glm::uvec3> triangles;
   for (const glm::uvec3& triangle : given.triangles) {
     const glm::uvec3 merged(cluster[triangle.x], cluster[triangle.y], cluster[triangle.z]);
     if (merged.x != merged.y && merged.y != merged.z && merged.z != merged.x) {
-      surface.triangles.push_back(merged);
+      triangles.push_back(merged);
     }
   }
+  surface.triangles = std::move(triangles);
   set_normals(surface);
   return simpler;
 }

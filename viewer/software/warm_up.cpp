@@ -18,6 +18,7 @@ ShownSurface warm_ball() {
   constexpr unsigned across = 48;
   constexpr float pi = std::numbers::pi_v<float>;
   ShownSurface ball;
+  std::vector<glm::uvec3> triangles;
   for (unsigned i = 0; i <= across; ++i) {
     const float polar = pi * static_cast<float>(i) / across;
     for (unsigned j = 0; j < around; ++j) {
@@ -27,10 +28,11 @@ ShownSurface warm_ball() {
       if (i == across) continue;
       const unsigned here = i * around + j;
       const unsigned beside = i * around + (j + 1) % around;
-      ball.triangles.emplace_back(here, beside, here + around);
-      ball.triangles.emplace_back(beside, beside + around, here + around);
+      triangles.emplace_back(here, beside, here + around);
+      triangles.emplace_back(beside, beside + around, here + around);
     }
   }
+  ball.triangles = std::move(triangles);
   set_normals(ball);
   return ball;
 }
