@@ -168,8 +168,11 @@ class Evaluate(CommandLineTest):
 
     def test_finds_what_is_wrong(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
-        result = self.run_ok("evaluate", LINKED_RINGS, "y.obj", cwd=self.folder)
+        result = run("evaluate", LINKED_RINGS, "y.obj", "--json", "e.json", cwd=self.folder)
         self.assertIn("WRONG", result.out.decode())
+        self.assertEqual(result.code, 5)  # as of extract
+        self.assertIn("the certificate failed", result.err)
+        self.assertIn("e.json", self.files())
 
     def test_strict_makes_a_failed_certificate_an_error(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
