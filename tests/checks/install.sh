@@ -34,5 +34,7 @@ if echo '#include <curveskel/surface.hpp>' | "${CXX:-c++}" -std=c++20 -fsyntax-o
   exit 1
 fi
 grep -q "EIGEN_MALLOC_ALREADY_ALIGNED=1" "$work/messages"
+# Documents lead to nothing that is not installed with them.
+python3 -B "$1/tests/checks/links.py" "$work/prefix/share/doc/curveskel"
 # The installed program finds the installed library.
 "$work/prefix/bin/curveskel" --version
