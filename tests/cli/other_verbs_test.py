@@ -109,6 +109,11 @@ class Fair(CommandLineTest):
         self.assertEqual(positions[:4], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
         self.assertLess(positions[4][2], 1)
 
+    def test_the_closed_form_is_of_one_ring_on_host_and_device(self):
+        for arguments in (("--rings", "2"), ("--method", "cpu")):
+            self.refused(USAGE, "fair", Y, "-o", "x.ply", *arguments, "--local-solver", "closed",
+                         says=["closed", "qr"], cwd=self.folder)
+
     def test_larger_patches_move_more_and_both_local_solvers_agree(self):
         moved = []
         for name, arguments in (("closed", ["--rings", "1"]), ("two", ["--rings", "2"]),
@@ -314,7 +319,7 @@ class Rig(CommandLineTest):
                 self.assertAlmostEqual(found, wanted, places=9)
 
     def test_a_root_that_is_no_node_is_named(self):
-        self.refused(3, "rig", Y, "-o", "y.glb", "--root", "999999",
+        self.refused(USAGE, "rig", Y, "-o", "y.glb", "--root", "999999",
                      says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
 
     def test_a_file_whose_look_is_not_read_is_said_to_lose_it(self):
