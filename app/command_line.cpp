@@ -12,6 +12,7 @@
 
 #include <curveskel/error.hpp>
 #include "app/arguments.hpp"
+#include "app/certificate_table.hpp"
 #include "app/report.hpp"
 #include "app/verbs/verbs.hpp"
 
@@ -19,9 +20,9 @@ namespace curveskel {
 namespace {
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 done, 1 defect of the program, 2 usage, 3 input, 4 device, 5 solver or "
-    "failed\n"
-    "certificate, 6 output, 130 interrupted.";
+    "Exit codes: 0 done, 1 defect of the program, 2 usage, 3 input, 4 device, 5 solver, time "
+    "limit\n"
+    "or failed certificate (see --strict of extract and evaluate), 6 output, 130 interrupted.";
 
 int exit_code(Fault fault) {
   switch (fault) {
@@ -161,6 +162,17 @@ Monitor Session::monitor() const {
   monitor.note = [this](std::string_view line) { terminal.note(line); };
   monitor.stop = interruption.token();
   return monitor;
+}
+
+int exit_code_of(const Certificate& certificate, const CertificateOptions& options, bool strict,
+                 Session& session) {
+  const std::string failed = all_failures(certificate, options);
+  if (certificate.topology_correct() && (certificate.holds() || !strict)) {
+    if (!failed.empty()) session.terminal.warn(failed);
+    return ExitCode::done;
+  }
+  session.terminal.error("the certificate failed: " + failed);
+  return ExitCode::solver;
 }
 
 int run_program(CLI::App& program, const std::vector<Verb>& verbs,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/certificate.hpp>
 #include "app/verbs/verbs.hpp"
 
 namespace curveskel {
@@ -19,6 +20,11 @@ struct ExitCode {
   static constexpr int output = 6;
   static constexpr int interrupted = 130;  ///< by Ctrl-C
 };
+
+/// Of a skeleton that was made or judged; says how its certificate failed, if it did. A wrong
+/// topology is an error, the rest a warning unless `strict`.
+[[nodiscard]] int exit_code_of(const Certificate& certificate, const CertificateOptions& options,
+                               bool strict, Session& session);
 
 /// Parses the arguments (without the program's name), runs the verb and returns the exit code.
 /// Nothing is thrown.

@@ -120,12 +120,15 @@ Json to_json(const ContractionOptions& o) {
           {"attraction_weight", o.attraction_weight},
           {"collapse_length", o.collapse_length},
           {"stop_volume_ratio", o.stop_volume_ratio},
-          {"stop_area_ratio", o.stop_area_ratio}};
+          {"stop_area_ratio", o.stop_area_ratio},
+          {"small_area_ratio", o.small_area_ratio}};
 }
 
 Json to_json(const FairOptions& o) {
   return {{"method", name_of(fair_methods, o.method)},
           {"iterations", o.iterations},
+          {"rings", o.rings},
+          {"local_solver", name_of(local_solvers, o.local_solver)},
           {"smoothing", o.smoothing},
           {"volume", name_of(volume_rules, o.volume)},
           {"double_precision", o.double_precision}};

@@ -50,8 +50,8 @@ struct Run {
   Eigen::Index edges = 0;
   CurveSkeleton skeleton;
   Certificate certificate;
-  CommonGround::Side common;  // where the other one runs as well
-  std::string failure;        // empty = none
+  std::optional<CommonGround::Side> common;  // where the other one runs as well, if both ran
+  std::string failure;                       // empty = none
 };
 
 double processor_seconds() {
@@ -134,8 +134,19 @@ std::string csv_row(const Run& run) {
       << c.centredness_p90 << ',' << c.coverage << ',' << c.reach << ',' << c.spurs << ','
       << c.total_curvature << ',' << run.seconds << ',' << run.nodes << ',' << run.edges << ','
       << run.processor_seconds << ',' << run.program << (run.failure.empty() ? "" : " (failed)")
-      << ',' << run.common.share << ',' << run.common.centredness_median;
+      << ',';
+  if (run.common) row << run.common->share;
+  row << ',';
+  if (run.common) row << run.common->centredness_median;
   return row.str();
+}
+
+/// The median of centredness there, or a dash where nothing else ran.
+std::string where_both_run(const Run& run) {
+  if (!run.common) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << run.common->centredness_median;
+  return text.str();
 }
 
 /// The file's name, linked to its picture as seen from the folder of the table.
@@ -156,10 +167,10 @@ std::string markdown_row(const Run& run, double ratio, const Options& options) {
   }
   row << (c.topology_correct() ? "right" : "wrong") << " | " << std::setprecision(4)
       << c.inside_fraction << " | " << c.deepest_exit << " | " << std::setprecision(3)
-      << c.centredness_median << " | " << c.centredness_p90 << " | "
-      << run.common.centredness_median << " | " << c.coverage << " | " << std::setprecision(4)
-      << c.reach << " | " << c.spurs << " | " << std::setprecision(1) << c.total_curvature << " | "
-      << std::setprecision(3) << run.seconds << " | ";
+      << c.centredness_median << " | " << c.centredness_p90 << " | " << where_both_run(run) << " | "
+      << c.coverage << " | " << std::setprecision(4) << c.reach << " | " << c.spurs << " | "
+      << std::setprecision(1) << c.total_curvature << " | " << std::setprecision(3) << run.seconds
+      << " | ";
   if (ratio > 0) row << std::setprecision(1) << ratio;
   row << " |";
   return row.str();
@@ -183,7 +194,7 @@ void print(const Run& run) {
             << c.components_of_surface << "  cycles " << c.cycle_rank << '/' << c.genus
             << std::setprecision(4) << "  inside " << c.inside_fraction << "  exit "
             << c.deepest_exit << std::setprecision(3) << "  centredness " << c.centredness_median
-            << ' ' << c.centredness_p90 << "  (where both run " << run.common.centredness_median
+            << ' ' << c.centredness_p90 << "  (where both run " << where_both_run(run)
             << ")  coverage " << c.coverage << std::setprecision(4) << "  reach " << c.reach
             << "  tips " << c.tips << "  junctions " << c.junctions << "  spurs " << c.spurs
             << std::setprecision(2) << "  total curvature " << c.total_curvature << '\n';

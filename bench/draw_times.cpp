@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -35,9 +36,7 @@ double median_milliseconds(Scene& scene, Renderer& renderer, const Renderer::Fra
   return times[pictures / 2];
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   if (argc < 2) {
     fmt::print(stderr, "usage: draw_times MESH [WIDTH HEIGHT]\n");
     return 2;
@@ -63,4 +62,15 @@ int main(int argc, char** argv) {
     }
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
 }

@@ -264,7 +264,7 @@ std::string in_words(const Tally& tally, Program program) {
   };
   return text + fmt::format(
                     " Bottleneck distance of the logarithms of the surfaces' lives, median and "
-                    "nine of ten below: {} over .5, {} over .8; of those drawn {} over .8.",
+                    "nine of ten below: {} over 0.5, {} over 0.8; of those drawn {} over 0.8.",
                     in_numbers(tally.apart_above_half), in_numbers(tally.apart),
                     in_numbers(tally.drawn_apart));
 }

@@ -6,9 +6,13 @@
 //   found.extraction.skeleton.nodes;   // #N by 3
 #pragma once
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/coarsen.hpp>
 #include <curveskel/advanced/device.hpp>
+#include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/extraction_cache.hpp>
+#include <curveskel/advanced/graph.hpp>
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/joints.hpp>
 #include <curveskel/advanced/laplacian.hpp>
@@ -16,7 +20,11 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/advanced/skin_weights.hpp>
+#include <curveskel/advanced/step_clock.hpp>
+#include <curveskel/advanced/surface_partition.hpp>
+#include <curveskel/advanced/surgery.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/advanced/union_find.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/branch_measures.hpp>
@@ -39,11 +47,15 @@
 #include <curveskel/findings.hpp>
 #include <curveskel/html_page.hpp>
 #include <curveskel/labelled_surface.hpp>
+#include <curveskel/levels.hpp>
+#include <curveskel/lives.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/match.hpp>
 #include <curveskel/monitor.hpp>
+#include <curveskel/pose.hpp>
 #include <curveskel/preset.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/read_materials.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rest_pose.hpp>
@@ -56,5 +68,6 @@
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/surface.hpp>
 #include <curveskel/topology.hpp>
+#include <curveskel/tries.hpp>
 #include <curveskel/view.hpp>
 #include <curveskel/write_surface.hpp>

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@
 
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/clean.hpp>
-#include <curveskel/read_rig.hpp>
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
+#include "app/rig_findings.hpp"
 #include "app/rig_report.hpp"
+#include "app/rig_sources.hpp"
 #include "python/background_work.hpp"
 #include "python/options.hpp"
 #include "python/views.hpp"
@@ -34,6 +36,17 @@ struct PythonRig {
   CharacterRig character;
   Rig exported;          ///< as it is written
   bool as_bound = true;  ///< the soup was read so
+  OldRig old_rig = OldRig::replaced;
+  RestPose pose = RestPose::input;
+  std::string shortcomings;           ///< of the skeleton's certificate
+  std::vector<std::string> findings;  ///< all else that the program warns of
+};
+
+struct Wanted {
+  bool as_bound = true;
+  bool keep_rig = false;
+  std::optional<CurveSkeleton> skeleton;
+  std::optional<std::filesystem::path> joints;
 };
 
 struct RigSettings {
@@ -73,51 +86,120 @@ RigSettings settings_of(const py::dict& options) {
   return settings;
 }
 
-PythonRig rig_in_background(PolygonSoup soup, bool as_bound,
+/// As on the command line: what would have no effect is refused.
+void require_effect(const Wanted& wanted, const py::dict& options) {
+  const auto refuse = [&](const char* program_name, const char* beside) {
+    std::string name = program_name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (!options.contains(name.c_str())) return;
+    throw Error(Fault::usage,
+                name + " has no effect beside " + beside + "; leave out one of the two");
+  };
+  if (wanted.skeleton) {
+    for (const char* name : idle_beside_skeleton) refuse(name, "skeleton");
+  }
+  const char* const given = wanted.keep_rig ? "keep_rig" : "joints";
+  if (wanted.keep_rig || wanted.joints) {
+    for (const char* name : idle_beside_joints) refuse(name, given);
+  }
+  if (!wanted.keep_rig) return;
+  for (const char* name : idle_beside_kept_rig) refuse(name, given);
+  refuse("ends", given);
+}
+
+/// `result.soup` is there.
+RigSources sources_of(const Wanted& wanted, PythonRig& result, const Monitor& monitor) {
+  RigSources sources;
+  sources.skeleton = wanted.skeleton;
+  if (sources.skeleton) require_skeleton_of(result.soup, *sources.skeleton, "skeleton");
+  std::optional<std::filesystem::path> joints = wanted.joints;
+  if (wanted.keep_rig) {
+    const std::filesystem::path& file = result.soup.file;
+    if (file.empty()) throw Error(Fault::usage, "keep_rig needs a file, not arrays");
+    if (keeps_joints_alone(result.soup.format)) {
+      joints = file;
+    } else {
+      result.old_rig = OldRig::kept;
+      sources.joints = rig_in(file, monitor);
+    }
+  }
+  if (!joints) return sources;
+  GivenJoints given = joints_for(*joints, result.soup, monitor);
+  if (!given.finding.empty()) result.findings.push_back(given.finding);
+  sources.joints = std::move(given.rig);
+  return sources;
+}
+
+PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
                             const std::optional<CurveSkeleton>& skeleton,
                             const std::optional<std::filesystem::path>& joints,
                             const py::dict& options, const py::object& listener) {
+  const Wanted wanted{as_bound, keep_rig, skeleton, joints};
+  require_effect(wanted, options);
   RigSettings settings = settings_of(options);
   PythonRig result;
   result.as_bound = as_bound;
+  result.pose = settings.form.pose;
   run_beside_interpreter(listener, [&](const Monitor& monitor) {
-    RigSources sources;
-    sources.skeleton = skeleton;
-    if (joints) sources.joints = read_joints(*joints, monitor);
-    settings.form.as_given = joints.has_value();
     result.soup = std::move(soup);
+    const RigSources sources = sources_of(wanted, result, monitor);
+    settings.form.as_given = sources.joints.has_value();
     result.given = {result.soup.positions, triangulate(result.soup)};
-    result.character = rig_polygons(result.soup, sources, settings.make, monitor).character;
+    if (as_bound && result.soup.posed) {
+      const auto finding = bind_pose_finding(result.soup.file, result.soup, monitor);
+      if (finding) result.findings.push_back(*finding);
+    }
+    PolygonsRig found = rig_polygons(result.soup, sources, settings.make, monitor);
+    result.shortcomings = skeleton_findings(found, settings.make);
+    if (!sources.joints) {
+      for (std::string& finding : plan_findings(found.character.plan, settings.make.character)) {
+        result.findings.push_back(std::move(finding));
+      }
+    }
+    result.character = std::move(found.character);
     result.exported =
         rig_for_export(result.character.rig, result.character.plan, result.given, settings.form);
   });
   return result;
 }
 
-/// The file itself with the rig in it, where it is one that keeps more than the surface.
-void save_rig(const PythonRig& rig, const std::filesystem::path& output, const std::string& format,
-              const std::string& vrm_name, const std::string& vrm_author,
-              const std::string& vrm_licence) {
+/// The file itself with the rig in it, where it is one that keeps more than the surface. Returns
+/// what the program warns of.
+std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::path& output,
+                                  const std::string& format, const VrmMeta& vrm) {
   const py::gil_scoped_release others_may_run;
   const auto chosen = choice_of(rig_formats, format);
   if (!chosen) {
     throw Error(Fault::usage,
                 output.string() + ": the extension is none of: " + names_in(rig_formats));
   }
-  const VrmMeta vrm{vrm_name, vrm_author, vrm_licence};
   if (*chosen == RigFormat::vrm) require_whole(vrm);
+  require_pose(*chosen, rig.pose, output.string());
   const std::filesystem::path& file = rig.soup.file;
   std::filesystem::path name = file.empty() ? "surface" : file.stem();
   if (file.extension() == ".gz") name = name.stem();
+  std::vector<std::string> findings;
   std::optional<EditedFile> edited;
   if (!file.empty()) {
-    edited = format_rig_into(file, rig.exported,
-                             {*chosen, OldRig::replaced, name.string() + " rig",
-                              program_and_version(), vrm, rig.as_bound});
+    edited = format_rig_into(
+        file, rig.exported,
+        {*chosen, rig.old_rig, name.string() + " rig", program_and_version(), vrm, rig.as_bound});
+    if (const auto finding = look_finding(file)) findings.push_back(*finding);
+  }
+  if (*chosen == RigFormat::vrm) {
+    const BodyPlan& plan = rig.character.plan;
+    const auto finding = posture_finding(plan, rig.character.rig.to_y_up, rig.pose);
+    if (finding) findings.push_back(*finding);
+  }
+  if (edited) {
+    for (const std::string& note : edited->notes) {
+      findings.push_back(file.filename().string() + ": " + note);
+    }
   }
   write_file(output, edited ? edited->bytes
                             : format_rig(rig.given, rig.exported, *chosen, name.string(),
                                          program_and_version(), vrm));
+  return findings;
 }
 
 std::string report(const PythonRig& rig) {
@@ -149,7 +231,13 @@ void bind_rig(py::module_& module) {
       .def_property_readonly("roles", [](const PythonRig& one) { return one.exported.roles; })
       .def("weights", &rows_of)
       .def("report", &report)
-      .def("save", &save_rig);
+      .def_readonly("shortcomings", &PythonRig::shortcomings)
+      .def_readonly("findings", &PythonRig::findings)
+      .def("save",
+           [](const PythonRig& one, const std::filesystem::path& output, const std::string& format,
+              const std::string& name, const std::string& author, const std::string& licence) {
+             return save_rig(one, output, format, {name, author, licence});
+           });
   module.def("rig", &rig_in_background);
 }
 

@@ -9,6 +9,7 @@
 #include <curveskel/contract_repaired.hpp>
 #include <curveskel/fair_polygons.hpp>
 #include <curveskel/repair.hpp>
+#include "app/fair_rules.hpp"
 #include "app/kernel_cache.hpp"
 #include "python/background_work.hpp"
 #include "python/options.hpp"
@@ -54,11 +55,13 @@ py::tuple fair_soup(const PolygonSoup& soup, const py::dict& options, const py::
   set_options(options, {{"iterations", sets(fairing.iterations)},
                         {"local_solver", sets(fairing.local_solver, "local_solver", local_solvers)},
                         {"method", sets(fairing.method, "method", fair_methods)},
+                        {"precision", sets(fairing.double_precision, "precision", precisions)},
                         {"rings", sets(fairing.rings)},
                         {"smoothing", sets(fairing.smoothing)},
                         {"threads", sets(fairing.threads)},
                         {"volume", sets(fairing.volume, "volume", volume_rules)}});
   require_valid(fairing);
+  require_closed_form(fairing, options.contains("local_solver"));
   Surface result;
   run_beside_interpreter(
       listener, [&](const Monitor& monitor) { result = fair_polygons(soup, fairing, monitor); });

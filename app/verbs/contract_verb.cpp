@@ -77,10 +77,11 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
 
 /// The contraction of one component, in a line.
 std::string outcome(const Contraction& contraction, int component) {
+  const auto reason = std::find_if(stops.begin(), stops.end(),
+                                   [&](const auto& one) { return one.value == contraction.stop; });
   const Step last = contraction.steps.empty() ? Step{} : contraction.steps.back();
-  return fmt::format("component {}: {} iterations, area {:.2e}, volume {:.2e}, {}\n", component,
-                     contraction.steps.size(), last.area_ratio, last.volume_ratio,
-                     std::string(name_of(stops, contraction.stop)));
+  return fmt::format("component {}: {} iterations, area {:.2e}, volume {:.2e}; {}\n", component,
+                     contraction.steps.size(), last.area_ratio, last.volume_ratio, reason->meaning);
 }
 
 int run_contract(const ContractArguments& arguments, Session& session) {

@@ -125,11 +125,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
         session);
   }
   if (!arguments.quiet) session.terminal.result(evaluation_table(evaluation));
-  if (!arguments.strict || certificate.holds()) {
-    return ExitCode::done;
-  }
-  session.terminal.error("the certificate failed: " + all_failures(certificate, arguments.options));
-  return ExitCode::solver;
+  return exit_code_of(certificate, arguments.options, arguments.strict, session);
 }
 
 }  // namespace
@@ -162,9 +158,10 @@ Verb add_evaluate(CLI::App& program) {
       ->type_name("RIG.glb");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
-  parser->add_flag(
-      "--strict", arguments->strict,
-      "a failed certificate (topology, inside, made of tubes, wrap) is an error, exit 5");
+  parser->add_flag("--strict", arguments->strict,
+                   "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of "
+                   "another shape is "
+                   "an error, too (exit 5), as a wrong topology always is");
   add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -250,18 +250,6 @@ void check_names(const ExtractArguments& arguments, Session& session) {
   if (to_output) session.terminal.keep_output_clean();
 }
 
-/// Says how the certificate failed, if it did.
-int exit_code_of(const Certificate& certificate, const ExtractArguments& arguments,
-                 Session& session) {
-  const std::string failed = all_failures(certificate, arguments.options.certificate);
-  if (certificate.topology_correct() && (certificate.holds() || !arguments.strict)) {
-    if (!failed.empty()) session.terminal.warn(failed);
-    return ExitCode::done;
-  }
-  session.terminal.error("the certificate failed: " + failed);
-  return ExitCode::solver;
-}
-
 int run_extract(ExtractArguments arguments, Session& session) {
   const auto begin = Clock::now();
   if (arguments.quiet) session.terminal.be_quiet();
@@ -317,7 +305,8 @@ int run_extract(ExtractArguments arguments, Session& session) {
     session.terminal.result(
         text + time_line(times, seconds_since(begin), extraction.components.size() == 1));
   }
-  return exit_code_of(extraction.certificate, arguments, session);
+  return exit_code_of(extraction.certificate, arguments.options.certificate, arguments.strict,
+                      session);
 }
 
 /// MESH and all names of files that are written.
@@ -425,7 +414,7 @@ Verb add_extract(CLI::App& program) {
   parser->add_flag(
       "--strict", arguments->strict,
       "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of another shape "
-      "is an error, too (exit 5), not a warning");
+      "is an error, too (exit 5), as a wrong topology always is");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Presets", presets) + meanings("Flows", flows) +
                  meanings("Solvers", solvers) + meanings("Surgeries", surgery_methods) +

@@ -12,6 +12,7 @@
 #include <curveskel/write_surface.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
+#include "app/fair_rules.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
@@ -22,11 +23,6 @@ namespace curveskel {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr NameTable<bool, 2> precisions{{
-    {false, "single", "on the device"},
-    {true, "double", "on the device; cpu and host always compute in double"},
-}};
 
 struct FairArguments {
   fs::path mesh;
@@ -89,8 +85,8 @@ Verb add_fair(CLI::App& program) {
              "mu = W_L / W_H of each patch: 0.5 to 2 takes noise away");
   add_number(*parser, "--rings", options.rings, 1, 1000000,
              "K: a vertex's patch has the vertices within K edges");
-  add_choice(*parser, "--local-solver", options.local_solver, local_solvers,
-             "how the centre of a patch is found");
+  const CLI::Option* const solver = add_choice(*parser, "--local-solver", options.local_solver,
+                                               local_solvers, "how the centre of a patch is found");
   add_choice(*parser, "--volume", options.volume, volume_rules, "what becomes of the volume");
   add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
   add_number(*parser, "--threads", options.threads, 0, 4096,
@@ -99,7 +95,10 @@ Verb add_fair(CLI::App& program) {
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +
                  meanings("Volume", volume_rules) + meanings("Precision", precisions));
-  return {parser, [arguments](Session& session) { return run_fair(*arguments, session); }};
+  return {parser, [arguments, solver](Session& session) {
+            require_closed_form(arguments->options, solver->count() > 0);
+            return run_fair(*arguments, session);
+          }};
 }
 
 }  // namespace curveskel

@@ -1,10 +1,12 @@
 #include "app/verbs/rig_options.hpp"
 
 #include <limits>
+#include <string>
 
 #include <curveskel/read.hpp>
 #include "app/arguments.hpp"
 #include "app/kernel_cache.hpp"
+#include "app/rig_sources.hpp"
 
 namespace curveskel {
 namespace {
@@ -66,67 +68,60 @@ void add_vrm_meta(CLI::App& parser, RigArguments& arguments) {
       ->type_name("URL");
 }
 
-void add_plan(CLI::App& parser, RigArguments& arguments, const SourceOptions& sources) {
+void add_plan(CLI::App& parser, RigArguments& arguments) {
   parser
       .add_option("--report", arguments.report,
                   "plan, roles, parts, joints and checks of the weights, as JSON")
       ->type_name("FILE.json");
-  add_choice(parser, "--plan", arguments.plan.plan, body_kinds, "how the body is built")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+  add_choice(parser, "--plan", arguments.plan.plan, body_kinds, "how the body is built");
   add_choice(parser, "--up", arguments.plan.up, directions, "the body's up; auto = found");
   add_choice(parser, "--front", arguments.plan.front, directions,
              "where the body looks; auto = found");
-  add_choice(parser, "--names", arguments.names, name_styles, "what joints are called")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+  add_choice(parser, "--names", arguments.names, name_styles, "what joints are called");
   add_choice(parser, "--pose", arguments.pose, rest_poses,
-             "in which the rig rests; vertices stay as they are")
-      ->excludes(sources.keep);
-  parser
-      .add_flag("--ground-root", arguments.ground_root,
-                "one more joint, on the ground, that all hangs from")
-      ->excludes(sources.keep);
-  parser
-      .add_flag("--no-ends", arguments.no_ends, "leave out the joints at tips, which move nothing")
-      ->excludes(sources.keep);
+             "in which the rig rests; vertices stay as they are");
+  parser.add_flag("--ground-root", arguments.ground_root,
+                  "one more joint, on the ground, that all hangs from");
+  parser.add_flag("--no-ends", arguments.no_ends,
+                  "leave out the joints at tips, which move nothing");
 }
 
-void add_joints(CLI::App& parser, RigArguments& arguments, const SourceOptions& sources) {
+void add_joints(CLI::App& parser, RigArguments& arguments) {
   JointOptions& joints = arguments.rig.joints;
   add_number(parser, "--root", joints.root, -1, std::numeric_limits<int>::max(),
              "node of the skeleton, counted from 0 as in its JSON file, that all hangs from, "
-             "without a plan; -1 = chosen")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+             "without a plan; -1 = chosen");
   add_number(parser, "--bone-length", joints.bone_length, 0.5, 1000.0,
-             "of straight limbs, in their radius: smaller gives more joints")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+             "of straight limbs, in their radius: smaller gives more joints");
   add_number(
       parser, "--joint-budget", arguments.joint_budget, 0, 1000000,
-      "of a figure, at most: joints that move the least of the surface are left out; 0 = all")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+      "of a figure, at most: joints that move the least of the surface are left out; 0 = all");
   add_number(
       parser, "--follow", arguments.parts.follow, 0.0, 100.0,
       "parts that reach out of the body no farther than this, in its thickness there, follow "
-      "it without joints of their own; 0 = none")
-      ->excludes(sources.keep)
-      ->excludes(sources.given);
+      "it without joints of their own; 0 = none");
   add_number(parser, "--softness", arguments.rig.skin.softness, 0.05, 20.0,
              "how gently the skin goes over from one joint to the next, in radii");
 }
 
-void add_extraction(CLI::App& parser, RigArguments& arguments, const SourceOptions& sources) {
+void add_extraction(CLI::App& parser, RigArguments& arguments) {
   add_number(parser, "--detail", arguments.extract.embed.detail, 0.0, 1.0,
-             "0..1: how small a branch may be")
-      ->excludes(sources.skeleton);
+             "0..1: how small a branch may be");
   add_number(parser, "--fair", arguments.fair_iterations, 0, 1000000,
-             "iterations of fairing before the contraction, for noisy surfaces")
-      ->excludes(sources.skeleton);
+             "iterations of fairing before the contraction, for noisy surfaces");
   arguments.extract.contraction.program_cache = kernel_cache();
   arguments.extract.fair.program_cache = kernel_cache();
+}
+
+/// One table for every door; see rig_sources.hpp.
+void exclude_idle(CLI::App& parser, const SourceOptions& sources) {
+  const auto option = [&](const char* name) { return parser.get_option("--" + std::string(name)); };
+  for (const char* name : idle_beside_skeleton) option(name)->excludes(sources.skeleton);
+  for (const char* name : idle_beside_joints) {
+    option(name)->excludes(sources.keep)->excludes(sources.given);
+  }
+  for (const char* name : idle_beside_kept_rig) option(name)->excludes(sources.keep);
+  option("no-ends")->excludes(sources.keep);
 }
 
 }  // namespace
@@ -135,9 +130,10 @@ void add_rig_options(CLI::App& parser, RigArguments& arguments) {
   add_files(parser, arguments);
   const SourceOptions sources = add_sources(parser, arguments);
   add_vrm_meta(parser, arguments);
-  add_plan(parser, arguments, sources);
-  add_joints(parser, arguments, sources);
-  add_extraction(parser, arguments, sources);
+  add_plan(parser, arguments);
+  add_joints(parser, arguments);
+  add_extraction(parser, arguments);
+  exclude_idle(parser, sources);
   add_number(parser, "--threads", arguments.threads, 0, 4096,
              "at most; 0 = one per core; the result does not depend on it");
   add_repair(parser, arguments.repair);

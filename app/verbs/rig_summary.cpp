@@ -25,9 +25,11 @@ std::string joints_in_words(const Rig& rig) {
     ++(is_tip ? tips : others);
   }
   if (others == 0) {
-    return fmt::format("{} joints, {} of them tips that move nothing", moves.size(), tips);
+    return fmt::format("{} joints, {} of them {} nothing", moves.size(), tips,
+                       tips == 1 ? "a tip that moves" : "tips that move");
   }
-  return fmt::format("{} joints; {} tips and {} others move nothing", moves.size(), tips, others);
+  return fmt::format("{} joints; {} tip{} and {} other{} move nothing", moves.size(), tips,
+                     tips == 1 ? "" : "s", others, others == 1 ? "" : "s");
 }
 
 std::string parts_in_words(const RigParts& parts) {

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <curveskel/advanced/measures.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/make_rig.hpp>
@@ -20,16 +19,16 @@
 #include <curveskel/rig_files.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/rig_polygons.hpp>
-#include <curveskel/role_names.hpp>
+#include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
-#include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/rig_findings.hpp"
 #include "app/rig_report.hpp"
+#include "app/rig_sources.hpp"
 #include "app/surface_input.hpp"
 #include "app/verbs/rig_options.hpp"
-#include "app/verbs/rig_sources.hpp"
 #include "app/verbs/rig_summary.hpp"
 #include "app/verbs/verbs.hpp"
 
@@ -38,56 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// VRM's figures look along z, their arms held out.
-void warn_of_posture(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up, Session& session) {
-  if (plan.plan != BodyKind::humanoid) return;
-  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
-  const auto place = [&](const char* role) -> Eigen::RowVector3d {
-    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
-                                    [&](const PlannedJoint& joint) { return joint.role == role; });
-    return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
-  };
-  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
-  constexpr double held_out = 0.94;  // cos of 20 degrees
-  constexpr double along = 0.99;     // up to rounding: plans have the file's axes
-  if (ahead < along) {
-    session.terminal.warn("VRM's figures look along z, this one does not: turn it first");
-  } else if (arm.x() < held_out * arm.norm()) {
-    session.terminal.warn(
-        "VRM's figures rest with their arms held out level, this one does not: give --pose t");
-  }
-}
-
 OldRig old_rig_in(const RigArguments& arguments) {
   return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
-}
-
-/// Of formats whose look is not read.
-void warn_of_looks(const RigArguments& arguments, Session& session) {
-  fs::path name = arguments.mesh;
-  if (name.extension() == ".gz") name = name.stem();
-  for (const char* extension : {".3mf", ".vtp", ".vtk"}) {
-    if (name.extension() != extension) continue;
-    session.terminal.warn(arguments.mesh.filename().string() +
-                          ": materials and texture coordinates are not taken from such a file; "
-                          "to keep them export it as glTF");
-  }
-}
-
-/// Unless hardly anything moves by it.
-void warn_of_bind_pose(const RigArguments& arguments, const PolygonSoup& bound,
-                       const Monitor& monitor, Session& session) {
-  constexpr double visible = 1e-3;
-  const PolygonSoup shown = read_polygons(arguments.mesh, monitor);
-  const double farthest =
-      (shown.positions - bound.positions).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
-  const double share = farthest / bounding_box_diagonal(shown.positions);
-  if (share < visible) return;
-  session.terminal.warn(
-      fmt::format("the joints rest in another pose than they were bound in, by up to {:.2g} % of "
-                  "the size; the new rig rests in the pose in which the old one was bound "
-                  "(--as-shown: in the one at rest)",
-                  100 * share));
 }
 
 /// Joints of the file's own are as it shows them, and the surface with them.
@@ -102,7 +53,7 @@ bool reads_as_bound(const RigArguments& arguments) {
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
   if (!arguments.bare) {
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
-    warn_of_looks(arguments, session);
+    if (const auto finding = look_finding(arguments.mesh)) session.terminal.warn(*finding);
   }
   if (is_standard_input(arguments.mesh)) {
     session.terminal.warn(
@@ -110,7 +61,10 @@ PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, S
     return read_surface(arguments.mesh, monitor);
   }
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {arguments.as_bound});
-  if (arguments.as_bound && soup.posed) warn_of_bind_pose(arguments, soup, monitor, session);
+  if (arguments.as_bound && soup.posed) {
+    const auto finding = bind_pose_finding(arguments.mesh, soup, monitor);
+    if (finding) session.terminal.warn(*finding);
+  }
   return soup;
 }
 
@@ -149,13 +103,6 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
-void warn_of_names(const BodyPlan& plan, NameStyle style, Session& session) {
-  if (has_words(style, plan.plan)) return;
-  session.terminal.warn(
-      fmt::format("--names {} has no words for the plan {}; joints have readable names instead",
-                  name_of(name_styles, style), name_of(body_kinds, plan.plan)));
-}
-
 RigPolygonsOptions options_of(const RigArguments& arguments) {
   RigPolygonsOptions options;
   options.repair = arguments.repair;
@@ -168,18 +115,13 @@ RigPolygonsOptions options_of(const RigArguments& arguments) {
   return options;
 }
 
-int run_rig(RigArguments arguments, Session& session) {
-  if (arguments.quiet) session.terminal.be_quiet();
+/// The formats of the outputs; all that can be refused before anything is read.
+std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   std::vector<RigFormat> formats;
-  for (const std::string& name : arguments.outputs) formats.push_back(format_of(name, rig_formats));
-  if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
-    require_whole(arguments.vrm);
-  }
-  for (std::size_t k = 0; k < formats.size() && arguments.pose == RestPose::t; ++k) {
-    if (keeps_the_file(formats[k]) || formats[k] == RigFormat::usda) continue;
-    throw UsageError(arguments.outputs[k] +
-                     ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, "
-                     "vrm, fbx and usda");
+  for (const std::string& name : arguments.outputs) {
+    formats.push_back(format_of(name, rig_formats));
+    if (formats.back() == RigFormat::vrm) require_whole(arguments.vrm);
+    require_pose(formats.back(), arguments.pose, name);
   }
   if (is_standard_input(arguments.mesh)) {
     if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
@@ -188,69 +130,94 @@ int run_rig(RigArguments arguments, Session& session) {
   std::vector<std::string> names = arguments.outputs;
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
+  return formats;
+}
+
+RigSources sources_of(RigArguments& arguments, const PolygonSoup& soup, Session& session) {
+  const Monitor monitor = session.monitor();
+  RigSources sources;
+  if (arguments.keep_rig && keeps_joints_alone(soup.format)) {
+    arguments.keep_rig = false;
+    arguments.joints = arguments.mesh.string();
+  }
+  if (arguments.keep_rig) sources.joints = rig_in(arguments.mesh, monitor);
+  if (!arguments.joints.empty()) {
+    GivenJoints given = joints_for(arguments.joints, soup, monitor);
+    if (!given.finding.empty()) session.terminal.warn(given.finding);
+    sources.joints = std::move(given.rig);
+  }
+  if (!arguments.skeleton.empty()) {
+    sources.skeleton = read_skeleton(arguments.skeleton);
+    require_skeleton_of(soup, *sources.skeleton, arguments.skeleton);
+  }
+  return sources;
+}
+
+void warn_of(const PolygonsRig& found, const RigPolygonsOptions& options, bool joints_are_given,
+             bool as_vrm, const RigArguments& arguments, Session& session) {
+  const std::string failed = skeleton_findings(found, options);
+  if (!failed.empty()) session.terminal.warn(failed);
+  const BodyPlan& plan = found.character.plan;
+  if (!joints_are_given) {
+    for (const std::string& finding : plan_findings(plan, options.character)) {
+      session.terminal.warn(finding);
+    }
+  }
+  if (!as_vrm) return;
+  const auto finding = posture_finding(plan, found.character.rig.to_y_up, arguments.pose);
+  if (finding) session.terminal.warn(*finding);
+}
+
+std::string summary_of(const RigArguments& arguments, const PolygonSoup& soup, const Rig& written,
+                       const CharacterRig& character) {
+  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", name_of_input(arguments.mesh),
+                                 soup.positions.rows(), joints_in_words(written));
+  if (character.joints_left_out > 0) {
+    text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",
+                        character.joints_left_out);
+  }
+  text += parts_in_words(character.parts) + plan_in_words(character.plan);
+  for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
+    text += fmt::format("figure {}, {}", k + 2, plan_in_words(character.other_plans[k]));
+  }
+  return text;
+}
+
+int run_rig(RigArguments arguments, Session& session) {
+  if (arguments.quiet) session.terminal.be_quiet();
+  const std::vector<RigFormat> formats = checked_formats(arguments);
   session.interruption.limit(arguments.time_limit_seconds);
 
   const auto begin = std::chrono::steady_clock::now();
   const Monitor monitor = session.monitor();
   arguments.as_bound = reads_as_bound(arguments);
   const PolygonSoup soup = read_to_rig(arguments, monitor, session);
-  std::optional<Rig> old_rig;
-  if (arguments.keep_rig &&
-      (soup.format == SurfaceFormat::fbx || soup.format == SurfaceFormat::dae)) {
-    arguments.keep_rig = false;  // such a file becomes another one, with the joints that it had
-    arguments.joints = arguments.mesh.string();
-  }
-  if (arguments.keep_rig) old_rig = rig_in(arguments.mesh, monitor);
-  if (!arguments.joints.empty()) old_rig = joints_for(arguments.joints, soup, session);
-  RigSources sources;
-  if (!arguments.skeleton.empty()) sources.skeleton = skeleton_for(arguments.skeleton, soup);
-  sources.joints = std::move(old_rig);
-  PolygonsRig found = rig_polygons(soup, sources, options_of(arguments), monitor);
-  const BodyPlan& plan = found.character.plan;
-  if (found.certificate) {
-    const std::string failed = all_failures(*found.certificate, arguments.extract.certificate);
-    if (!failed.empty()) session.terminal.warn(failed);
-  }
-  if (!sources.joints) warn_of_names(plan, arguments.names, session);
-  const bool is_asked_for = arguments.plan.plan != BodyKind::automatic &&
-                            arguments.plan.plan != BodyKind::other &&
-                            arguments.plan.plan != BodyKind::none;
-  if (is_asked_for && plan.plan == BodyKind::other) session.terminal.warn(plan.reason);
+  const RigSources sources = sources_of(arguments, soup, session);
+  const bool joints_are_given = sources.joints.has_value();
+  const RigPolygonsOptions options = options_of(arguments);
+  const PolygonsRig found = rig_polygons(soup, sources, options, monitor);
+  const bool as_vrm = std::count(formats.begin(), formats.end(), RigFormat::vrm) > 0;
+  warn_of(found, options, joints_are_given, as_vrm, arguments, session);
   const Surface given{soup.positions, triangulate(soup)};
-  if (std::find(formats.begin(), formats.end(), RigFormat::vrm) != formats.end()) {
-    if (arguments.pose == RestPose::input) {
-      warn_of_posture(plan, found.character.rig.to_y_up, session);
-    }
-  }
-  const Rig written = rig_for_export(
-      found.character.rig, plan, given,
-      {arguments.pose, arguments.ground_root, !arguments.no_ends, sources.joints.has_value()});
+  const Rig written =
+      rig_for_export(found.character.rig, found.character.plan, given,
+                     {arguments.pose, arguments.ground_root, !arguments.no_ends, joints_are_given});
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   if (!arguments.report.empty()) {
-    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
     files.push_back(
         {arguments.report,
-         rig_report_json({given, found.character, name_of_input(arguments.mesh), so_far.count()})});
+         rig_report_json({given, found.character, name_of_input(arguments.mesh), seconds()})});
   }
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", name_of_input(arguments.mesh),
-                                 soup.positions.rows(), joints_in_words(written));
-  if (found.character.joints_left_out > 0) {
-    text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",
-                        found.character.joints_left_out);
-  }
-  text += parts_in_words(found.character.parts);
-  text += plan_in_words(plan);
-  for (std::size_t k = 0; k < found.character.other_plans.size(); ++k) {
-    text += fmt::format("figure {}, {}", k + 2, plan_in_words(found.character.other_plans[k]));
-  }
-  text += old_rig_in_words;
+  std::string text = summary_of(arguments, soup, written, found.character) + old_rig_in_words;
   for (const OutputFile& file : files) text += fmt::format("wrote {}\n", file.name);
-  session.terminal.result(text + fmt::format("{:.2f} s\n", taken.count()));
+  session.terminal.result(text + fmt::format("{:.2f} s\n", seconds()));
   return ExitCode::done;
 }
 

@@ -78,7 +78,7 @@ struct Extraction {
   std::vector<Try> history;         ///< of all tries, in the order in which they were begun
 };
 
-/// normalise -> fair -> coarsen -> balls -> contract -> surgery -> embed -> certify, by component.
+/// normalise, fair, coarsen, balls, contract, surgery, embed and certify, each component on its
 /// own. A component that the surgery finds no cut for is contracted once more, gently; where that
 /// does not help, level sets cut it. If the certificate fails, all this is tried again as the
 /// options say. A try that fails by an Error or a lack of memory leaves what there is; an

@@ -29,10 +29,10 @@ void require_valid(const RigOptions& options);
 /// the surface's. O(#V + nodes made).
 [[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
 
-/// `place_joints`, `skin_weights`, then `name_sides` (rig/sides.hpp). A vertex that has no node (or
-/// none has) goes to the one whose ball is nearest. Precondition: a clean surface; node_of_vertex
-/// by its vertices, if there is one. Throws Error(Fault::input) as `place_joints`, Cancelled on a
-/// stop.
+/// `place_joints`, `skin_weights`, then the sides: limbs that mirror each other end in .L and .R.
+/// A vertex that has no node (or none has) goes to the one whose ball is nearest. Precondition: a
+/// clean surface; node_of_vertex by its vertices, if there is one. Errors as of `place_joints`,
+/// Cancelled on a stop.
 [[nodiscard]] Rig make_rig(const Surface& surface, const CurveSkeleton& skeleton,
                            const RigOptions& options = {}, const Monitor& monitor = {});
 
@@ -42,8 +42,8 @@ void require_valid(const RigOptions& options);
                                    const BodyPlan& plan, const RigOptions& options = {},
                                    const Monitor& monitor = {});
 
-/// The same joints with new weights: `skin_weights` of their bones (rig/skin/skin_bones.hpp), a
-/// node of the skeleton with the nearest. For joints that somebody has placed; `given.weights` is
+/// The same joints with new weights: `skin_weights` of their bones, a node of the
+/// skeleton with the nearest. For joints that somebody has placed; `given.weights` is
 /// not read. Errors as `make_rig`.
 [[nodiscard]] Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton,
                                     const Rig& given, const SkinOptions& options = {},

@@ -15,13 +15,13 @@ namespace curveskel {
 /// that is a joint. Weights are divided by their sum. Throws Error(Fault::input) where indices,
 /// matrices or weights are wrong. Linear in the file.
 [[nodiscard]] std::optional<Rig> read_rig(const std::filesystem::path& path,
-                                          const Monitor& monitor);
+                                          const Monitor& monitor = {});
 
 /// The joints alone (weights has no rows) of a glTF file with a skin, of an FBX file with
 /// limbs or a COLLADA file with joints (where its nodes rest, in its numbers), of the JSON that
 /// `format_rig` writes, or of RigNet's text; parents before their children, whatever the order in
 /// the file. Throws Error(Fault::input) where there are no joints, where parents lead to no root,
 /// or where a name or number is wrong. Linear in the file.
-[[nodiscard]] Rig read_joints(const std::filesystem::path& path, const Monitor& monitor);
+[[nodiscard]] Rig read_joints(const std::filesystem::path& path, const Monitor& monitor = {});
 
 }  // namespace curveskel

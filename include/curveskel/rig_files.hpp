@@ -48,8 +48,8 @@ void require_whole(const VrmMeta& meta);
 /// bytes to `write_file`. docs/formats.md has what the other formats hold: bvh, json, npz and txt
 /// have joints and weights without the surface. In glTF, vertices and triangles keep their order,
 /// positions and weights are in single precision (as glTF has them), normals are those of
-/// `vertex_normals`, the same for all vertices in one place. Joints are turned as `bone_axes` says
-/// (rig/bone_axes.hpp). All hang from one node named `name`. `provenance` goes to the file's
+/// `vertex_normals`, the same for all vertices in one place. The y axis of a joint points along its
+/// bone. All hang from one node named `name`. `provenance` goes to the file's
 /// generator. Precondition: weights have a row for each vertex, of sum 1 and at most four joints.
 /// Throws Error(Fault::output) where there are more than 65,536 joints or where single
 /// precision does not suffice for the coordinates; of vrm, Error(Fault::usage) where `vrm` is not

@@ -3,11 +3,13 @@
 import json
 import os
 import pathlib
+import re
+import warnings
 
 import numpy
 
 from . import _core
-from .errors import UsageError
+from .errors import CertificateWarning, UsageError
 from .inputs import listening, soup_of
 from .skeleton import Skeleton, read
 
@@ -61,22 +63,31 @@ class Rig:
         """Writes the rig in the format of the extension, any of `curveskel rig`.
 
         GLB of a surface that is from a glTF file or an OBJ with materials is that file itself with
-        the rig in it. VRM needs the three texts. Raises UsageError, InputError or OutputError.
+        the rig in it. VRM needs the three texts. Warns of what is lost. Raises UsageError,
+        InputError or OutputError.
         """
-        self._made.save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."),
-                        vrm_name, vrm_author, vrm_licence)
+        _warn_of(self._made.save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."),
+                                 vrm_name, vrm_author, vrm_licence))
 
     def __repr__(self):
         return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
 
 
-def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, time_limit=0, progress=None,
-        **options):
+def _warn_of(findings):
+    """Warns the caller's caller, options named as Python has them."""
+    for finding in findings:
+        finding = re.sub(r"--([a-z-]+) ?", lambda name: name[1].replace("-", "_") + " ", finding)
+        warnings.warn(finding, UserWarning, stacklevel=3)
+
+
+def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, threads=0,
+        time_limit=0, progress=None, **options):
     """Joints and skin weights for a surface, as `curveskel rig` makes them.
 
     mesh: as of `extract`; a path lets `Rig.save` edit the file itself.
     skeleton: rig this one, a Skeleton of the same surface or a path, instead of extracting one.
     joints: a path to a rig: its joints get new weights, and no others are made.
+    keep_rig: the same with the joints that the glTF, FBX or COLLADA file itself has.
     as_shown: a glTF, FBX or COLLADA file whose old joints rest in another pose than they were bound
         in is rigged as viewers show it, not as it was bound; so it is with joints of its own.
     threads, time_limit, progress: as of `extract`.
@@ -84,10 +95,14 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, time_lim
         --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
         merge_overlapping, min_size, names, plan, pose, root, softness, up, wrap, wrap_gap.
 
-    Raises UsageError, InputError, DeviceError or SolverError.
+    Options that would have no effect are a UsageError. What the program warns of is a UserWarning,
+    a certificate that does not hold a CertificateWarning. Raises UsageError, InputError,
+    DeviceError or SolverError.
     """
-    if skeleton is not None and joints is not None:
-        raise UsageError("skeleton and joints exclude each other")
+    if joints is not None and (keep_rig or skeleton is not None):
+        raise UsageError(f"joints and {'keep_rig' if keep_rig else 'skeleton'} exclude each other")
+    if keep_rig and as_shown:
+        raise UsageError("keep_rig and as_shown exclude each other")
     if isinstance(skeleton, (str, os.PathLike)):
         skeleton = read(skeleton)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
@@ -96,7 +111,13 @@ def rig(mesh, *, skeleton=None, joints=None, as_shown=False, threads=0, time_lim
     if is_path and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
         as_shown = as_shown or os.path.samefile(mesh, joints)
     with listening(progress, time_limit) as listener:
-        soup = soup_of(mesh, listener, as_bound=not as_shown)
-        return Rig(_core.rig(soup, not as_shown, None if skeleton is None else skeleton._graph,
-                             None if joints is None else os.fspath(joints),
-                             dict(options, threads=threads), listener))
+        as_bound = not (as_shown or keep_rig)
+        soup = soup_of(mesh, listener, as_bound=as_bound)
+        made = _core.rig(soup, as_bound, bool(keep_rig), None if skeleton is None else skeleton._graph,
+                         None if joints is None else os.fspath(joints),
+                         dict(options, threads=threads), listener)
+    if made.shortcomings:
+        warnings.warn("the certificate failed: " + made.shortcomings, CertificateWarning,
+                      stacklevel=2)
+    _warn_of(made.findings)
+    return Rig(made)

@@ -471,7 +471,7 @@ Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<Pla
     throw Error(Fault::input, "a skeleton without nodes, needed one at least; extract it again");
   }
   if (options.root >= nodes) {
-    throw Error(Fault::input, "root " + std::to_string(options.root) + ", needed one of the " +
+    throw Error(Fault::usage, "root " + std::to_string(options.root) + ", needed one of the " +
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }

@@ -31,11 +31,11 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
                              const CurveSkeleton& skeleton, const CertificateOptions& options,
                              const Monitor& monitor) {
   require_valid(options);
-  require_sound(skeleton, "certify");
+  require_sound(skeleton, "the certificate");
   if (!skeleton.nodes.allFinite()) {
     throw Error(Fault::input,
-                "the skeleton has a coordinate that is no finite number; certify needs finite "
-                "node positions: repair or write the skeleton again");
+                "the skeleton has a coordinate that is no finite number; the certificate "
+                "needs finite ones: repair or write the skeleton again");
   }
   MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}};
   curve.diagonal = diagonal;

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/embed/tuning.hpp"
 
 namespace curveskel {
 namespace {
@@ -295,7 +296,7 @@ double least_life(double detail) {
 }
 
 double least_deficit(double detail) {
-  constexpr double most = 1.15;   // of what is more prominent the surgery and growth make branches
+  const double most = EmbedTuning{}.prominence;  // what sticks out more has its branch by then
   constexpr double least = 0.15;  // a tip that has its branch lacks as much, see `tip_gap`
   return least + (most - least) * std::min(1.0, (1 - detail) / (1 - usual_detail));
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -74,7 +73,8 @@ std::vector<Index> cut_sides(Surface& surface, double longest, std::size_t room)
   return middles;
 }
 
-// As split_long_edges, but ends once there are `vertices_enough`, the longest edges cut first.
+/// Cuts every edge longer than `longest` at its middle, and its triangles with it, the longest
+/// edges first, until none is left or there are `vertices_enough`.
 Surface split(const Surface& surface, double longest, std::size_t vertices_enough) {
   Surface result = surface;
   for (;;) {
@@ -131,10 +131,6 @@ Surface split(const Surface& surface, double longest, std::size_t vertices_enoug
 }
 
 }  // namespace
-
-Surface split_long_edges(const Surface& surface, double longest) {
-  return split(surface, longest, std::numeric_limits<std::size_t>::max());
-}
 
 Surface refine(const Surface& surface, int least_vertices) {
   Surface result = surface;

@@ -5,17 +5,12 @@
 
 namespace curveskel {
 
-/// Cuts every edge longer than `longest` (model units, > 0) at its middle, and its triangles with
-/// it, until none is left. The surface stays where it is; vertices keep their index, new ones
-/// follow. O(#F log #F) per halving of the longest edge.
-/// Precondition: closed oriented 2-manifold.
-[[nodiscard]] Surface split_long_edges(const Surface& surface, double longest);
-
 /// Splits the longest edges until there are at least `least_vertices`, seldom twice as many and
 /// never many more (what is cut may be equally long), however long and thin the triangles are, so
 /// that edges become even in length; a surface with enough vertices is left as it is, and so is one
-/// without area. O(`least_vertices` log `least_vertices`) for each factor of 0.85 in between.
-/// Precondition: closed oriented 2-manifold.
+/// without area. The surface stays where it is; vertices keep their index, new ones follow.
+/// O(`least_vertices` log `least_vertices`) for each factor of 0.85 in between. Precondition:
+/// closed oriented 2-manifold.
 [[nodiscard]] Surface refine(const Surface& surface, int least_vertices);
 
 }  // namespace curveskel

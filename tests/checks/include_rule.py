@@ -4,7 +4,7 @@ usage: include_rule.py SOURCE_DIR LAYER=HEADER...
 
 A layer includes its own files and those of layers below it; public headers, which lie together in
 include/, belong to the layer that the build lists them under. Public headers need no private and
-no foreign ones but Eigen's, and the programs live on public headers alone.
+no foreign ones but Eigen's, curveskel.hpp has them all, and the programs live on public headers alone.
 """
 
 import pathlib
@@ -72,6 +72,15 @@ def beyond_library(source):
                     yield f"{path}:{number}: must use public headers only, not {name}"
 
 
+def left_out(source, layer_of_public):
+    """Public headers that the whole library in one include lacks."""
+    whole = "curveskel.hpp"
+    path = source / "include" / whole
+    there = {name for _, _, name in includes(path)}
+    for header in sorted(set(layer_of_public) - there - {whole}):
+        yield f"{path}: lacks {header}"
+
+
 def main():
     source = pathlib.Path(sys.argv[1])
     layer_of_public = {}
@@ -83,6 +92,7 @@ def main():
         public = [source / "include" / h for h, its in layer_of_public.items() if its == layer]
         found += climbing(source, layer, files_of(source, layer) + sorted(public), layer_of_public)
     found += beyond_public(source, layer_of_public)
+    found += left_out(source, layer_of_public)
     found += beyond_library(source)
     print("\n".join(found))
     return 1 if found else 0

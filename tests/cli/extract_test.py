@@ -160,6 +160,25 @@ class Report(CommandLineTest):
         self.assertGreater(report["peak_memory_bytes"], 1000000)
         self.assertEqual(report["outputs"], ["rings.obj"])
 
+    def test_has_every_parameter_and_the_documents_every_key(self):
+        self.run_ok("extract", Y, "-o", "y.json", "--report", "report.json", "--fair", "1",
+                    cwd=self.folder)
+        self.run_ok("rig", Y, "-o", "y.glb", "--report", "rig.json", cwd=self.folder)
+        report = json.loads((self.folder / "report.json").read_text())
+        of_run = {"threads", "program_cache"}
+        for stage, header in (("contraction", "contract"), ("fair", "fair"),
+                              ("embed", "advanced/embed"), ("surgery", "advanced/surgery"),
+                              ("certificate", "certificate"), ("repair", "repair")):
+            text = (MESHES.parent / "include" / "curveskel" / f"{header}.hpp").read_text()
+            options = re.search(r"struct \w+Options {(.*?)\n};", text, re.DOTALL).group(1)
+            names = set(re.findall(r"^  [\w:]+ (\w+)(?: = [^;]+)?;", options, re.MULTILINE))
+            self.assertGreater(len(names), 2, stage)
+            self.assertEqual(names - of_run - set(report["parameters"][stage]), set(), stage)
+        documented = (MESHES.parent / "docs" / "formats.md").read_text()
+        for name in ("report.json", "rig.json", "y.json"):
+            for key in json.loads((self.folder / name).read_text()):
+                self.assertIn(f"`{key}`", documented, name)
+
 
 class SameBytes(CommandLineTest):
     def test_twice_and_with_any_number_of_threads(self):

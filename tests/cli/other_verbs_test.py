@@ -28,7 +28,8 @@ def extent(positions):
 class Contract(CommandLineTest):
     def test_keeps_the_vertices_and_faces_of_the_file(self):
         vertices, faces = TORUS.read_text().split("\n", 2)[1].split()[:2]
-        self.run_ok("contract", TORUS, "-o", "x.ply", cwd=self.folder)
+        result = self.run_ok("contract", TORUS, "-o", "x.ply", cwd=self.folder)
+        self.assertRegex(result.out.decode(), "; the (area|volume) is below the limit\n")
         counts, positions = ply(self.folder / "x.ply")
         self.assertEqual(counts, {"vertex": int(vertices), "face": int(faces)})
         # The tube is gone, the ring is there: major radius 3, minor radius 1.
@@ -108,6 +109,11 @@ class Fair(CommandLineTest):
         self.assertEqual(positions[:4], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
         self.assertLess(positions[4][2], 1)
 
+    def test_the_closed_form_is_of_one_ring_on_host_and_device(self):
+        for arguments in (("--rings", "2"), ("--method", "cpu")):
+            self.refused(USAGE, "fair", Y, "-o", "x.ply", *arguments, "--local-solver", "closed",
+                         says=["closed", "qr"], cwd=self.folder)
+
     def test_larger_patches_move_more_and_both_local_solvers_agree(self):
         moved = []
         for name, arguments in (("closed", ["--rings", "1"]), ("two", ["--rings", "2"]),
@@ -168,8 +174,11 @@ class Evaluate(CommandLineTest):
 
     def test_finds_what_is_wrong(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
-        result = self.run_ok("evaluate", LINKED_RINGS, "y.obj", cwd=self.folder)
+        result = run("evaluate", LINKED_RINGS, "y.obj", "--json", "e.json", cwd=self.folder)
         self.assertIn("WRONG", result.out.decode())
+        self.assertEqual(result.code, 5)  # as of extract
+        self.assertIn("the certificate failed", result.err)
+        self.assertIn("e.json", self.files())
 
     def test_strict_makes_a_failed_certificate_an_error(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
@@ -310,7 +319,7 @@ class Rig(CommandLineTest):
                 self.assertAlmostEqual(found, wanted, places=9)
 
     def test_a_root_that_is_no_node_is_named(self):
-        self.refused(3, "rig", Y, "-o", "y.glb", "--root", "999999",
+        self.refused(USAGE, "rig", Y, "-o", "y.glb", "--root", "999999",
                      says=["root 999999, needed one of the", "nodes"], cwd=self.folder)
 
     def test_a_file_whose_look_is_not_read_is_said_to_lose_it(self):

@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+import warnings
 
 import numpy
 
@@ -45,8 +46,14 @@ class Verbs(unittest.TestCase):
         again, same = curveskel.fair((curveskel.extract(Y).mesh[0], faces), iterations=0)
         numpy.testing.assert_array_equal(same, faces)
         self.assertEqual(again.shape, vertices.shape)
-        with self.assertRaises(curveskel.UsageError):
-            curveskel.fair(Y, ring=2)
+        for wrong in ({"ring": 2}, {"rings": 2, "local_solver": "closed"}, {"precision": "half"},
+                      {"method": "cpu", "local_solver": "closed"}, {"time_limit": -1}):
+            with self.assertRaises(curveskel.UsageError, msg=wrong):
+                curveskel.fair(Y, **wrong)
+        numpy.testing.assert_array_equal(curveskel.fair(Y, precision="double", time_limit=60)[0],
+                                         curveskel.fair(Y)[0])
+        with self.assertRaisesRegex(curveskel.SolverError, "time limit"):
+            curveskel.contract(MESHES / "free" / "humanoid-10k.ply.gz", time_limit=1e-3)
 
     def test_contract_is_the_program_s(self):
         for mesh in (Y, MESHES / "linked-rings.off"):
@@ -109,6 +116,55 @@ class Verbs(unittest.TestCase):
         numpy.testing.assert_allclose(again.joints, rig.joints)
         with self.assertRaises(curveskel.UsageError):
             curveskel.rig(Y, skeleton=skeleton, joints=self.folder / "r.json")
+
+    def test_rig_refuses_what_the_program_refuses(self):
+        skeleton = curveskel.extract(Y)
+        rex = MESHES / "free" / "rigs" / "quaternius-trex-1k.glb"
+        for mesh, options in ((Y, {"skeleton": skeleton, "detail": 0.2}),
+                              (Y, {"skeleton": skeleton, "fair": 3}),
+                              *((rex, {"joints": rex, name: value}) for name, value in (
+                                  ("names", "vrm"), ("plan", "bird"), ("root", 3), ("follow", 2),
+                                  ("bone_length", 3), ("joint_budget", 9))),
+                              (rex, {"keep_rig": True, "joints": rex}),
+                              (rex, {"keep_rig": True, "as_shown": True}),
+                              (rex, {"keep_rig": True, "ends": False}),
+                              (rex, {"keep_rig": True, "pose": "t"}),
+                              (curveskel.extract(Y).mesh, {"keep_rig": True}),
+                              (Y, {"root": 999999}), (Y, {"root": -5})):
+            with self.assertRaises(curveskel.UsageError, msg=options):
+                curveskel.rig(mesh, **options)
+        with self.assertRaises(curveskel.InputError):
+            curveskel.rig(Y, skeleton=curveskel.extract(TORUS))
+
+    def test_rig_warns_as_the_program_does(self):
+        human = MESHES / "free" / "humanoid-10k.ply.gz"
+        (self.folder / "far.json").write_text(json.dumps({"joints": [
+            {"name": str(k), "parent": k - 1, "position": [0.1 if k == 0 else 50.0, 0, 0]}
+            for k in range(5)]}))
+        vertices, faces = map(numpy.array, curveskel.extract(Y).mesh)
+        plate = numpy.array([[x, y, z] for z in (0, 0.2) for y in (0, 9) for x in (0, 10)])
+        sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
+        for mesh, options, words in ((Y, {"plan": "humanoid"}, "humanoid|limbs|pair"),
+                                     (Y, {"names": "mixamo"}, "no words for the plan other"),
+                                     (Y, {"joints": self.folder / "far.json"}, "1 of 5 joints")):
+            with self.assertWarnsRegex(UserWarning, words, msg=options):
+                curveskel.rig(mesh, **options)
+        with self.assertWarnsRegex(curveskel.CertificateWarning, "made of tubes"):
+            curveskel.rig((plate, sides))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            rig = curveskel.rig(human, front="-x")
+            curveskel.rig((vertices, faces))
+        with self.assertWarnsRegex(UserWarning, "VRM's figures"):
+            rig.save(self.folder / "h.vrm", vrm_name="a", vrm_author="b",
+                     vrm_licence="https://vrm.dev/licenses/1.0/")
+
+    def test_a_rig_that_is_kept_is_the_program_s(self):
+        rex = MESHES / "free" / "rigs" / "quaternius-trex-1k.glb"
+        self.program("rig", rex, "--keep-rig", "-o", self.folder / "r.glb")
+        curveskel.rig(rex, keep_rig=True).save(self.folder / "m.glb")
+        self.assertEqual((self.folder / "m.glb").read_bytes(),
+                         (self.folder / "r.glb").read_bytes())
 
     @unittest.skipUnless(has("pandas"), "no pandas")
     def test_match_is_the_program_s_and_knows_a_turned_surface(self):

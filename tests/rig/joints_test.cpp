@@ -289,7 +289,8 @@ std::string refusal_of(const CurveSkeleton& skeleton, int root, Fault fault = Fa
 TEST(Joints, NeedANodeForTheirRoot) {
   const CurveSkeleton chain = chain_through({{0, 0, 0}, {9, 0, 0}}, 1, 1);
   EXPECT_EQ(refusal_of(chain, 9), "");
-  EXPECT_NE(refusal_of(chain, 10).find("root 10, needed one of the 10 nodes"), std::string::npos);
+  EXPECT_NE(refusal_of(chain, 10, Fault::usage).find("root 10, needed one of the 10 nodes"),
+            std::string::npos);
   EXPECT_NE(refusal_of(chain, -2, Fault::usage).find("root is -2"), std::string::npos);
   EXPECT_NE(refusal_of({}, -1).find("without nodes"), std::string::npos);
 }

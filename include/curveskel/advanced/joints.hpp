@@ -47,8 +47,9 @@ struct Joints {
 /// hang from each other where they overlap or are nearest, in a tree from the heaviest (length
 /// times radius) or that of a wanted root, so that there is one root for what belongs together;
 /// each is rooted where it hangs. Bodies that stand apart (by more than a quarter of the larger
-/// one's diagonal) have roots of their own. Throws Error(Fault::input) where the root is no node,
-/// or there is none. O(#N log #N), a hundred times as much where there are many junctions.
+/// one's diagonal) have roots of their own. Throws Error(Fault::usage) where the root is no node,
+/// Error(Fault::input) without nodes. O(#N log #N), a hundred times as much where there are many
+/// junctions.
 [[nodiscard]] Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options = {});
 
 /// The same with the planned joints first, under the names of their roles, from the first of them

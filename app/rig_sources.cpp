@@ -1,4 +1,4 @@
-#include "app/verbs/rig_sources.hpp"
+#include "app/rig_sources.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,6 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
-#include <curveskel/skeleton_files.hpp>
 
 namespace curveskel {
 namespace {
@@ -44,15 +43,15 @@ Eigen::Index joints_within(const Rig& rig, const PolygonSoup& soup, double facto
 
 }  // namespace
 
-CurveSkeleton skeleton_for(const std::string& file, const PolygonSoup& soup) {
-  CurveSkeleton skeleton = read_skeleton(file);
-  require_nodes_nearby(skeleton, soup, file);
+void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
+                         const std::string& name) {
+  require_nodes_nearby(skeleton, soup, name);
   const Eigen::Index map = skeleton.node_of_vertex.size();
-  if (map == 0 || map == soup.positions.rows()) return skeleton;
+  if (map == 0 || map == soup.positions.rows()) return;
   throw Error(Fault::input,
               fmt::format("{}: the skeleton has a node for each of {} vertices, needed one for "
                           "each of the surface's {}; extract it again, from this surface",
-                          file, map, soup.positions.rows()));
+                          name, map, soup.positions.rows()));
 }
 
 Rig rig_in(const std::filesystem::path& mesh, const Monitor& monitor) {
@@ -63,11 +62,16 @@ Rig rig_in(const std::filesystem::path& mesh, const Monitor& monitor) {
                                 "COLLADA file; leave out --keep-rig to have joints made");
 }
 
-Rig joints_for(const std::filesystem::path& file, const PolygonSoup& soup, Session& session) {
-  Rig rig = read_joints(file, session.monitor());
+bool keeps_joints_alone(SurfaceFormat format) {
+  return format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
+}
+
+GivenJoints joints_for(const std::filesystem::path& file, const PolygonSoup& soup,
+                       const Monitor& monitor) {
+  Rig rig = read_joints(file, monitor);
   const Eigen::Index count = rig.joints.rows();
   const Eigen::Index within = joints_within(rig, soup, 1);
-  if (2 * within >= count) return rig;
+  if (2 * within >= count) return {std::move(rig), ""};
   std::string remedy =
       "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
   const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(soup.positions);
@@ -81,8 +85,7 @@ Rig joints_for(const std::filesystem::path& file, const PolygonSoup& soup, Sessi
       fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
                   within == 0 ? "none" : std::to_string(within), count, remedy);
   if (within == 0) throw Error(Fault::input, found);
-  session.terminal.warn(found);
-  return rig;
+  return {std::move(rig), found};
 }
 
 }  // namespace curveskel

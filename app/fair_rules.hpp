@@ -1,0 +1,28 @@
+// What both doors to fairing, the command line and Python, have besides the options' ranges.
+#pragma once
+
+#include <string>
+
+#include <curveskel/error.hpp>
+#include <curveskel/fair.hpp>
+
+namespace curveskel {
+
+inline constexpr NameTable<bool, 2> precisions{{
+    {false, "single", "on the device"},
+    {true, "double", "on the device; cpu and host always compute in double"},
+}};
+
+/// Throws Error(Fault::usage) where the closed form was asked for and a QR would be taken.
+inline void require_closed_form(const FairOptions& options, bool is_asked_for) {
+  if (!is_asked_for || options.local_solver != LocalSolver::closed) return;
+  const bool is_reference = options.method == FairMethod::cpu;
+  if (options.rings == 1 && !is_reference) return;
+  const std::string found =
+      is_reference ? "the method cpu" : "patches of " + std::to_string(options.rings) + " rings";
+  throw Error(Fault::usage, "the local solver closed beside " + found +
+                                ": the closed form is of patches of one ring, on host and device; "
+                                "needed is the local solver qr");
+}
+
+}  // namespace curveskel

@@ -1,0 +1,83 @@
+#include "app/rig_findings.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/role_names.hpp>
+#include "app/certificate_table.hpp"
+
+namespace curveskel {
+
+std::string skeleton_findings(const PolygonsRig& found, const RigPolygonsOptions& options) {
+  return found.certificate ? all_failures(*found.certificate, options.extract.certificate) : "";
+}
+
+std::vector<std::string> plan_findings(const BodyPlan& plan, const CharacterOptions& options) {
+  std::vector<std::string> findings;
+  if (!has_words(options.names, plan.plan)) {
+    findings.push_back(fmt::format(
+        "the names {} have no words for the plan {}; joints have readable names instead",
+        name_of(name_styles, options.names), name_of(body_kinds, plan.plan)));
+  }
+  const BodyKind asked = options.plan.plan;
+  const bool is_asked_for =
+      asked != BodyKind::automatic && asked != BodyKind::other && asked != BodyKind::none;
+  if (is_asked_for && plan.plan == BodyKind::other) findings.push_back(plan.reason);
+  return findings;
+}
+
+std::optional<std::string> posture_finding(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
+                                           RestPose pose) {
+  if (plan.plan != BodyKind::humanoid || pose != RestPose::input) return {};
+  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
+  const auto place = [&](const char* role) -> Eigen::RowVector3d {
+    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                    [&](const PlannedJoint& joint) { return joint.role == role; });
+    return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
+  };
+  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
+  constexpr double held_out = 0.94;  // cos of 20 degrees
+  constexpr double along = 0.99;     // up to rounding: plans have the file's axes
+  if (ahead < along) return "VRM's figures look along z, this one does not: turn it first";
+  if (arm.x() >= held_out * arm.norm()) return {};
+  return "VRM's figures rest with their arms held out level, this one does not: give --pose t";
+}
+
+std::optional<std::string> look_finding(const std::filesystem::path& mesh) {
+  std::filesystem::path name = mesh;
+  if (name.extension() == ".gz") name = name.stem();
+  for (const char* extension : {".3mf", ".vtp", ".vtk"}) {
+    if (name.extension() != extension) continue;
+    return mesh.filename().string() +
+           ": materials and texture coordinates are not taken from such a file; to keep them "
+           "export it as glTF";
+  }
+  return {};
+}
+
+std::optional<std::string> bind_pose_finding(const std::filesystem::path& mesh,
+                                             const PolygonSoup& bound, const Monitor& monitor) {
+  constexpr double visible = 1e-3;
+  const PolygonSoup shown = read_polygons(mesh, monitor);
+  const double farthest =
+      (shown.positions - bound.positions).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
+  const double share = farthest / bounding_box_diagonal(shown.positions);
+  if (share < visible) return {};
+  return fmt::format(
+      "the joints rest in another pose than they were bound in, by up to {:.2g} % of the size; the "
+      "new rig rests in the pose in which the old one was bound (--as-shown: in the one at rest)",
+      100 * share);
+}
+
+void require_pose(RigFormat format, RestPose pose, const std::string& output) {
+  if (pose != RestPose::t || keeps_the_file(format) || format == RigFormat::usda) return;
+  throw Error(Fault::usage,
+              output +
+                  ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, vrm, "
+                  "fbx and usda");
+}
+
+}  // namespace curveskel

@@ -1,0 +1,45 @@
+// Sentences about a rig that whoever asked for it should read: warnings of every door.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <curveskel/body_plan.hpp>
+#include <curveskel/monitor.hpp>
+#include <curveskel/read.hpp>
+#include <curveskel/rest_pose.hpp>
+#include <curveskel/rig_files.hpp>
+#include <curveskel/rig_polygons.hpp>
+
+namespace curveskel {
+
+/// How the skeleton's certificate failed; empty where it holds or somebody gave the skeleton.
+[[nodiscard]] std::string skeleton_findings(const PolygonsRig& found,
+                                            const RigPolygonsOptions& options);
+
+/// A plan that was asked for and is not to be had, names without words for the plan. Precondition:
+/// the joints were made.
+[[nodiscard]] std::vector<std::string> plan_findings(const BodyPlan& plan,
+                                                     const CharacterOptions& options);
+
+/// VRM's figures look along z, their arms held out; this one does not. In a pose that is made,
+/// nothing.
+[[nodiscard]] std::optional<std::string> posture_finding(const BodyPlan& plan,
+                                                         const Eigen::Matrix3d& to_y_up,
+                                                         RestPose pose);
+
+/// Of formats whose look is not read.
+[[nodiscard]] std::optional<std::string> look_finding(const std::filesystem::path& mesh);
+
+/// Of joints that rest in another pose than they were bound in, unless hardly anything moves by it.
+/// `bound` is the file as it was bound.
+[[nodiscard]] std::optional<std::string> bind_pose_finding(const std::filesystem::path& mesh,
+                                                           const PolygonSoup& bound,
+                                                           const Monitor& monitor);
+
+/// Throws Error(Fault::usage) for a format that has no pose at rest apart from the surface's.
+void require_pose(RigFormat format, RestPose pose, const std::string& output);
+
+}  // namespace curveskel
