@@ -18,7 +18,11 @@ struct PlanFound {
   double lean = 0;        ///< of a biped's trunk from upright, in degrees
 };
 
-[[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted);
+/// The feet of a body in a pose may be off the ground, but for one.
+enum class Standing { on_all_feet, in_pose };
+
+[[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted,
+                                 Standing standing = Standing::on_all_feet);
 
 /// A joint in the frame; of a pair the left one, whose right one is its mirror image.
 struct Place {
