@@ -227,7 +227,8 @@ bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound&
   return (shin - behind) - (ahead - shin) > clearly * length;
 }
 
-bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+                Standing standing) {
   const double a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)].z();
   const double b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)].z();
   const double ahead = std::max(a, b);
@@ -250,6 +251,7 @@ bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& foun
     if (is_one || pair.length <= 0.05 * tree.size) continue;
     ears += (tree.nodes[idx(pair.root)].z() > 0.5 * (a + b) ? 1 : -1) * pair.length;
   }
+  if (standing == Standing::in_pose && ears != 0) return ears < 0;
   const auto sign = [](double value) { return value > 0 ? 1 : (value < 0 ? -1 : 0); };
   return sign(trunk_top[0] - trunk_top[1]) + sign(surface_top[0] - surface_top[1]) + sign(ears) < 0;
 }

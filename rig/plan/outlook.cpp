@@ -291,7 +291,10 @@ Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleto
 bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (options.front != Direction::automatic) return false;
   const auto& [axes, tree, limbs, found, sides, posed] = outlook;
-  if (found.plan == BodyKind::quadruped) return looks_back(tree, limbs, found);
+  if (found.plan == BodyKind::quadruped) {
+    return looks_back(tree, limbs, found,
+                      sides == Sides::posed ? Standing::in_pose : Standing::on_all_feet);
+  }
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
   const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
                         found.plan == BodyKind::tailed_biped;

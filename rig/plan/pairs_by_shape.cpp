@@ -200,22 +200,30 @@ class ShapePairs {
     }
   }
 
-  /// Head and tail: of each part that hangs from the trunk and has no pair the farthest tip.
+  /// Head and tail: of what hangs from the trunk and has no pair the two that reach farthest.
   void add_tips_of_trunk() {
     const Ways ways = ways_from(tree_, found_.ends.front());
     std::vector<char> seen(tree_.nodes.size(), 0);
     for (const int end : found_.ends) {
       for (const int node : ways.path(end)) seen[idx(node)] = 1;
     }
+    std::vector<std::pair<double, int>> tips;  // minus the length from the trunk on
     for (int first = 0; first < static_cast<int>(tree_.nodes.size()); ++first) {
       if (seen[idx(first)] != 0) continue;
+      int nearest = first;
       int farthest = first;
       bool has_pair = false;
       for (const int node : part_of(tree_, first, seen)) {
         has_pair = has_pair || side_[idx(node)] != 0;
         if (ways.distance[idx(node)] > ways.distance[idx(farthest)]) farthest = node;
+        if (ways.distance[idx(node)] < ways.distance[idx(nearest)]) nearest = node;
       }
-      if (!has_pair) found_.ends.push_back(farthest);
+      const double length = ways.distance[idx(farthest)] - ways.distance[idx(nearest)];
+      if (!has_pair) tips.emplace_back(-length, farthest);
+    }
+    std::sort(tips.begin(), tips.end());
+    for (std::size_t k = 0; k < std::min<std::size_t>(tips.size(), 2); ++k) {
+      found_.ends.push_back(tips[k].second);
     }
   }
 

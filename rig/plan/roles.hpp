@@ -66,7 +66,9 @@ inline constexpr const char* wrist_reason =
                                               const PlanFound& found);
 
 /// True if a quadruped's head is at its rear: what is called front is its back.
-[[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found);
+/// In a pose ears alone say so, where there are any: a tail may be lifted and a head lowered.
+[[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+                              Standing standing);
 
 /// True if the feet of a human reach farther behind the shins than ahead of them, by a twentieth of
 /// the legs' length.
