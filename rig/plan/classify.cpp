@@ -21,13 +21,17 @@ struct LegLimits {
 constexpr LegLimits upright_legs{0.1, 0.45};
 constexpr LegLimits sprawling_legs{0.05, 0.8};
 
+bool reaches_ground(const CurveTree& tree, const LimbPair& pair) {
+  return pair.lowest < tree.ground + 0.06 * tree.height;
+}
+
 bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits = upright_legs) {
   const Vector3d& root = tree.nodes[idx(pair.root)];
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
-  const bool reaches_ground = pair.lowest < tree.ground + 0.06 * tree.height;
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
   const bool mostly_down = std::abs(tip.x() - root.x()) < limits.aside * pair.length;
-  return reaches_ground && pair.length > limits.shortest * tree.size && goes_down && mostly_down;
+  return reaches_ground(tree, pair) && pair.length > limits.shortest * tree.size && goes_down &&
+         mostly_down;
 }
 
 /// Short or sprawling ones, as a crocodile's, if there are two pairs and no others: arms may hang
@@ -40,6 +44,44 @@ std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
     if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) with_sprawling_ones.push_back(k);
   }
   return legs.empty() && with_sprawling_ones.size() == 2 ? with_sprawling_ones : legs;
+}
+
+/// Of a body on one pair of legs a second pair, if it hangs down from another place of a trunk that
+/// is not upright, is about as long, and long enough to stand on. A tyrannosaur's arms are not.
+void add_lifted_legs(const CurveTree& tree, const Limbs& limbs, std::vector<int>& legs) {
+  constexpr double about = 1.7;
+  constexpr double nearly = 0.75;  // of the way down, as the other pair may be bent
+  constexpr double apart = 0.1;    // of the size or height
+  const LimbPair& standing = limbs.pairs[idx(legs.front())];
+  const Vector3d& hips = tree.nodes[idx(standing.root)];
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    const Vector3d& root = tree.nodes[idx(pair.root)];
+    const double down = root.y() - tree.nodes[idx(pair.ways.front().path.back())].y();
+    const double along = std::abs(root.z() - hips.z());
+    const bool is_alike =
+        pair.length * about > standing.length && pair.length < about * standing.length;
+    const bool is_long_enough = pair.length > nearly * (root.y() - tree.ground);
+    const bool is_elsewhere = along > apart * tree.size && along > std::abs(root.y() - hips.y());
+    if (k == legs.front() || !is_alike || !is_long_enough || !is_elsewhere ||
+        down < apart * tree.height) {
+      continue;
+    }
+    legs.push_back(k);
+    return;
+  }
+}
+
+/// Limbs that reach the ground and are no legs are of a body with more of them: a scorpion.
+bool has_other_feet(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const double leg = limbs.pairs[idx(found.legs.front())].length;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    const bool is_known =
+        k == found.arms || std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
+    if (!is_known && 2 * pair.length > leg && reaches_ground(tree, pair)) return true;
+  }
+  return false;
 }
 
 /// Of the upper pairs that begin no lower than the legs the one that reaches farthest sideways: not
@@ -113,9 +155,11 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
 
 }  // namespace
 
-PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
+PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, Standing standing) {
   PlanFound found;
   found.legs = find_legs(tree, limbs);
+  const bool in_pose = standing == Standing::in_pose;
+  if (in_pose && found.legs.size() == 1) add_lifted_legs(tree, limbs, found.legs);
   const std::size_t legs = found.legs.size();
   const bool is_asked_for = wanted == BodyKind::fish && !limbs.trunk.empty();
   const bool looks_like_it = wanted == BodyKind::automatic && legs == 0 && is_fish(tree, limbs);
@@ -141,6 +185,11 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted) {
   } else {
     found.arms = find_arms(tree, limbs, found.legs.front());
     name_biped(tree, limbs, found);
+  }
+  if (in_pose && has_other_feet(tree, limbs, found)) {
+    found.plan = BodyKind::other;
+    found.reason = "more limbs reach the ground than legs";
+    return found;
   }
   const bool fits = wanted == BodyKind::automatic || wanted == found.plan ||
                     (legs == 1 && wanted != BodyKind::quadruped && wanted != BodyKind::other &&
@@ -178,7 +227,8 @@ bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound&
   return (shin - behind) - (ahead - shin) > clearly * length;
 }
 
-bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+                Standing standing) {
   const double a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)].z();
   const double b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)].z();
   const double ahead = std::max(a, b);
@@ -201,6 +251,7 @@ bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& foun
     if (is_one || pair.length <= 0.05 * tree.size) continue;
     ears += (tree.nodes[idx(pair.root)].z() > 0.5 * (a + b) ? 1 : -1) * pair.length;
   }
+  if (standing == Standing::in_pose && ears != 0) return ears < 0;
   const auto sign = [](double value) { return value > 0 ? 1 : (value < 0 ? -1 : 0); };
   return sign(trunk_top[0] - trunk_top[1]) + sign(surface_top[0] - surface_top[1]) + sign(ears) < 0;
 }

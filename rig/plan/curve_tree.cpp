@@ -84,6 +84,19 @@ Ways ways_from(const CurveTree& tree, int node) {
   return ways;
 }
 
+std::vector<int> part_of(const CurveTree& tree, int node, std::vector<char>& seen) {
+  std::vector<int> part{node};
+  seen[idx(node)] = 1;
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    for (const int next : tree.neighbours[idx(part[k])]) {
+      if (seen[idx(next)] != 0) continue;
+      seen[idx(next)] = 1;
+      part.push_back(next);
+    }
+  }
+  return part;
+}
+
 namespace {
 
 struct Sampled {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -40,6 +41,9 @@ struct Ways {
 };
 [[nodiscard]] Ways ways_from(const CurveTree& tree, int node);
 
+/// A node and all that hang together with it and are not seen yet, which they are then.
+[[nodiscard]] std::vector<int> part_of(const CurveTree& tree, int node, std::vector<char>& seen);
+
 /// From the root of a limb to one of its tips, of the left one and of its mirror image.
 struct LimbWay {
   std::vector<int> path;
@@ -62,10 +66,21 @@ struct Limbs {
   std::vector<LimbPair> pairs;  ///< the longest first
 };
 
+/// What belongs together of the tips of a curve.
+struct TipPairs {
+  std::map<int, int> mate;  ///< left tip -> right one
+  std::vector<int> ends;    ///< nodes that the trunk joins, among them one between each pair
+};
+
 /// The places in which mirror images of tips are sought.
 enum class Images { tips, within_limbs };
 
-[[nodiscard]] Limbs find_limbs(const CurveTree& tree, Images images = Images::tips);
+/// Of a body that stands alike on both sides: tips that are mirror images of each other.
+[[nodiscard]] TipPairs pairs_by_place(const CurveTree& tree, Images images = Images::tips);
+/// Of a body in any pose: tips from which the curve is alike on its way to the other one.
+[[nodiscard]] TipPairs pairs_by_shape(const CurveTree& tree);
+
+[[nodiscard]] Limbs find_limbs(const CurveTree& tree, const TipPairs& pairs);
 
 /// A limb's course as the mean of both sides, on the left, in equal shares of its length.
 struct Course {

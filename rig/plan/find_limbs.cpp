@@ -20,22 +20,24 @@ constexpr double in_plane = 0.006;
 constexpr double nearly_in_plane = 0.015;
 constexpr double alike = 0.06;  // so near is a mirror image
 
-class LimbFinder {
+class PairFinder {
  public:
-  LimbFinder(const CurveTree& tree, Images images)
+  PairFinder(const CurveTree& tree, Images images)
       : tree_(tree), images_(images), from_first_(ways_from(tree, 0)) {
     for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
       if (tree.is_tip(node)) tips_.push_back(node);
     }
   }
 
-  Limbs find() {
+  TipPairs find() {
     pair_tips();
-    find_trunk();
-    for (const std::vector<int>& part : parts_beside_trunk()) add_pair(part);
-    std::stable_sort(limbs_.pairs.begin(), limbs_.pairs.end(),
-                     [](const LimbPair& a, const LimbPair& b) { return a.length > b.length; });
-    return std::move(limbs_);
+    for (const auto& [left, right] : found_.mate) {
+      const int node = crossing(left, right);
+      if (std::find(found_.ends.begin(), found_.ends.end(), node) == found_.ends.end()) {
+        found_.ends.push_back(node);
+      }
+    }
+    return std::move(found_);
   }
 
  private:
@@ -57,13 +59,13 @@ class LimbFinder {
     for (const auto& [off, left, right] : candidates) {
       if (taken[idx(left)] != 0 || taken[idx(right)] != 0) continue;
       taken[idx(left)] = taken[idx(right)] = 1;
-      mate_[left] = right;
+      found_.mate[left] = right;
     }
     if (images_ == Images::within_limbs) pair_with_nodes(taken);
     for (const int tip : tips_) {
       const double aside = std::abs(tree_.aside(tip)) / tree_.size;
       if (aside <= in_plane || (aside <= nearly_in_plane && taken[idx(tip)] == 0)) {
-        ends_.push_back(tip);
+        found_.ends.push_back(tip);
       }
     }
   }
@@ -88,7 +90,7 @@ class LimbFinder {
       if (nearest < 0) continue;
       taken[idx(tip)] = taken[idx(nearest)] = 1;
       const bool is_left = tree_.aside(tip) > 0;
-      mate_[is_left ? tip : nearest] = is_left ? nearest : tip;
+      found_.mate[is_left ? tip : nearest] = is_left ? nearest : tip;
     }
   }
 
@@ -136,12 +138,29 @@ class LimbFinder {
     return best;
   }
 
+  const CurveTree& tree_;
+  Images images_;
+  std::vector<int> tips_;
+  Ways from_first_;  // node, to all
+  TipPairs found_;
+};
+
+class LimbFinder {
+ public:
+  LimbFinder(const CurveTree& tree, const TipPairs& pairs)
+      : tree_(tree), mate_(pairs.mate), ends_(pairs.ends) {}
+
+  Limbs find() {
+    find_trunk();
+    for (const std::vector<int>& part : parts_beside_trunk()) add_pair(part);
+    std::stable_sort(limbs_.pairs.begin(), limbs_.pairs.end(),
+                     [](const LimbPair& a, const LimbPair& b) { return a.length > b.length; });
+    return std::move(limbs_);
+  }
+
+ private:
   void find_trunk() {
     limbs_.is_trunk.assign(tree_.nodes.size(), 0);
-    for (const auto& [left, right] : mate_) {
-      const int node = crossing(left, right);
-      if (std::find(ends_.begin(), ends_.end(), node) == ends_.end()) ends_.push_back(node);
-    }
     if (ends_.empty()) {
       ends_.push_back(static_cast<int>(std::max_element(tree_.radii.begin(), tree_.radii.end()) -
                                        tree_.radii.begin()));
@@ -160,17 +179,7 @@ class LimbFinder {
     std::vector<std::vector<int>> parts;
     std::vector<char> seen = limbs_.is_trunk;
     for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
-      if (seen[idx(node)] != 0) continue;
-      seen[idx(node)] = 1;
-      std::vector<int> part{node};
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        for (const int next : tree_.neighbours[idx(part[k])]) {
-          if (seen[idx(next)] != 0) continue;
-          seen[idx(next)] = 1;
-          part.push_back(next);
-        }
-      }
-      parts.push_back(std::move(part));
+      if (seen[idx(node)] == 0) parts.push_back(part_of(tree_, node, seen));
     }
     return parts;
   }
@@ -210,16 +219,19 @@ class LimbFinder {
   }
 
   const CurveTree& tree_;
-  Images images_;
-  std::vector<int> tips_;
-  Ways from_first_;          // node, to all
-  std::map<int, int> mate_;  // left tip -> right tip
-  std::vector<int> ends_;    // of the trunk
+  const std::map<int, int>& mate_;
+  std::vector<int> ends_;
   Limbs limbs_;
 };
 
 }  // namespace
 
-Limbs find_limbs(const CurveTree& tree, Images images) { return LimbFinder(tree, images).find(); }
+TipPairs pairs_by_place(const CurveTree& tree, Images images) {
+  return PairFinder(tree, images).find();
+}
+
+Limbs find_limbs(const CurveTree& tree, const TipPairs& pairs) {
+  return LimbFinder(tree, pairs).find();
+}
 
 }  // namespace curveskel

@@ -18,7 +18,11 @@ struct PlanFound {
   double lean = 0;        ///< of a biped's trunk from upright, in degrees
 };
 
-[[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted);
+/// The feet of a body in a pose may be off the ground, but for one.
+enum class Standing { on_all_feet, in_pose };
+
+[[nodiscard]] PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted,
+                                 Standing standing = Standing::on_all_feet);
 
 /// A joint in the frame; of a pair the left one, whose right one is its mirror image.
 struct Place {
@@ -62,7 +66,9 @@ inline constexpr const char* wrist_reason =
                                               const PlanFound& found);
 
 /// True if a quadruped's head is at its rear: what is called front is its back.
-[[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found);
+/// In a pose ears alone say so, where there are any: a tail may be lifted and a head lowered.
+[[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+                              Standing standing);
 
 /// True if the feet of a human reach farther behind the shins than ahead of them, by a twentieth of
 /// the legs' length.

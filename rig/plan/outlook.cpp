@@ -1,0 +1,329 @@
+#include "rig/plan/outlook.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "rig/plan/unposed.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d vector_of(Direction direction) {
+  switch (direction) {
+    case Direction::x:
+      return Vector3d::UnitX();
+    case Direction::y:
+      return Vector3d::UnitY();
+    case Direction::z:
+      return Vector3d::UnitZ();
+    case Direction::minus_x:
+      return -Vector3d::UnitX();
+    case Direction::minus_y:
+      return -Vector3d::UnitY();
+    case Direction::minus_z:
+      return -Vector3d::UnitZ();
+    case Direction::automatic:
+      break;
+  }
+  return Vector3d::Zero();
+}
+
+Eigen::Matrix3d axes_of(const Vector3d& up, const Vector3d& front) {
+  Eigen::Matrix3d axes;
+  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
+  return axes;
+}
+
+}  // namespace
+
+std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
+  // The usual ones first: y up and z ahead, as in glTF, or z up and -y ahead, as in Blender; then
+  /// those of a body that looks aside.
+  std::vector<Vector3d> ups{vector_of(options.up)};
+  if (options.up == Direction::automatic) ups = {Vector3d::UnitY(), Vector3d::UnitZ()};
+  if (options.up == Direction::automatic && options.z_is_up) std::swap(ups[0], ups[1]);
+  std::vector<Eigen::Matrix3d> frames;
+  const auto add = [&](const Vector3d& up, const Vector3d& front) {
+    if (up.cross(front).norm() > 0) frames.push_back(axes_of(up, front));
+  };
+  for (const Vector3d& up : ups) {
+    if (options.front != Direction::automatic) {
+      add(up, vector_of(options.front));
+      continue;
+    }
+    const bool lies_along_z = up.cross(Vector3d::UnitZ()).norm() == 0;
+    const Vector3d usual =
+        lies_along_z ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
+    add(up, options.faces_minus_z ? Vector3d(-usual) : usual);
+    add(up, up.cross(usual));
+  }
+  if (frames.empty()) {
+    throw Error(Fault::usage,
+                "up and front are one direction, needed two that are normal to each "
+                "other; give another --up or --front");
+  }
+  return frames;
+}
+
+namespace {
+
+/// The mean distance of the curve's mirror image from the curve, of the size.
+double asymmetry(const CurveTree& tree, double middle) {
+  constexpr std::size_t samples = 300;
+  const std::size_t stride = 1 + tree.nodes.size() / samples;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
+    Vector3d image = tree.nodes[k];
+    image.x() = 2 * middle - image.x();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
+    sum += std::sqrt(least);
+    ++count;
+  }
+  return sum / (std::max(count, 1) * tree.size);
+}
+
+constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirror image
+
+std::vector<int> tips_of(const CurveTree& tree) {
+  std::vector<int> tips;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    if (tree.is_tip(node)) tips.push_back(node);
+  }
+  return tips;
+}
+
+/// Between tips that may be images of each other, as hands are and feet: where most pairs agree.
+std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& tips) {
+  constexpr double unlike = 0.06;  // of the size, that tips differ but for their sides
+  constexpr double apart = 0.002;  // of the size: nearer ones are one
+  constexpr std::size_t most = 20;
+  std::vector<double> middles;
+  for (std::size_t a = 0; a < tips.size(); ++a) {
+    for (std::size_t b = a + 1; b < tips.size(); ++b) {
+      const Vector3d& p = tree.nodes[idx(tips[a])];
+      const Vector3d& q = tree.nodes[idx(tips[b])];
+      if (std::hypot(p.y() - q.y(), p.z() - q.z()) > unlike * tree.size) continue;
+      middles.push_back(0.5 * (p.x() + q.x()));
+    }
+  }
+  std::sort(middles.begin(), middles.end());
+  std::vector<std::pair<int, double>> groups;  // minus how many agree, the middle one of them
+  for (std::size_t first = 0; first < middles.size();) {
+    std::size_t end = first + 1;
+    while (end < middles.size() && middles[end] - middles[first] < apart * tree.size) ++end;
+    groups.emplace_back(-static_cast<int>(end - first), middles[(first + end) / 2]);
+    first = end;
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> result;
+  for (const auto& [count, middle] : groups) {
+    if (result.size() < most) result.push_back(middle);
+  }
+  return result;
+}
+
+/// That of the least asymmetry; the box's where there is no better one.
+double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
+  double best = tree.middle;
+  double least = asymmetry(tree, best);
+  for (const double middle : middles_of(tree, tips)) {
+    const double off = asymmetry(tree, middle);
+    if (off >= least) continue;
+    least = off;
+    best = middle;
+  }
+  return best;
+}
+
+/// Two pairs of limbs that are where they should be are no accident.
+bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
+
+Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
+             BodyKind wanted) {
+  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::images, {}};
+  outlook.limbs = find_limbs(outlook.tree, pairs_by_place(outlook.tree));
+  outlook.found = classify(outlook.tree, outlook.limbs, wanted);
+  return outlook;
+}
+
+/// Joints are planned on the mean of both sides: of each limb most of it lies within both.
+bool sides_are_alike(const Outlook& outlook) {
+  constexpr double most = 0.5;
+  std::vector<int> limbs = outlook.found.legs;
+  if (outlook.found.arms >= 0) limbs.push_back(outlook.found.arms);
+  return std::all_of(limbs.begin(), limbs.end(), [&](int pair) {
+    return share_within_both(outlook.tree, outlook.limbs.pairs[idx(pair)].ways.front()) > most;
+  });
+}
+
+/// For bodies in which nothing is seen by the middle of the box: a weapon in one hand moves it, and
+/// the hand's tip.
+Outlook second_look(const Surface& surface, const CurveSkeleton& skeleton,
+                    const Eigen::Matrix3d& axes, BodyKind wanted) {
+  constexpr std::size_t most_tips = 1000;  // of a body, with all of its hair
+  Outlook moved{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::own, {}};
+  const std::vector<int> tips = tips_of(moved.tree);
+  if (tips.size() > most_tips) return moved;
+  moved.tree.middle = middle_of_tips(moved.tree, tips);
+  moved.limbs = find_limbs(moved.tree, pairs_by_place(moved.tree, Images::within_limbs));
+  moved.found = classify(moved.tree, moved.limbs, wanted);
+  if (is_clear(moved.found.plan) && !sides_are_alike(moved)) moved.found.plan = BodyKind::other;
+  return moved;
+}
+
+/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
+/// No fish and no bird, as any long thing and any cross is one from somewhere.
+bool is_seen_from_aside(const Outlook& outlook, double off) {
+  constexpr double level = 90;  // degrees from upright
+  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level &&
+         off < symmetric;
+}
+
+/// For bodies in a pose.
+Outlook look_at_shape(const Surface& surface, const CurveSkeleton& skeleton,
+                      const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook{axes, {}, {}, {}, Sides::posed, curve_tree(surface, skeleton, axes)};
+  outlook.limbs = find_limbs(outlook.posed, pairs_by_shape(outlook.posed));
+  Unposed unposed = unpose(outlook.posed, outlook.limbs);
+  outlook.tree = std::move(unposed.tree);
+  outlook.limbs = std::move(unposed.limbs);
+  outlook.found = classify(outlook.tree, outlook.limbs, wanted, Standing::in_pose);
+  outlook.found.reason.insert(0, "in a pose, limbs by their shape: ");
+  return outlook;
+}
+
+/// The length of the curve that is trunk or in a pair of limbs.
+struct Explained {
+  double length = 0;
+  double share = 0;
+};
+
+Explained explained_by(const Outlook& outlook) {
+  std::vector<char> is_explained = outlook.limbs.is_trunk;
+  for (const LimbPair& pair : outlook.limbs.pairs) {
+    for (const LimbWay& way : pair.ways) {
+      for (const int node : way.path) is_explained[idx(node)] = 1;
+      for (const int node : way.mirror) is_explained[idx(node)] = 1;
+    }
+  }
+  const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
+  double explained = 0;
+  double whole = 0;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    for (const int next : tree.neighbours[idx(node)]) {
+      if (next < node) continue;
+      const double length = (tree.nodes[idx(node)] - tree.nodes[idx(next)]).norm();
+      whole += length;
+      if (is_explained[idx(node)] != 0 && is_explained[idx(next)] != 0) explained += length;
+    }
+  }
+  return {explained, whole > 0 ? explained / whole : 1};
+}
+
+/// A trunk that lies across is one that is seen from its side.
+bool lies_across(const CurveTree& tree, const Limbs& limbs) {
+  Vector3d mean = Vector3d::Zero();
+  for (const int node : limbs.trunk) mean += tree.nodes[idx(node)] / double(limbs.trunk.size());
+  Vector3d spread = Vector3d::Zero();
+  for (const int node : limbs.trunk) spread += (tree.nodes[idx(node)] - mean).cwiseAbs2();
+  return std::sqrt(spread.x()) > 0.5 * std::hypot(std::sqrt(spread.y()), std::sqrt(spread.z()));
+}
+
+/// No fish and no bird, as any long thing and any cross is one in some pose; and nothing with
+/// cycles, which are cut somewhere.
+bool is_body_in_pose(const Outlook& outlook, const Explained& explained, BodyKind wanted) {
+  constexpr double most_of_it = 0.8;
+  const bool is_one = is_clear(outlook.found.plan) ||
+                      outlook.found.plan == BodyKind::tailed_biped || outlook.found.plan == wanted;
+  return is_one && explained.share >= most_of_it && !outlook.posed.has_cycles &&
+         !lies_across(outlook.posed, outlook.limbs);
+}
+
+Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
+                      const std::vector<Eigen::Matrix3d>& frames, const PlanOptions& options) {
+  Outlook best = look(surface, skeleton, frames.front(), options.plan);
+  double off = asymmetry(best.tree, best.tree.middle);
+  if (is_clear(best.found.plan) && off < symmetric) return best;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    Outlook other = look(surface, skeleton, frames[k], options.plan);
+    const double other_off = asymmetry(other.tree, other.tree.middle);
+    const bool is_better =
+        is_clear(other.found.plan)
+            ? !is_clear(best.found.plan) || other_off < off
+            : best.found.plan == BodyKind::other && is_seen_from_aside(other, other_off);
+    if (!is_better) continue;
+    best = std::move(other);
+    off = other_off;
+  }
+  for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
+    Outlook other = second_look(surface, skeleton, frames[k], options.plan);
+    if (is_clear(other.found.plan)) best = std::move(other);
+  }
+  return best;
+}
+
+Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleton,
+                            const PlanOptions& options) {
+  const std::vector<Eigen::Matrix3d> frames = frames_of(options);
+  Outlook best = best_by_place(surface, skeleton, frames, options);
+  Explained most = explained_by(best);
+  for (std::size_t k = 0; k < frames.size() && !is_clear(best.found.plan); ++k) {
+    Outlook other = look_at_shape(surface, skeleton, frames[k], options.plan);
+    const Explained explained = explained_by(other);
+    if (!is_body_in_pose(other, explained, options.plan)) continue;
+    if (best.found.plan != BodyKind::other && explained.length <= most.length) continue;
+    most = explained;
+    best = std::move(other);
+  }
+  return best;
+}
+
+bool is_turned(const Outlook& outlook, const PlanOptions& options) {
+  if (options.front != Direction::automatic) return false;
+  const auto& [axes, tree, limbs, found, sides, posed] = outlook;
+  if (found.plan == BodyKind::quadruped) {
+    return looks_back(tree, limbs, found,
+                      sides == Sides::posed ? Standing::in_pose : Standing::on_all_feet);
+  }
+  if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
+  const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
+                        found.plan == BodyKind::tailed_biped;
+  return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
+}
+
+}  // namespace
+
+Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
+                     const PlanOptions& options) {
+  Outlook outlook = best_before_turning(surface, skeleton, options);
+  if (is_turned(outlook, options)) {
+    Eigen::Matrix3d axes = outlook.axes;
+    axes.row(0) *= -1;
+    axes.row(2) *= -1;
+    switch (outlook.sides) {
+      case Sides::images:
+        outlook = look(surface, skeleton, axes, options.plan);
+        break;
+      case Sides::own:
+        outlook = second_look(surface, skeleton, axes, options.plan);
+        break;
+      case Sides::posed:
+        outlook = look_at_shape(surface, skeleton, axes, options.plan);
+        break;
+    }
+  }
+  if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
+  return outlook;
+}
+
+}  // namespace curveskel
