@@ -248,6 +248,47 @@ TEST(MatchInputs, CompareShapesWhereTheFacesDiffer) {
   EXPECT_FALSE(match_inputs(a.as_input(), given(other).as_input()).by_vertices);
 }
 
+/// A triangle for each face, with corners of its own, as STL has them.
+PolygonSoup soup_of_apart(const Surface& surface) {
+  PolygonSoup soup;
+  soup.positions.resize(3 * surface.triangles.rows(), 3);
+  soup.offsets = {0};
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    for (const int vertex : triangle) {
+      const auto corner = static_cast<std::int32_t>(soup.corners.size());
+      soup.positions.row(corner) = surface.positions.row(vertex);
+      soup.corners.push_back(corner);
+    }
+    soup.offsets.push_back(static_cast<std::int64_t>(soup.corners.size()));
+  }
+  return soup;
+}
+
+TEST(MatchInputs, KnowCornersThatAreApartOnlyByHowTheyMeet) {
+  const auto given_apart = [](const Surface& surface) {
+    Given made{soup_of_apart(surface), {}, {}};
+    made.repaired = repair(made.soup);
+    made.skeleton = extract(made.repaired.surface).skeleton;
+    return made;
+  };
+  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Surface& body = shape.surface;
+  const Given a = given_apart(body);
+  const InputMatch posed =
+      match_inputs(a.as_input(), given_apart(turned(shape).surface).as_input());
+  EXPECT_TRUE(posed.by_vertices);
+  Surface shuffled = body;
+  shuffled.triangles = body.triangles.colwise().reverse().eval();
+  const Given b = given_apart(shuffled);
+  const InputMatch match = match_inputs(a.as_input(), b.as_input());
+  EXPECT_FALSE(match.by_vertices);
+  for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+    ASSERT_GE(match.vertex_of_a[v], 0);
+    const auto off = a.soup.positions.row(v) - b.soup.positions.row(match.vertex_of_a[v]);
+    EXPECT_LT(off.norm(), 0.02 * bounding_box_diagonal(body.positions));
+  }
+}
+
 TEST(MatchByVertices, TakeWhatIsKnownAndRefuseWhatCannotBe) {
   const Shape shape = shapes::tube_union("beast", beast(4));
   const Side a = side_of(shape.surface);
