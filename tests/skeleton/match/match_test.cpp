@@ -162,6 +162,52 @@ TEST(MatchSkeletons, PairRingsJunctionsAndComponents) {
   EXPECT_EQ(static_cast<int>(match.junctions.size()), graph_topology(a.skeleton).junctions);
 }
 
+/// A ring like no turn of itself: an oval, thick on one side, out of its plane.
+Surface odd_ring(int around, double first_angle) {
+  Surface ring = shapes::torus(3, 0.5, around).surface;
+  for (auto row : ring.positions.rowwise()) {
+    const double angle = std::atan2(row.y(), row.x()) + first_angle;
+    const Eigen::RowVector3d middle(3 * std::cos(angle), 2.1 * std::sin(angle),
+                                    0.6 * std::sin(2 * angle));
+    const double thick = 1 + 0.5 * std::cos(angle) + 0.15 * std::sin(3 * angle);
+    const double out = thick * (std::hypot(row.x(), row.y()) - 3);
+    const double up = thick * row.z();
+    row = middle + out * Eigen::RowVector3d(std::cos(angle), std::sin(angle), 0) +
+          up * Eigen::RowVector3d::UnitZ();
+  }
+  return ring;
+}
+
+TEST(MatchSkeletons, PutTheVerticesOfARingToTheirPlacesWhereverItsCurveBegins) {
+  const Surface ring = odd_ring(24, 0);
+  const Side a = side_of(ring);
+  for (const double first_angle : {0.0, 1.0, 2.5, 4.4}) {
+    for (const bool backwards : {false, true}) {
+      SCOPED_TRACE(testing::Message() << first_angle << ", numbers backwards " << backwards);
+      Shape other = shapes::torus(3, 0.5, 24);
+      other.surface = odd_ring(29, first_angle);
+      if (backwards) {
+        other.surface.positions = other.surface.positions.colwise().reverse().eval();
+        const auto last = static_cast<std::int32_t>(other.surface.positions.rows()) - 1;
+        other.surface.triangles = (last - other.surface.triangles.array()).matrix().eval();
+      }
+      const Side b = side_of(turned(other).surface);
+      const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+      ASSERT_EQ(match.branches.size(), 1U);
+      std::vector<double> off;
+      for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+        ASSERT_GE(match.vertex_of_a[v], 0);
+        const auto partner = other.surface.positions.row(match.vertex_of_a[v]);
+        off.push_back((ring.positions.row(v) - partner).norm());
+      }
+      std::sort(off.begin(), off.end());
+      const double diagonal = bounding_box_diagonal(ring.positions);
+      EXPECT_LT(off[off.size() / 2], 0.03 * diagonal);
+      EXPECT_LT(off[off.size() * 9 / 10], 0.06 * diagonal);
+    }
+  }
+}
+
 TEST(MatchSkeletons, AreTheSameFromAnyNumberOfThreadsAndRefuseWhatLacksAMap) {
   const Shape shape = shapes::tube_union("beast", beast(4));
   const Side a = side_of(shape.surface);
