@@ -13,7 +13,7 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
   // D is the diagonal of the surface's bounding box.
   std::string text = "certificate          skeleton   surface\n";
   text += fmt::format("  components       {:>10} {:>9}   {}\n", c.components,
-                      c.components_of_surface, verdict(c.components == c.components_of_surface));
+                      c.components_of_surface, verdict(c.components_right()));
   text += fmt::format("  cycles, genus    {:>10} {:>9}   {}\n", c.cycle_rank, c.genus,
                       verdict(c.cycle_rank == c.genus));
   text += fmt::format("  round handles    {:>10} {:>9}   {}\n", c.homology_rank, c.genus,

@@ -24,6 +24,7 @@ Json to_json(const Certificate& c) {
           {"wrap_followed", c.wrap_followed},
           {"components", c.components},
           {"components_of_surface", c.components_of_surface},
+          {"components_without_curve", c.components_without_curve},
           {"cycle_rank", c.cycle_rank},
           {"genus", c.genus},
           {"homology_rank", c.homology_rank},

@@ -206,6 +206,7 @@ py::dict dictionary_of(const Certificate& certificate) {
   py::dict values;
   values["components"] = certificate.components;
   values["components_of_surface"] = certificate.components_of_surface;
+  values["components_without_curve"] = certificate.components_without_curve;
   values["cycle_rank"] = certificate.cycle_rank;
   values["genus"] = certificate.genus;
   values["homology_rank"] = certificate.homology_rank;

@@ -33,6 +33,8 @@ inline constexpr double tube_share_needed = 0.5;
 struct Certificate {
   int components = 0;
   int components_of_surface = 0;
+  int components_without_curve = 0;  ///< of the surface, that have none of the skeleton's to
+                                     ///< themselves inside, though there are as many; else 0
   int cycle_rank = 0;
   int genus = 0;                  ///< summed over the surface's components
   int homology_rank = 0;          ///< cycles that are independent inside the surface: equal to the
@@ -52,8 +54,11 @@ struct Certificate {
   int junctions = 0;
   int spurs = 0;  ///< leaf branches shorter than the inscribed radius at their junction
   double total_curvature = 0;  ///< the sum of the turns at scale D/100, radians per D of length
+  [[nodiscard]] bool components_right() const {
+    return components == components_of_surface && components_without_curve == 0;
+  }
   [[nodiscard]] bool topology_correct() const {
-    return components == components_of_surface && cycle_rank == genus && homology_rank == genus;
+    return components_right() && cycle_rank == genus && homology_rank == genus;
   }
   bool inside_enough = false;  ///< inside_fraction >= inside_needed
   bool curve_like = false;  ///< tube_share >= tube_share_needed: the surface is made of tubes, so

@@ -76,12 +76,13 @@ struct MatchInput {
 struct InputMatch {
   SkeletonMatch match;
   Eigen::VectorXi vertex_of_a;  ///< #V of a's soup: the vertex of b's soup, -1 = none
-  bool by_vertices = false;     ///< both soups have the same polygons
+  bool by_vertices = false;     ///< both soups have the same polygons, see `match_inputs`
 };
 
 /// `match_by_vertices` if both soups have the same polygons of the same vertices, which two shapes
 /// have only if one is the other in another pose or form; else, and with `by_shape`,
-/// `match_skeletons`. Errors as of these.
+/// `match_skeletons`. If no polygons share a vertex, as in STL files, all soups of as many polygons
+/// are alike in that: then the same corners must also coincide in both. Errors as of these.
 [[nodiscard]] InputMatch match_inputs(const MatchInput& a, const MatchInput& b,
                                       const MatchOptions& options = {},
                                       const Monitor& monitor = {});

@@ -15,7 +15,9 @@
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/certify/centredness.hpp"
+#include "skeleton/certify/curve_pieces.hpp"
 #include "skeleton/certify/measured_curve.hpp"
+#include "skeleton/certify/own_curves.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -56,16 +58,28 @@ void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& 
   certificate.centredness_p90 = weighted_quantile(std::move(weighted), 0.9);
 }
 
-// The samples as balls whose radius counts `factor` times.
-SequenceTree ball_tree(const MeasuredCurve& subject, double factor) {
-  std::vector<SequenceTree::Item> items;
-  items.reserve(subject.samples.size());
-  for (std::size_t i = 0; i < subject.samples.size(); ++i) {
-    const Vector3d& p = subject.samples[i].position;
-    items.push_back({p, p, factor * std::max(0.0, subject.radius[i])});
+// The samples as balls whose radius counts `factor` times. Of a curve whose samples are farther
+// apart than its balls are wide, as in a hair, they are rolled along the piece until they meet.
+struct SampleBalls {
+  const MeasuredCurve& subject;
+  CurvePieces pieces{subject.samples};
+
+  [[nodiscard]] double radius(std::size_t i) const { return std::max(0.0, subject.radius[i]); }
+  [[nodiscard]] double rolled(std::size_t i) const {
+    return std::max(0.0, pieces.reach(i) - radius(i));
   }
-  return SequenceTree(std::move(items));
-}
+  [[nodiscard]] double gap(std::size_t i, const Vector3d& v, double factor) const {
+    return pieces.distance(i, v, rolled(i)) - factor * radius(i);
+  }
+  [[nodiscard]] SequenceTree tree(double factor) const {
+    std::vector<SequenceTree::Item> items;
+    items.reserve(subject.samples.size());
+    for (std::size_t i = 0; i < subject.samples.size(); ++i) {
+      items.push_back(pieces.item(i, rolled(i), factor * radius(i)));
+    }
+    return SequenceTree(std::move(items));
+  }
+};
 
 void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
                       const Monitor& monitor, Certificate& certificate) {
@@ -73,11 +87,9 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
     certificate.reach = std::numeric_limits<double>::infinity();
     return;
   }
-  const SequenceTree balls = ball_tree(subject, 1);
-  const SequenceTree wide_balls = ball_tree(subject, coverage_factor);
-  const auto gap = [&](std::size_t i, const Vector3d& v, double factor) {
-    return (v - subject.samples[i].position).norm() - factor * std::max(0.0, subject.radius[i]);
-  };
+  const SampleBalls sample_balls{subject};
+  const SequenceTree balls = sample_balls.tree(1);
+  const SequenceTree wide_balls = sample_balls.tree(coverage_factor);
   const Eigen::Index stride = (vertices.rows() + most_vertices - 1) / most_vertices;
   const auto chosen = static_cast<std::size_t>((vertices.rows() + stride - 1) / stride);
   std::vector<char> covered(chosen);
@@ -92,8 +104,8 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
       double least = std::numeric_limits<double>::infinity();
       const std::size_t first = nearest;
       const auto gap_to = [&](std::size_t sample) {
-        met = met || gap(sample, v, coverage_factor) <= 0;
-        const double own = gap(sample, v, 1);
+        met = met || sample_balls.gap(sample, v, coverage_factor) <= 0;
+        const double own = sample_balls.gap(sample, v, 1);
         if (own < least) {
           least = own;
           nearest = sample;
@@ -102,7 +114,7 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
       };
       uncovered[i] = std::max(0.0, balls.minimum(v, 0, gap_to, first));
       met = met || wide_balls.minimum(v, 0, [&](std::size_t sample) {
-        return gap(sample, v, coverage_factor);
+        return sample_balls.gap(sample, v, coverage_factor);
       }) <= 0;
       covered[i] = met ? 1 : 0;
     }
@@ -190,6 +202,9 @@ Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skele
   const MeasuredCurve subject =
       measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor);
 
+  if (surface.components > 1 && certificate.components == surface.components) {
+    certificate.components_without_curve = components_without_curve(surface.surface, skeleton);
+  }
   certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
   measure_inside(subject, certificate);
   certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
-#include "skeleton/graph/sequence_tree.hpp"
+#include "skeleton/certify/curve_pieces.hpp"
 #include "surface/spatial/spread_points.hpp"
 
 namespace curveskel {
@@ -17,23 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double tube_factor = 2.5;  // of the inscribed radius
 constexpr int points_over_area = 2500;
-
-/// The pieces of the curve that the samples stand for, which are straight but for bends within a
-/// step: a hair may be thinner than the steps are long.
-struct Pieces {
-  const std::vector<CurveSample>& samples;
-
-  [[nodiscard]] double reach(std::size_t i) const {
-    return samples[i].branch < 0 ? 0 : 0.5 * samples[i].length;  // a lone node is no line
-  }
-  [[nodiscard]] Vector3d half(std::size_t i) const { return samples[i].tangent * reach(i); }
-  [[nodiscard]] double distance(std::size_t i, const Vector3d& p) const {
-    const CurveSample& sample = samples[i];
-    const Vector3d offset = p - sample.position;
-    const double along = std::clamp(offset.dot(sample.tangent), -reach(i), reach(i));
-    return (offset - along * sample.tangent).norm();
-  }
-};
 
 /// The inscribed radius in the component that the sample's curve is of, which the skeleton knows if
 /// it has radii: where components cross, the nearest face may be another's, inside.
@@ -56,14 +39,11 @@ double radius_of(const MeasuredCurve& curve, std::size_t i) {
 double tube_share(const MeasuredCurve& curve, const Surface& surface, const Monitor& monitor) {
   if (curve.samples.empty()) return 0;
   monitor.report("certify", 0.8);
-  const Pieces pieces{curve.samples};
+  const CurvePieces pieces{curve.samples};
   std::vector<SequenceTree::Item> items;
   items.reserve(curve.samples.size());
-  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
-    const Vector3d& p = curve.samples[i].position;
-    const Vector3d half = pieces.half(i).cwiseAbs();
-    items.push_back({p - half, p + half, 0});
-  }
+  for (std::size_t i = 0; i < curve.samples.size(); ++i)
+    items.push_back(pieces.item(i, pieces.reach(i), 0));
   const SequenceTree tree(std::move(items));
   const std::vector<Vector3d> points = spread_points(surface, points_over_area);
   if (points.empty()) return 0;
@@ -74,7 +54,7 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
       double least = std::numeric_limits<double>::infinity();
       const std::size_t first = nearest;
       const auto distance_to = [&](std::size_t sample) {
-        const double distance = pieces.distance(sample, points[i]);
+        const double distance = pieces.distance(sample, points[i], pieces.reach(sample));
         if (distance < least) {
           least = distance;
           nearest = sample;

@@ -307,14 +307,17 @@ std::vector<double> level_limits(const CurveSkeleton& skeleton, int most) {
     if (level.life > 0 && level.life < lives_for_ever) lives.push_back(level.life);
   }
   std::sort(lives.begin(), lives.end());
+  constexpr double least_ratio = 1.06;          // a life is known to about .055 of its logarithm
   std::vector<std::pair<double, double>> gaps;  // minus the ratio, the limit
   for (std::size_t k = 1; k < lives.size(); ++k) {
-    if (lives[k] > lives[k - 1]) {
+    if (lives[k] > least_ratio * lives[k - 1]) {
       gaps.emplace_back(-lives[k] / lives[k - 1], std::sqrt(lives[k] * lives[k - 1]));
     }
   }
+  // The gap to what lives for ever is so by definition: after all that are measured.
+  if (!lives.empty()) gaps.emplace_back(0.0, least_ratio * lives.back());
   std::sort(gaps.begin(), gaps.end());
-  std::vector<double> limits{0};
+  std::vector<double> limits{0.0};
   for (std::size_t k = 0; k < gaps.size() && static_cast<int>(limits.size()) < most; ++k) {
     limits.push_back(gaps[k].second);
   }

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/least_pairs.hpp"
+#include "skeleton/match/branch_laying.hpp"
 
 namespace curveskel {
 namespace {
@@ -108,6 +109,9 @@ std::map<int, Division> divisions_of(const MatchSide& side, const TipFeatures& f
 /// True if the start of one comes to lie nearer to the other's end.
 bool runs_against(const MatchSide& a, const Branch& one, const MatchSide& b, const Branch& other,
                   const NodeMotions& motions) {
+  const BranchCurve from = branch_curve(a.skeleton, one);
+  const BranchCurve to = branch_curve(b.skeleton, other);
+  if (from.closed && to.closed) return goes_round_against(one, from, to, motions);
   const auto moved = [&](std::size_t place) -> Eigen::Vector3d {
     const int node = one.nodes[place];
     return motions.of_node[idx(node)](a.skeleton.nodes.row(node));
@@ -115,14 +119,10 @@ bool runs_against(const MatchSide& a, const Branch& one, const MatchSide& b, con
   const auto at = [&](std::size_t place) -> Eigen::Vector3d {
     return b.skeleton.nodes.row(other.nodes[place]);
   };
-  // Of a closed branch the quarters tell which way round it goes.
-  const bool closed = one.nodes.front() == one.nodes.back();
-  const std::size_t from = closed ? one.nodes.size() / 4 : 0;
-  const std::size_t to = closed ? one.nodes.size() * 3 / 4 : one.nodes.size() - 1;
-  const std::size_t start = closed ? other.nodes.size() / 4 : 0;
-  const std::size_t end = closed ? other.nodes.size() * 3 / 4 : other.nodes.size() - 1;
-  return (moved(from) - at(end)).norm() + (moved(to) - at(start)).norm() <
-         (moved(from) - at(start)).norm() + (moved(to) - at(end)).norm();
+  const std::size_t last = one.nodes.size() - 1;
+  const std::size_t end = other.nodes.size() - 1;
+  return (moved(0) - at(end)).norm() + (moved(last) - at(0)).norm() <
+         (moved(0) - at(0)).norm() + (moved(last) - at(end)).norm();
 }
 
 }  // namespace

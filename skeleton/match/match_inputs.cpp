@@ -1,6 +1,8 @@
 #include <curveskel/match.hpp>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_territories.hpp>
@@ -42,6 +44,31 @@ Landings known_landings(const Eigen::VectorXi& vertex_of_a,
 bool same_polygons(const PolygonSoup& a, const PolygonSoup& b) {
   return a.positions.rows() == b.positions.rows() && a.corners == b.corners &&
          a.offsets == b.offsets;
+}
+
+/// Each corner a vertex of its own, as in STL: the numbers do not tell which polygons meet.
+bool corners_are_apart(const PolygonSoup& soup) {
+  std::vector<char> used(idx(soup.positions.rows()), 0);
+  return std::none_of(soup.corners.begin(), soup.corners.end(), [&](std::int32_t corner) {
+    return std::exchange(used[idx(corner)], 1) != 0;
+  });
+}
+
+/// One direction: what is one vertex of a's surface is one of b's, where both have it.
+bool keeps_together(const Eigen::VectorXi& a, const Eigen::VectorXi& b) {
+  std::vector<int> partner(idx(a.size() > 0 ? a.maxCoeff() + 1 : 0), -1);
+  for (Eigen::Index v = 0; v < a.size(); ++v) {
+    if (a[v] < 0 || b[v] < 0) continue;
+    int& known = partner[idx(a[v])];
+    if (known >= 0 && known != b[v]) return false;
+    known = b[v];
+  }
+  return true;
+}
+
+bool same_vertices_joined(const RepairedSurface& a, const RepairedSurface& b) {
+  return keeps_together(a.vertex_of_input, b.vertex_of_input) &&
+         keeps_together(b.vertex_of_input, a.vertex_of_input);
 }
 
 /// Of the repaired surface's vertices.
@@ -106,7 +133,8 @@ InputMatch match_inputs(const MatchInput& a, const MatchInput& b, const MatchOpt
   const MatchSide side_a{a.repaired.surface, a.skeleton};
   const MatchSide side_b{b.repaired.surface, b.skeleton};
   InputMatch found;
-  found.by_vertices = !options.by_shape && same_polygons(a.soup, b.soup);
+  found.by_vertices = !options.by_shape && same_polygons(a.soup, b.soup) &&
+                      (!corners_are_apart(a.soup) || same_vertices_joined(a.repaired, b.repaired));
   if (found.by_vertices) {
     const Eigen::VectorXi shared = shared_vertices(a.repaired, b.repaired);
     found.match = match_by_vertices(side_a, side_b, shared, monitor);

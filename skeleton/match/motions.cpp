@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/match/branch_laying.hpp"
 #include "skeleton/match/some_of.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 
@@ -232,11 +233,12 @@ NodeMotions anchored_motions(const MatchSide& a, const TipFeatures& of_a, const 
     const std::vector<int>& nodes = all_a[idx(pair.a)].nodes;
     const BranchCurve from = branch_curve(a.skeleton, all_a[idx(pair.a)]);
     const BranchCurve to = branch_curve(b.skeleton, all_b[idx(pair.b)]);
+    const BranchLaying laying =
+        laying_of(a, all_a[idx(pair.a)], from, b, all_b[idx(pair.b)], to, pair.reversed, motions);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (is_known[idx(nodes[k])]) continue;
       is_known[idx(nodes[k])] = true;
-      const double share = from.length() > 0 ? from.lengths[k] / from.length() : 0;
-      const double t = (pair.reversed ? 1 - share : share) * to.length();
+      const double t = laying.length_on_partner(from, to, from.lengths[k]);
       Similarity& motion = anchored.of_node[idx(nodes[k])];
       const Eigen::Vector3d here = motion.rotation * derivatives_at(from, from.lengths[k]).first;
       const Eigen::Vector3d there = (pair.reversed ? -1 : 1) * derivatives_at(to, t).first;

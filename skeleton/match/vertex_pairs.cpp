@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
+#include "skeleton/match/branch_laying.hpp"
 #include "skeleton/match/some_of.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 
@@ -50,8 +51,9 @@ double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::
   double best = curve.lengths[idx(node)];
   double least = (curve.points.row(node).transpose() - place).squaredNorm();
   const Eigen::Index last = curve.points.rows() - 1;
-  for (Eigen::Index k = std::max<Eigen::Index>(0, node - around); k < std::min(last, node + around);
-       ++k) {
+  for (Eigen::Index step = node - around; step < node + around; ++step) {
+    const Eigen::Index k = curve.closed ? (step + around * last) % last : step;
+    if (k < 0 || k >= last) continue;
     const Eigen::Vector3d from = curve.points.row(k);
     const Eigen::Vector3d way = curve.points.row(k + 1).transpose() - from;
     if (!(way.squaredNorm() > 0)) continue;
@@ -67,17 +69,16 @@ double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::
 /// One pair of branches, and how places around the one become places around the other.
 class BranchTransfer {
  public:
-  BranchTransfer(BranchCurve from, BranchCurve to, bool reversed)
-      : from_(std::move(from)), to_(std::move(to)), reversed_(reversed) {}
+  BranchTransfer(BranchCurve from, BranchCurve to, const BranchLaying& laying)
+      : from_(std::move(from)), to_(std::move(to)), laying_(laying) {}
 
   [[nodiscard]] const BranchCurve& from() const { return from_; }
 
   [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& place, double s,
                                            const Similarity& motion) const {
-    const double share = from_.length() > 0 ? s / from_.length() : 0;
-    const double t = (reversed_ ? 1 - share : share) * to_.length();
+    const double t = laying_.length_on_partner(from_, to_, s);
     const Eigen::Vector3d here = motion.rotation * derivatives_at(from_, s).first;
-    const Eigen::Vector3d there = (reversed_ ? -1 : 1) * derivatives_at(to_, t).first;
+    const Eigen::Vector3d there = (laying_.reversed ? -1 : 1) * derivatives_at(to_, t).first;
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(here, there);
     const double radius = radius_at(from_, s);
     const double scale = radius > 0 ? radius_at(to_, t) / radius : motion.scale;
@@ -88,7 +89,7 @@ class BranchTransfer {
  private:
   BranchCurve from_;
   BranchCurve to_;
-  bool reversed_;
+  BranchLaying laying_;
 };
 
 std::vector<std::vector<int>> faces_of_branches(const Eigen::VectorXi& branch_of_face,
@@ -152,10 +153,13 @@ VertexPairs VertexPairing::pair(const std::vector<BranchPair>& branch_pairs,
   parallel_for(branch_pairs.size(), 1, made.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const BranchPair& pair = branch_pairs[k];
-      const BranchTransfer transfer(branch_curve(made.a.skeleton, made.of_a[idx(pair.a)]),
-                                    branch_curve(made.b.skeleton, made.of_b[idx(pair.b)]),
-                                    pair.reversed);
-      const auto places = places_of(made.of_a[idx(pair.a)]);
+      const Branch& one = made.of_a[idx(pair.a)];
+      const Branch& other = made.of_b[idx(pair.b)];
+      const BranchCurve from = branch_curve(made.a.skeleton, one);
+      const BranchCurve to = branch_curve(made.b.skeleton, other);
+      const BranchTransfer transfer(
+          from, to, laying_of(made.a, one, from, made.b, other, to, pair.reversed, motions));
+      const auto places = places_of(one);
       for (const int vertex : vertices[idx(pair.a)]) {
         const Eigen::Vector3d at = surface.positions.row(vertex);
         const int node = made.a.skeleton.node_of_vertex[vertex];

@@ -12,12 +12,22 @@ std::vector<Eigen::Vector3d> spread_points(const Surface& surface, int count) {
   const auto corner = [&](Eigen::Index t, int k) -> Vector3d {
     return surface.positions.row(surface.triangles(t, k));
   };
+  if (triangles == 0) return {};
+  // Squares of areas leave the range of numbers at sizes of 1e-79 and 1e77; a power of two changes
+  // no digit.
+  int exponent = 0;
+  const Vector3d extent =
+      surface.positions.colwise().maxCoeff() - surface.positions.colwise().minCoeff();
+  (void)std::frexp(extent.maxCoeff(), &exponent);
+  const double scale = std::ldexp(1, -exponent);
   std::vector<double> area_up_to;
   area_up_to.reserve(static_cast<std::size_t>(triangles));
   double area = 0;
   for (Eigen::Index t = 0; t < triangles; ++t) {
     const Vector3d a = corner(t, 0);
-    area += 0.5 * (corner(t, 1) - a).cross(corner(t, 2) - a).norm();
+    const Vector3d one = scale * (corner(t, 1) - a);
+    const Vector3d other = scale * (corner(t, 2) - a);
+    area += 0.5 * one.cross(other).norm();
     area_up_to.push_back(area);
   }
   std::vector<Vector3d> points;

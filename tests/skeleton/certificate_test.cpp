@@ -50,6 +50,15 @@ CurveSkeleton moved(CurveSkeleton skeleton, const Vector3d& offset) {
   return skeleton;
 }
 
+CurveSkeleton chain_pair(const CurveSkeleton& one, const CurveSkeleton& other) {
+  CurveSkeleton both;
+  both.nodes.resize(one.nodes.rows() + other.nodes.rows(), 3);
+  both.nodes << one.nodes, other.nodes;
+  both.edges.resize(one.edges.rows() + other.edges.rows(), 2);
+  both.edges << one.edges, (other.edges.array() + static_cast<int>(one.nodes.rows())).matrix();
+  return both;
+}
+
 // A new tip joined to a node.
 CurveSkeleton with_tip(CurveSkeleton skeleton, int node, const Vector3d& tip) {
   const Eigen::Index nodes = skeleton.nodes.rows();
@@ -205,6 +214,34 @@ TEST(Certificate, TopologyIsComparedWithTheSurface) {
   EXPECT_TRUE(certify(two, two.axis).topology_correct());
 }
 
+TEST(Certificate, EachComponentNeedsACurveOfItsOwn) {
+  const Shape tube = shapes::tube("tube", shapes::straight(10), shapes::constant(0.5), 16);
+  const Vector3d middle = tube.axis.nodes.colwise().mean().transpose();
+  const Vector3d along = (tube.axis.nodes.bottomRows(1) - tube.axis.nodes.topRows(1)).transpose();
+  const auto piece = [&](double from, double to) {
+    return chain({middle + from * along, middle + to * along});
+  };
+  const CurveSkeleton one_piece = piece(-0.45, -0.05);
+  const CurveSkeleton other_piece = piece(0.05, 0.45);
+  const Vector3d across = along.unitOrthogonal();
+  // Beside each other, one across the other, and one within the other.
+  for (const double apart : {3.0, 0.2, 0.0}) {
+    SCOPED_TRACE(apart);
+    const Shape second = shapes::translated(apart > 0 ? tube : shapes::scaled(tube, 0.5),
+                                            apart > 0 ? Vector3d(apart * across) : 0.5 * middle);
+    const Shape both = shapes::together("both", {tube, second});
+    const CurveSkeleton in_second = moved(one_piece, apart * across);
+    EXPECT_TRUE(certify(both, chain_pair(other_piece, in_second)).topology_correct());
+    if (apart > 1) {
+      const Certificate fooled = certify(both, chain_pair(one_piece, other_piece));
+      EXPECT_EQ(fooled.components, fooled.components_of_surface);
+      EXPECT_EQ(fooled.components_without_curve, 1);
+      EXPECT_FALSE(fooled.correct());
+      EXPECT_NE(failures(fooled, {}).find("1 of the surface's 2"), std::string::npos);
+    }
+  }
+}
+
 TEST(Certificate, SizeAndPlaceDoNotMatter) {
   const Shape shape =
       shapes::tube_union("Y", shapes::star(3, 1, 0.15), shapes::TubeUnionOptions{0.25, 2});
@@ -266,9 +303,28 @@ TEST(Certificate, TubesStarsAndToriAreMadeOfTubes) {
 }
 
 // Thinner than the samples of the curve are apart.
+TEST(Certificate, TheAxisOfAHairCoversIt) {
+  for (const double radius : {0.05, 0.002, 0.0005, 0.00005}) {
+    SCOPED_TRACE(radius);
+    const Shape hair = shapes::tube("hair", shapes::arc(1, 2), shapes::constant(radius), 12);
+    const Certificate c = certify(hair, hair.axis);
+    EXPECT_GT(c.coverage, 0.99);
+    EXPECT_LT(c.reach, 0.5 * radius);
+  }
+}
+
 TEST(Certificate, AHairIsMadeOfTubes) {
   const Shape hair = shapes::tube("hair", shapes::straight(1), shapes::constant(1.0 / 5000), 6);
   EXPECT_GT(certify(hair, chain({{-0.499, 0, 0}, {0.499, 0, 0}})).tube_share, 0.95);
+}
+
+TEST(Certificate, TubesOfAnySizeAreMadeOfTubes) {
+  const Shape tube = shapes::tube("arc", shapes::arc(1, 2), shapes::constant(0.15), 24);
+  for (const double size : {1e-140, 1e-90, 1e90, 1e140}) {
+    SCOPED_TRACE(size);
+    const Shape scaled = shapes::scaled(tube, size);
+    EXPECT_GT(certify(scaled, scaled.axis).tube_share, 0.95);
+  }
 }
 
 TEST(Certificate, PlatesDiscsAndBoxesOfSheetsAreNotMadeOfTubes) {

@@ -82,7 +82,7 @@ void certificate(Workbench& bench) {
   };
   const auto verdict = [](bool good) { return good ? 1 : 0; };
   line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
-       verdict(c.components == c.components_of_surface));
+       verdict(c.components_right()));
   line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
        verdict(c.cycle_rank == c.genus));
   line("handles", fmt::format("round {} of {}", c.homology_rank, c.genus),

@@ -162,6 +162,47 @@ TEST(Levels, BranchesHangFromElderOnes) {
   }
 }
 
+/// A ring or a line of its own, and leaves that hang from it.
+CurveSkeleton with_leaves(bool ring, const std::vector<double>& lives) {
+  CurveSkeleton skeleton;
+  const auto leaves = static_cast<Eigen::Index>(lives.size());
+  skeleton.nodes = Positions::Random(4 + leaves, 3);
+  skeleton.radii = Eigen::VectorXd::Constant(4 + leaves, 0.1);
+  skeleton.lives.setZero(4 + leaves);
+  if (!ring) skeleton.lives[0] = skeleton.lives[3] = 9;
+  std::set<std::pair<int, int>> edges{{0, 1}, {1, 2}, {2, 3}};
+  if (ring) edges.emplace(0, 3);
+  for (int k = 0; k < static_cast<int>(leaves); ++k) {
+    edges.emplace(1, 4 + k);
+    skeleton.lives[4 + k] = lives[idx(k)];
+  }
+  skeleton.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+  Eigen::Index row = 0;
+  for (const auto& [a, b] : edges) skeleton.edges.row(row++) << a, b;
+  skeleton.node_of_vertex = Eigen::VectorXi::Zero(1);
+  return skeleton;
+}
+
+TEST(Levels, LeavesAsClearAsEachOtherGoTogether) {
+  for (const bool ring : {true, false}) {
+    SCOPED_TRACE(ring);
+    const auto edges_by_level = [&](const std::vector<double>& lives, int most) {
+      const CurveSkeleton skeleton = with_leaves(ring, lives);
+      std::vector<Eigen::Index> counts;
+      for (const double limit : level_limits(skeleton, most)) {
+        counts.push_back(level_of(skeleton, limit).edges.rows() - (ring ? 4 : 3));
+      }
+      return counts;
+    };
+    using Counts = std::vector<Eigen::Index>;
+    EXPECT_EQ(edges_by_level({}, 4), Counts{0});
+    EXPECT_EQ(edges_by_level({2}, 4), (Counts{1, 0}));
+    EXPECT_EQ(edges_by_level({6.13, 6.15, 6.16, 6.17, 6.19}, 4), (Counts{5, 0}));
+    EXPECT_EQ(edges_by_level({1, 1.02, 4, 4.1}, 4), (Counts{4, 2, 0}));
+    EXPECT_EQ(edges_by_level({1, 1.02, 4, 4.1}, 2), (Counts{4, 2})) << "measured gaps come first";
+  }
+}
+
 TEST(Levels, LimitsLieBetweenLives) {
   for (const CurveSkeleton& skeleton : graphs()) {
     for (const int most : {1, 3, 100}) {

@@ -162,6 +162,52 @@ TEST(MatchSkeletons, PairRingsJunctionsAndComponents) {
   EXPECT_EQ(static_cast<int>(match.junctions.size()), graph_topology(a.skeleton).junctions);
 }
 
+/// A ring like no turn of itself: an oval, thick on one side, out of its plane.
+Surface odd_ring(int around, double first_angle) {
+  Surface ring = shapes::torus(3, 0.5, around).surface;
+  for (auto row : ring.positions.rowwise()) {
+    const double angle = std::atan2(row.y(), row.x()) + first_angle;
+    const Eigen::RowVector3d middle(3 * std::cos(angle), 2.1 * std::sin(angle),
+                                    0.6 * std::sin(2 * angle));
+    const double thick = 1 + 0.5 * std::cos(angle) + 0.15 * std::sin(3 * angle);
+    const double out = thick * (std::hypot(row.x(), row.y()) - 3);
+    const double up = thick * row.z();
+    row = middle + out * Eigen::RowVector3d(std::cos(angle), std::sin(angle), 0) +
+          up * Eigen::RowVector3d::UnitZ();
+  }
+  return ring;
+}
+
+TEST(MatchSkeletons, PutTheVerticesOfARingToTheirPlacesWhereverItsCurveBegins) {
+  const Surface ring = odd_ring(24, 0);
+  const Side a = side_of(ring);
+  for (const double first_angle : {0.0, 1.0, 2.5, 4.4}) {
+    for (const bool backwards : {false, true}) {
+      SCOPED_TRACE(testing::Message() << first_angle << ", numbers backwards " << backwards);
+      Shape other = shapes::torus(3, 0.5, 24);
+      other.surface = odd_ring(29, first_angle);
+      if (backwards) {
+        other.surface.positions = other.surface.positions.colwise().reverse().eval();
+        const auto last = static_cast<std::int32_t>(other.surface.positions.rows()) - 1;
+        other.surface.triangles = (last - other.surface.triangles.array()).matrix().eval();
+      }
+      const Side b = side_of(turned(other).surface);
+      const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
+      ASSERT_EQ(match.branches.size(), 1U);
+      std::vector<double> off;
+      for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+        ASSERT_GE(match.vertex_of_a[v], 0);
+        const auto partner = other.surface.positions.row(match.vertex_of_a[v]);
+        off.push_back((ring.positions.row(v) - partner).norm());
+      }
+      std::sort(off.begin(), off.end());
+      const double diagonal = bounding_box_diagonal(ring.positions);
+      EXPECT_LT(off[off.size() / 2], 0.03 * diagonal);
+      EXPECT_LT(off[off.size() * 9 / 10], 0.06 * diagonal);
+    }
+  }
+}
+
 TEST(MatchSkeletons, AreTheSameFromAnyNumberOfThreadsAndRefuseWhatLacksAMap) {
   const Shape shape = shapes::tube_union("beast", beast(4));
   const Side a = side_of(shape.surface);
@@ -246,6 +292,47 @@ TEST(MatchInputs, CompareShapesWhereTheFacesDiffer) {
   Surface other = star(3).surface;
   other.triangles.row(0).swap(other.triangles.row(1));
   EXPECT_FALSE(match_inputs(a.as_input(), given(other).as_input()).by_vertices);
+}
+
+/// A triangle for each face, with corners of its own, as STL has them.
+PolygonSoup soup_of_apart(const Surface& surface) {
+  PolygonSoup soup;
+  soup.positions.resize(3 * surface.triangles.rows(), 3);
+  soup.offsets = {0};
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    for (const int vertex : triangle) {
+      const auto corner = static_cast<std::int32_t>(soup.corners.size());
+      soup.positions.row(corner) = surface.positions.row(vertex);
+      soup.corners.push_back(corner);
+    }
+    soup.offsets.push_back(static_cast<std::int64_t>(soup.corners.size()));
+  }
+  return soup;
+}
+
+TEST(MatchInputs, KnowCornersThatAreApartOnlyByHowTheyMeet) {
+  const auto given_apart = [](const Surface& surface) {
+    Given made{soup_of_apart(surface), {}, {}};
+    made.repaired = repair(made.soup);
+    made.skeleton = extract(made.repaired.surface).skeleton;
+    return made;
+  };
+  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Surface& body = shape.surface;
+  const Given a = given_apart(body);
+  const InputMatch posed =
+      match_inputs(a.as_input(), given_apart(turned(shape).surface).as_input());
+  EXPECT_TRUE(posed.by_vertices);
+  Surface shuffled = body;
+  shuffled.triangles = body.triangles.colwise().reverse().eval();
+  const Given b = given_apart(shuffled);
+  const InputMatch match = match_inputs(a.as_input(), b.as_input());
+  EXPECT_FALSE(match.by_vertices);
+  for (Eigen::Index v = 0; v < match.vertex_of_a.size(); ++v) {
+    ASSERT_GE(match.vertex_of_a[v], 0);
+    const auto off = a.soup.positions.row(v) - b.soup.positions.row(match.vertex_of_a[v]);
+    EXPECT_LT(off.norm(), 0.02 * bounding_box_diagonal(body.positions));
+  }
 }
 
 TEST(MatchByVertices, TakeWhatIsKnownAndRefuseWhatCannotBe) {
