@@ -88,8 +88,8 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound,
     result.soup = std::move(soup);
     result.given = {result.soup.positions, triangulate(result.soup)};
     result.character = rig_polygons(result.soup, sources, settings.make, monitor).character;
-    result.exported =
-        rig_for_export(result.character.rig, result.character.plan, result.given, settings.form);
+    result.exported = rig_for_export(result.character.rig, result.character.plan, result.given,
+                                     settings.form, result.character.other_plans);
   });
   return result;
 }

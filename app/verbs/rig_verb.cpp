@@ -149,6 +149,13 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   return files;
 }
 
+void warn_of_budget(const CharacterRig& character, int budget, Session& session) {
+  if (character.joints_over_budget == 0) return;
+  session.terminal.warn(
+      fmt::format("--joint-budget {}: {} joints stay, roots and those that a body needs", budget,
+                  budget + character.joints_over_budget));
+}
+
 void warn_of_names(const BodyPlan& plan, NameStyle style, Session& session) {
   if (has_words(style, plan.plan)) return;
   session.terminal.warn(
@@ -211,6 +218,7 @@ int run_rig(RigArguments arguments, Session& session) {
     const std::string failed = all_failures(*found.certificate, arguments.extract.certificate);
     if (!failed.empty()) session.terminal.warn(failed);
   }
+  warn_of_budget(found.character, arguments.joint_budget, session);
   if (!sources.joints) warn_of_names(plan, arguments.names, session);
   const bool is_asked_for = arguments.plan.plan != BodyKind::automatic &&
                             arguments.plan.plan != BodyKind::other &&
@@ -224,7 +232,8 @@ int run_rig(RigArguments arguments, Session& session) {
   }
   const Rig written = rig_for_export(
       found.character.rig, plan, given,
-      {arguments.pose, arguments.ground_root, !arguments.no_ends, sources.joints.has_value()});
+      {arguments.pose, arguments.ground_root, !arguments.no_ends, sources.joints.has_value()},
+      found.character.other_plans);
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);

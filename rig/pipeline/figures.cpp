@@ -10,6 +10,7 @@
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/limb_name.hpp"
 
 namespace curveskel {
@@ -137,7 +138,7 @@ void append(Rig& all, const Rig& more) {
     all.readable.insert(all.readable.end(), added.begin(), added.end());
   }
   all.names.insert(all.names.end(), more.names.begin(), more.names.end());
-  all.roles.insert(all.roles.end(), more.names.size(), "");
+  all.roles.insert(all.roles.end(), more.roles.begin(), more.roles.end());
 }
 
 }  // namespace
@@ -182,8 +183,12 @@ RiggedBody side_by_side(std::vector<RiggedBody> figures) {
   RiggedBody all = std::move(figures.front());
   all.rig.roles.resize(all.rig.names.size());
   for (std::size_t k = 1; k < figures.size(); ++k) {
-    for (auto* const names : {&figures[k].rig.names, &figures[k].rig.readable}) {
-      for (std::string& name : *names) name.insert(0, "figure" + std::to_string(k + 1) + "_");
+    Rig& rig = figures[k].rig;
+    rig.roles.resize(rig.names.size());
+    for (auto* const names : {&rig.names, &rig.readable, &rig.roles}) {
+      for (std::string& name : *names) {
+        if (!name.empty()) name.insert(0, figure_prefix(k));
+      }
     }
     append(all, figures[k]);
     append(all.rig, figures[k].rig);

@@ -40,8 +40,8 @@ struct RiggedBody {
   Rig rig;
 };
 
-/// All figures side by side: the joints of the first keep names and roles, those of the k-th are
-/// named "figure<k>_..." and have no roles, as programs expect one of each.
+/// All figures side by side: the joints of the first keep names and roles, those of the k-th begin
+/// with "figure<k>_", as programs expect one of each.
 [[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures);
 
 }  // namespace curveskel

@@ -1,11 +1,14 @@
 // Laws of scenes: each figure in one is rigged as if it were alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/repair.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_character.hpp>
 #include "tests/rig/plan_subjects.hpp"
 
@@ -72,7 +75,8 @@ TEST(Figures, OfASceneAreRiggedEachByItsPlan) {
     const Rig& alone = is_one ? one.rig : other.rig;
     const std::size_t same = is_one ? k : k - first;
     EXPECT_EQ(both.rig.names[k], (is_one ? "" : "figure2_") + alone.names[same]);
-    EXPECT_EQ(both.rig.roles[k], is_one ? alone.roles[same] : "");
+    const std::string& role = alone.roles[same];
+    EXPECT_EQ(both.rig.roles[k], is_one || role.empty() ? role : "figure2_" + role);
     const auto row = static_cast<Eigen::Index>(k);
     const auto alone_row = static_cast<Eigen::Index>(same);
     const int parent = alone.parents[alone_row];
@@ -89,6 +93,64 @@ TEST(Figures, OfASceneAreRiggedEachByItsPlan) {
       ASSERT_NEAR(it.value(), alone.weights.coeff(is_one ? v - beast_vertices : v, joint), 1e-5F);
     }
   }
+}
+
+/// Of a scene with two humans, without "figure2_".
+std::vector<std::string> names_of_second(const Rig& both, std::size_t first_count) {
+  std::vector<std::string> names;
+  for (std::size_t k = first_count; k < both.names.size(); ++k) {
+    EXPECT_TRUE(both.names[k].starts_with("figure2_")) << both.names[k];
+    names.push_back(both.names[k].substr(8));
+  }
+  return names;
+}
+
+TEST(Figures, EachKeepsTheJointsThatTheBudgetLeavesItAlone) {
+  constexpr double aside = 30;
+  const RigSubject alone = human_with_hands(1);
+  const RigSubject two = scene({{alone, 0}, {alone, aside}});
+  const CharacterRig one = rig_of(alone);
+  const CharacterRig both = rig_of(two);
+  ASSERT_EQ(both.other_plans.size(), 1U);
+  const auto count = static_cast<int>(one.rig.names.size());
+  for (const int budget : {count, count - 6, 40, 30, 20, 5}) {
+    SCOPED_TRACE(budget);
+    const CharacterRig few = within_budget(one, alone.surface, budget);
+    const CharacterRig few_both = within_budget(both, two.surface, budget);
+    const std::size_t left = few.rig.names.size();
+    ASSERT_EQ(few_both.rig.names.size(), 2 * left);
+    EXPECT_EQ(few_both.joints_over_budget, std::max(0, static_cast<int>(left) - budget));
+    EXPECT_EQ(names_of_second(few_both.rig, left), few.rig.names);
+    ASSERT_EQ(few_both.other_plans[0].joints.size(), few.plan.joints.size());
+    for (std::size_t k = 0; k < few.plan.joints.size(); ++k) {
+      EXPECT_EQ(few_both.other_plans[0].joints[k].role, few.plan.joints[k].role);
+      EXPECT_EQ(few_both.other_plans[0].joints[k].parent, few.plan.joints[k].parent);
+    }
+  }
+}
+
+TEST(Figures, AllHumansTakeTheTPose) {
+  RigSubject alone = human();
+  for (Positions* const points : {&alone.surface.positions, &alone.skeleton.nodes}) {
+    for (auto p : points->rowwise()) {
+      const double out = std::abs(p.x()) - 2;
+      if (p.y() > 12 && out > 0) p.y() -= 0.8 * out;
+    }
+  }
+  CharacterRig one = rig_of(alone);
+  CharacterRig all = rig_of(scene({{alone, 0}, {alone, 30}, {beast(1), 60}}));
+  ASSERT_EQ(all.other_plans.size(), 2U);
+  rest_in_t_pose(one.rig, one.plan);
+  rest_in_t_pose(all.rig, all.plan, all.other_plans);
+  const std::size_t count = one.rig.names.size();
+  double most = 0;
+  for (std::size_t k = 0; k < all.rig.turns.size(); ++k) {
+    const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond wanted = k < 2 * count ? one.rig.turns[k % count] : still;
+    EXPECT_LT(all.rig.turns[k].angularDistance(wanted), 1e-6) << all.rig.names[k];
+    most = std::max(most, wanted.angularDistance(still));
+  }
+  EXPECT_GT(most, 0.1);
 }
 
 TEST(Figures, AreNotMadeOfThings) {
