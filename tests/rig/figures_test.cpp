@@ -10,6 +10,7 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_character.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::figure_laws {
@@ -50,12 +51,12 @@ RigSubject scene(const std::vector<std::pair<RigSubject, double>>& subjects) {
   return all;
 }
 
-CharacterRig rig_of(const RigSubject& subject) {
+CharacterRig rig_of(const RigSubject& subject, const CharacterOptions& options = {}) {
   RepairedSurface body;
   body.surface = subject.surface;
   body.vertex_of_input = Eigen::VectorXi::LinSpaced(
       subject.surface.positions.rows(), 0, static_cast<int>(subject.surface.positions.rows()) - 1);
-  return rig_body(subject.surface, body, subject.skeleton);
+  return rig_body(subject.surface, body, subject.skeleton, options);
 }
 
 /// Each figure of a scene is rigged as if it were alone.
@@ -161,6 +162,62 @@ TEST(Figures, AreNotMadeOfThings) {
   for (Eigen::Index v = 0; v < three.rig.weights.rows(); ++v) {
     ASSERT_NEAR(three.rig.weights.row(v).sum(), 1, 1e-5F) << "something moves the tree, too";
   }
+}
+
+std::vector<std::string> roles_in(const BodyPlan& plan) {
+  std::vector<std::string> roles;
+  for (const PlannedJoint& joint : plan.joints) roles.push_back(joint.role);
+  return roles;
+}
+
+TEST(Figures, AreThereIfAPlanIsAskedFor) {
+  CharacterOptions options;
+  options.plan.plan = BodyKind::humanoid;
+  const CharacterRig two = rig_of(scene({{human(), 0}, {human(), 30}}), options);
+  EXPECT_EQ(two.plan.plan, BodyKind::humanoid);
+  ASSERT_EQ(two.other_plans.size(), 1U);
+  EXPECT_EQ(two.other_plans[0].plan, BodyKind::humanoid);
+  const CharacterRig one = rig_of(scene({{human(), 0}, {beast(1), 30}}), options);
+  EXPECT_EQ(one.plan.plan, BodyKind::humanoid);
+  EXPECT_EQ(roles_in(one.plan), roles_in(rig_of(human()).plan));
+}
+
+/// A box as wide as this below a subject, its upper side at this height; its curve is a line.
+RigSubject slab(double width, double top) {
+  RigSubject subject{"slab", shapes::box({width, 1, width}, 4).surface, {}};
+  subject.surface.positions.col(1).array() += top - 0.5;
+  subject.skeleton.nodes.resize(2, 3);
+  subject.skeleton.nodes << -width / 2, top - 0.5, 0, width / 2, top - 0.5, 0;
+  subject.skeleton.edges.resize(1, 2);
+  subject.skeleton.edges << 0, 1;
+  subject.skeleton.radii.setConstant(2, 0.5);
+  const Positions& positions = subject.surface.positions;
+  subject.skeleton.node_of_vertex = (positions.col(0).array() > 0).cast<int>();
+  return subject;
+}
+
+/// The scene is not made of tubes, the figure is; nothing hangs from it that is the ground.
+TEST(Figures, StandOnSlabs) {
+  const std::vector<std::string> alone = roles_in(rig_of(human()).plan);
+  const double feet = human().surface.positions.col(1).minCoeff();
+  for (const double gap : {-0.1, 0.0, 0.5}) {
+    SCOPED_TRACE(gap);
+    CharacterOptions options;
+    options.plan.made_of_tubes = false;
+    const CharacterRig found = rig_of(scene({{human(), 0}, {slab(60, feet - gap), 0}}), options);
+    EXPECT_EQ(found.plan.plan, BodyKind::humanoid) << found.plan.reason;
+    EXPECT_EQ(roles_in(found.plan), alone);
+    EXPECT_EQ((found.rig.parents.array() < 0).count(), 2);
+  }
+}
+
+/// A tree that is nearer to one of two humans is no part of the human's plan.
+TEST(Figures, AreAsIfNothingStoodBesideThem) {
+  const CharacterRig alone = rig_of(human());
+  const CharacterRig found = rig_of(scene({{human(), 0}, {tree(), 30}, {human(), 62}}));
+  ASSERT_EQ(found.other_plans.size(), 1U);
+  EXPECT_EQ(roles_in(found.plan), roles_in(alone.plan));
+  EXPECT_EQ(roles_in(found.other_plans[0]), roles_in(alone.plan));
 }
 
 }  // namespace
