@@ -131,9 +131,8 @@ class Groups {
          const FigureOptions& options)
       : body_(body), skeleton_(skeleton), counted_(counted), options_(options) {}
 
-  /// Those that are each built to a plan, the largest first; all else goes with
-  /// the one whose box is nearest. `ground` (-1: none) is a component that
-  /// groups with no other.
+  /// Those that are each built to a plan, the largest first; all else goes with the one whose box
+  /// is nearest. `ground` (-1: none) is a component that groups with no other.
   [[nodiscard]] std::vector<Figure> figures(int ground) const {
     const std::vector<int> group = groups_that_meet(
         boxes_of(body_.surface, counted_.component_of_vertex, counted_.components()), ground);
@@ -148,7 +147,8 @@ class Groups {
     for (int wanted = 0; wanted < groups; ++wanted) {
       if (tips[idx(wanted)] < least_tips) continue;
       BodyPlan plan = plan_of(group, wanted);
-      if (is_planned(plan)) planned.emplace_back(wanted, std::move(plan));
+      if (!is_planned(plan) || !stands_on(plan, group, wanted, ground)) continue;
+      planned.emplace_back(wanted, std::move(plan));
     }
     if (planned.empty()) return {};
     std::stable_sort(planned.begin(), planned.end(), [&](const auto& a, const auto& b) {
@@ -166,6 +166,9 @@ class Groups {
         if (size > boxes[idx(wanted)].diagonal().norm()) near[k] = group[k];
       }
       BodyPlan with_near = near == group ? BodyPlan{} : plan_of(near, wanted);
+      const bool is_piece = near != group && with_near.plan != plan.plan;  // of one, seen awry
+      const bool is_found = options_.plan.plan == BodyKind::automatic;
+      if (is_found && is_piece && planned.size() == 1) return {};
       const bool is_better =
           with_near.plan == plan.plan && with_near.joints.size() > plan.joints.size();
       found.push_back(is_better ? with_all_that_joins(near, joined, wanted, std::move(with_near))
@@ -180,6 +183,21 @@ class Groups {
     parts.part_of_vertex = counted_.component_of_vertex;
     for (const int own : group) parts.parts.push_back({.follows = own != wanted});
     return parts;
+  }
+
+  /// The ground ends below the group's middle; without one, any group does.
+  [[nodiscard]] bool stands_on(const BodyPlan& plan, const std::vector<int>& group, int wanted,
+                               int ground) const {
+    if (ground < 0) return true;
+    const Eigen::VectorXd heights = body_.surface.positions * plan.axes.row(1).transpose();
+    Eigen::AlignedBox1d of_ground;
+    Eigen::AlignedBox1d of_group;
+    for (Eigen::Index v = 0; v < heights.size(); ++v) {
+      const int component = counted_.component_of_vertex[v];
+      if (component == ground) of_ground.extend(heights.segment<1>(v));
+      if (group[idx(component)] == wanted) of_group.extend(heights.segment<1>(v));
+    }
+    return of_ground.max()[0] < of_group.center()[0];
   }
 
   /// As if it were alone. A scene that is not made of tubes may have a figure

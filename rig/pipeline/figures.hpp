@@ -23,19 +23,17 @@ struct Figure {
 /// `find_plan` of the body without the components that were made of sheets, if
 /// that is a humanoid's or a quadruped's: capes and manes are no limbs. Else of
 /// all, as a bird's wings may be sheets.
-[[nodiscard]] BodyPlan plan_with_sheets(const RepairedSurface &body,
-                                        const CurveSkeleton &skeleton,
+[[nodiscard]] BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                         PlanOptions options);
 
 struct FigureOptions {
   PlanOptions plan;
-  int threads = 0; ///< 0 = all
+  int threads = 0;  ///< 0 = all
 };
 
 /// The nodes to whose component some vertex of the body collapsed, or nothing
 /// at all; ascending.
-[[nodiscard]] std::vector<int> nodes_of_body(const CurveSkeleton &skeleton,
-                                             const RigParts &parts);
+[[nodiscard]] std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts);
 
 /// The bodies that stand clear of one another (their boxes do not meet) and are
 /// each built to a plan, the largest first; a single one unless the whole has a
@@ -46,9 +44,9 @@ struct FigureOptions {
 /// `skeleton` has node_of_vertex, by the body's vertices; without it there is
 /// one figure. O((#V + #N) times the number of groups with four tips or more,
 /// and the square of the number of components).
-[[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface &body,
-                                               const CurveSkeleton &skeleton,
-                                               const FigureOptions &options);
+[[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
+                                               const CurveSkeleton& skeleton,
+                                               const FigureOptions& options);
 
 /// A rig, and the surface and skeleton that it is of.
 struct RiggedBody {
@@ -61,4 +59,4 @@ struct RiggedBody {
 /// those of the k-th begin with "figure<k>_", as programs expect one of each.
 [[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures);
 
-} // namespace curveskel
+}  // namespace curveskel

@@ -3,34 +3,30 @@
 #include <utility>
 #include <vector>
 
-#include "rig/joints/idle_joints.hpp"
-#include "rig/pipeline/figures.hpp"
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/idle_joints.hpp"
+#include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
-std::vector<int> nodes_of_body(const CurveSkeleton &skeleton,
-                               const RigParts &parts) {
+std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
   const Eigen::Index count = skeleton.nodes.rows();
   UnionFind joined(count);
-  for (const auto &edge : skeleton.edges.rowwise())
-    joined.unite(edge[0], edge[1]);
+  for (const auto& edge : skeleton.edges.rowwise()) joined.unite(edge[0], edge[1]);
   std::vector<char> is_body(idx(count), 0);
   std::vector<char> follows(idx(count), 0);
   for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
     const int node = skeleton.node_of_vertex[v];
-    if (node < 0)
-      continue;
+    if (node < 0) continue;
     const bool is_follower = parts.parts[idx(parts.part_of_vertex[v])].follows;
     (is_follower ? follows : is_body)[idx(joined.root(node))] = 1;
   }
   std::vector<int> nodes;
   for (int node = 0; node < static_cast<int>(count); ++node) {
     const std::size_t root = idx(joined.root(node));
-    if (is_body[root] != 0 || follows[root] == 0)
-      nodes.push_back(node);
+    if (is_body[root] != 0 || follows[root] == 0) nodes.push_back(node);
   }
   return nodes;
 }
@@ -38,29 +34,27 @@ std::vector<int> nodes_of_body(const CurveSkeleton &skeleton,
 namespace {
 
 /// A component follows if it was made of a sheet.
-RigParts sheets_follow(const RepairedSurface &body) {
+RigParts sheets_follow(const RepairedSurface& body) {
   const Topology counted = topology(body.surface);
   RigParts parts;
   parts.part_of_vertex = counted.component_of_vertex;
   parts.parts.resize(idx(counted.components()));
-  for (const std::int32_t v : body.sheets)
-    parts.parts[idx(parts.part_of_vertex[v])].follows = true;
+  for (const std::int32_t v : body.sheets) parts.parts[idx(parts.part_of_vertex[v])].follows = true;
   return parts;
 }
 
-} // namespace
+}  // namespace
 
-BodyPlan plan_with_sheets(const RepairedSurface &body,
-                          const CurveSkeleton &skeleton, PlanOptions options) {
+BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                          PlanOptions options) {
   if (!body.sheets.empty() && skeleton.node_of_vertex.size() > 0) {
     const RigParts parts = sheets_follow(body);
-    BodyPlan plan = find_plan(body_of(body, parts).surface,
-                              skeleton_of_body(skeleton, parts), options);
+    BodyPlan plan =
+        find_plan(body_of(body, parts).surface, skeleton_of_body(skeleton, parts), options);
     if (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) {
       const std::vector<int> nodes = nodes_of_body(skeleton, parts);
-      for (PlannedJoint &joint : plan.joints) {
-        if (joint.node >= 0)
-          joint.node = nodes[idx(joint.node)];
+      for (PlannedJoint& joint : plan.joints) {
+        if (joint.node >= 0) joint.node = nodes[idx(joint.node)];
       }
       return plan;
     }
@@ -69,28 +63,22 @@ BodyPlan plan_with_sheets(const RepairedSurface &body,
   return find_plan(body.surface, skeleton, options);
 }
 
-CurveSkeleton skeleton_of_body(const CurveSkeleton &skeleton,
-                               const RigParts &parts) {
+CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
   const std::vector<int> nodes = nodes_of_body(skeleton, parts);
   std::vector<int> number(idx(skeleton.nodes.rows()), -1);
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    number[idx(nodes[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < nodes.size(); ++k) number[idx(nodes[k])] = static_cast<int>(k);
   CurveSkeleton body;
   body.nodes = skeleton.nodes(nodes, Eigen::all);
-  if (skeleton.radii.size() > 0)
-    body.radii = skeleton.radii(nodes);
+  if (skeleton.radii.size() > 0) body.radii = skeleton.radii(nodes);
   std::vector<Eigen::Index> edges;
   for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
-    if (number[idx(skeleton.edges(e, 0))] >= 0)
-      edges.push_back(e);
+    if (number[idx(skeleton.edges(e, 0))] >= 0) edges.push_back(e);
   }
   body.edges = skeleton.edges(edges, Eigen::all);
-  for (int &node : body.edges.reshaped())
-    node = number[idx(node)];
+  for (int& node : body.edges.reshaped()) node = number[idx(node)];
   std::vector<int> node_of_vertex;
   for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
-    if (parts.parts[idx(parts.part_of_vertex[v])].follows)
-      continue;
+    if (parts.parts[idx(parts.part_of_vertex[v])].follows) continue;
     const int node = skeleton.node_of_vertex[v];
     node_of_vertex.push_back(node < 0 ? -1 : number[idx(node)]);
   }
@@ -102,13 +90,11 @@ CurveSkeleton skeleton_of_body(const CurveSkeleton &skeleton,
 namespace {
 
 /// With names; the joints of the plan first.
-RiggedBody rigged(Figure figure, const CharacterOptions &options,
-                  const Monitor &monitor) {
+RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor& monitor) {
   RiggedBody made{std::move(figure.body), std::move(figure.skeleton), {}};
-  made.rig =
-      without_idle_joints(make_planned_rig(made.body.surface, made.skeleton,
-                                           figure.plan, options.rig, monitor),
-                          figure.plan.joints.size(), made.body.vertex_of_input);
+  made.rig = without_idle_joints(
+      make_planned_rig(made.body.surface, made.skeleton, figure.plan, options.rig, monitor),
+      figure.plan.joints.size(), made.body.vertex_of_input);
   name_roles(made.rig, figure.plan, options.names);
   return made;
 }
@@ -119,59 +105,51 @@ struct Body {
   CurveSkeleton skeleton;
 };
 
-} // namespace
+}  // namespace
 
-CharacterRig rig_body(const Surface &given, const RepairedSurface &body,
-                      const CurveSkeleton &skeleton,
-                      const CharacterOptions &options, const Monitor &monitor) {
+CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
+                      const CurveSkeleton& skeleton, const CharacterOptions& options,
+                      const Monitor& monitor) {
   const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
   PlanOptions wanted = options.plan;
-  if (options.rig.joints.root >= 0)
-    wanted.plan = BodyKind::none;
-  std::vector<Figure> figures =
-      find_figures(body, dense, {wanted, options.rig.skin.threads});
+  if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
+  std::vector<Figure> figures = find_figures(body, dense, {wanted, options.rig.skin.threads});
   CharacterRig result;
   result.plan = figures.front().plan;
   std::vector<RiggedBody> made;
   made.reserve(figures.size());
-  for (Figure &figure : figures) {
-    if (!made.empty())
-      result.other_plans.push_back(figure.plan);
+  for (Figure& figure : figures) {
+    if (!made.empty()) result.other_plans.push_back(figure.plan);
     made.push_back(rigged(std::move(figure), options, monitor));
   }
   const RiggedBody all = side_by_side(std::move(made));
-  result.rig = rig_of_given(all.rig, all.body.surface, all.skeleton,
-                            all.body.vertex_of_input, given);
+  result.rig =
+      rig_of_given(all.rig, all.body.surface, all.skeleton, all.body.vertex_of_input, given);
   result.follows = followers_of(all.body.vertex_of_input);
   return result;
 }
 
-CharacterRig
-rig_character(const Surface &given, const RepairedSurface &repaired,
-              const CurveSkeleton &skeleton, const CharacterOptions &options,
-              const Monitor &monitor, const Certificate *certificate) {
+CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
+                           const CurveSkeleton& skeleton, const CharacterOptions& options,
+                           const Monitor& monitor, const Certificate* certificate) {
   PartOptions wanted = options.parts;
-  if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0)
-    wanted.follow = 0;
+  if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0) wanted.follow = 0;
   RigParts parts = find_parts(repaired.surface, wanted, monitor);
-  const Body body = parts.all_body() ? Body{repaired, skeleton}
-                                     : Body{body_of(repaired, parts),
-                                            skeleton_of_body(skeleton, parts)};
+  const Body body = parts.all_body()
+                        ? Body{repaired, skeleton}
+                        : Body{body_of(repaired, parts), skeleton_of_body(skeleton, parts)};
   CharacterOptions judged = options;
   if (certificate != nullptr) {
-    const Certificate of_body =
-        parts.all_body()
-            ? *certificate
-            : evaluate(body.surface.surface, body.skeleton,
-                       {.threads = options.parts.threads}, monitor);
-    judged.plan.made_of_tubes =
-        made_of_tubes_but_for_sheets(of_body, body.surface);
+    const Certificate of_body = parts.all_body()
+                                    ? *certificate
+                                    : evaluate(body.surface.surface, body.skeleton,
+                                               {.threads = options.parts.threads}, monitor);
+    judged.plan.made_of_tubes = made_of_tubes_but_for_sheets(of_body, body.surface);
   }
-  CharacterRig result =
-      rig_body(given, body.surface, body.skeleton, judged, monitor);
+  CharacterRig result = rig_body(given, body.surface, body.skeleton, judged, monitor);
   result = within_budget(std::move(result), given, options.joint_budget);
   result.parts = std::move(parts);
   return result;
 }
 
-} // namespace curveskel
+}  // namespace curveskel

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "rig/pipeline/figures.hpp"
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/clean.hpp>
@@ -14,6 +13,7 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
 namespace {
@@ -23,21 +23,17 @@ namespace {
 constexpr double usual_detail = EmbedOptions().detail;
 
 /// Of the area. One vertex of each sheet is known.
-double share_of_sheets(const RepairedSurface &body) {
-  if (body.sheets.empty())
-    return 0;
+double share_of_sheets(const RepairedSurface& body) {
+  if (body.sheets.empty()) return 0;
   const Topology counted = topology(body.surface);
   std::vector<char> is_sheet(idx(counted.components()), 0);
-  for (const std::int32_t v : body.sheets)
-    is_sheet[idx(counted.component_of_vertex[v])] = 1;
+  for (const std::int32_t v : body.sheets) is_sheet[idx(counted.component_of_vertex[v])] = 1;
   std::vector<Eigen::Index> faces;
   for (Eigen::Index f = 0; f < body.surface.triangles.rows(); ++f) {
     const std::int32_t v = body.surface.triangles(f, 0);
-    if (is_sheet[idx(counted.component_of_vertex[v])] != 0)
-      faces.push_back(f);
+    if (is_sheet[idx(counted.component_of_vertex[v])] != 0) faces.push_back(f);
   }
-  const Surface sheets{body.surface.positions,
-                       body.surface.triangles(faces, Eigen::all)};
+  const Surface sheets{body.surface.positions, body.surface.triangles(faces, Eigen::all)};
   return area(sheets) / area(body.surface);
 }
 
@@ -45,49 +41,44 @@ double share_of_sheets(const RepairedSurface &body) {
 struct Curve {
   CurveSkeleton skeleton;
   std::optional<Certificate> certificate;
-  std::optional<CurveSkeleton>
-      usual; ///< the default level, where that is coarser
+  std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
 };
 
 /// `body` becomes its wrap where only a wrap would do. Everything is named
 /// first; then what a coarser level does without goes.
-Curve curve_for(const RigSources &sources, const RigPolygonsOptions &options,
-                RepairedSurface &body, const Monitor &monitor) {
+Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
+                const Monitor& monitor) {
   Curve curve;
   if (sources.skeleton) {
-    curve.skeleton = skeleton_of_repaired(
-        *sources.skeleton, body.vertex_of_input, body.surface.positions.rows());
+    curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
+                                          body.surface.positions.rows());
     return curve;
   }
   ExtractOptions wanted = options.extract;
   wanted.threads = options.threads;
   wanted.embed.detail = usual_detail;
   ExtractionCache cache;
-  RepairedExtraction found =
-      extract_repaired(body, options.repair, wanted, monitor, cache);
+  RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor, cache);
   if (options.extract.embed.detail > usual_detail) {
     curve.usual = std::move(found.extraction.skeleton);
     wanted.embed.detail = options.extract.embed.detail;
     found = extract_repaired(body, options.repair, wanted, monitor, cache);
   }
-  if (found.wrapped)
-    body = std::move(*found.wrapped);
+  if (found.wrapped) body = std::move(*found.wrapped);
   curve.certificate = found.extraction.certificate;
-  curve.certificate->curve_like =
-      made_of_tubes_but_for_sheets(*curve.certificate, body);
+  curve.certificate->curve_like = made_of_tubes_but_for_sheets(*curve.certificate, body);
   curve.skeleton = std::move(found.extraction.skeleton);
   return curve;
 }
 
 /// The plan of a single figure that has one, to be asked for at a finer level:
 /// a rabbit's tail makes no bird of it.
-BodyKind kind_of(const RepairedSurface &body, const CurveSkeleton &skeleton,
-                 const FigureOptions &options) {
+BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                 const FigureOptions& options) {
   const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
   const std::vector<Figure> figures = find_figures(body, dense, options);
   const BodyKind kind = figures.front().plan.plan;
-  return figures.size() > 1 || kind == BodyKind::other ? options.plan.plan
-                                                       : kind;
+  return figures.size() > 1 || kind == BodyKind::other ? options.plan.plan : kind;
 }
 
 bool states_up(SurfaceFormat format) {
@@ -95,7 +86,7 @@ bool states_up(SurfaceFormat format) {
          format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
 }
 
-} // namespace
+}  // namespace
 
 RepairOptions repair_for_rigs() {
   RepairOptions options;
@@ -103,69 +94,56 @@ RepairOptions repair_for_rigs() {
   return options;
 }
 
-Eigen::Matrix3d axes_to_gltf(SurfaceFormat format,
-                             const Eigen::Matrix3d &stated,
-                             const BodyPlan &plan, Direction asked) {
-  if (states_up(format))
-    return stated;
+Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated,
+                             const BodyPlan& plan, Direction asked) {
+  if (states_up(format)) return stated;
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
   const Eigen::RowVector3d up = plan.axes.row(1);
-  if (!is_known || up == Eigen::RowVector3d::UnitY())
-    return Eigen::Matrix3d::Identity();
-  if (up != Eigen::RowVector3d::UnitZ())
-    return plan.axes;
+  if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
+  if (up != Eigen::RowVector3d::UnitZ()) return plan.axes;
   return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
 
-bool made_of_tubes_but_for_sheets(const Certificate &certificate,
-                                  const RepairedSurface &body) {
+bool made_of_tubes_but_for_sheets(const Certificate& certificate, const RepairedSurface& body) {
   return certificate.curve_like ||
-         certificate.tube_share >=
-             tube_share_needed * (1 - share_of_sheets(body));
+         certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));
 }
 
-PolygonsRig rig_polygons(const PolygonSoup &soup, const RigSources &sources,
-                         const RigPolygonsOptions &options,
-                         const Monitor &monitor) {
+PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
+                         const RigPolygonsOptions& options, const Monitor& monitor) {
   CharacterOptions wanted = options.character;
   wanted.rig.skin.threads = wanted.parts.threads = options.threads;
   wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
   wanted.plan.z_is_up = soup.z_is_up;
-  if (sources.joints || sources.skeleton)
-    wanted.parts.follow = 0;
+  if (sources.joints || sources.skeleton) wanted.parts.follow = 0;
 
   require_valid(wanted.plan);
-  const RepairedSurface repaired =
-      repair(soup, options.repair, monitor, options.threads);
+  const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
   RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
   RepairedSurface body = body_of(repaired, parts);
   PolygonsRig result;
-  const auto [skeleton, certificate, usual] =
-      curve_for(sources, options, body, monitor);
+  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor);
   result.certificate = certificate;
   const Surface given{soup.positions, triangulate(soup)};
   if (sources.joints) {
     const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
-    const Rig made = weights_on_joints(body.surface, dense, *sources.joints,
-                                       wanted.rig.skin, monitor);
-    result.character.rig =
-        rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+    const Rig made =
+        weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
+    result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
     result.character.follows = followers_of(body.vertex_of_input);
   } else {
     wanted.plan.made_of_tubes = !certificate || certificate->curve_like;
     if (usual && wanted.plan.plan == BodyKind::automatic) {
       wanted.plan.plan = kind_of(body, *usual, {wanted.plan, options.threads});
     }
-    CharacterRig level =
-        level_of_character(rig_body(given, body, skeleton, wanted, monitor),
-                           skeleton, least_life(options.extract.embed.detail));
-    result.character =
-        within_budget(std::move(level), given, wanted.joint_budget);
+    CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
+                                            skeleton, least_life(options.extract.embed.detail));
+    result.character = within_budget(std::move(level), given, wanted.joint_budget);
   }
-  result.character.rig.to_y_up = axes_to_gltf(
-      soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
+  result.character.rig.to_y_up =
+      axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
   result.character.parts = std::move(parts);
   return result;
 }
 
-} // namespace curveskel
+}  // namespace curveskel
