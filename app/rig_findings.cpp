@@ -15,8 +15,16 @@ std::string skeleton_findings(const PolygonsRig& found, const RigPolygonsOptions
   return found.certificate ? all_failures(*found.certificate, options.extract.certificate) : "";
 }
 
-std::vector<std::string> plan_findings(const BodyPlan& plan, const CharacterOptions& options) {
+std::vector<std::string> rig_findings(const CharacterRig& character,
+                                      const CharacterOptions& options) {
+  const BodyPlan& plan = character.plan;
   std::vector<std::string> findings;
+  if (character.joints_over_budget > 0) {
+    findings.push_back(fmt::format(
+        "the joint budget of {} is not met: {} joints stay, roots and those that a body "
+        "needs",
+        options.joint_budget, options.joint_budget + character.joints_over_budget));
+  }
   if (!has_words(options.names, plan.plan)) {
     findings.push_back(fmt::format(
         "the names {} have no words for the plan {}; joints have readable names instead",

@@ -19,10 +19,10 @@ namespace curveskel {
 [[nodiscard]] std::string skeleton_findings(const PolygonsRig& found,
                                             const RigPolygonsOptions& options);
 
-/// A plan that was asked for and is not to be had, names without words for the plan. Precondition:
-/// the joints were made.
-[[nodiscard]] std::vector<std::string> plan_findings(const BodyPlan& plan,
-                                                     const CharacterOptions& options);
+/// A plan that was asked for and is not to be had, names without words for the plan, a budget of
+/// joints that is not met. Precondition: the joints were made.
+[[nodiscard]] std::vector<std::string> rig_findings(const CharacterRig& character,
+                                                    const CharacterOptions& options);
 
 /// VRM's figures look along z, their arms held out; this one does not. In a pose that is made,
 /// nothing.

@@ -14,16 +14,24 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::RowVector3d& point) { return {point.x(), point.y(), point.z()}; }
 
-Json roles_of(const RigRecord& record) {
+/// `first` is the rig's joint that is the plan's first.
+Json roles_of(const BodyPlan& plan, const Rig& rig, std::size_t first) {
   Json roles = Json::object();
-  for (std::size_t k = 0; k < record.character.plan.joints.size(); ++k) {
-    const PlannedJoint& joint = record.character.plan.joints[k];
-    roles[joint.role] = {{"joint", record.character.rig.names[k]},
-                         {"number", k},
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    const PlannedJoint& joint = plan.joints[k];
+    roles[joint.role] = {{"joint", rig.names[first + k]},
+                         {"number", first + k},
                          {"position", to_json(joint.position)},
                          {"reason", joint.reason}};
   }
   return roles;
+}
+
+Json plan_of(const BodyPlan& plan, const Rig& rig, std::size_t first) {
+  return {{"plan", name_of(body_kinds, plan.plan)}, {"plan_reason", plan.reason},
+          {"left", to_json(plan.axes.row(0))},      {"up", to_json(plan.axes.row(1))},
+          {"front", to_json(plan.axes.row(2))},     {"roles", roles_of(plan, rig, first)},
+          {"missing_roles", plan.missing}};
 }
 
 Json parts_of(const RigParts& parts) {
@@ -42,9 +50,14 @@ Json other_figures_of(const CharacterRig& character) {
   Json list = Json::array();
   for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
     const BodyPlan& plan = character.other_plans[k];
-    list.push_back({{"names_begin_with", "figure" + std::to_string(k + 2) + "_"},
-                    {"plan", name_of(body_kinds, plan.plan)},
-                    {"plan_reason", plan.reason}});
+    const std::string prefix = "figure" + std::to_string(k + 2) + "_";
+    const std::vector<std::string>& names = character.rig.names;
+    const auto first = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+      return name.starts_with(prefix);
+    });
+    Json figure = {{"names_begin_with", prefix}};
+    figure.update(plan_of(plan, character.rig, static_cast<std::size_t>(first - names.begin())));
+    list.push_back(std::move(figure));
   }
   return list;
 }
@@ -90,22 +103,15 @@ Json checks_of(const RigRecord& record) {
 }  // namespace
 
 std::string rig_report_json(const RigRecord& record) {
-  const BodyPlan& plan = record.character.plan;
-  const Json json = {{"program", program_and_version()},
-                     {"file", record.file},
-                     {"plan", name_of(body_kinds, plan.plan)},
-                     {"plan_reason", plan.reason},
-                     {"left", to_json(plan.axes.row(0))},
-                     {"up", to_json(plan.axes.row(1))},
-                     {"front", to_json(plan.axes.row(2))},
-                     {"roles", roles_of(record)},
-                     {"missing_roles", plan.missing},
-                     {"other_figures", other_figures_of(record.character)},
-                     {"parts", parts_of(record.character.parts)},
-                     {"joints_left_out", record.character.joints_left_out},
-                     {"joints", joints_of(record.character.rig)},
-                     {"checks", checks_of(record)},
-                     {"seconds", record.seconds}};
+  Json json = {{"program", program_and_version()}, {"file", record.file}};
+  json.update(plan_of(record.character.plan, record.character.rig, 0));
+  json.update({{"other_figures", other_figures_of(record.character)},
+               {"parts", parts_of(record.character.parts)},
+               {"joints_left_out", record.character.joints_left_out},
+               {"joints_over_budget", record.character.joints_over_budget},
+               {"joints", joints_of(record.character.rig)},
+               {"checks", checks_of(record)},
+               {"seconds", record.seconds}});
   return json.dump(2) + "\n";
 }
 

@@ -152,13 +152,14 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
     PolygonsRig found = rig_polygons(result.soup, sources, settings.make, monitor);
     result.shortcomings = skeleton_findings(found, settings.make);
     if (!sources.joints) {
-      for (std::string& finding : plan_findings(found.character.plan, settings.make.character)) {
+      for (std::string& finding : rig_findings(found.character, settings.make.character)) {
         result.findings.push_back(std::move(finding));
       }
     }
     result.character = std::move(found.character);
     result.exported =
-        rig_for_export(result.character.rig, result.character.plan, result.given, settings.form);
+        rig_for_export(result.character.rig, result.character.plan, result.given, settings.form,
+                       result.character.other_plans);
   });
   return result;
 }

@@ -1,6 +1,8 @@
 // curveskel evaluate: the certificate of any skeleton file, or a rig beside somebody's.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -53,7 +55,21 @@ std::string evaluation_table(const Evaluation& evaluation) {
   return text;
 }
 
+/// What `rig` writes beside glTF has no surface in it, or is not read with its weights.
+void require_readable_rig(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return std::tolower(letter); });
+  for (const char* const other : {".fbx", ".dae", ".usda", ".json", ".npz", ".txt", ".bvh"}) {
+    if (extension != other) continue;
+    throw Error(Fault::input, path.string() + ": found a " + other +
+                                  " file, of which --rig-truth reads no rig, needed .glb, .gltf or "
+                                  ".vrm; write one with curveskel rig, or with Blender");
+  }
+}
+
 RiggedSurface rigged_surface(const std::filesystem::path& path, const Monitor& monitor) {
+  require_readable_rig(path);
   const PolygonSoup soup = read_polygons(path, monitor);
   std::optional<Rig> rig = read_rig(path, monitor);
   if (rig && rig->joints.rows() > 0) {

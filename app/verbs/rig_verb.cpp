@@ -159,7 +159,7 @@ void warn_of(const PolygonsRig& found, const RigPolygonsOptions& options, bool j
   if (!failed.empty()) session.terminal.warn(failed);
   const BodyPlan& plan = found.character.plan;
   if (!joints_are_given) {
-    for (const std::string& finding : plan_findings(plan, options.character)) {
+    for (const std::string& finding : rig_findings(found.character, options.character)) {
       session.terminal.warn(finding);
     }
   }
@@ -201,7 +201,8 @@ int run_rig(RigArguments arguments, Session& session) {
   const Surface given{soup.positions, triangulate(soup)};
   const Rig written =
       rig_for_export(found.character.rig, found.character.plan, given,
-                     {arguments.pose, arguments.ground_root, !arguments.no_ends, joints_are_given});
+                     {arguments.pose, arguments.ground_root, !arguments.no_ends, joints_are_given},
+                     found.character.other_plans);
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/body_plan.hpp>
@@ -18,9 +19,10 @@ inline constexpr NameTable<RestPose, 2> rest_poses{{
 
 /// Sets `turns` so that a human rests in VRM's T pose: arms along x, level, hands in line with
 /// them, legs down, feet as they were. Joints and weights stay as they are, and with them the
-/// vertices of the file: what is at rest is where `turns` take them. Throws Error(Fault::input)
-/// where the plan is not a humanoid's. O(joints).
-void rest_in_t_pose(Rig& rig, const BodyPlan& plan);
+/// vertices of the file: what is at rest is where `turns` take them. `other_plans` are those of a
+/// scene's other figures, of which the humans take the pose, too. Throws Error(Fault::input) where
+/// no plan is a humanoid's. O(joints).
+void rest_in_t_pose(Rig& rig, const BodyPlan& plan, const std::vector<BodyPlan>& other_plans = {});
 
 /// The rig below one more joint, which moves nothing: on the ground below its first root, named
 /// "root". Precondition: `up` of length 1. O(#V + joints).
@@ -44,6 +46,7 @@ struct ExportOptions {
 /// A rig as the program that it is for wants it: the functions above, in their order. Errors as
 /// `rest_in_t_pose`.
 [[nodiscard]] Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
-                                 const ExportOptions& options);
+                                 const ExportOptions& options,
+                                 const std::vector<BodyPlan>& other_plans = {});
 
 }  // namespace curveskel

@@ -21,7 +21,8 @@ struct Rig {
   std::vector<std::string> names;  ///< j; may be empty strings
   SkinWeights weights;             ///< n x j
   /// j, what each is in a body, in the words of PlannedJoint::role; "" = nothing that is known.
-  /// Empty where nothing was looked for.
+  /// Those of a scene's second figure begin with "figure2_", and so on. Empty where nothing was
+  /// looked for.
   std::vector<std::string> roles = {};
   /// j, in the surface's coordinates, about each joint: from the surface as it is to where it
   /// rests. Empty = it rests as it is.

@@ -30,8 +30,9 @@ struct CharacterRig {
   RigParts parts;
   BodyPlan plan;                      ///< of the first figure
   std::vector<BodyPlan> other_plans;  ///< of a scene's other figures, the second first
-  std::vector<bool> follows;  ///< of each of the file's vertices, true if it is not of the body
-  int joints_left_out = 0;    ///< by the budget
+  std::vector<bool> follows;   ///< of each of the file's vertices, true if it is not of the body
+  int joints_left_out = 0;     ///< by the budget
+  int joints_over_budget = 0;  ///< at most, of a figure: what a body needs stays
 };
 
 /// The curve of the body alone: what only followers collapsed to is left out, and node_of_vertex is
@@ -41,9 +42,9 @@ struct CharacterRig {
 
 /// `find_plan`, `make_planned_rig`, `rig_of_given`, `name_roles`; where two or more bodies stand
 /// clear of one another and each is built to a plan, for each of them, side by side: the joints of
-/// the first come first, those of the k-th are named "figure<k>_..." and have no roles. `body` is
-/// what `body_of` leaves of a repaired surface, the skeleton the body's, `given` the file's surface
-/// in triangles. The result's `parts` are empty.
+/// the first come first, names and roles of the k-th begin with "figure<k>_". `body` is what
+/// `body_of` leaves of a repaired surface, the skeleton the body's, `given` the file's surface in
+/// triangles. The result's `parts` are empty.
 [[nodiscard]] CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                                     const CurveSkeleton& skeleton,
                                     const CharacterOptions& options = {},
@@ -68,9 +69,10 @@ struct CharacterRig {
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
 
-/// The character with at most so many joints for each of its figures: from the tips inward those go
+/// The character with at most so many joints in each of its figures: from the tips inward those go
 /// first that move the least of the surface `given`, of equals the one with the shorter bone;
-/// joints without a role before those with one, mirror images (".L", ".R") together. What VRM
+/// joints without a role before those with one, mirror images (".L", ".R") together, of the digits
+/// of a human's hands all last joints together, then all middle ones, then all first ones. What VRM
 /// requires of a human stays, and so do roots and the trunk, neck and head of others. What stays
 /// moves what the joints below it moved. 0 = all stay. Throws Error(Fault::usage) below 0.
 /// O(weights + joints log joints).

@@ -13,6 +13,7 @@
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
 #include "rig/gltf/skin_numbers.hpp"
+#include "rig/joints/figure_name.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,12 +26,15 @@ bool has_role(const Rig& rig, std::string_view role) {
   return std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end();
 }
 
-/// A human's roles are VRM's words; joints without one have none there either.
+/// A human's roles are VRM's words; joints without one, and those of a scene's other figures, have
+/// none there either.
 Json bones_of(const Json& gltf, const Rig& rig) {
   const Json& nodes = gltf.at("skins").back().at("joints");
   Json bones = Json::object();
   for (std::size_t joint = 0; joint < rig.roles.size(); ++joint) {
-    if (!rig.roles[joint].empty()) bones[rig.roles[joint]] = {{"node", nodes.at(joint)}};
+    const std::string& role = rig.roles[joint];
+    if (role.empty() || of_figure(role).figure > 0) continue;
+    bones[role] = {{"node", nodes.at(joint)}};
   }
   return bones;
 }

@@ -48,17 +48,22 @@ class Hanging {
   }
 
   /// Prim (1957) for those that others may hang from; the rest hang from the nearest of these.
-  std::vector<Hinge> hang(const std::vector<std::vector<int>>& components) {
+  std::vector<Hinge> hang(const std::vector<std::vector<int>>& components,
+                          const std::vector<char>& is_ground) {
     constexpr std::size_t most_above = 1000;
     const std::size_t above = std::min(components.size(), most_above);
     for (const auto& component : components) parts_.push_back(bunches(component));
     links_.resize(components.size());
     std::vector<std::size_t> open;
-    for (std::size_t part = 1; part < above; ++part) open.push_back(part);
+    for (std::size_t part = 1; part < above; ++part) {
+      if (is_ground[part] == 0) open.push_back(part);
+    }
     std::size_t last = 0;
     while (true) {
       for (const std::size_t part : open) link(part, last);
-      for (std::size_t part = above; part < parts_.size(); ++part) link(part, last);
+      for (std::size_t part = above; part < parts_.size(); ++part) {
+        if (is_ground[part] == 0) link(part, last);
+      }
       if (open.empty()) break;
       const auto next = std::min_element(open.begin(), open.end(),
                                          [this](auto a, auto b) { return links_[a] < links_[b]; });
@@ -233,11 +238,22 @@ class Hanging {
   std::vector<Link> links_;  // by part, to those that others hang from so far
 };
 
+std::vector<char> are_ground(const std::vector<std::vector<int>>& components,
+                             const std::vector<int>& ground) {
+  std::vector<char> is_ground(components.size(), 0);
+  for (std::size_t part = 0; part < components.size(); ++part) {
+    const auto found = std::find(ground.begin(), ground.end(), components[part].front());
+    if (found != ground.end()) is_ground[part] = 1;
+  }
+  return is_ground;
+}
+
 }  // namespace
 
 std::vector<Hinge> hang_components(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
-                                   const std::vector<std::vector<int>>& components) {
-  return Hanging(skeleton, radii).hang(components);
+                                   const std::vector<std::vector<int>>& components,
+                                   const std::vector<int>& ground) {
+  return Hanging(skeleton, radii).hang(components, are_ground(components, ground));
 }
 
 }  // namespace curveskel

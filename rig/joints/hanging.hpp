@@ -22,11 +22,13 @@ struct Hinge {
 /// not from the finger beside it. Of a link the component's own end goes on to the tip of its curve
 /// within two radii, else to the junction within one.
 /// Bodies of a scene stand apart: where the gap is more than a quarter of the longer diagonal of
-/// the two bodies, whatever hangs from them included, one hangs from none.
+/// the two bodies, whatever hangs from them included, one hangs from none. Nor do those with a
+/// node of `ground`, and nothing hangs from them.
 /// Precondition: the components are the skeleton's, by their nodes; radii by node, > 0. Nothing
 /// hangs from any but the first 1000.
 [[nodiscard]] std::vector<Hinge> hang_components(const CurveSkeleton& skeleton,
                                                  const Eigen::VectorXd& radii,
-                                                 const std::vector<std::vector<int>>& components);
+                                                 const std::vector<std::vector<int>>& components,
+                                                 const std::vector<int>& ground = {});
 
 }  // namespace curveskel

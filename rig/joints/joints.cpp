@@ -47,11 +47,11 @@ double usual_planned_bone(const std::vector<PlannedJoint>& planned) {
 class JointPlacer {
  public:
   JointPlacer(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
-              const JointOptions& options)
+              const JointOptions& options, const std::vector<int>& ground)
       : skeleton_(skeleton),
         planned_(planned),
         options_(options),
-        tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node)),
+        tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node, ground)),
         radii_(usable_radii(skeleton)),
         least_length_(options.least_bone * longest_side(skeleton.nodes)),
         least_radius_(std::max(options.straight_bone * longest_side(skeleton.nodes),
@@ -463,7 +463,7 @@ Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) 
 }
 
 Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
-                            const JointOptions& options) {
+                            const JointOptions& options, const std::vector<int>& ground) {
   require_valid(options);
   require_sound(skeleton, "place_joints");
   const Eigen::Index nodes = skeleton.nodes.rows();
@@ -475,7 +475,7 @@ Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<Pla
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }
-  return JointPlacer(skeleton, planned, options).place();
+  return JointPlacer(skeleton, planned, options, ground).place();
 }
 
 }  // namespace curveskel

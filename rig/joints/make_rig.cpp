@@ -8,6 +8,7 @@
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
 #include "base/parallel.hpp"
+#include "rig/joints/ground_nodes.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/skin/skin_bones.hpp"
@@ -71,7 +72,8 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   require_sound(skeleton, "make_rig");
   require_nodes_for(surface, skeleton, "make_rig");
   monitor.report("joints", 0);
-  Joints joints = place_planned_joints(skeleton, plan.joints, options.joints);
+  Joints joints = place_planned_joints(skeleton, plan.joints, options.joints,
+                                       ground_nodes(surface, skeleton, plan));
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights = skin_weights(

@@ -21,7 +21,9 @@ struct RootedTree {
 [[nodiscard]] Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton);
 
 /// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. The choice of
-/// roots and the cutting of cycles: see `place_joints`; the links of components: `hang_components`.
-[[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted);
+/// roots and the cutting of cycles: see `place_joints`; the links of components, and the ground:
+/// `hang_components`.
+[[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted,
+                                     const std::vector<int>& ground = {});
 
 }  // namespace curveskel

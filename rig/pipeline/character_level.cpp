@@ -9,6 +9,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/rig_character.hpp>
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 #include "surface/spatial/segment.hpp"
@@ -38,14 +39,17 @@ double life_at(const CurveSkeleton& skeleton, const Eigen::VectorXd& lives,
   return life;
 }
 
-/// "left" or "right" for a role such as "leftIndexProximal", else "".
+/// "left" or "right" for a role such as "leftIndexProximal", else "". That of a scene's second
+/// figure begins with "figure2_", and so on.
 std::string_view hand_of(std::string_view role) {
   constexpr std::array<std::string_view, 5> digits{"Thumb", "Index", "Middle", "Ring", "Little"};
   for (const std::string_view side : {"left", "right"}) {
-    if (!role.starts_with(side)) continue;
-    const std::string_view rest = role.substr(side.size());
+    const std::string_view own = of_figure(role).own;
+    if (!own.starts_with(side)) continue;
+    const std::string_view rest = own.substr(side.size());
     const auto begins = [&](std::string_view digit) { return rest.starts_with(digit); };
-    if (std::any_of(digits.begin(), digits.end(), begins)) return role.substr(0, side.size());
+    if (std::any_of(digits.begin(), digits.end(), begins))
+      return role.substr(0, role.size() - rest.size());
   }
   return "";
 }

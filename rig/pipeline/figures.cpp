@@ -7,10 +7,14 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/certificate.hpp>
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_parts.hpp>
+#include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/limb_name.hpp"
+#include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,25 +29,18 @@ Boxes boxes_of(const Surface& surface, const Eigen::VectorXi& group, int count) 
   return boxes;
 }
 
-/// Of each component the number of those whose boxes meet, directly or by way of others.
-std::vector<int> groups_that_meet(const Boxes& boxes) {
+/// Of each component the number of those whose boxes meet, directly or by way
+/// of others; with one
+/// (-1: none) that meets no other.
+std::vector<int> groups_that_meet(const Boxes& boxes, int alone) {
   UnionFind joined(static_cast<std::int64_t>(boxes.size()));
   for (int a = 0; a < static_cast<int>(boxes.size()); ++a) {
     for (int b = 0; b < a; ++b) {
+      if (a == alone || b == alone) continue;
       if (boxes[idx(a)].intersects(boxes[idx(b)])) joined.unite(a, b);
     }
   }
   return joined.numbers();
-}
-
-/// The components of one group, with their curves.
-Figure part_of_scene(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                     const Eigen::VectorXi& component_of_vertex, const std::vector<int>& group,
-                     int wanted) {
-  RigParts parts;
-  parts.part_of_vertex = component_of_vertex;
-  for (const int own : group) parts.parts.push_back({.follows = own != wanted});
-  return {body_of(body, parts), skeleton_of_body(skeleton, parts), {}};
 }
 
 /// How many tips the curves of each group have.
@@ -70,19 +67,6 @@ std::vector<int> tips_of(const CurveSkeleton& skeleton, const Eigen::VectorXi& g
 }
 
 bool is_planned(const BodyPlan& plan) { return !plan.joints.empty(); }
-
-/// The groups that are no figures go with the nearest one.
-void join_to_nearest(std::vector<int>& group, const Boxes& boxes, const std::vector<int>& figures) {
-  std::vector<int> nearest(boxes.size());
-  for (std::size_t k = 0; k < boxes.size(); ++k) {
-    nearest[k] = *std::min_element(figures.begin(), figures.end(), [&](int a, int b) {
-      return boxes[k].squaredExteriorDistance(boxes[idx(a)]) <
-             boxes[k].squaredExteriorDistance(boxes[idx(b)]);
-    });
-  }
-  for (const int figure : figures) nearest[idx(figure)] = figure;
-  for (int& own : group) own = nearest[idx(own)];
-}
 
 template <typename Rows>
 void append_rows(Rows& rows, const Rows& more) {
@@ -137,53 +121,172 @@ void append(Rig& all, const Rig& more) {
     all.readable.insert(all.readable.end(), added.begin(), added.end());
   }
   all.names.insert(all.names.end(), more.names.begin(), more.names.end());
-  all.roles.insert(all.roles.end(), more.names.size(), "");
+  all.roles.insert(all.roles.end(), more.roles.begin(), more.roles.end());
 }
+
+/// The groups of a scene's components, one of which may be a figure.
+class Groups {
+ public:
+  Groups(const RepairedSurface& body, const CurveSkeleton& skeleton, const Topology& counted,
+         const FigureOptions& options)
+      : body_(body), skeleton_(skeleton), counted_(counted), options_(options) {}
+
+  /// Those that are each built to a plan, the largest first; all else goes with the one whose box
+  /// is nearest. `ground` (-1: none) is a component that groups with no other.
+  [[nodiscard]] std::vector<Figure> figures(int ground) const {
+    const std::vector<int> group = groups_that_meet(
+        boxes_of(body_.surface, counted_.component_of_vertex, counted_.components()), ground);
+    const int groups = 1 + *std::max_element(group.begin(), group.end());
+    if (groups < 2) return {};
+    Eigen::VectorXi group_of_vertex = counted_.component_of_vertex;
+    for (int& number : group_of_vertex) number = group[idx(number)];
+    const Boxes boxes = boxes_of(body_.surface, group_of_vertex, groups);
+    constexpr int least_tips = 4;  // two pairs of limbs: no plan has fewer
+    const std::vector<int> tips = tips_of(skeleton_, group_of_vertex, groups);
+    std::vector<std::pair<int, BodyPlan>> planned;
+    for (int wanted = 0; wanted < groups; ++wanted) {
+      if (tips[idx(wanted)] < least_tips) continue;
+      BodyPlan plan = plan_of(group, wanted);
+      if (!is_planned(plan) || !stands_on(plan, group, wanted, ground)) continue;
+      planned.emplace_back(wanted, std::move(plan));
+    }
+    if (planned.empty()) return {};
+    std::stable_sort(planned.begin(), planned.end(), [&](const auto& a, const auto& b) {
+      return boxes[idx(a.first)].diagonal().norm() > boxes[idx(b.first)].diagonal().norm();
+    });
+    std::vector<int> numbers;
+    for (const auto& [wanted, plan] : planned) numbers.push_back(wanted);
+    const std::vector<int> joined = joined_to_nearest(group, boxes, numbers);
+    std::vector<Figure> found;
+    found.reserve(planned.size());
+    for (auto& [wanted, plan] : planned) {
+      std::vector<int> near = joined;  // fingers may stand clear of a hand; but no house is a part
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        const double size = boxes[idx(group[k])].diagonal().norm();
+        if (size > boxes[idx(wanted)].diagonal().norm()) near[k] = group[k];
+      }
+      BodyPlan with_near = near == group ? BodyPlan{} : plan_of(near, wanted);
+      const bool is_piece = near != group && with_near.plan != plan.plan;  // of one, seen awry
+      const bool is_found = options_.plan.plan == BodyKind::automatic;
+      if (is_found && is_piece && planned.size() == 1) return {};
+      const bool is_better =
+          with_near.plan == plan.plan && with_near.joints.size() > plan.joints.size();
+      found.push_back(is_better ? with_all_that_joins(near, joined, wanted, std::move(with_near))
+                                : with_all_that_joins(group, joined, wanted, std::move(plan)));
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] RigParts parts_of(const std::vector<int>& group, int wanted) const {
+    RigParts parts;
+    parts.part_of_vertex = counted_.component_of_vertex;
+    for (const int own : group) parts.parts.push_back({.follows = own != wanted});
+    return parts;
+  }
+
+  /// The ground ends below the group's middle; without one, any group does.
+  [[nodiscard]] bool stands_on(const BodyPlan& plan, const std::vector<int>& group, int wanted,
+                               int ground) const {
+    if (ground < 0) return true;
+    const Eigen::VectorXd heights = body_.surface.positions * plan.axes.row(1).transpose();
+    Eigen::AlignedBox1d of_ground;
+    Eigen::AlignedBox1d of_group;
+    for (Eigen::Index v = 0; v < heights.size(); ++v) {
+      const int component = counted_.component_of_vertex[v];
+      if (component == ground) of_ground.extend(heights.segment<1>(v));
+      if (group[idx(component)] == wanted) of_group.extend(heights.segment<1>(v));
+    }
+    return of_ground.max()[0] < of_group.center()[0];
+  }
+
+  /// As if it were alone. A scene that is not made of tubes may have a figure
+  /// that is.
+  [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) const {
+    const RigParts parts = parts_of(group, wanted);
+    const RepairedSurface body = body_of(body_, parts);
+    const CurveSkeleton skeleton = skeleton_of_body(skeleton_, parts);
+    PlanOptions options = options_.plan;
+    if (!options.made_of_tubes) {
+      options.made_of_tubes = made_of_tubes_but_for_sheets(
+          evaluate(body.surface, skeleton, {.threads = options_.threads}), body);
+    }
+    return plan_with_sheets(body, skeleton, options);
+  }
+
+  /// Of each group the number of the figure whose box is nearest.
+  [[nodiscard]] static std::vector<int> joined_to_nearest(const std::vector<int>& group,
+                                                          const Boxes& boxes,
+                                                          const std::vector<int>& figures) {
+    std::vector<int> nearest(boxes.size());
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      nearest[k] = *std::min_element(figures.begin(), figures.end(), [&](int a, int b) {
+        return boxes[k].squaredExteriorDistance(boxes[idx(a)]) <
+               boxes[k].squaredExteriorDistance(boxes[idx(b)]);
+      });
+    }
+    for (const int figure : figures) nearest[idx(figure)] = figure;
+    std::vector<int> joined;
+    joined.reserve(group.size());
+    for (const int own : group) joined.push_back(nearest[idx(own)]);
+    return joined;
+  }
+
+  /// The plan is by the nodes of the group alone.
+  [[nodiscard]] Figure with_all_that_joins(const std::vector<int>& group,
+                                           const std::vector<int>& joined, int wanted,
+                                           BodyPlan plan) const {
+    const RigParts parts = parts_of(joined, wanted);
+    const std::vector<int> alone = nodes_of_body(skeleton_, parts_of(group, wanted));
+    const std::vector<int> all = nodes_of_body(skeleton_, parts);
+    for (PlannedJoint& joint : plan.joints) {
+      if (joint.node < 0) continue;
+      const auto found = std::lower_bound(all.begin(), all.end(), alone[idx(joint.node)]);
+      joint.node = static_cast<int>(found - all.begin());
+    }
+    return {body_of(body_, parts), skeleton_of_body(skeleton_, parts), std::move(plan)};
+  }
+
+  const RepairedSurface& body_;
+  const CurveSkeleton& skeleton_;
+  const Topology& counted_;
+  const FigureOptions& options_;
+};
 
 }  // namespace
 
 std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                                 const PlanOptions& options) {
-  if (skeleton.node_of_vertex.size() != body.surface.positions.rows()) return {};
+                                 const FigureOptions& options) {
+  std::vector<Figure> whole;
+  whole.push_back({body, skeleton, plan_with_sheets(body, skeleton, options.plan)});
+  const BodyKind wanted = options.plan.plan;
+  const bool says_of = skeleton.node_of_vertex.size() == body.surface.positions.rows();
+  if (!says_of || wanted == BodyKind::none || wanted == BodyKind::other) return whole;
   const Topology counted = topology(body.surface);
-  if (counted.components() < 2 || options.plan != BodyKind::automatic) return {};
-  std::vector<int> group =
-      groups_that_meet(boxes_of(body.surface, counted.component_of_vertex, counted.components()));
-  const int groups = 1 + *std::max_element(group.begin(), group.end());
-  if (groups < 2) return {};
-  Eigen::VectorXi group_of_vertex = counted.component_of_vertex;
-  for (int& number : group_of_vertex) number = group[idx(number)];
-  const Boxes boxes = boxes_of(body.surface, group_of_vertex, groups);
-
-  const auto alone = [&](int wanted) {
-    Figure figure = part_of_scene(body, skeleton, counted.component_of_vertex, group, wanted);
-    figure.plan = plan_with_sheets(figure.body, figure.skeleton, options);
-    return figure;
-  };
-  constexpr int least_tips = 4;  // two pairs of limbs: no plan has fewer
-  const std::vector<int> tips = tips_of(skeleton, group_of_vertex, groups);
-  std::vector<int> planned;
-  for (int wanted = 0; wanted < groups; ++wanted) {
-    if (tips[idx(wanted)] >= least_tips && is_planned(alone(wanted).plan))
-      planned.push_back(wanted);
-  }
-  if (planned.size() < 2) return {};
-  join_to_nearest(group, boxes, planned);
-  std::stable_sort(planned.begin(), planned.end(), [&](int a, int b) {
-    return boxes[idx(a)].diagonal().norm() > boxes[idx(b)].diagonal().norm();
-  });
-  std::vector<Figure> figures;
-  figures.reserve(planned.size());
-  for (const int wanted : planned) figures.push_back(alone(wanted));
-  return figures;
+  if (counted.components() < 2) return whole;
+  const Groups groups(body, skeleton, counted, options);
+  constexpr int no_ground = -1;
+  std::vector<Figure> figures = groups.figures(no_ground);
+  const std::size_t planned = whole.front().plan.joints.size();
+  if (figures.size() > 1) return figures;
+  if (figures.size() == 1 && figures.front().plan.joints.size() >= planned) return figures;
+  if (planned > 0) return whole;
+  const std::vector<double> areas = component_areas(body.surface, counted);
+  const auto largest = std::max_element(areas.begin(), areas.end());
+  figures = groups.figures(static_cast<int>(largest - areas.begin()));
+  return figures.empty() ? whole : figures;
 }
 
 RiggedBody side_by_side(std::vector<RiggedBody> figures) {
   RiggedBody all = std::move(figures.front());
   all.rig.roles.resize(all.rig.names.size());
   for (std::size_t k = 1; k < figures.size(); ++k) {
-    for (auto* const names : {&figures[k].rig.names, &figures[k].rig.readable}) {
-      for (std::string& name : *names) name.insert(0, "figure" + std::to_string(k + 1) + "_");
+    Rig& rig = figures[k].rig;
+    rig.roles.resize(rig.names.size());
+    for (auto* const names : {&rig.names, &rig.readable, &rig.roles}) {
+      for (std::string& name : *names) {
+        if (!name.empty()) name.insert(0, figure_prefix(k));
+      }
     }
     append(all, figures[k]);
     append(all.rig, figures[k].rig);

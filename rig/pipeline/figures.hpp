@@ -8,6 +8,7 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig.hpp>
+#include <curveskel/rig_parts.hpp>
 #include <curveskel/role_names.hpp>
 
 namespace curveskel {
@@ -19,19 +20,33 @@ struct Figure {
   BodyPlan plan;
 };
 
-/// `find_plan` of the body without the components that were made of sheets, if that is a humanoid's
-/// or a quadruped's: capes and manes are no limbs. Else of all, as a bird's wings may be sheets.
+/// `find_plan` of the body without the components that were made of sheets, if
+/// that is a humanoid's or a quadruped's: capes and manes are no limbs. Else of
+/// all, as a bird's wings may be sheets.
 [[nodiscard]] BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                         PlanOptions options);
 
-/// The bodies that stand clear of one another (their boxes do not meet) and are each built to a
-/// plan: two or more, the largest first, or none. All else that is not a figure goes with the one
-/// whose box is nearest. `skeleton` has node_of_vertex, by the body's vertices; without it there
-/// are none. O((#V + #N) times the number of groups with four tips or more, and the square of the
-/// number of components).
+struct FigureOptions {
+  PlanOptions plan;
+  int threads = 0;  ///< 0 = all
+};
+
+/// The nodes to whose component some vertex of the body collapsed, or nothing
+/// at all; ascending.
+[[nodiscard]] std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts);
+
+/// The bodies that stand clear of one another (their boxes do not meet) and are
+/// each built to a plan, the largest first; a single one unless the whole has a
+/// plan of more joints. Where neither has a plan, those that there are without
+/// the component of the largest area, which may be the ground. All else goes
+/// with the figure whose box is nearest. Else the whole body is the only
+/// figure. Of a scene that is not made of tubes each group is judged alone.
+/// `skeleton` has node_of_vertex, by the body's vertices; without it there is
+/// one figure. O((#V + #N) times the number of groups with four tips or more,
+/// and the square of the number of components).
 [[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
                                                const CurveSkeleton& skeleton,
-                                               const PlanOptions& options);
+                                               const FigureOptions& options);
 
 /// A rig, and the surface and skeleton that it is of.
 struct RiggedBody {
@@ -40,8 +55,8 @@ struct RiggedBody {
   Rig rig;
 };
 
-/// All figures side by side: the joints of the first keep names and roles, those of the k-th are
-/// named "figure<k>_..." and have no roles, as programs expect one of each.
+/// All figures side by side: the joints of the first keep names and roles,
+/// those of the k-th begin with "figure<k>_", as programs expect one of each.
 [[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures);
 
 }  // namespace curveskel

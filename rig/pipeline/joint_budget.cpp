@@ -1,14 +1,18 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <map>
 #include <queue>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/union_find.hpp>
 #include <curveskel/rig_character.hpp>
 #include "base/option_ranges.hpp"
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 
@@ -42,6 +46,40 @@ Eigen::VectorXd areas_moved(const Rig& rig, const Surface& given) {
   return moved;
 }
 
+/// The digits of a human's hands by their places: 1 for those next to the hand, 3 for the last; 0
+/// for all else.
+int place_in_digit(std::string_view role) {
+  const auto is = [&](std::string_view place) { return role.ends_with(place); };
+  const bool is_thumb = role.starts_with("leftThumb") || role.starts_with("rightThumb");
+  if (is("Distal")) return 3;
+  if (is("Intermediate") || (is_thumb && is("Proximal"))) return 2;
+  return is("Proximal") || is("Metacarpal") ? 1 : 0;
+}
+
+/// Of a figure's joints those that go together: mirror images, and of the digits of both hands
+/// those of one place, as a hand is not left with its little finger alone.
+std::vector<std::vector<int>> joints_that_go_together(const Rig& rig) {
+  const std::vector<int> twins = twins_of(rig);
+  const auto count = static_cast<int>(rig.names.size());
+  UnionFind joined(count);
+  std::map<std::pair<std::size_t, int>, int> first_digits;  // by figure and place
+  for (int joint = 0; joint < count; ++joint) {
+    if (twins[idx(joint)] >= 0) joined.unite(joint, twins[idx(joint)]);
+    if (idx(joint) >= rig.roles.size()) continue;
+    const FigureName role = of_figure(rig.roles[idx(joint)]);
+    const int place = place_in_digit(role.own);
+    if (place == 0) continue;
+    joined.unite(first_digits.try_emplace({role.figure, place}, joint).first->second, joint);
+  }
+  std::vector<std::vector<int>> together(idx(count));  // by root
+  for (int joint = 0; joint < count; ++joint) together[idx(joined.root(joint))].push_back(joint);
+  std::vector<std::vector<int>> by_joint(idx(count));
+  for (int joint = 0; joint < count; ++joint) {
+    by_joint[idx(joint)] = together[idx(joined.root(joint))];
+  }
+  return by_joint;
+}
+
 /// Takes joints from the tips of a rig.
 class TipTaker {
  public:
@@ -50,29 +88,35 @@ class TipTaker {
         rig_(character.rig),
         moved_(areas_moved(rig_, given)),
         children_(rig_.names.size(), 0),
-        twin_(twins_of(rig_)),
+        together_(joints_that_go_together(rig_)),
         stays_(rig_.names.size(), 1) {
     for (const int parent : rig_.parents) {
       if (parent >= 0) ++children_[idx(parent)];
     }
-    for (int joint = 0; joint < static_cast<int>(stays_.size()); ++joint) offer(joint);
   }
 
-  /// A joint and its mirror image go together.
-  std::vector<char> leave(std::size_t most) {
-    std::size_t left = stays_.size();
+  /// Of one figure; the number that stays.
+  std::size_t leave(std::size_t figure, std::size_t most) {
+    tips_ = {};
+    std::size_t left = 0;
+    for (int joint = 0; joint < static_cast<int>(stays_.size()); ++joint) {
+      if (of_figure(rig_.names[idx(joint)]).figure != figure) continue;
+      ++left;
+      offer(joint);
+    }
     while (left > most && !tips_.empty()) {
       const int joint = tips_.top().joint;
       tips_.pop();
-      const int twin = twin_[idx(joint)];
-      for (const int one : {joint, twin}) {
-        if (one < 0 || stays_[idx(one)] == 0) continue;
+      for (const int one : together_[idx(joint)]) {
+        if (stays_[idx(one)] == 0) continue;
         take(one);
         --left;
       }
     }
-    return std::move(stays_);
+    return left;
   }
+
+  std::vector<char> stays() { return std::move(stays_); }
 
  private:
   [[nodiscard]] bool is_tip(int joint) const {
@@ -87,11 +131,11 @@ class TipTaker {
   }
 
   void offer(int joint) {
-    if (stays_[idx(joint)] == 0 || !is_tip(joint)) return;
-    const int twin = twin_[idx(joint)];
-    if (twin >= 0 && !is_tip(twin)) return;
+    if (stays_[idx(joint)] == 0) return;
+    const std::vector<int>& all = together_[idx(joint)];
+    if (!std::all_of(all.begin(), all.end(), [this](int one) { return is_tip(one); })) return;
     Worth worth = worth_of(joint);
-    if (twin >= 0) worth.moved_area = std::max(worth.moved_area, moved_[twin]);
+    for (const int one : all) worth.moved_area = std::max(worth.moved_area, moved_[one]);
     tips_.push(worth);
   }
 
@@ -110,8 +154,8 @@ class TipTaker {
   const CharacterRig& character_;
   const Rig& rig_;
   Eigen::VectorXd moved_;
-  std::vector<int> children_;  // that stay
-  std::vector<int> twin_;
+  std::vector<int> children_;               // that stay
+  std::vector<std::vector<int>> together_;  // by joint, itself among them
   std::vector<char> stays_;
   std::priority_queue<Worth, std::vector<Worth>, IsWorthMore> tips_;
 };
@@ -120,12 +164,16 @@ class TipTaker {
 
 CharacterRig within_budget(CharacterRig character, const Surface& given, int joints) {
   OptionCheck("CharacterOptions").number("joint_budget", joints, {0});
-  const std::size_t figures = 1 + character.other_plans.size();
-  const std::size_t most = figures * static_cast<std::size_t>(joints);
   const std::size_t count = character.rig.names.size();
-  if (joints == 0 || count <= most) return character;
-  std::vector<char> stays = TipTaker(character, given).leave(most);
-  CharacterRig result = with_joints(std::move(character), std::move(stays));
+  if (joints == 0 || count <= static_cast<std::size_t>(joints)) return character;
+  const auto most = static_cast<std::size_t>(joints);
+  std::size_t left = most;
+  TipTaker taker(character, given);
+  for (std::size_t figure = 0; figure <= character.other_plans.size(); ++figure) {
+    left = std::max(left, taker.leave(figure, most));
+  }
+  CharacterRig result = with_joints(std::move(character), taker.stays());
+  result.joints_over_budget = static_cast<int>(left - most);
   result.joints_left_out = static_cast<int>(count - result.rig.names.size());
   return result;
 }

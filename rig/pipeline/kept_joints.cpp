@@ -7,33 +7,54 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
 
 namespace curveskel {
+namespace {
+
+const BodyPlan& plan_of(const CharacterRig& character, std::size_t figure) {
+  const bool is_other = figure > 0 && figure <= character.other_plans.size();
+  return is_other ? character.other_plans[figure - 1] : character.plan;
+}
+
+/// `first` is the rig's joint that is the plan's first.
+void keep_planned(BodyPlan& plan, const std::vector<int>& number, std::size_t first) {
+  std::vector<PlannedJoint> kept;
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    if (number[first + k] < 0) continue;
+    kept.push_back(std::move(plan.joints[k]));
+    int& parent = kept.back().parent;
+    if (parent >= 0) parent = number[first + idx(parent)] - number[first];
+  }
+  plan.joints = std::move(kept);
+}
+
+}  // namespace
 
 bool is_required(const CharacterRig& character, std::size_t joint) {
   if (joint >= character.rig.roles.size()) return false;
-  const std::string& role = character.rig.roles[joint];
-  if (character.plan.plan == BodyKind::humanoid) {
-    return std::find(required_human_roles.begin(), required_human_roles.end(), role) !=
+  const FigureName role = of_figure(character.rig.roles[joint]);
+  if (plan_of(character, role.figure).plan == BodyKind::humanoid) {
+    return std::find(required_human_roles.begin(), required_human_roles.end(), role.own) !=
            required_human_roles.end();
   }
   const std::array<std::string_view, 3> trunk{"spine", "neck", "head"};
   return std::any_of(trunk.begin(), trunk.end(),
-                     [&](std::string_view word) { return role.starts_with(word); });
+                     [&role](std::string_view word) { return role.own.starts_with(word); });
 }
 
 CharacterRig with_joints(CharacterRig character, std::vector<char> stays) {
   const std::vector<int> number = numbers_of_kept(character.rig, stays);
-  character.rig = keep_joints(character.rig, number);
-  std::vector<PlannedJoint> kept;
-  for (std::size_t k = 0; k < character.plan.joints.size(); ++k) {
-    if (number[k] < 0) continue;
-    kept.push_back(std::move(character.plan.joints[k]));
-    int& parent = kept.back().parent;
-    if (parent >= 0) parent = number[idx(parent)];
+  std::vector<std::size_t> firsts;
+  for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
+    firsts.push_back(first_joint_of(character.rig, k + 1));
   }
-  character.plan.joints = std::move(kept);
+  character.rig = keep_joints(character.rig, number);
+  keep_planned(character.plan, number, 0);
+  for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
+    keep_planned(character.other_plans[k], number, firsts[k]);
+  }
   return character;
 }
 

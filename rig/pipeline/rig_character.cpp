@@ -11,9 +11,6 @@
 #include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
-namespace {
-
-/// The nodes to whose component some vertex of the body collapsed, or nothing at all.
 std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
   const Eigen::Index count = skeleton.nodes.rows();
   UnionFind joined(count);
@@ -33,6 +30,8 @@ std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& pa
   }
   return nodes;
 }
+
+namespace {
 
 /// A component follows if it was made of a sheet.
 RigParts sheets_follow(const RepairedSurface& body) {
@@ -114,8 +113,7 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
   const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
-  std::vector<Figure> figures = find_figures(body, dense, wanted);
-  if (figures.empty()) figures.push_back({body, dense, plan_with_sheets(body, dense, wanted)});
+  std::vector<Figure> figures = find_figures(body, dense, {wanted, options.rig.skin.threads});
   CharacterRig result;
   result.plan = figures.front().plan;
   std::vector<RiggedBody> made;

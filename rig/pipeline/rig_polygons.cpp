@@ -18,7 +18,8 @@
 namespace curveskel {
 namespace {
 
-/// The level at which all is there that the surgery and growth make, see `least_life`.
+/// The level at which all is there that the surgery and growth make, see
+/// `least_life`.
 constexpr double usual_detail = EmbedOptions().detail;
 
 /// Of the area. One vertex of each sheet is known.
@@ -43,8 +44,8 @@ struct Curve {
   std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
 };
 
-/// `body` becomes its wrap where only a wrap would do. Everything is named first; then what a
-/// coarser level does without goes.
+/// `body` becomes its wrap where only a wrap would do. Everything is named
+/// first; then what a coarser level does without goes.
 Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
                 const Monitor& monitor) {
   Curve curve;
@@ -70,14 +71,14 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
   return curve;
 }
 
-/// The plan of a single figure that has one, to be asked for at a finer level: a rabbit's tail
-/// makes no bird of it.
+/// The plan of a single figure that has one, to be asked for at a finer level:
+/// a rabbit's tail makes no bird of it.
 BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                 const PlanOptions& options) {
+                 const FigureOptions& options) {
   const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
-  if (!find_figures(body, dense, options).empty()) return options.plan;
-  const BodyKind kind = plan_with_sheets(body, dense, options).plan;
-  return kind == BodyKind::other ? options.plan : kind;
+  const std::vector<Figure> figures = find_figures(body, dense, options);
+  const BodyKind kind = figures.front().plan.plan;
+  return figures.size() > 1 || kind == BodyKind::other ? options.plan.plan : kind;
 }
 
 bool states_up(SurfaceFormat format) {
@@ -133,7 +134,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   } else {
     wanted.plan.made_of_tubes = !certificate || certificate->curve_like;
     if (usual && wanted.plan.plan == BodyKind::automatic) {
-      wanted.plan.plan = kind_of(body, *usual, wanted.plan);
+      wanted.plan.plan = kind_of(body, *usual, {wanted.plan, options.threads});
     }
     CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                             skeleton, least_life(options.extract.embed.detail));

@@ -10,6 +10,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
 
 namespace curveskel {
@@ -45,39 +46,60 @@ constexpr std::array posed_bones{
 
 }  // namespace
 
-void rest_in_t_pose(Rig& rig, const BodyPlan& plan) {
-  if (plan.plan != BodyKind::humanoid) {
-    throw Error(Fault::input, "the T pose is a human's, found the plan " +
-                                  std::string(name_of(body_kinds, plan.plan)) +
-                                  "; say --plan humanoid, or leave the pose as it is");
-  }
-  const auto count = static_cast<std::size_t>(rig.parents.size());
-  std::vector<Quaterniond> more(count, Quaterniond::Identity());  // beyond what is above
-  std::vector<char> stays(count, 0);                              // as in the file
+namespace {
+
+/// By joint, beyond the turn of what is above.
+struct Turns {
+  std::vector<Quaterniond> more;
+  std::vector<char> stays;  // as in the file
+};
+
+/// Of one figure of the rig, a human.
+void add_t_pose(const Rig& rig, const BodyPlan& plan, const std::string& figure, Turns& turns) {
   for (const std::string side : {"left", "right"}) {
     const Vector3d out = (side == "left" ? 1 : -1) * plan.axes.row(0).transpose();
     const Vector3d down = -plan.axes.row(1).transpose();
     Quaterniond arm = Quaterniond::Identity();
     Quaterniond leg = Quaterniond::Identity();
     for (const PosedBone& bone : posed_bones) {
-      const int from = joint_of(rig, side + std::string(bone.from));
-      const int named = joint_of(rig, side + std::string(bone.to));
+      const int from = joint_of(rig, figure + side + std::string(bone.from));
+      const int named = joint_of(rig, figure + side + std::string(bone.to));
       const int to = named < 0 && bone.from == "Hand" ? child_of(rig, from) : named;
       if (from < 0 || to < 0) continue;
       Quaterniond& above = bone.is_arm ? arm : leg;
       const Vector3d way = (rig.joints.row(to) - rig.joints.row(from)).transpose();
-      more[idx(from)] = Quaterniond::FromTwoVectors(above * way, bone.is_arm ? out : down);
-      above = more[idx(from)] * above;
+      turns.more[idx(from)] = Quaterniond::FromTwoVectors(above * way, bone.is_arm ? out : down);
+      above = turns.more[idx(from)] * above;
     }
-    const int foot = joint_of(rig, side + "Foot");
-    if (foot >= 0) stays[idx(foot)] = 1;
+    const int foot = joint_of(rig, figure + side + "Foot");
+    if (foot >= 0) turns.stays[idx(foot)] = 1;
+  }
+}
+
+}  // namespace
+
+void rest_in_t_pose(Rig& rig, const BodyPlan& plan, const std::vector<BodyPlan>& other_plans) {
+  const auto count = static_cast<std::size_t>(rig.parents.size());
+  Turns turns{std::vector<Quaterniond>(count, Quaterniond::Identity()),
+              std::vector<char>(count, 0)};
+  bool is_posed = false;
+  for (std::size_t figure = 0; figure <= other_plans.size(); ++figure) {
+    const BodyPlan& its = figure == 0 ? plan : other_plans[figure - 1];
+    if (its.plan != BodyKind::humanoid) continue;
+    add_t_pose(rig, its, figure_prefix(figure), turns);
+    is_posed = true;
+  }
+  if (!is_posed) {
+    throw Error(Fault::input, "the T pose is a human's, found the plan " +
+                                  std::string(name_of(body_kinds, plan.plan)) +
+                                  "; say --plan humanoid, or leave the pose as it is");
   }
   rig.turns.assign(count, Quaterniond::Identity());
   for (std::size_t joint = 0; joint < count; ++joint) {
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
-    if (stays[joint] != 0) continue;
+    if (turns.stays[joint] != 0) continue;
     rig.turns[joint] =
-        (more[joint] * (parent < 0 ? Quaterniond::Identity() : rig.turns[idx(parent)]))
+        (turns.more[joint] * (parent < 0 ? Quaterniond::Identity() : rig.turns[idx(parent)]))
             .normalized();
   }
 }
@@ -135,8 +157,8 @@ Rig without_ends(const Rig& rig) {
 }
 
 Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
-                   const ExportOptions& options) {
-  if (options.pose == RestPose::t) rest_in_t_pose(rig, plan);
+                   const ExportOptions& options, const std::vector<BodyPlan>& other_plans) {
+  if (options.pose == RestPose::t) rest_in_t_pose(rig, plan, other_plans);
   if (!options.ends) rig = without_ends(rig);
   const Eigen::RowVector3d up =
       plan.plan == BodyKind::none ? Eigen::RowVector3d(0, 1, 0) : plan.axes.row(1);

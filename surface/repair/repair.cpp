@@ -380,11 +380,12 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
     const double least_crumb = mended.was_cut ? options.least_crumb : 0;
     const double copy_distance =
         options.join_distance * bounding_box_diagonal(result.surface.positions);
-    leave_out_components(result, {copy_distance, options.least_area, least_crumb,
+    const bool floors_stay = options.least_sheet > 0;
+    leave_out_components(result, {copy_distance, options.least_area, floors_stay, least_crumb,
                                   options.merge_overlapping ? 0 : options.components});
     if (options.merge_overlapping) {
       merge_overlapping(result, monitor);
-      leave_out_components(result, {copy_distance, 0, 0, options.components});
+      leave_out_components(result, {copy_distance, 0, false, 0, options.components});
     }
   }
   describe_repairs(result.repairs, monitor);

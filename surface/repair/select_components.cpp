@@ -82,6 +82,41 @@ void mark_crumbs(const Surface& surface, const Topology& counted, const std::vec
   }
 }
 
+using Boxes = std::vector<Eigen::AlignedBox3d>;
+
+Boxes boxes_of(const Surface& surface, const Topology& counted) {
+  Boxes boxes(idx(counted.components()));
+  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+    boxes[idx(counted.component_of_vertex[v])].extend(surface.positions.row(v).transpose());
+  }
+  return boxes;
+}
+
+/// The largest area of the other components whose boxes hold the middle of this one's, or else meet
+/// this one's; 0: none does.
+double largest_about(const Boxes& boxes, const std::vector<double>& area, std::size_t component) {
+  double holds = 0;
+  double meets = 0;
+  for (std::size_t other = 0; other < boxes.size(); ++other) {
+    if (other == component || area[other] <= holds) continue;
+    if (!boxes[other].intersects(boxes[component])) continue;
+    meets = std::max(meets, area[other]);
+    if (boxes[other].contains(boxes[component].center())) holds = area[other];
+  }
+  return holds > 0 ? holds : meets;
+}
+
+void mark_specks(const Surface& surface, const Topology& counted, const std::vector<double>& area,
+                 const SelectionRules& rules, std::vector<Fate>& fates) {
+  const double least = rules.least_area * *std::max_element(area.begin(), area.end());
+  const Boxes boxes = rules.by_place ? boxes_of(surface, counted) : Boxes{};
+  for (std::size_t c = 0; c < fates.size(); ++c) {
+    if (fates[c] != Fate::kept || area[c] >= least) continue;
+    const double about = rules.by_place ? largest_about(boxes, area, c) : 0;
+    if (about == 0 || area[c] < rules.least_area * about) fates[c] = Fate::speck;
+  }
+}
+
 /// Fate of each component, by the order of the rules in `leave_out_components`.
 std::vector<Fate> choose_components(const Surface& surface, const Topology& counted,
                                     const SelectionRules& rules) {
@@ -90,15 +125,10 @@ std::vector<Fate> choose_components(const Surface& surface, const Topology& coun
   mark_copies(surface, counted, rules.copy_distance, fates);
   const auto area = component_areas(surface, counted);
   if (rules.least_crumb > 0) mark_crumbs(surface, counted, area, rules.least_crumb, fates);
-  const double least = rules.least_area * *std::max_element(area.begin(), area.end());
+  mark_specks(surface, counted, area, rules, fates);
   std::vector<int> by_area;
   for (int c = 0; c < counted.components(); ++c) {
-    if (fates[idx(c)] != Fate::kept) continue;
-    if (area[idx(c)] < least) {
-      fates[idx(c)] = Fate::speck;
-    } else {
-      by_area.push_back(c);
-    }
+    if (fates[idx(c)] == Fate::kept) by_area.push_back(c);
   }
   std::stable_sort(by_area.begin(), by_area.end(),
                    [&](int a, int b) { return area[idx(a)] > area[idx(b)]; });

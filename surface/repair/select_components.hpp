@@ -16,6 +16,8 @@ enum class Fate : std::uint8_t { kept, copy, crumb, speck, not_chosen };
 struct SelectionRules {
   double copy_distance = 0;  ///< model units: nearer vertices of two components are the same
   double least_area = 0;     ///< of the largest component's; less is a speck
+  bool by_place = false;     ///< the largest of those whose boxes hold the middle of its own box,
+                             ///< else of those that meet it: no floor makes specks of fingers
   double least_crumb = 0;    ///< of the largest that it touches; less is a crumb
   int most = 0;              ///< components, 0 = all
 };

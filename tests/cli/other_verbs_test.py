@@ -243,6 +243,12 @@ class Evaluate(CommandLineTest):
             self.refused(INPUT, "evaluate", rig, "--rig-truth", truth, cwd=self.folder,
                          says=[Y.name, "no rig", "curveskel rig"])
 
+    def test_rigs_that_are_not_read_with_their_weights_are_refused_by_name(self):
+        for name in ("y.fbx", "y.json", "y.npz", "y.txt", "y.usda", "y.bvh"):
+            self.run_ok("rig", Y, "-o", name, cwd=self.folder)
+            self.refused(INPUT, "evaluate", name, "--rig-truth", name, cwd=self.folder,
+                         says=[name[1:] + " file", "--rig-truth", ".glb"])
+
 
 class Rig(CommandLineTest):
     def rig(self, output, *arguments, mesh=Y):

@@ -1,12 +1,16 @@
 // Laws of scenes: each figure in one is rigged as if it were alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/repair.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_character.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::figure_laws {
@@ -47,12 +51,12 @@ RigSubject scene(const std::vector<std::pair<RigSubject, double>>& subjects) {
   return all;
 }
 
-CharacterRig rig_of(const RigSubject& subject) {
+CharacterRig rig_of(const RigSubject& subject, const CharacterOptions& options = {}) {
   RepairedSurface body;
   body.surface = subject.surface;
   body.vertex_of_input = Eigen::VectorXi::LinSpaced(
       subject.surface.positions.rows(), 0, static_cast<int>(subject.surface.positions.rows()) - 1);
-  return rig_body(subject.surface, body, subject.skeleton);
+  return rig_body(subject.surface, body, subject.skeleton, options);
 }
 
 /// Each figure of a scene is rigged as if it were alone.
@@ -72,7 +76,8 @@ TEST(Figures, OfASceneAreRiggedEachByItsPlan) {
     const Rig& alone = is_one ? one.rig : other.rig;
     const std::size_t same = is_one ? k : k - first;
     EXPECT_EQ(both.rig.names[k], (is_one ? "" : "figure2_") + alone.names[same]);
-    EXPECT_EQ(both.rig.roles[k], is_one ? alone.roles[same] : "");
+    const std::string& role = alone.roles[same];
+    EXPECT_EQ(both.rig.roles[k], is_one || role.empty() ? role : "figure2_" + role);
     const auto row = static_cast<Eigen::Index>(k);
     const auto alone_row = static_cast<Eigen::Index>(same);
     const int parent = alone.parents[alone_row];
@@ -91,6 +96,64 @@ TEST(Figures, OfASceneAreRiggedEachByItsPlan) {
   }
 }
 
+/// Of a scene with two humans, without "figure2_".
+std::vector<std::string> names_of_second(const Rig& both, std::size_t first_count) {
+  std::vector<std::string> names;
+  for (std::size_t k = first_count; k < both.names.size(); ++k) {
+    EXPECT_TRUE(both.names[k].starts_with("figure2_")) << both.names[k];
+    names.push_back(both.names[k].substr(8));
+  }
+  return names;
+}
+
+TEST(Figures, EachKeepsTheJointsThatTheBudgetLeavesItAlone) {
+  constexpr double aside = 30;
+  const RigSubject alone = human_with_hands(1);
+  const RigSubject two = scene({{alone, 0}, {alone, aside}});
+  const CharacterRig one = rig_of(alone);
+  const CharacterRig both = rig_of(two);
+  ASSERT_EQ(both.other_plans.size(), 1U);
+  const auto count = static_cast<int>(one.rig.names.size());
+  for (const int budget : {count, count - 6, 40, 30, 20, 5}) {
+    SCOPED_TRACE(budget);
+    const CharacterRig few = within_budget(one, alone.surface, budget);
+    const CharacterRig few_both = within_budget(both, two.surface, budget);
+    const std::size_t left = few.rig.names.size();
+    ASSERT_EQ(few_both.rig.names.size(), 2 * left);
+    EXPECT_EQ(few_both.joints_over_budget, std::max(0, static_cast<int>(left) - budget));
+    EXPECT_EQ(names_of_second(few_both.rig, left), few.rig.names);
+    ASSERT_EQ(few_both.other_plans[0].joints.size(), few.plan.joints.size());
+    for (std::size_t k = 0; k < few.plan.joints.size(); ++k) {
+      EXPECT_EQ(few_both.other_plans[0].joints[k].role, few.plan.joints[k].role);
+      EXPECT_EQ(few_both.other_plans[0].joints[k].parent, few.plan.joints[k].parent);
+    }
+  }
+}
+
+TEST(Figures, AllHumansTakeTheTPose) {
+  RigSubject alone = human();
+  for (Positions* const points : {&alone.surface.positions, &alone.skeleton.nodes}) {
+    for (auto p : points->rowwise()) {
+      const double out = std::abs(p.x()) - 2;
+      if (p.y() > 12 && out > 0) p.y() -= 0.8 * out;
+    }
+  }
+  CharacterRig one = rig_of(alone);
+  CharacterRig all = rig_of(scene({{alone, 0}, {alone, 30}, {beast(1), 60}}));
+  ASSERT_EQ(all.other_plans.size(), 2U);
+  rest_in_t_pose(one.rig, one.plan);
+  rest_in_t_pose(all.rig, all.plan, all.other_plans);
+  const std::size_t count = one.rig.names.size();
+  double most = 0;
+  for (std::size_t k = 0; k < all.rig.turns.size(); ++k) {
+    const Eigen::Quaterniond still = Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond wanted = k < 2 * count ? one.rig.turns[k % count] : still;
+    EXPECT_LT(all.rig.turns[k].angularDistance(wanted), 1e-6) << all.rig.names[k];
+    most = std::max(most, wanted.angularDistance(still));
+  }
+  EXPECT_GT(most, 0.1);
+}
+
 TEST(Figures, AreNotMadeOfThings) {
   const CharacterRig with_tree = rig_of(scene({{human(), 0}, {tree(), 30}}));
   EXPECT_TRUE(with_tree.other_plans.empty());
@@ -99,6 +162,62 @@ TEST(Figures, AreNotMadeOfThings) {
   for (Eigen::Index v = 0; v < three.rig.weights.rows(); ++v) {
     ASSERT_NEAR(three.rig.weights.row(v).sum(), 1, 1e-5F) << "something moves the tree, too";
   }
+}
+
+std::vector<std::string> roles_in(const BodyPlan& plan) {
+  std::vector<std::string> roles;
+  for (const PlannedJoint& joint : plan.joints) roles.push_back(joint.role);
+  return roles;
+}
+
+TEST(Figures, AreThereIfAPlanIsAskedFor) {
+  CharacterOptions options;
+  options.plan.plan = BodyKind::humanoid;
+  const CharacterRig two = rig_of(scene({{human(), 0}, {human(), 30}}), options);
+  EXPECT_EQ(two.plan.plan, BodyKind::humanoid);
+  ASSERT_EQ(two.other_plans.size(), 1U);
+  EXPECT_EQ(two.other_plans[0].plan, BodyKind::humanoid);
+  const CharacterRig one = rig_of(scene({{human(), 0}, {beast(1), 30}}), options);
+  EXPECT_EQ(one.plan.plan, BodyKind::humanoid);
+  EXPECT_EQ(roles_in(one.plan), roles_in(rig_of(human()).plan));
+}
+
+/// A box as wide as this below a subject, its upper side at this height; its curve is a line.
+RigSubject slab(double width, double top) {
+  RigSubject subject{"slab", shapes::box({width, 1, width}, 4).surface, {}};
+  subject.surface.positions.col(1).array() += top - 0.5;
+  subject.skeleton.nodes.resize(2, 3);
+  subject.skeleton.nodes << -width / 2, top - 0.5, 0, width / 2, top - 0.5, 0;
+  subject.skeleton.edges.resize(1, 2);
+  subject.skeleton.edges << 0, 1;
+  subject.skeleton.radii.setConstant(2, 0.5);
+  const Positions& positions = subject.surface.positions;
+  subject.skeleton.node_of_vertex = (positions.col(0).array() > 0).cast<int>();
+  return subject;
+}
+
+/// The scene is not made of tubes, the figure is; nothing hangs from it that is the ground.
+TEST(Figures, StandOnSlabs) {
+  const std::vector<std::string> alone = roles_in(rig_of(human()).plan);
+  const double feet = human().surface.positions.col(1).minCoeff();
+  for (const double gap : {-0.1, 0.0, 0.5}) {
+    SCOPED_TRACE(gap);
+    CharacterOptions options;
+    options.plan.made_of_tubes = false;
+    const CharacterRig found = rig_of(scene({{human(), 0}, {slab(60, feet - gap), 0}}), options);
+    EXPECT_EQ(found.plan.plan, BodyKind::humanoid) << found.plan.reason;
+    EXPECT_EQ(roles_in(found.plan), alone);
+    EXPECT_EQ((found.rig.parents.array() < 0).count(), 2);
+  }
+}
+
+/// A tree that is nearer to one of two humans is no part of the human's plan.
+TEST(Figures, AreAsIfNothingStoodBesideThem) {
+  const CharacterRig alone = rig_of(human());
+  const CharacterRig found = rig_of(scene({{human(), 0}, {tree(), 30}, {human(), 62}}));
+  ASSERT_EQ(found.other_plans.size(), 1U);
+  EXPECT_EQ(roles_in(found.plan), roles_in(alone.plan));
+  EXPECT_EQ(roles_in(found.other_plans[0]), roles_in(alone.plan));
 }
 
 }  // namespace

@@ -235,6 +235,20 @@ TEST(Hanging, PlacesJointsOfAFigureWhereItsPartsMeet) {
   }
 }
 
+/// No shoe hangs from it either, though it is nearer.
+TEST(Hanging, LetsTheGroundBelowAFigureLie) {
+  std::vector<Part> parts = figure(0.82, 0.0085);
+  parts.insert(parts.begin() + 1, part("ground", {-2, -0.03, 0.1}, {2, -0.03, 0.1}, 0.05, ""));
+  const Assembled all = assemble(parts);
+  const std::vector<Hinge> hinges =
+      hang_components(all.skeleton, all.skeleton.radii, all.components, all.components[1]);
+  EXPECT_LT(hinges[1].above, 0);
+  for (std::size_t k = 2; k < parts.size(); ++k) {
+    ASSERT_GE(hinges[k].above, 0);
+    EXPECT_EQ(parts[idx(all.component_of[idx(hinges[k].above)])].name, parts[k].above);
+  }
+}
+
 /// Figures that stand apart each keep all their parts, and hang from none.
 TEST(Hanging, LetsTheBodiesOfASceneStandApart) {
   for (const int bodies : {2, 3, 5}) {

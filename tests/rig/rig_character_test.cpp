@@ -200,6 +200,24 @@ TEST(JointBudget, MirrorImagesGoTogetherAndThoseWithRolesLast) {
   EXPECT_EQ(within_budget(head, point, 3).rig.names[1], "eye.L");  // the ear and the snout went
 }
 
+TEST(JointBudget, DigitsOfBothHandsGoByTheirPlaces) {
+  CurveSkeleton skeleton;
+  CharacterRig hand = rig_on_star(
+      {1, 5, 6, 20, 30, 31}, {"thumb.L", "index.L", "index_2.L", "index.R", "eye.L", "index_2.R"},
+      {"leftThumbMetacarpal", "leftIndexProximal", "leftIndexIntermediate", "rightIndexProximal",
+       "leftEye", "rightIndexIntermediate"},
+      skeleton);
+  hand.rig.parents[3] = 2;
+  hand.rig.parents[6] = 4;
+  Surface point;
+  point.positions.setZero(1, 3);
+  const auto left = [&](int budget) { return within_budget(hand, point, budget).rig.names; };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(left(6), (Names{"hand.L", "thumb.L", "index.L", "index_2.L", "index.R", "index_2.R"}));
+  EXPECT_EQ(left(5), (Names{"hand.L", "thumb.L", "index.L", "index.R"}));
+  EXPECT_EQ(left(3), Names{"hand.L"});
+}
+
 TEST(JointBudget, NoFewerThanNone) { EXPECT_THROW((void)within_budget({}, {}, -1), Error); }
 
 TEST_F(RigCharacter, EveryVertexMovesAndFollowersHaveNoJoints) {

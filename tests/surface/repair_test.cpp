@@ -248,6 +248,20 @@ TEST(Repairing, ACupBesideAFarSpeck) {
   EXPECT_NEAR(volume(beside.surface), 8, 1e-9);
 }
 
+/// Where floors stay, as in rigs, they make no specks of a body's fingers.
+TEST(Repairing, AFloorMakesNoSpecksOfWhatABodyIsMadeOf) {
+  const PolygonSoup finger = soup_of(shapes::box({0.03, 0.03, 0.03}, 1).surface);
+  PolygonSoup scene = soup_of(shapes::box({2, 2, 2}, 2).surface);
+  scene = together(scene, finger, {0, 0, 0.99});
+  RepairOptions options;
+  options.least_sheet = 0.1;
+  EXPECT_EQ(repair(scene, options, {}).repairs.specks_dropped, 0);
+  scene = together(scene, soup_of(shapes::box({40, 40, 0.1}, 2).surface), {0, 0, -2});
+  EXPECT_EQ(repair(scene, options, {}).repairs.specks_dropped, 0);
+  EXPECT_EQ(topology(repair(scene, options, {}).surface).components(), 3);
+  EXPECT_EQ(repair(together(scene, finger, {0, 0, 5}), options, {}).repairs.specks_dropped, 1);
+}
+
 /// The lower half of a ball, its rim with so many teeth of random height.
 PolygonSoup jagged_bowl(int teeth, double height) {
   constexpr int rows = 4;

@@ -9,6 +9,11 @@
 namespace curveskel::viewer {
 namespace {
 
+/// "figure2_head" of a scene's second figure is "head".
+std::string without_figure(const std::string& role) {
+  return role.starts_with("figure") ? role.substr(role.find('_') + 1) : role;
+}
+
 /// "leftFoot" and "rightFoot" are "Foot", "shin.L" and "shin.R" are "shin".
 std::string without_side(const std::string& role) {
   if (role.starts_with("left")) return role.substr(4);
@@ -40,7 +45,7 @@ std::vector<glm::vec3> role_colours(const Rig& rig) {
   std::vector<std::string> kinds = kinds_of_roles();
   std::vector<glm::vec3> colours;
   for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
-    const std::string role = joint < rig.roles.size() ? rig.roles[joint] : "";
+    const std::string role = joint < rig.roles.size() ? without_figure(rig.roles[joint]) : "";
     const int parent = rig.parents[static_cast<Eigen::Index>(joint)];
     if (role.empty()) {
       colours.push_back(parent < 0 ? unknown : colours[static_cast<std::size_t>(parent)]);

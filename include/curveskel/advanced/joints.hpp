@@ -55,9 +55,11 @@ struct Joints {
 /// The same with the planned joints first, under the names of their roles, from the first of them
 /// as the root; what lies between them on the curve has no others. Straight bones elsewhere are not
 /// much shorter than the median of those between planned joints. Beyond hands joints may lie half
-/// as near to each other as elsewhere.
+/// as near to each other as elsewhere. Components with a node of `ground` have roots of their own,
+/// and nothing hangs from them.
 [[nodiscard]] Joints place_planned_joints(const CurveSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& planned,
-                                          const JointOptions& options = {});
+                                          const JointOptions& options = {},
+                                          const std::vector<int>& ground = {});
 
 }  // namespace curveskel
