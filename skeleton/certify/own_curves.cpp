@@ -53,13 +53,15 @@ std::vector<CurvePart> parts_of(const CurveSkeleton& skeleton) {
   return parts;
 }
 
-bool lies_in(const CurvePart& part, const SurfaceTree& tree) {
-  Eigen::Index within = 0;
-  for (const auto& node : part.nodes.rowwise()) within += tree.inside(node.transpose()) ? 1 : 0;
-  return 2 * within >= part.nodes.rows();
+bool reaches_into(const CurvePart& part, const SurfaceTree& tree) {
+  for (const auto& node : part.nodes.rowwise()) {
+    if (tree.inside(node.transpose())) return true;
+  }
+  return false;
 }
 
-/// Per component of the surface: the parts that lie in it.
+/// Per component of the surface: the parts that have a node in it. One that is nowhere inside, as a
+/// curve that was never moved there may be, counts for each component whose box it meets.
 std::vector<std::vector<int>> parts_within(const Surface& surface, const CurveSkeleton& skeleton) {
   const std::vector<CurvePart> parts = parts_of(skeleton);
   std::vector<SequenceTree::Item> items;
@@ -67,14 +69,25 @@ std::vector<std::vector<int>> parts_within(const Surface& surface, const CurveSk
   for (const CurvePart& part : parts) items.push_back({part.box.min(), part.box.max()});
   const SequenceTree boxes(std::move(items));
   std::vector<std::vector<int>> within;
+  std::vector<std::vector<int>> beside(parts.size());  // components, by part
+  std::vector<char> is_inside(parts.size(), 0);
   for (const Component& component : split_components(surface, topology(surface))) {
+    const int number = static_cast<int>(within.size());
     std::vector<int>& own = within.emplace_back();
     const Eigen::AlignedBox3d box = box_round(component.surface.positions);
     std::optional<SurfaceTree> tree;
     boxes.overlapping(box.min(), box.max(), [&](std::size_t part) {
+      beside[part].push_back(number);
       if (!tree) tree.emplace(component.surface);
-      if (lies_in(parts[part], *tree)) own.push_back(static_cast<int>(part));
+      if (!reaches_into(parts[part], *tree)) return;
+      own.push_back(static_cast<int>(part));
+      is_inside[part] = 1;
     });
+  }
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (is_inside[part] != 0) continue;
+    for (const int component : beside[part])
+      within[idx(component)].push_back(static_cast<int>(part));
   }
   return within;
 }
