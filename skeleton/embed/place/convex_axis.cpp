@@ -90,12 +90,9 @@ SkeletonGraph axis_of_convex_body(const Surface& surface, const PartitionGraph& 
   const Point middle = Point::Zero();
   if (!tree.inside(middle)) return graph;
   const Point axis = nearest_line(fourth_moments_of(surface));
-  const double radius = tree.inscribed_radius(middle);
   for (const double side : {-1.0, 1.0}) {
     const Point along = side * axis;
-    const double distance = tree.ray(middle, along).distance;
-    // Half-way at least: in a body as thick as long, a radius from the surface is the middle.
-    const Point tip = std::max(0.5 * distance, distance - radius) * along;
+    const Point tip = 0.5 * tree.ray(middle, along).distance * along;
     graph.nodes.push_back({CurvePoint(tip), {}, true, {0}});
   }
   std::vector<int> all(idx(partition.nodes()));

@@ -17,9 +17,8 @@ namespace curveskel {
 
 /// One arc that stands for all groups of the partition: along the line through the origin, in
 /// canonical form the centroid, from which the surface is nearest in the mean of the fourth power
-/// of the distance. It leads on either side to the origin's inscribed radius from the surface, or
-/// half-way if that is farther, and on until the surface ahead is within `gap` inscribed radii.
-/// Without arcs if the origin lies outside.
+/// of the distance. It leads to half of the way to the surface on either side, and on until the
+/// surface ahead is within `gap` inscribed radii. Without arcs if the origin lies outside.
 [[nodiscard]] SkeletonGraph axis_of_convex_body(const Surface& surface,
                                                 const PartitionGraph& partition,
                                                 const SurfaceTree& tree, double reach, double gap,
