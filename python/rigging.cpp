@@ -157,9 +157,8 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
       }
     }
     result.character = std::move(found.character);
-    result.exported =
-        rig_for_export(result.character.rig, result.character.plan, result.given, settings.form,
-                       result.character.other_plans);
+    result.exported = rig_for_export(result.character.rig, result.character.plan, result.given,
+                                     settings.form, result.character.other_plans);
   });
   return result;
 }

@@ -155,6 +155,7 @@ class Groups {
       return boxes[idx(a.first)].diagonal().norm() > boxes[idx(b.first)].diagonal().norm();
     });
     std::vector<int> numbers;
+    numbers.reserve(planned.size());
     for (const auto& [wanted, plan] : planned) numbers.push_back(wanted);
     const std::vector<int> joined = joined_to_nearest(group, boxes, numbers);
     std::vector<Figure> found;

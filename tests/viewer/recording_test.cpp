@@ -25,6 +25,7 @@ SharedSurface fan(int size, float mark) {
     shown.normals.push_back(static_cast<std::uint32_t>(v));
   }
   std::vector<glm::uvec3> triangles;
+  triangles.reserve(static_cast<std::size_t>(size));
   for (int f = 0; f < size; ++f) triangles.emplace_back(0, f + 1, f + 2);
   shown.triangles = std::move(triangles);
   return std::make_shared<const ShownSurface>(shown);
