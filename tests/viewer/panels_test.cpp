@@ -126,7 +126,8 @@ TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
     frame();
     EXPECT_EQ(angles_of(kept, bench, 1), wished);
     const Eigen::Quaterniond turn = (*bench.scene->turns())[1];
-    const Eigen::Quaterniond expected = turn_by({double{wished[0]}, double{wished[1]}, double{wished[2]}});
+    const Eigen::Quaterniond expected =
+        turn_by({double{wished[0]}, double{wished[1]}, double{wished[2]}});
     EXPECT_NEAR(std::abs(turn.dot(expected)), 1, 1e-9);
   }
   EXPECT_EQ(angles_of(kept, bench, 2), none);
