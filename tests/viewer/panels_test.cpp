@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -126,8 +127,10 @@ TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
     frame();
     EXPECT_EQ(angles_of(kept, bench, 1), wished);
     const Eigen::Quaterniond turn = (*bench.scene->turns())[1];
-    const Eigen::Quaterniond expected =
-        turn_by({double{wished[0]}, double{wished[1]}, double{wished[2]}});
+    std::array<double, 3> degrees{};
+    std::transform(wished.begin(), wished.end(), degrees.begin(),
+                   [](float angle) { return static_cast<double>(angle); });
+    const Eigen::Quaterniond expected = turn_by(degrees);
     EXPECT_NEAR(std::abs(turn.dot(expected)), 1, 1e-9);
   }
   EXPECT_EQ(angles_of(kept, bench, 2), none);
