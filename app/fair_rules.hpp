@@ -1,4 +1,4 @@
-// What both doors to fairing, the command line and Python, have besides the options' ranges.
+// Rules of both doors to fairing, the command line and Python, besides the options' ranges.
 #pragma once
 
 #include <string>

@@ -55,7 +55,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
   return text;
 }
 
-/// What `rig` writes beside glTF has no surface in it, or is not read with its weights.
+/// Formats that `rig` writes beside glTF have no surface in them, or are not read with weights.
 void require_readable_rig(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

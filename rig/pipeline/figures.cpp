@@ -29,9 +29,8 @@ Boxes boxes_of(const Surface& surface, const Eigen::VectorXi& group, int count) 
   return boxes;
 }
 
-/// Of each component the number of those whose boxes meet, directly or by way
-/// of others; with one
-/// (-1: none) that meets no other.
+/// Of each component the number of those whose boxes meet, directly or by way of others; `alone`
+/// (-1: none) meets no other.
 std::vector<int> groups_that_meet(const Boxes& boxes, int alone) {
   UnionFind joined(static_cast<std::int64_t>(boxes.size()));
   for (int a = 0; a < static_cast<int>(boxes.size()); ++a) {
@@ -201,8 +200,7 @@ class Groups {
     return of_ground.max()[0] < of_group.center()[0];
   }
 
-  /// As if it were alone. A scene that is not made of tubes may have a figure
-  /// that is.
+  /// As if it were alone. A scene that is not made of tubes may have a figure that is.
   [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) const {
     const RigParts parts = parts_of(group, wanted);
     const RepairedSurface body = body_of(body_, parts);

@@ -1,6 +1,7 @@
 #include "rig/plan/curve_tree.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include <curveskel/advanced/indices.hpp>
@@ -13,6 +14,14 @@ using Eigen::Vector3d;
 
 bool CurveTree::is_tip(int node) const { return neighbours[idx(node)].size() == 1; }
 double CurveTree::aside(int node) const { return nodes[idx(node)].x() - middle; }
+
+std::vector<int> tips_of(const CurveTree& tree) {
+  std::vector<int> tips;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    if (tree.is_tip(node)) tips.push_back(node);
+  }
+  return tips;
+}
 
 CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
                      const Eigen::Matrix3d& axes) {
@@ -61,6 +70,16 @@ std::vector<int> Ways::path(int to) const {
   std::vector<int> nodes{to};
   while (before[idx(nodes.back())] >= 0) nodes.push_back(before[idx(nodes.back())]);
   std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+std::vector<int> Ways::between(int from, int to) const {
+  const std::vector<int> there = path(from);
+  const std::vector<int> on = path(to);
+  const auto [fork, fork_on] = std::mismatch(there.begin(), there.end(), on.begin(), on.end());
+  if (fork == there.begin()) return {to};
+  std::vector<int> nodes(there.rbegin(), std::make_reverse_iterator(fork - 1));
+  nodes.insert(nodes.end(), fork_on, on.end());
   return nodes;
 }
 

@@ -27,6 +27,8 @@ struct CurveTree {
   [[nodiscard]] double aside(int node) const;  ///< x from the mirror plane
 };
 
+[[nodiscard]] std::vector<int> tips_of(const CurveTree& tree);
+
 /// Components hang together as in the rig; cycles are cut.
 [[nodiscard]] CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
                                    const Eigen::Matrix3d& axes);
@@ -38,6 +40,8 @@ struct Ways {
 
   /// From the beginning on; only `to` where there is no way.
   [[nodiscard]] std::vector<int> path(int to) const;
+  /// From any node to any other: the ways from the beginning to both, but for what these share.
+  [[nodiscard]] std::vector<int> between(int from, int to) const;
 };
 [[nodiscard]] Ways ways_from(const CurveTree& tree, int node);
 
@@ -66,7 +70,7 @@ struct Limbs {
   std::vector<LimbPair> pairs;  ///< the longest first
 };
 
-/// What belongs together of the tips of a curve.
+/// Tips of a curve that belong together.
 struct TipPairs {
   std::map<int, int> mate;  ///< left tip -> right one
   std::vector<int> ends;    ///< nodes that the trunk joins, among them one between each pair

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -23,11 +22,7 @@ constexpr double alike = 0.06;  // so near is a mirror image
 class PairFinder {
  public:
   PairFinder(const CurveTree& tree, Images images)
-      : tree_(tree), images_(images), from_first_(ways_from(tree, 0)) {
-    for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-      if (tree.is_tip(node)) tips_.push_back(node);
-    }
-  }
+      : tree_(tree), images_(images), tips_(tips_of(tree)), from_first_(ways_from(tree, 0)) {}
 
   TipPairs find() {
     pair_tips();
@@ -94,17 +89,6 @@ class PairFinder {
     }
   }
 
-  /// In a tree it is the ways from any node to both, but for what these share.
-  [[nodiscard]] std::vector<int> path_between(int from, int to) const {
-    const std::vector<int> there = from_first_.path(from);
-    const std::vector<int> on = from_first_.path(to);
-    const auto [fork, fork_on] = std::mismatch(there.begin(), there.end(), on.begin(), on.end());
-    if (fork == there.begin()) return {to};
-    std::vector<int> path(there.rbegin(), std::make_reverse_iterator(fork - 1));
-    path.insert(path.end(), fork_on, on.end());
-    return path;
-  }
-
   /// The length of the path up to each of its nodes.
   template <typename Iterator>
   [[nodiscard]] std::vector<double> walked(Iterator begin, Iterator end) const {
@@ -119,7 +103,7 @@ class PairFinder {
   /// Where the way from a tip to its image crosses the mirror plane: of what lies near the plane
   /// the node that is as far from both.
   [[nodiscard]] int crossing(int left, int right) const {
-    const std::vector<int> path = path_between(left, right);
+    const std::vector<int> path = from_first_.between(left, right);
     const std::vector<double> from_left = walked(path.begin(), path.end());
     const std::vector<double> from_right = walked(path.rbegin(), path.rend());
     double least = std::numeric_limits<double>::infinity();

@@ -45,7 +45,7 @@ Eigen::Matrix3d axes_of(const Vector3d& up, const Vector3d& front) {
 
 std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
   // The usual ones first: y up and z ahead, as in glTF, or z up and -y ahead, as in Blender; then
-  /// those of a body that looks aside.
+  // those of a body that looks aside.
   std::vector<Vector3d> ups{vector_of(options.up)};
   if (options.up == Direction::automatic) ups = {Vector3d::UnitY(), Vector3d::UnitZ()};
   if (options.up == Direction::automatic && options.z_is_up) std::swap(ups[0], ups[1]);
@@ -92,14 +92,6 @@ double asymmetry(const CurveTree& tree, double middle) {
 }
 
 constexpr double symmetric = 0.02;  // of the size, that a curve is off its mirror image
-
-std::vector<int> tips_of(const CurveTree& tree) {
-  std::vector<int> tips;
-  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-    if (tree.is_tip(node)) tips.push_back(node);
-  }
-  return tips;
-}
 
 /// Between tips that may be images of each other, as hands are and feet: where most pairs agree.
 std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& tips) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -71,10 +70,7 @@ class ShapePairs {
   /// Worth, left and right: the best first.
   [[nodiscard]] std::vector<std::tuple<double, int, int>> candidates() const {
     constexpr std::size_t most_tips = 200;  // of a body; their pairs are looked at one by one
-    std::vector<int> tips;
-    for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
-      if (tree_.is_tip(node)) tips.push_back(node);
-    }
+    const std::vector<int> tips = tips_of(tree_);
     std::vector<std::tuple<double, int, int>> found;
     if (tips.size() > most_tips) return found;
     for (std::size_t a = 0; a < tips.size(); ++a) {
@@ -94,12 +90,8 @@ class ShapePairs {
   }
 
   [[nodiscard]] Between between_tips(int a, int b) const {
-    const std::vector<int> there = from_first_.path(a);
-    const std::vector<int> on = from_first_.path(b);
-    const auto [fork, fork_on] = std::mismatch(there.begin(), there.end(), on.begin(), on.end());
     Between between;
-    between.path.assign(there.rbegin(), std::make_reverse_iterator(fork - 1));
-    between.path.insert(between.path.end(), fork_on, on.end());
+    between.path = from_first_.between(a, b);
     double way = 0;
     for (std::size_t k = 0; k < between.path.size(); ++k) {
       const int node = between.path[k];

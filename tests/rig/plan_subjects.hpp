@@ -2,6 +2,8 @@
 // from.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/body_plan.hpp>
 #include <curveskel/make_rig.hpp>
 #include "meshes/shapes.hpp"
 #include "tests/rig/rig_subjects.hpp"
@@ -210,6 +213,19 @@ inline RigSubject snake() {
   int before = figure.add({-10, 1, 0}, 0.8);
   for (int k = 1; k <= 10; ++k) before = figure.add({2.0 * k - 10, 1, std::sin(k)}, 0.8, before);
   return subject_of("snake", figure);
+}
+
+inline const PlannedJoint* joint_of(const BodyPlan& plan, const std::string& role) {
+  const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                  [&](const PlannedJoint& joint) { return joint.role == role; });
+  return found == plan.joints.end() ? nullptr : &*found;
+}
+
+inline void expect_near(const BodyPlan& plan, const std::string& role,
+                        const Eigen::RowVector3d& place, double off) {
+  const PlannedJoint* joint = joint_of(plan, role);
+  ASSERT_NE(joint, nullptr) << role;
+  EXPECT_LT((joint->position - place).norm(), off) << role << " at " << joint->position;
 }
 
 }  // namespace curveskel

@@ -23,19 +23,6 @@ namespace {
 
 using Eigen::RowVector3d;
 
-const PlannedJoint* joint_of(const BodyPlan& plan, const std::string& role) {
-  const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
-                                  [&](const PlannedJoint& joint) { return joint.role == role; });
-  return found == plan.joints.end() ? nullptr : &*found;
-}
-
-void expect_near(const BodyPlan& plan, const std::string& role, const RowVector3d& place,
-                 double off) {
-  const PlannedJoint* joint = joint_of(plan, role);
-  ASSERT_NE(joint, nullptr) << role;
-  EXPECT_LT((joint->position - place).norm(), off) << role << " at " << joint->position;
-}
-
 TEST(FindPlan, HumanoidsHaveTheirJoints) {
   const RigSubject subject = human();
   const BodyPlan plan = find_plan(subject.surface, subject.skeleton);

@@ -61,19 +61,6 @@ RigSubject striding_human(double degrees) {
   return subject_of("striding human", figure);
 }
 
-const PlannedJoint* joint_of(const BodyPlan& plan, const std::string& role) {
-  const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
-                                  [&](const PlannedJoint& joint) { return joint.role == role; });
-  return found == plan.joints.end() ? nullptr : &*found;
-}
-
-void expect_near(const BodyPlan& plan, const std::string& role, const RowVector3d& place,
-                 double off) {
-  const PlannedJoint* joint = joint_of(plan, role);
-  ASSERT_NE(joint, nullptr) << role;
-  EXPECT_LT((joint->position - place).norm(), off) << role << " at " << joint->position;
-}
-
 /// In the limb that it belongs to, as far as its thickness goes.
 void expect_in(const BodyPlan& plan, const std::string& role, const Limb& limb, double radius) {
   const PlannedJoint* joint = joint_of(plan, role);
