@@ -185,6 +185,39 @@ TEST_F(Saving, AsksBeforeItReplacesAnyOtherFile) {
   }
 }
 
+TEST_F(Corrections, AreNotLostToAnotherFileWithoutAQuestion) {
+  const std::vector<fs::path> other{mesh_called("torus.off")};
+  const auto would_ask = [&] {
+    bench.open(other);
+    const bool asks = bench.wants_to_abandon.has_value();
+    EXPECT_NE(asks, bench.opening());
+    bench.cancel_opening();
+    EXPECT_TRUE(wait_for(bench, [&] { return !bench.opening(); }));
+    bench.wants_to_abandon.reset();
+    return asks;
+  };
+  open_y();
+  EXPECT_FALSE(would_ask()) << "nothing was corrected";
+  split_an_edge();
+  EXPECT_TRUE(would_ask());
+  bench.save(folder.path() / "picture.svg");
+  EXPECT_TRUE(would_ask()) << "a picture is no skeleton";
+  bench.save(folder.path() / "skeleton.json");
+  EXPECT_FALSE(would_ask());
+  split_an_edge();
+  EXPECT_TRUE(would_ask());
+  bench.undo();
+  EXPECT_FALSE(would_ask()) << "this one is saved";
+  bench.undo();
+  EXPECT_FALSE(would_ask()) << "as it was made";
+  bench.redo();
+  bench.redo();
+  EXPECT_TRUE(would_ask());
+  const Scene* const before = bench.scene.get();
+  bench.open(other, true);
+  EXPECT_TRUE(wait_for(bench, [&] { return bench.scene.get() != before; }));
+}
+
 TEST(Messages, OfTheSameTextAreOne) {
   Workbench bench{ViewOptions{}};
   for (int i = 0; i < 3; ++i) bench.say("the same", true);

@@ -255,6 +255,21 @@ class Correcting(WindowTest):
         self.assertLess(pruned[1], edges)
         self.leave(window)
 
+    def test_leaving_asks_for_what_is_not_saved(self):
+        window, tips, _ = self.cross()
+        window.click(*tips[0])
+        window.changes("Delete", least=0.0005)
+        window.changes("ctrl+q")
+        window.changes("Escape")
+        self.assertEqual(self.counts(window, "pruned.json")[1], 3)
+        window.click(*tips[2])
+        window.changes("Delete", least=0.0005)
+        before = window.rest()
+        ask_to_close(display.name, int(window.id))
+        window.wait_for_change(before, 0.002)
+        window.key("d")
+        self.assertEqual(window.exit_code(), DONE)
+
     def test_rig_comes_by_a_key_and_is_saved(self):
         window = self.opened()
         window.key("g")

@@ -5,7 +5,14 @@
 
 namespace curveskel::viewer {
 
+namespace {
+
+bool has_work_by_hand(const Edited& state) { return state.corrected || !state.roles.empty(); }
+
+}  // namespace
+
 void History::add(Edited next) {
+  next.saved = false;
   if (!states_.empty()) states_.resize(at_ + 1);
   states_.push_back(std::move(next));
   at_ = states_.size() - 1;
@@ -29,9 +36,12 @@ void History::go_over_to(Eigen::Index vertices) {
 }
 
 bool History::has_corrections() const {
-  return std::any_of(states_.begin(), states_.end(),
-                     [](const Edited& state) { return state.corrected || !state.roles.empty(); });
+  return std::any_of(states_.begin(), states_.end(), has_work_by_hand);
 }
+
+void History::note_saved() { states_[at_].saved = true; }
+
+bool History::unsaved() const { return !empty() && has_work_by_hand(now()) && !now().saved; }
 
 void History::undo() {
   if (can_undo()) --at_;

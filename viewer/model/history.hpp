@@ -31,6 +31,7 @@ struct Edited {
   int whole_root = -1;
   double detail = EmbedOptions().detail;       ///< of the level that is shown
   double detail_made = EmbedOptions().detail;  ///< of the whole, of which other levels are parts
+  bool saved = false;                          ///< to a file, as it is
 };
 
 /// States in order; the past is kept whole, the future until something else is done.
@@ -51,6 +52,10 @@ class History {
   [[nodiscard]] bool corrected() const { return !empty() && now().corrected; }
   /// True if work by hand would be lost with the history.
   [[nodiscard]] bool has_corrections() const;
+  /// The present state is in a file. Precondition: not empty.
+  void note_saved();
+  /// True if the present state has work by hand that is in no file.
+  [[nodiscard]] bool unsaved() const;
   [[nodiscard]] const Edited& now() const { return states_[at_]; }
 
  private:

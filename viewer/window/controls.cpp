@@ -195,7 +195,8 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
 }
 
 void Controls::escape(Workbench& bench, Panels& panels) const {
-  if (bench.wants_to_replace) {
+  if (bench.wants_to_abandon || bench.wants_to_replace) {
+    bench.wants_to_abandon.reset();
     bench.wants_to_replace.reset();
     return;
   }
@@ -273,7 +274,7 @@ void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
   const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
   if (typing) return;
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_Q)) wants_to_leave = true;  // a dialogue or not
-  if (panels.browser.shown() || bench.wants_to_replace) return;
+  if (panels.browser.shown() || bench.wants_to_replace || bench.wants_to_abandon) return;
   side_keys(bench, picture);
   if (ImGui::GetIO().KeyCtrl) {
     command_keys(bench, panels);

@@ -43,6 +43,8 @@ void choose(const char* label, Choice& value, const NameTable<Choice, Count>& ta
   ImGui::EndCombo();
 }
 
+/// Before a file is replaced, or corrections are lost.
+void questions(Workbench& bench, Panels& panels);
 /// Run, parameters, corrections.
 void draw_left_panel(Workbench& bench, Panels& panels, const Area& area);
 /// Look, certificate, rig, input.

@@ -154,36 +154,6 @@ void hint(const Workbench& bench, const Area& picture) {
                                           ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
 }
 
-/// If a file may be replaced.
-void question(Workbench& bench) {
-  constexpr const char* title = "Replace a file?";
-  if (bench.wants_to_replace && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
-  constexpr ImGuiWindowFlags flags =
-      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
-  if (!ImGui::BeginPopupModal(title, nullptr, flags)) return;
-  if (bench.wants_to_replace) {
-    ImGui::PushTextWrapPos(std::min(40 * ImGui::GetFontSize(), screen.x * 0.8F));
-    ImGui::Text("%s is there already.", bench.wants_to_replace->string().c_str());
-    ImGui::PopTextWrapPos();
-    const float width = 6 * ImGui::GetFontSize();
-    // Not by Enter, which named the file a moment ago.
-    const bool replace = ImGui::Button("Replace", {width, 0}) || ImGui::IsKeyPressed('R', false);
-    tip("R");
-    ImGui::SameLine();
-    const bool keep = ImGui::Button("Keep it", {width, 0});
-    tip("Esc");
-    if (replace) {
-      bench.save(*std::exchange(bench.wants_to_replace, std::nullopt), true);
-    } else if (keep) {
-      bench.wants_to_replace.reset();
-    }
-  }
-  if (!bench.wants_to_replace) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-}
-
 void browser(Workbench& bench, Panels& panels) {
   const auto chosen = panels.browser.draw();
   if (!chosen) return;
@@ -346,7 +316,7 @@ void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   hint(bench, layout.picture);
   help(panels);
   browser(bench, panels);
-  question(bench);
+  questions(bench, panels);
   const std::string hovered = description_of(panels.hovered, bench);
   if (!hovered.empty() && !ImGui::GetIO().WantCaptureMouse) {
     ImGui::SetTooltip("%s", hovered.c_str());

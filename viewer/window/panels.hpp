@@ -67,6 +67,7 @@ struct Panels {
   std::string gl;        ///< the driver
   std::string transfer;  ///< how positions come to be drawn
   bool wants_picture = false;
+  bool may_leave = false;  ///< whatever is lost
 };
 
 /// For a window of this size in ImGui's units; small windows have narrow panels.

@@ -60,8 +60,7 @@ class Viewer {
   }
 
   int show() {
-    while (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave &&
-           !session_.interruption.token().stop_requested()) {
+    while (!leaves()) {
       wait_for_events();
       (void)attempt([&] {
         take_files();
@@ -81,6 +80,20 @@ class Viewer {
   }
 
  private:
+  /// Whoever closes the window is asked first if corrections would be lost.
+  [[nodiscard]] bool leaves() {
+    if (session_.interruption.token().stop_requested() || panels_.may_leave) return true;
+    if (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave) {
+      return false;
+    }
+    if (!bench_.history().unsaved()) return true;
+    glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+    controls_.wants_to_leave = false;
+    bench_.wants_to_abandon.emplace();
+    awake();
+    return false;
+  }
+
   /// An action that fails says why; the window stays, and with it all corrections. False if so.
   template <typename Action>
   [[nodiscard]] bool attempt(const Action& action) {

@@ -106,9 +106,13 @@ bool Workbench::update() {
   return changed;
 }
 
-void Workbench::open(const std::vector<fs::path>& files) {
+void Workbench::open(const std::vector<fs::path>& files, bool may_abandon) {
   if (opening_.valid()) {
     say("another file is still being opened", true);
+    return;
+  }
+  if (history_.unsaved() && !reloading_ && !may_abandon) {  // reading again keeps them
+    wants_to_abandon = files;
     return;
   }
   say("opening " + names_of(files));
@@ -179,6 +183,7 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   rig_again_ = false;
   save_rig_to_.clear();
   wants_to_replace.reset();
+  wants_to_abandon.reset();
   opened->look = scene->look;
   if (same_place) opened->camera = scene->camera;
   scene = std::move(opened);
@@ -270,6 +275,7 @@ void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
                        (now.corrected ? ", corrected by hand" : "");
   if (scene->document.has_surface()) context.surface = &scene->document.surface;
   write_file(file, format_skeleton(*now.skeleton, format, context));
+  if (format != SkeletonFormat::png && format != SkeletonFormat::svg) history_.note_saved();
   note_saved(file);
   say("saved " + file.string());
 }

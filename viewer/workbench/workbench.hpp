@@ -60,7 +60,9 @@ class Workbench {
   [[nodiscard]] bool judging() const { return judging_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
-  void open(const std::vector<std::filesystem::path>& files);
+  /// Where corrections would be lost that are in no file, `wants_to_abandon` is set instead, unless
+  /// they may be.
+  void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
   void reload();
@@ -157,6 +159,9 @@ class Workbench {
 
   std::shared_ptr<Scene> scene;  ///< never null
   RunOptions pipeline;
+  /// Set when a person should be asked whether corrections that are in no file may be lost: for
+  /// these files, or, if there are none, for leaving.
+  std::optional<std::vector<std::filesystem::path>> wants_to_abandon;
   /// Set when the camera should go to where the scene is seen best.
   bool wants_fit = true;
   /// Set when a person should be asked whether this file may be replaced.

@@ -193,6 +193,7 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   }
   write_file(file, edited ? edited->bytes
                           : format_rig(document.surface, rig, format, name, program_and_version()));
+  history_.note_saved();
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
 }

@@ -1,0 +1,91 @@
+// Questions before something is lost.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/window/panel_parts.hpp"
+
+namespace curveskel::viewer {
+namespace {
+
+struct Choice {
+  const char* label;
+  char key;  // 0 = Esc, which the controls hear
+};
+
+/// The number of the choice made in this frame, or -1. Not by Enter, which may have ended the
+/// dialogue before.
+int choice_among(std::span<const Choice> choices) {
+  int chosen = -1;
+  const float width = 6 * ImGui::GetFontSize();
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const Choice& one = choices[i];
+    if (i > 0) ImGui::SameLine();
+    const bool typed = one.key != 0 && ImGui::IsKeyPressed(one.key, false);
+    if (ImGui::Button(one.label, {width, 0}) || typed) chosen = static_cast<int>(i);
+    tip(one.key == 0 ? "Esc" : std::string(1, one.key).c_str());
+  }
+  return chosen;
+}
+
+/// Over all else while it is to be asked; the number of the choice made in this frame, or -1.
+int answer(const char* title, bool asked, const std::string& text,
+           std::span<const Choice> choices) {
+  if (asked && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+  if (!ImGui::BeginPopupModal(title, nullptr, flags)) return -1;
+  int chosen = -1;
+  if (asked) {
+    ImGui::PushTextWrapPos(std::min(40 * ImGui::GetFontSize(), screen.x * 0.8F));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    chosen = choice_among(choices);
+  }
+  if (!asked || chosen >= 0) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return chosen;
+}
+
+void ask_to_replace(Workbench& bench) {
+  constexpr std::array<Choice, 2> choices{{{"Replace", 'R'}, {"Keep it", 0}}};
+  const bool asked = bench.wants_to_replace.has_value();
+  const std::string file = asked ? bench.wants_to_replace->string() : "";
+  const int chosen = answer("Replace a file?", asked, file + " is there already.", choices);
+  if (chosen < 0) return;
+  bench.wants_to_replace.reset();
+  if (chosen == 0) bench.save(file, true);
+}
+
+void ask_to_abandon(Workbench& bench, Panels& panels) {
+  constexpr std::array<Choice, 3> choices{{{"Save", 'S'}, {"Discard", 'D'}, {"Stay", 0}}};
+  const bool asked = bench.wants_to_abandon.has_value();
+  const int chosen =
+      answer("Discard corrections?", asked, "The corrections by hand are in no file yet.", choices);
+  if (chosen < 0) return;
+  const auto files = *std::exchange(bench.wants_to_abandon, std::nullopt);
+  if (chosen == 0) {
+    ask_to_save(bench, panels);
+  } else if (chosen == 1 && files.empty()) {
+    panels.may_leave = true;
+  } else if (chosen == 1) {
+    bench.open(files, true);
+  }
+}
+
+}  // namespace
+
+void questions(Workbench& bench, Panels& panels) {
+  ask_to_replace(bench);
+  ask_to_abandon(bench, panels);
+}
+
+}  // namespace curveskel::viewer
