@@ -96,12 +96,12 @@ std::vector<std::vector<int>> parts_within(const Surface& surface, const CurveSk
 class OwnParts {
  public:
   OwnParts(std::vector<std::vector<int>> within, std::size_t parts)
-      : within_(std::move(within)), owner_(parts, -1) {}
+      : within_(std::move(within)), owner_(parts, -1), asked_(parts, 0) {}
 
   [[nodiscard]] int without_one() {
     int count = 0;
     for (std::size_t component = 0; component < within_.size(); ++component) {
-      asked_.assign(owner_.size(), 0);
+      ++round_;
       count += give(static_cast<int>(component)) ? 0 : 1;
     }
     return count;
@@ -110,7 +110,7 @@ class OwnParts {
  private:
   bool give(int component) {
     for (const int part : within_[idx(component)]) {
-      if (std::exchange(asked_[idx(part)], 1) != 0) continue;
+      if (std::exchange(asked_[idx(part)], round_) == round_) continue;
       if (owner_[idx(part)] >= 0 && !give(owner_[idx(part)])) continue;
       owner_[idx(part)] = component;
       return true;
@@ -119,8 +119,9 @@ class OwnParts {
   }
 
   std::vector<std::vector<int>> within_;
-  std::vector<int> owner_;   // per part
-  std::vector<char> asked_;  // per part
+  std::vector<int> owner_;  // per part
+  std::vector<int> asked_;  // per part: the last round that asked for it
+  int round_ = 0;           // one for each component that wants a part
 };
 
 }  // namespace

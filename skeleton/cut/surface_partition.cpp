@@ -83,6 +83,7 @@ std::array<int, 3> SurfacePartition::groups_at(int triangle) const {
 
 std::vector<int> SurfacePartition::triple_neighbours(int group) const {
   std::vector<int> around;
+  around.reserve(16);  // of two triangles each, most groups have eight or fewer
   for (const int t : boundary_[group]) {
     const auto g = groups_at(t);
     if (g[0] == g[1] || g[1] == g[2] || g[2] == g[0]) continue;

@@ -61,11 +61,13 @@ struct Candidate {
 /// take the square of their number.
 constexpr std::size_t many_neighbours = 1000;
 
-/// The sum of the lengths of a group's edges, kept for a while if the group has many neighbours.
+/// The sum of the lengths of a group's edges, kept while the group's neighbours are the same, and
+/// for a while longer if these are many.
 struct EdgeSum {
   double length = 0;
+  bool exact = false;  ///< the neighbours are the same as when the sum was made
   std::size_t neighbours = 0;
-  std::size_t changes = 0;  ///< of the neighbours since the sum was made
+  std::size_t changes = 0;  ///< how often neighbours merged since the sum was made
   /// An eighth of the neighbours: the sum is out by about as much, and all candidates in all are
   /// made from no more than nine times the neighbours that there ever were.
   [[nodiscard]] bool current() const {
@@ -120,13 +122,16 @@ class Surgeon {
   double edge_sum(int group) {
     EdgeSum& kept = edge_sums_[group];
     ++kept.changes;
-    return kept.current() ? kept.length : edge_sum(group, neighbours(group));
+    if (kept.current()) return kept.length;
+    if (!kept.exact) return edge_sum(group, neighbours(group));
+    kept.changes = 0;
+    return kept.length;
   }
 
   double edge_sum(int group, const std::vector<int>& around) {
     double sum = 0;
     for (const int other : around) sum += (positions_.row(other) - positions_.row(group)).norm();
-    edge_sums_[group] = {sum, around.size(), 0};
+    edge_sums_[group] = {sum, true, around.size(), 0};
     return sum;
   }
 
@@ -149,7 +154,8 @@ class Surgeon {
   void merge(int from, int into) {
     ++edge_sums_[into].changes;
     const bool as_before = edge_sums_[into].current();
-    const std::vector<int> gained = as_before ? neighbours(from) : std::vector<int>{};
+    const std::vector<int> gained = neighbours(from);
+    for (const int other : gained) edge_sums_[other].exact = false;
     groups_.merge(from, into);
     quadrics_[into].add(quadrics_[from]);
     alive_[from] = false;

@@ -90,16 +90,18 @@ class SequenceTree {
     const std::size_t first = index * width;
     const std::size_t count = std::min(width, below.size() - first);
     std::array<std::pair<double, std::size_t>, width> order;
+    std::size_t open = 0;  // that may hold a smaller value
     for (std::size_t i = 0; i < count; ++i) {
       const Item& item = below[first + i];
       const double distance =
           (item.lower - p).cwiseMax(p - item.upper).cwiseMax(Eigen::Vector3d::Zero()).norm();
       const std::pair entry{distance - item.weight, first + i};
-      std::size_t place = i;  // insertion sort
+      if (!(entry.first < best)) continue;
+      std::size_t place = open++;  // insertion sort
       for (; place > 0 && entry < order[place - 1]; --place) order[place] = order[place - 1];
       order[place] = entry;
     }
-    for (std::size_t i = 0; i < count && order[i].first < best && best > enough; ++i) {
+    for (std::size_t i = 0; i < open && order[i].first < best && best > enough; ++i) {
       visit(level - 1, order[i].second, p, enough, value, best);
     }
   }

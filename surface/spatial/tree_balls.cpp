@@ -177,8 +177,7 @@ double find_ball_radius(const WideTree& tree, const Eigen::Vector3d& p, const Ei
     if (!(bound < open)) continue;
     if (child < 0) {
       const TriangleLeaf& leaf = tree.leaf(child);
-      ball.meet(tree, leaf, 0);
-      ball.meet(tree, leaf, 1);
+      for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) ball.meet(tree, leaf, pair);
       continue;
     }
     // Growing balls are nested: a child that the ball so far misses cannot bound it further.

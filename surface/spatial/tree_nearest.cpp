@@ -26,7 +26,7 @@ LocalNearest find_nearest(const WideTree& tree, const Eigen::Vector3d& p, double
       continue;
     }
     const TriangleLeaf& leaf = tree.leaf(child);
-    for (std::size_t pair = 0; pair < 2; ++pair) {
+    for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
       const Double2 distance2 = squared_distance(tree, leaf, pair, p_lanes);
       for (int lane = 0; lane < 2; ++lane) {
         if (distance2[lane] < best || (best_child >= 0 && distance2[lane] == best)) {

@@ -106,7 +106,7 @@ Winding winding_along(const WideTree& tree, const Eigen::Vector3d& origin,
   const ShearedRay sheared(origin, direction);
   Winding winding;
   along_ray(tree, origin, direction, infinity, [&](const TriangleLeaf& leaf) {
-    for (std::size_t pair = 0; pair < 2; ++pair) {
+    for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
       const Crossings crossing = crossings(tree, leaf, pair, sheared);
       for (int lane = 0; lane < 2; ++lane) {
         if (leaf.repeated(pair * 2 + static_cast<std::size_t>(lane))) continue;
@@ -139,7 +139,7 @@ bool outside_box(const WideTree& tree, const Eigen::Vector3d& p) {
 // Takes the leaf's first triangle on the ray if it is nearer than the hit so far.
 void meet(const WideTree& tree, const TriangleLeaf& leaf, const ShearedRay& sheared,
           LocalHit& hit) {
-  for (std::size_t pair = 0; pair < 2; ++pair) {
+  for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
     const Crossings crossing = crossings(tree, leaf, pair, sheared);
     for (int lane = 0; lane < 2; ++lane) {
       const double u = crossing.u[lane];
