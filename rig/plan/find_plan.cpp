@@ -44,10 +44,41 @@ class Planner {
         }
       }
     }
-    return std::move(joints_);
+    return own_joints();
   }
 
  private:
+  /// Without those of a limb that the body lacks, and without a shoulder that then holds none.
+  std::vector<PlannedJoint> own_joints() {
+    const std::size_t count = joints_.size();
+    std::vector<char> is_own(count, 1);
+    std::vector<int> below(count, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int parent = joints_[k].parent;
+      const bool hangs_from_own = parent < 0 || is_own[idx(parent)] != 0;
+      is_own[k] = hangs_from_own && joints_[k].node < tree_.own_nodes ? 1 : 0;
+      if (parent >= 0) below[idx(parent)] += 1;
+    }
+    for (std::size_t k = count; k-- > 0;) {
+      const int parent = joints_[k].parent;
+      if (is_own[k] == 0 && parent >= 0) below[idx(parent)] -= 1;
+      if (is_own[k] == 0 && parent >= 0 && below[idx(parent)] == 0 &&
+          joints_[idx(parent)].node < 0) {
+        is_own[idx(parent)] = 0;
+      }
+    }
+    std::vector<int> number(count, -1);
+    std::vector<PlannedJoint> own;
+    own.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_own[k] == 0) continue;
+      number[k] = static_cast<int>(own.size());
+      own.push_back(std::move(joints_[k]));
+      if (own.back().parent >= 0) own.back().parent = number[idx(own.back().parent)];
+    }
+    return own;
+  }
+
   void add(const Place& place, const std::string& role, bool is_right) {
     PlannedJoint joint;
     joint.role = role;
@@ -59,7 +90,9 @@ class Planner {
                                                                            : place.parent);
     }
     Vector3d at = place.at;
-    if (outlook_.sides == Sides::own) at += way_to_own_side(place, is_right);
+    if (outlook_.sides == Sides::own || outlook_.sides == Sides::completed) {
+      at += way_to_own_side(place, is_right);
+    }
     if (is_right) at.x() = 2 * tree_.middle - at.x();
     if (outlook_.sides == Sides::posed) at += way_into_pose(place, is_right, at);
     joint.position = (outlook_.axes.transpose() * at).transpose();
