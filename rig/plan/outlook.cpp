@@ -199,11 +199,12 @@ bool is_stump(const CurveTree& tree, const LimbPair& arm, const LimbPair& leg) {
   return arm.length < with_shoulder * trunk;
 }
 
-/// True if the trunk goes on above the ball from which the arms leave it.
+/// True if the trunk goes on above the arms by a head, which is an eighth of a human's height.
 bool has_head(const Outlook& outlook) {
+  constexpr double head = 0.125;
   const CurveTree& tree = outlook.tree;
   const int chest = outlook.limbs.pairs[idx(outlook.found.arms)].root;
-  const double above = tree.nodes[idx(chest)].y() + tree.radii[idx(chest)];
+  const double above = tree.nodes[idx(chest)].y() + head * tree.height;
   return std::any_of(outlook.limbs.trunk.begin(), outlook.limbs.trunk.end(),
                      [&](int node) { return tree.nodes[idx(node)].y() > above; });
 }
