@@ -183,10 +183,24 @@ double share_of_largest_component(const Surface& surface, const std::vector<std:
 
 /// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
 /// nothing about humans.
-bool is_put_together(const Surface& surface, BodyKind plan, const PlanOptions& options) {
+bool is_put_together(const Surface& surface, const PlanOptions& options) {
   constexpr double most_of_it = 0.5;
-  const bool is_animal = plan != BodyKind::humanoid && plan != BodyKind::other;
-  return is_animal && share_of_largest_component(surface, options.sheets) < most_of_it;
+  return share_of_largest_component(surface, options.sheets) < most_of_it;
+}
+
+/// Chairs and tables have legs and rungs between them. Humans are spared, as they may fold their
+/// hands.
+void refuse_things(PlanFound& found, const CurveTree& tree, const Surface& surface,
+                   const PlanOptions& options) {
+  if (found.plan == BodyKind::humanoid || found.plan == BodyKind::other) return;
+  std::string why;
+  if (tree.has_cycles) why = "the curve of an animal has no cycles, as this one has; ";
+  if (is_put_together(surface, options)) {
+    why = "most of an animal is one component, which here is less than half; ";
+  }
+  if (why.empty()) return;
+  found.plan = BodyKind::other;
+  found.reason.insert(0, why);
 }
 
 }  // namespace
@@ -204,11 +218,8 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     return result;
   }
   Outlook outlook = best_outlook(surface, skeleton, options);
-  if (options.plan == BodyKind::automatic &&
-      is_put_together(surface, outlook.found.plan, options)) {
-    outlook.found.plan = BodyKind::other;
-    outlook.found.reason =
-        "most of an animal is one component, which here is less than half; " + outlook.found.reason;
+  if (options.plan == BodyKind::automatic) {
+    refuse_things(outlook.found, outlook.tree, surface, options);
   }
   const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
   result.axes = outlook.axes.array() + 0.0;  // no -0
