@@ -168,6 +168,7 @@ struct Explained {
 };
 
 Explained explained_by(const Outlook& outlook) {
+  if (outlook.limbs.is_trunk.empty()) return {};  // too many tips to look at
   std::vector<char> is_explained = outlook.limbs.is_trunk;
   for (const LimbPair& pair : outlook.limbs.pairs) {
     for (const LimbWay& way : pair.ways) {
