@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -158,6 +160,28 @@ void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const Edi
   if (is_fbx) edited.bytes = fbx_of_glb(std::move(edited.bytes), options.provenance, monitor);
 }
 
+/// Of a file with its new joints, which keep the names of their roles: programs find them by these.
+void note_shared_names(const OrderedJson& gltf, std::vector<std::string>& notes) {
+  std::map<std::string, bool> joints;  // by name, true if another node has it
+  std::set<std::size_t> numbers;
+  for (const OrderedJson& joint : gltf.at("skins").back().at("joints"))
+    numbers.insert(joint.get<std::size_t>());
+  const OrderedJson& nodes = gltf.at("nodes");
+  for (const std::size_t number : numbers) joints[nodes.at(number).value("name", "")] = false;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const auto joint = joints.find(nodes[node].value("name", ""));
+    if (joint != joints.end() && !numbers.contains(node)) joint->second = true;
+  }
+  std::string shared;
+  for (const auto& [name, is_shared] : joints) {
+    if (is_shared && !name.empty()) shared += (shared.empty() ? "" : ", ") + in_quotes(name);
+  }
+  if (shared.empty()) return;
+  notes.push_back("joints have the names of other nodes (" + shared +
+                  "), so a program may put a number behind either; rename those nodes, or give "
+                  "the joints other names with --names");
+}
+
 EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,
                      const Monitor& monitor) {
   const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
@@ -176,6 +200,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
           replace_gltf_rig(document, file, model, scene, rig, weights, options);
       edited.joints_replaced = removed.joints;
       edited.channels_removed = removed.channels;
+      note_shared_names(document.json, edited.notes);
     } else {
       keep_gltf_rig(document, file, model, scene, weights);
     }
@@ -203,6 +228,7 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
   add_gltf_rig(made.document, made.parts, placed(rig, dressed->mesh.to_gltf), options.name);
+  note_shared_names(made.document.json, edited.notes);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
   finish(edited, std::move(made.document), rig, options, monitor);
   return edited;

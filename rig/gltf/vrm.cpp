@@ -50,6 +50,17 @@ void append_word(std::string& bytes, std::size_t word) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+/// True for an absolute address of the web, which a link in another program opens.
+bool is_web_address(std::string_view text) {
+  std::size_t host = 0;
+  for (const std::string_view scheme : {"https://", "http://"}) {
+    if (text.starts_with(scheme)) host = scheme.size();
+  }
+  const auto is_space = [](char letter) { return static_cast<unsigned char>(letter) <= ' '; };
+  return host > 0 && host < text.size() && text[host] != '/' &&
+         std::none_of(text.begin(), text.end(), is_space);
+}
+
 }  // namespace
 
 void require_whole(const VrmMeta& meta) {
@@ -58,6 +69,12 @@ void require_whole(const VrmMeta& meta) {
                 "a .vrm file needs a name, an author and a licence: give --vrm-name, --vrm-author "
                 "and --vrm-licence (the address of its text, as "
                 "https://vrm.dev/licenses/1.0/)");
+  }
+  if (!is_web_address(meta.licence_url)) {
+    throw Error(Fault::usage,
+                "--vrm-licence: found '" + meta.licence_url +
+                    "', needed the address of the licence's text, beginning with https:// or "
+                    "http://; VRM's own is https://vrm.dev/licenses/1.0/");
   }
 }
 

@@ -22,7 +22,7 @@ constexpr LegLimits upright_legs{0.1, 0.45};
 constexpr LegLimits sprawling_legs{0.05, 0.8};
 
 bool reaches_ground(const CurveTree& tree, const LimbPair& pair) {
-  return pair.lowest < tree.ground + 0.06 * tree.height;
+  return pair.lowest < tree.ground + near_ground * tree.height;
 }
 
 bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits = upright_legs) {

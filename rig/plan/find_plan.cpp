@@ -44,10 +44,41 @@ class Planner {
         }
       }
     }
-    return std::move(joints_);
+    return own_joints();
   }
 
  private:
+  /// Without those of a limb that the body lacks, and without a shoulder that then holds none.
+  std::vector<PlannedJoint> own_joints() {
+    const std::size_t count = joints_.size();
+    std::vector<char> is_own(count, 1);
+    std::vector<int> below(count, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int parent = joints_[k].parent;
+      const bool hangs_from_own = parent < 0 || is_own[idx(parent)] != 0;
+      is_own[k] = hangs_from_own && joints_[k].node < tree_.own_nodes ? 1 : 0;
+      if (parent >= 0) below[idx(parent)] += 1;
+    }
+    for (std::size_t k = count; k-- > 0;) {
+      const int parent = joints_[k].parent;
+      if (is_own[k] == 0 && parent >= 0) below[idx(parent)] -= 1;
+      if (is_own[k] == 0 && parent >= 0 && below[idx(parent)] == 0 &&
+          joints_[idx(parent)].node < 0) {
+        is_own[idx(parent)] = 0;
+      }
+    }
+    std::vector<int> number(count, -1);
+    std::vector<PlannedJoint> own;
+    own.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_own[k] == 0) continue;
+      number[k] = static_cast<int>(own.size());
+      own.push_back(std::move(joints_[k]));
+      if (own.back().parent >= 0) own.back().parent = number[idx(own.back().parent)];
+    }
+    return own;
+  }
+
   void add(const Place& place, const std::string& role, bool is_right) {
     PlannedJoint joint;
     joint.role = role;
@@ -59,7 +90,9 @@ class Planner {
                                                                            : place.parent);
     }
     Vector3d at = place.at;
-    if (outlook_.sides == Sides::own) at += way_to_own_side(place, is_right);
+    if (outlook_.sides == Sides::own || outlook_.sides == Sides::completed) {
+      at += way_to_own_side(place, is_right);
+    }
     if (is_right) at.x() = 2 * tree_.middle - at.x();
     if (outlook_.sides == Sides::posed) at += way_into_pose(place, is_right, at);
     joint.position = (outlook_.axes.transpose() * at).transpose();
@@ -150,10 +183,24 @@ double share_of_largest_component(const Surface& surface, const std::vector<std:
 
 /// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
 /// nothing about humans.
-bool is_put_together(const Surface& surface, BodyKind plan, const PlanOptions& options) {
+bool is_put_together(const Surface& surface, const PlanOptions& options) {
   constexpr double most_of_it = 0.5;
-  const bool is_animal = plan != BodyKind::humanoid && plan != BodyKind::other;
-  return is_animal && share_of_largest_component(surface, options.sheets) < most_of_it;
+  return share_of_largest_component(surface, options.sheets) < most_of_it;
+}
+
+/// Chairs and tables have legs and rungs between them. Humans are spared, as they may fold their
+/// hands.
+void refuse_things(PlanFound& found, const CurveTree& tree, const Surface& surface,
+                   const PlanOptions& options) {
+  if (found.plan == BodyKind::humanoid || found.plan == BodyKind::other) return;
+  std::string why;
+  if (tree.has_cycles) why = "the curve of an animal has no cycles, as this one has; ";
+  if (is_put_together(surface, options)) {
+    why = "most of an animal is one component, which here is less than half; ";
+  }
+  if (why.empty()) return;
+  found.plan = BodyKind::other;
+  found.reason.insert(0, why);
 }
 
 }  // namespace
@@ -171,11 +218,8 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     return result;
   }
   Outlook outlook = best_outlook(surface, skeleton, options);
-  if (options.plan == BodyKind::automatic &&
-      is_put_together(surface, outlook.found.plan, options)) {
-    outlook.found.plan = BodyKind::other;
-    outlook.found.reason =
-        "most of an animal is one component, which here is less than half; " + outlook.found.reason;
+  if (options.plan == BodyKind::automatic) {
+    refuse_things(outlook.found, outlook.tree, surface, options);
   }
   const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
   result.axes = outlook.axes.array() + 0.0;  // no -0

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "rig/plan/completed.hpp"
 #include "rig/plan/unposed.hpp"
 
 namespace curveskel {
@@ -158,19 +161,149 @@ bool sides_are_alike(const Outlook& outlook) {
   });
 }
 
+/// The length of the curve that is trunk or in a pair of limbs.
+struct Explained {
+  double length = 0;
+  double share = 0;
+};
+
+Explained explained_by(const Outlook& outlook) {
+  if (outlook.limbs.is_trunk.empty()) return {};  // too many tips to look at
+  std::vector<char> is_explained = outlook.limbs.is_trunk;
+  for (const LimbPair& pair : outlook.limbs.pairs) {
+    for (const LimbWay& way : pair.ways) {
+      for (const int node : way.path) is_explained[idx(node)] = 1;
+      for (const int node : way.mirror) is_explained[idx(node)] = 1;
+    }
+  }
+  const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
+  double explained = 0;
+  double whole = 0;
+  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
+    for (const int next : tree.neighbours[idx(node)]) {
+      if (next < node) continue;
+      const double length = (tree.nodes[idx(node)] - tree.nodes[idx(next)]).norm();
+      whole += length;
+      if (is_explained[idx(node)] != 0 && is_explained[idx(next)] != 0) explained += length;
+    }
+  }
+  return {explained, whole > 0 ? explained / whole : 1};
+}
+
+constexpr double most_of_it = 0.8;  // of the curve
+
+/// True for an arm that would not reach below the hips if it hung: one with a hand does, so what is
+/// on the other side alone is no weapon but forearm and hand.
+bool is_stump(const CurveTree& tree, const LimbPair& arm, const LimbPair& leg) {
+  constexpr double with_shoulder = 1.25;  // an arm's length counts from the middle of the chest
+  const double trunk = (tree.nodes[idx(arm.root)] - tree.nodes[idx(leg.root)]).norm();
+  return arm.length < with_shoulder * trunk;
+}
+
+/// True if the trunk goes on above the arms by a head, which is an eighth of a human's height.
+bool has_head(const Outlook& outlook) {
+  constexpr double head = 0.125;
+  const CurveTree& tree = outlook.tree;
+  const int chest = outlook.limbs.pairs[idx(outlook.found.arms)].root;
+  const double above = tree.nodes[idx(chest)].y() + head * tree.height;
+  return std::any_of(outlook.limbs.trunk.begin(), outlook.limbs.trunk.end(),
+                     [&](int node) { return tree.nodes[idx(node)].y() > above; });
+}
+
+/// Nothing with cycles, which are cut somewhere, and nothing without a head and with stubs for
+/// arms: of three limbs and a trunk many things are made.
+bool is_whole_but_for_a_limb(const Outlook& outlook) {
+  const PlanFound& found = outlook.found;
+  if (found.plan != BodyKind::humanoid || found.arms < 0 || outlook.tree.has_cycles) return false;
+  const auto& pairs = outlook.limbs.pairs;
+  return explained_by(outlook).share >= most_of_it && has_head(outlook) &&
+         !is_stump(outlook.tree, pairs[idx(found.arms)], pairs[idx(found.legs.front())]);
+}
+
+constexpr std::size_t most_tips = 1000;  // of a body, with all of its hair
+
+/// True for a leg of which one side ends above the ground, on which the other one stands.
+bool is_peg(const LimbPair& leg, const Completed& body) {
+  const CurveTree& tree = body.tree;
+  const LimbWay& way = leg.ways.front();
+  const double ground = tree.ground + near_ground * tree.height;
+  const auto lowest = [&](int node) { return tree.nodes[idx(node)].y() - tree.radii[idx(node)]; };
+  const int left = way.path.back();
+  if (tree.nodes[idx(tree.is_tip(left) ? left : way.mirror.back())].y() < ground) return false;
+  bool stands = false;
+  for (int node = tree.own_nodes; node < static_cast<int>(tree.nodes.size()); ++node) {
+    stands = stands || lowest(node) < ground;
+  }
+  return stands;
+}
+
+bool may_be_human(BodyKind wanted) {
+  return wanted == BodyKind::automatic || wanted == BodyKind::humanoid;
+}
+
+/// Whatever is asked for: what is made up is a human's or nothing.
+void look_again(Outlook& outlook, Completed&& body) {
+  outlook.tree = std::move(body.tree);
+  outlook.limbs = find_limbs(outlook.tree, body.pairs);
+  outlook.found = classify(outlook.tree, outlook.limbs, BodyKind::automatic);
+  outlook.found.reason.insert(0, "one limb is not whole: ");
+}
+
+/// An arm or a leg whose one side is a stump is made like the other one.
+void complete(Outlook& outlook, const TipPairs& pairs) {
+  const PlanFound& found = outlook.found;
+  const bool is_human = found.plan == BodyKind::humanoid && found.arms >= 0;
+  for (int k = 0; k < static_cast<int>(outlook.limbs.pairs.size()); ++k) {
+    const LimbPair& pair = outlook.limbs.pairs[idx(k)];
+    std::optional<Completed> body = with_whole_limb(outlook.tree, pairs, pair.ways.front());
+    if (!body) continue;
+    const bool is_arm = is_human && k == found.arms;
+    const bool is_short =
+        is_arm ? is_stump(outlook.tree, pair, outlook.limbs.pairs[idx(found.legs.front())])
+               : is_peg(pair, *body);
+    if (!is_short) continue;
+    Outlook whole = outlook;
+    look_again(whole, std::move(*body));
+    if (whole.found.plan != BodyKind::humanoid) continue;
+    if (!is_human && !is_whole_but_for_a_limb(whole)) continue;
+    outlook = std::move(whole);
+    return;
+  }
+}
+
 /// For bodies in which nothing is seen by the middle of the box: a weapon in one hand moves it, and
-/// the hand's tip.
+/// the hand's tip; half an arm does, too.
 Outlook second_look(const Surface& surface, const CurveSkeleton& skeleton,
                     const Eigen::Matrix3d& axes, BodyKind wanted) {
-  constexpr std::size_t most_tips = 1000;  // of a body, with all of its hair
   Outlook moved{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::own, {}};
   const std::vector<int> tips = tips_of(moved.tree);
   if (tips.size() > most_tips) return moved;
   moved.tree.middle = middle_of_tips(moved.tree, tips);
-  moved.limbs = find_limbs(moved.tree, pairs_by_place(moved.tree, Images::within_limbs));
+  const TipPairs pairs = pairs_by_place(moved.tree, Images::within_limbs);
+  moved.limbs = find_limbs(moved.tree, pairs);
   moved.found = classify(moved.tree, moved.limbs, wanted);
-  if (is_clear(moved.found.plan) && !sides_are_alike(moved)) moved.found.plan = BodyKind::other;
+  if (is_clear(moved.found.plan) && !sides_are_alike(moved)) {
+    moved.found.plan = BodyKind::other;
+    moved.found.reason += "; but left and right are not alike";
+  }
+  if (may_be_human(wanted)) complete(moved, pairs);
   return moved;
+}
+
+/// For humans without an arm or a leg: the longest limb that has no image has one now.
+Outlook third_look(const Surface& surface, const CurveSkeleton& skeleton,
+                   const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::completed, {}};
+  const std::vector<int> tips = tips_of(outlook.tree);
+  if (tips.size() > most_tips || !may_be_human(wanted)) return outlook;
+  outlook.tree.middle = middle_of_tips(outlook.tree, tips);
+  const TipPairs pairs = pairs_by_place(outlook.tree);
+  outlook.limbs = find_limbs(outlook.tree, pairs);
+  std::optional<Completed> body = with_missing_limb(outlook.tree, pairs, outlook.limbs);
+  if (!body) return outlook;
+  look_again(outlook, std::move(*body));
+  if (outlook.found.plan != BodyKind::humanoid) outlook.found.plan = BodyKind::other;
+  return outlook;
 }
 
 /// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
@@ -194,34 +327,6 @@ Outlook look_at_shape(const Surface& surface, const CurveSkeleton& skeleton,
   return outlook;
 }
 
-/// The length of the curve that is trunk or in a pair of limbs.
-struct Explained {
-  double length = 0;
-  double share = 0;
-};
-
-Explained explained_by(const Outlook& outlook) {
-  std::vector<char> is_explained = outlook.limbs.is_trunk;
-  for (const LimbPair& pair : outlook.limbs.pairs) {
-    for (const LimbWay& way : pair.ways) {
-      for (const int node : way.path) is_explained[idx(node)] = 1;
-      for (const int node : way.mirror) is_explained[idx(node)] = 1;
-    }
-  }
-  const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
-  double explained = 0;
-  double whole = 0;
-  for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-    for (const int next : tree.neighbours[idx(node)]) {
-      if (next < node) continue;
-      const double length = (tree.nodes[idx(node)] - tree.nodes[idx(next)]).norm();
-      whole += length;
-      if (is_explained[idx(node)] != 0 && is_explained[idx(next)] != 0) explained += length;
-    }
-  }
-  return {explained, whole > 0 ? explained / whole : 1};
-}
-
 /// A trunk that lies across is one that is seen from its side.
 bool lies_across(const CurveTree& tree, const Limbs& limbs) {
   Vector3d mean = Vector3d::Zero();
@@ -234,20 +339,35 @@ bool lies_across(const CurveTree& tree, const Limbs& limbs) {
 /// No fish and no bird, as any long thing and any cross is one in some pose; and nothing with
 /// cycles, which are cut somewhere.
 bool is_body_in_pose(const Outlook& outlook, const Explained& explained, BodyKind wanted) {
-  constexpr double most_of_it = 0.8;
   const bool is_one = is_clear(outlook.found.plan) ||
                       outlook.found.plan == BodyKind::tailed_biped || outlook.found.plan == wanted;
   return is_one && explained.share >= most_of_it && !outlook.posed.has_cycles &&
          !lies_across(outlook.posed, outlook.limbs);
 }
 
+/// Why there is no plan: of the looks that show none the one that explains most of the curve.
+struct Refusal {
+  double length = -1;
+  std::string reason;
+
+  void consider(const Outlook& outlook) {
+    const double length = explained_by(outlook).length;
+    if (outlook.found.plan != BodyKind::other || length <= this->length) return;
+    this->length = length;
+    reason = outlook.found.reason;
+  }
+};
+
 Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
-                      const std::vector<Eigen::Matrix3d>& frames, const PlanOptions& options) {
+                      const std::vector<Eigen::Matrix3d>& frames, const PlanOptions& options,
+                      Refusal& refusal) {
   Outlook best = look(surface, skeleton, frames.front(), options.plan);
+  refusal.consider(best);
   double off = asymmetry(best.tree, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(surface, skeleton, frames[k], options.plan);
+    refusal.consider(other);
     const double other_off = asymmetry(other.tree, other.tree.middle);
     const bool is_better =
         is_clear(other.found.plan)
@@ -259,6 +379,7 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
   }
   for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
     Outlook other = second_look(surface, skeleton, frames[k], options.plan);
+    refusal.consider(other);
     if (is_clear(other.found.plan)) best = std::move(other);
   }
   return best;
@@ -267,15 +388,24 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
 Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleton,
                             const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
-  Outlook best = best_by_place(surface, skeleton, frames, options);
+  Refusal refusal;
+  Outlook best = best_by_place(surface, skeleton, frames, options, refusal);
   Explained most = explained_by(best);
   for (std::size_t k = 0; k < frames.size() && !is_clear(best.found.plan); ++k) {
     Outlook other = look_at_shape(surface, skeleton, frames[k], options.plan);
+    refusal.consider(other);
     const Explained explained = explained_by(other);
     if (!is_body_in_pose(other, explained, options.plan)) continue;
     if (best.found.plan != BodyKind::other && explained.length <= most.length) continue;
     most = explained;
     best = std::move(other);
+  }
+  for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
+    Outlook other = third_look(surface, skeleton, frames[k], options.plan);
+    if (is_whole_but_for_a_limb(other)) best = std::move(other);
+  }
+  if (best.found.plan == BodyKind::other && refusal.length >= 0) {
+    best.found.reason = refusal.reason;
   }
   return best;
 }
@@ -308,6 +438,9 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
         break;
       case Sides::own:
         outlook = second_look(surface, skeleton, axes, options.plan);
+        break;
+      case Sides::completed:
+        outlook = third_look(surface, skeleton, axes, options.plan);
         break;
       case Sides::posed:
         outlook = look_at_shape(surface, skeleton, axes, options.plan);

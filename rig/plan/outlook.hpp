@@ -11,8 +11,9 @@
 namespace curveskel {
 
 /// The places of the joints of limbs. Of bodies whose sides are not quite images of each other they
-/// lie on their own side's curve; of bodies in a pose where the unposed limb has them.
-enum class Sides { images, own, posed };
+/// lie on their own side's curve, and so where a limb is missing; of bodies in a pose where the
+/// unposed limb has them.
+enum class Sides { images, own, completed, posed };
 
 struct Outlook {
   Eigen::Matrix3d axes;
@@ -27,7 +28,8 @@ struct Outlook {
 [[nodiscard]] std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options);
 
 /// In the usual frame what is seen there; in others what is clear, of that the most symmetric, or
-/// a tailed biped. Then a body beside the middle of its box, then one in a pose.
+/// a tailed biped. Then a body beside the middle of its box, then one in a pose, then a human that
+/// lacks a limb. Where nothing is seen the reason is that of the look that explains most.
 [[nodiscard]] Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                                    const PlanOptions& options);
 

@@ -10,6 +10,8 @@
 
 namespace curveskel {
 
+constexpr double near_ground = 0.06;  ///< of the height, that feet are off it at most
+
 struct PlanFound {
   BodyKind plan = BodyKind::other;
   std::string reason;

@@ -389,6 +389,25 @@ TEST_F(EditGltf, SaysWhichPictureIsMissing) {
   EXPECT_EQ(glb_of(edited.bytes).json["images"][0]["uri"], "a%20picture.png");
 }
 
+/// Joints keep their names, by which programs find them.
+TEST_F(EditGltf, SaysWhichJointsHaveTheNamesOfNodes) {
+  const EditSubject subject(folder_.path(), edit_cases().front());
+  const auto rows = read_polygons(subject.path(), {}, {true}).positions.rows();
+  const std::string name = subject.json()["nodes"][0]["name"];
+  for (const bool is_shared : {false, true}) {
+    Rig rig = random_rig(rows, 3, "bone ");
+    if (is_shared) rig.names[1] = name;
+    const EditedFile edited =
+        *format_rig_into(subject.path(), rig, {RigFormat::glb, OldRig::replaced, "", ""});
+    ASSERT_EQ(edited.notes.size(), is_shared ? 1U : 0U);
+    if (!is_shared) continue;
+    EXPECT_NE(edited.notes[0].find(name), std::string::npos) << edited.notes[0];
+    const Json json = glb_of(edited.bytes).json;
+    const std::size_t joint = json["skins"].back()["joints"][1];
+    EXPECT_EQ(json["nodes"][joint]["name"], name);
+  }
+}
+
 TEST_F(EditGltf, TextHoldsWhatTheBinaryFileHolds) {
   for_all_cases([&](const EditCase& one) {
     const Edited edited = edit(one);

@@ -255,6 +255,23 @@ TEST(FindPlan, SeesNoAnimalInWhatIsPutTogether) {
   EXPECT_EQ(find_plan(doll.surface, doll.skeleton).plan, BodyKind::humanoid);
 }
 
+TEST(FindPlan, SeesNoAnimalInLegsWithRungs) {
+  for (const bool has_rungs : {false, true}) {
+    Figure figure;
+    const int rear = figure.add({0, 10, -6}, 0.8);
+    const int front = figure.add({0, 10, 6}, 0.8, rear);
+    figure.add({0, 13, 9}, 0.8, front);
+    figure.add_pair(rear, {{2, 9, -6}, {2, 4, -6}, {2, 0.5, -6}}, 0.5);
+    figure.add_pair(front, {{2, 9, 6}, {2, 4, 6}, {2, 0.5, 6}}, 0.5);
+    for (const int knee : {4, 7}) {  // of the left and the right leg behind; ahead six further on
+      if (has_rungs) figure.edges.emplace_back(knee, knee + 6);
+    }
+    const RigSubject subject = subject_of("bench", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, has_rungs ? BodyKind::other : BodyKind::quadruped) << plan.reason;
+  }
+}
+
 TEST(FindPlan, CountsNoSheetWhereMostOfAnAnimalIsOneComponent) {
   const RigSubject parts = in_three(beast(1));
   PlanOptions options;

@@ -334,9 +334,20 @@ TEST_F(RigFormats, VrmSaysWhichNodeIsWhichBone) {
 TEST_F(RigFormats, VrmWantsAHumanAndItsAuthor) {
   const VrmMeta meta{"Ann", "a person", "https://vrm.dev/licenses/1.0/"};
   Rig rig = human_rig();
+  const std::string address = meta.licence_url;
   for (const VrmMeta& lacking :
-       {VrmMeta{"", "b", "c"}, VrmMeta{"a", "", "c"}, VrmMeta{"a", "b", ""}}) {
+       {VrmMeta{"", "b", address}, VrmMeta{"a", "", address}, VrmMeta{"a", "b", ""}}) {
     EXPECT_THROW((void)formatted(rig, RigFormat::vrm, lacking), Error);
+  }
+  for (const std::string text : {"foo", "CC-BY-4.0", "https://", "https:///a", "http://a b",
+                                 "vrm.dev/licenses/1.0/", "ftp://vrm.dev/licenses"}) {
+    try {
+      (void)formatted(rig, RigFormat::vrm, {"a", "b", text});
+      ADD_FAILURE() << text << " for a licence";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("'" + text + "'"), std::string::npos);
+      EXPECT_EQ(error.fault(), Fault::usage);
+    }
   }
   rig.roles[3] = "";  // the head
   try {

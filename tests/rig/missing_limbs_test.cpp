@@ -1,0 +1,93 @@
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/rig/plan_subjects.hpp"
+
+namespace curveskel::missing_limb_laws {
+namespace {
+
+/// A human whose limbs on one side have so many places of those of the other.
+struct Maimed {
+  std::size_t arm = 3;
+  std::size_t leg = 4;
+  std::set<std::string> missing;  ///< after the side
+};
+
+RigSubject human_with(const Maimed& maimed, double side) {
+  const std::array<Eigen::RowVector3d, 3> arm{{{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}};
+  const std::array<Eigen::RowVector3d, 4> leg{
+      {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}};
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 1.4);
+  const int chest = figure.add({0, 15, 0}, 1.5, hips);
+  figure.add({0, 18.6, 0}, 1.3, figure.add({0, 16.8, 0}, 0.6, chest));
+  for (const double x : {1.0, -1.0}) {
+    int above = chest;
+    for (std::size_t k = 0; k < (x == side ? maimed.arm : arm.size()); ++k) {
+      above = figure.add({x * arm[k].x(), arm[k].y(), arm[k].z()}, 0.5, above);
+    }
+    above = hips;
+    for (std::size_t k = 0; k < (x == side ? maimed.leg : leg.size()); ++k) {
+      above = figure.add({x * leg[k].x(), leg[k].y(), leg[k].z()}, 0.6, above);
+    }
+  }
+  return subject_of("maimed", figure);
+}
+
+const std::vector<Maimed>& all_maimed() {
+  static const std::vector<Maimed> all{
+      {0, 4, {"UpperArm", "LowerArm", "Hand"}},
+      {2, 4, {"Hand"}},
+      {3, 0, {"UpperLeg", "LowerLeg", "Foot"}},
+      {3, 2, {"Foot"}},
+  };
+  return all;
+}
+
+TEST(MissingLimbs, MakeNoHumanAnotherThing) {
+  const RigSubject whole = human();
+  const BodyPlan as_whole = find_plan(whole.surface, whole.skeleton);
+  for (const Maimed& maimed : all_maimed()) {
+    for (const double side : {1.0, -1.0}) {
+      const std::string name = side > 0 ? "left" : "right";
+      SCOPED_TRACE(name + *maimed.missing.begin());
+      const RigSubject subject = human_with(maimed, side);
+      const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+      ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+      std::set<std::string> missing;
+      for (const std::string& part : maimed.missing) missing.insert(name + part);
+      EXPECT_EQ(std::set<std::string>(plan.missing.begin(), plan.missing.end()), missing);
+      int counted = 0;
+      for (const PlannedJoint& joint : as_whole.joints) {
+        const PlannedJoint* own = joint_of(plan, joint.role);
+        if (own == nullptr) continue;
+        ++counted;
+        EXPECT_LT((own->position - joint.position).norm(), 0.5) << joint.role;  // of 20
+      }
+      EXPECT_EQ(counted, static_cast<int>(plan.joints.size()));
+      EXPECT_EQ(joint_of(plan, name + "Shoulder") == nullptr, maimed.arm == 0);
+      for (std::size_t k = 1; k < plan.joints.size(); ++k) {
+        EXPECT_LT(plan.joints[k].parent, static_cast<int>(k));
+        EXPECT_GE(plan.joints[k].parent, 0);
+        EXPECT_LT(plan.joints[k].node, subject.skeleton.nodes.rows());
+      }
+    }
+  }
+}
+
+/// The arm moves the box, beside whose middle the legs are a pair.
+TEST(MissingLimbs, ARefusalIsOfTheLookThatExplainsMost) {
+  const RigSubject subject = human_with(all_maimed().front(), 1);
+  PlanOptions options;
+  options.plan = BodyKind::quadruped;
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton, options);
+  ASSERT_EQ(plan.plan, BodyKind::other);
+  EXPECT_NE(plan.reason.find("one pair of limbs reaches the ground"), std::string::npos)
+      << plan.reason;
+}
+
+}  // namespace
+}  // namespace curveskel::missing_limb_laws
