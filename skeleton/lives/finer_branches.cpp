@@ -127,8 +127,9 @@ class FinerBranches {
     if (!end) return false;
     const std::optional<Place> base = base_for(tip.rim);
     if (!base) return false;
-    std::vector<Vector3d> way{*end};
-    if (!sees(base->point, *end)) way.insert(way.begin(), tip.rim);
+    std::vector<Vector3d> way;
+    if (!sees(base->point, *end)) way.push_back(tip.rim);
+    way.push_back(*end);
     int node = node_at(*base);
     std::vector<int> made;
     for (const Vector3d& next : way) {
