@@ -20,6 +20,8 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
                       verdict(c.homology_rank == c.genus));
   text += fmt::format("  length inside    {:>8.3f} %  >= {:.1f} %   {}\n", 100 * c.inside_fraction,
                       100 * options.inside_needed, verdict(c.inside_enough));
+  text += fmt::format("  ahead of tips    {:>10.4f} D  <= 0.1 D    {}\n", c.reach_at_tips,
+                      c.reaches_ends() ? "ok" : "STOPS SHORT");
   text += fmt::format("  made of tubes    {:>8.1f} %  >= 50 %     {}\n", 100 * c.tube_share,
                       c.curve_like ? "ok" : "NOT MADE OF TUBES");
   if (c.wrap_followed < 1) {
@@ -43,7 +45,8 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
 
 std::string all_failures(const Certificate& certificate, const CertificateOptions& options) {
   std::string text = failures(certificate, options);
-  for (const std::string& other : {shape_failure(certificate), wrap_failure(certificate)}) {
+  for (const std::string& other :
+       {tip_failure(certificate), shape_failure(certificate), wrap_failure(certificate)}) {
     text += (text.empty() || other.empty() ? "" : "; ") + other;
   }
   return text;

@@ -220,6 +220,8 @@ py::dict dictionary_of(const Certificate& certificate) {
   values["tube_share"] = certificate.tube_share;
   values["curve_like"] = certificate.curve_like;
   values["reach"] = certificate.reach;
+  values["reach_at_tips"] = certificate.reach_at_tips;
+  values["reaches_ends"] = certificate.reaches_ends();
   values["length"] = certificate.length;
   values["tips"] = certificate.tips;
   values["junctions"] = certificate.junctions;

@@ -15,8 +15,9 @@ struct BranchTerritories {
   Eigen::VectorXi branch_of_face;    ///< #F: of two of its vertices or of the first; -1 = of none
   std::vector<double> areas;         ///< per branch, of its faces, in square model units
   /// Per branch, in cubic model units: its faces, closed where they meet another branch's by
-  /// triangles to the junction that both share. All together are the volume of the surface, less
-  /// the faces of no branch.
+  /// triangles to the junction that both share, or to the nearest end of either where they share
+  /// none. Other components and the origin of coordinates do not matter. All together are the
+  /// volume of the surface, less the faces of no branch.
   std::vector<double> volumes;
 };
 

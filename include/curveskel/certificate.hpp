@@ -28,6 +28,9 @@ void require_valid(const CertificateOptions& options);
 inline constexpr double wrap_followed_needed = 0.75;
 /// Under this share of its area near the curve, a surface is not made of tubes.
 inline constexpr double tube_share_needed = 0.5;
+/// Farther than this share of D from the curve, the surface ahead of a tip is a limb that the curve
+/// has left half-way.
+inline constexpr double reach_at_tips_allowed = 0.1;
 
 /// D = the surface's bounding-box diagonal. docs/method.md has the definitions.
 struct Certificate {
@@ -50,6 +53,8 @@ struct Certificate {
                                   ///< at the curve's nearest point) of the curve
   double reach = 0;               ///< 95th percentile of the distance from surface vertices to the
                                   ///< nearest inscribed ball of the curve / D
+  double reach_at_tips = 0;  ///< the largest such distance from the points of the surface straight
+                             ///< ahead of the curve's tips / D
   int tips = 0;
   int junctions = 0;
   int spurs = 0;  ///< leaf branches shorter than the inscribed radius at their junction
@@ -69,8 +74,13 @@ struct Certificate {
   [[nodiscard]] bool wrap_follows() const { return wrap_followed >= wrap_followed_needed; }
   /// The skeleton is right, of whatever shape.
   [[nodiscard]] bool correct() const { return topology_correct() && inside_enough; }
-  /// It is right, the shape has a curve skeleton in the first place, and is that of the file.
-  [[nodiscard]] bool holds() const { return correct() && curve_like && wrap_follows(); }
+  /// No tip stops far from the end of its limb.
+  [[nodiscard]] bool reaches_ends() const { return reach_at_tips <= reach_at_tips_allowed; }
+  /// It is right, runs through to the ends of the limbs in which it lies, the shape has a curve
+  /// skeleton in the first place, and is that of the file.
+  [[nodiscard]] bool holds() const {
+    return correct() && reaches_ends() && curve_like && wrap_follows();
+  }
 };
 
 /// Precondition: a clean surface (see Surface). The skeleton may be anyone's: radii and vertex map
@@ -85,6 +95,9 @@ struct Certificate {
 /// The conditions of `correct` that fail, in one line; empty if none.
 [[nodiscard]] std::string failures(const Certificate& certificate,
                                    const CertificateOptions& options);
+
+/// That a tip stops far from the end of its limb, in one line; empty if none does.
+[[nodiscard]] std::string tip_failure(const Certificate& certificate);
 
 /// That the surface is not `curve_like`, in one line; empty if it is.
 [[nodiscard]] std::string shape_failure(const Certificate& certificate);

@@ -152,7 +152,7 @@ class Skeleton:
 
     @property
     def ok(self):
-        """True if the certificate holds: topology, inside, a shape made of tubes."""
+        """True if the certificate holds: topology, inside, tips at the ends, a shape made of tubes."""
         return None if self._extraction is None else self._extraction.holds
 
     @property

@@ -15,9 +15,10 @@
 #include "base/option_ranges.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/certify/centredness.hpp"
-#include "skeleton/certify/curve_pieces.hpp"
 #include "skeleton/certify/measured_curve.hpp"
 #include "skeleton/certify/own_curves.hpp"
+#include "skeleton/certify/reach_at_tips.hpp"
+#include "skeleton/certify/sample_balls.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -57,29 +58,6 @@ void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& 
   certificate.centredness_median = weighted_quantile(weighted, 0.5);
   certificate.centredness_p90 = weighted_quantile(std::move(weighted), 0.9);
 }
-
-// The samples as balls whose radius counts `factor` times. Of a curve whose samples are farther
-// apart than its balls are wide, as in a hair, they are rolled along the piece until they meet.
-struct SampleBalls {
-  const MeasuredCurve& subject;
-  CurvePieces pieces{subject.samples};
-
-  [[nodiscard]] double radius(std::size_t i) const { return std::max(0.0, subject.radius[i]); }
-  [[nodiscard]] double rolled(std::size_t i) const {
-    return std::max(0.0, pieces.reach(i) - radius(i));
-  }
-  [[nodiscard]] double gap(std::size_t i, const Vector3d& v, double factor) const {
-    return pieces.distance(i, v, rolled(i)) - factor * radius(i);
-  }
-  [[nodiscard]] SequenceTree tree(double factor) const {
-    std::vector<SequenceTree::Item> items;
-    items.reserve(subject.samples.size());
-    for (std::size_t i = 0; i < subject.samples.size(); ++i) {
-      items.push_back(pieces.item(i, rolled(i), factor * radius(i)));
-    }
-    return SequenceTree(std::move(items));
-  }
-};
 
 void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
                       const Monitor& monitor, Certificate& certificate) {
@@ -210,6 +188,7 @@ Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skele
   certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
   measure_centredness(subject, options.rays, monitor, certificate);
   measure_coverage(subject, surface.surface.positions, monitor, certificate);
+  certificate.reach_at_tips = reach_at_tips(subject);
   certificate.tube_share = tube_share(subject, surface.surface, monitor);
   certificate.curve_like = certificate.tube_share >= tube_share_needed;
   measure_shape(subject, certificate);

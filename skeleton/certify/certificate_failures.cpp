@@ -44,6 +44,14 @@ std::string failures(const Certificate& certificate, const CertificateOptions& o
   return text;
 }
 
+std::string tip_failure(const Certificate& certificate) {
+  if (certificate.reaches_ends()) return {};
+  return "a tip stops short of the end of its limb: the surface ahead of it is " +
+         percent_words(certificate.reach_at_tips, 0) +
+         " of D from the curve, needed 10 % or less; correct the curve there (`view`), or extract "
+         "it anew";
+}
+
 std::string shape_failure(const Certificate& certificate) {
   if (certificate.curve_like) return {};
   return "the surface is not made of tubes: " + percent_words(certificate.tube_share, 0) +

@@ -26,9 +26,10 @@ struct Place {
 
 struct Tip {
   const TipLife* life = nullptr;
+  double rim_radius = 0;
   double beyond = std::numeric_limits<double>::infinity();  ///< the curve's balls
 
-  [[nodiscard]] double deficit() const { return std::min(life->life, beyond / life->rim_radius); }
+  [[nodiscard]] double deficit() const { return std::min(life->life, beyond / rim_radius); }
 };
 
 /// A tip, or two that are each other's images.
@@ -42,9 +43,11 @@ double mean_deficit(const Twins& twins) {
 
 class FinerBranches {
  public:
-  FinerBranches(const CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree)
+  FinerBranches(const CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
+                double spacing)
       : surface_(surface),
         tree_(tree),
+        least_rim_(spacing),
         curve_(skeleton),
         neighbours_(graph_of(surface.positions.rows(), index_edges(surface.triangles).edges)),
         seen_(idx(surface.positions.rows()), 0) {
@@ -77,6 +80,11 @@ class FinerBranches {
  private:
   [[nodiscard]] Vector3d vertex(int v) const { return surface_.positions.row(v); }
 
+  /// The rim of a hair counts as no smaller than points of the curve lie apart.
+  [[nodiscard]] Tip tip_of(const TipLife& life) const {
+    return {&life, std::max(life.rim_radius, least_rim_)};
+  }
+
   /// Each tip once: images lie within their rims' radii of each other.
   [[nodiscard]] std::vector<Twins> with_images(const std::vector<TipLife>& lives,
                                                const std::vector<int>& mirror_axes) const {
@@ -84,7 +92,7 @@ class FinerBranches {
     std::vector<char> taken(lives.size(), 0);
     for (std::size_t k = 0; k < lives.size(); ++k) {
       if (taken[k] != 0 || !(lives[k].rim_radius > 0)) continue;
-      found.push_back({{&lives[k]}});
+      found.push_back({tip_of(lives[k])});
       double nearest = lives[k].rim_radius;
       std::size_t twin = k;
       for (const int axis : mirror_axes) {
@@ -100,7 +108,7 @@ class FinerBranches {
       }
       if (twin == k) continue;
       taken[twin] = 1;
-      found.back().push_back({&lives[twin]});
+      found.back().push_back(tip_of(lives[twin]));
     }
     return found;
   }
@@ -127,8 +135,9 @@ class FinerBranches {
     if (!end) return false;
     const std::optional<Place> base = base_for(tip.rim);
     if (!base) return false;
-    std::vector<Vector3d> way{*end};
-    if (!sees(base->point, *end)) way.insert(way.begin(), tip.rim);
+    std::vector<Vector3d> way;
+    if (!sees(base->point, *end)) way.push_back(tip.rim);
+    way.push_back(*end);
     int node = node_at(*base);
     std::vector<int> made;
     for (const Vector3d& next : way) {
@@ -226,6 +235,7 @@ class FinerBranches {
 
   const Surface& surface_;
   const SurfaceTree& tree_;
+  double least_rim_;
   Draft curve_;
   Graph neighbours_;        // of vertices
   std::vector<char> seen_;  // by vertex, of the part that is handed over; else 0
@@ -236,9 +246,9 @@ class FinerBranches {
 
 int add_finer_branches(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
                        const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes,
-                       double least) {
+                       double least, double spacing) {
   if (skeleton.edges.rows() == 0) return 0;
-  FinerBranches finer(skeleton, surface, tree);
+  FinerBranches finer(skeleton, surface, tree, spacing);
   const int drawn = finer.run(lives, mirror_axes, least);
   if (drawn > 0) skeleton = finer.finished();
   return drawn;

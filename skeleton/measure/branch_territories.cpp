@@ -79,46 +79,6 @@ double six_volumes(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   return a.dot(b.cross(c));
 }
 
-/// Closes the territories against each other.
-class Borders {
- public:
-  Borders(const Surface& surface, const CurveSkeleton& skeleton, const std::vector<Branch>& all)
-      : surface_(surface), skeleton_(skeleton), all_(all) {}
-
-  /// The triangle that closes `branch` along the half-edge from a to b of one of its faces, whose
-  /// twin belongs to `other`; as six volumes relative to `origin`.
-  [[nodiscard]] double closing(int branch, int other, int a, int b,
-                               const Eigen::Vector3d& origin) const {
-    const Eigen::Vector3d from = surface_.positions.row(a);
-    const Eigen::Vector3d to = surface_.positions.row(b);
-    const int apex = shared_junction(branch, other, (from + to) / 2);
-    if (apex < 0) return 0;
-    const Eigen::Vector3d top = skeleton_.nodes.row(apex);
-    return six_volumes(to - origin, from - origin, top - origin);
-  }
-
- private:
-  /// The nearest of those that both branches end at, -1 = none.
-  [[nodiscard]] int shared_junction(int branch, int other, const Eigen::Vector3d& place) const {
-    int best = -1;
-    double best_distance = 0;
-    const std::vector<int>& mine = all_[idx(branch)].nodes;
-    const std::vector<int>& theirs = all_[idx(other)].nodes;
-    for (const int node : {mine.front(), mine.back()}) {
-      if (node != theirs.front() && node != theirs.back()) continue;
-      const double distance = (skeleton_.nodes.row(node).transpose() - place).squaredNorm();
-      if (best >= 0 && distance >= best_distance) continue;
-      best = node;
-      best_distance = distance;
-    }
-    return best;
-  }
-
-  const Surface& surface_;
-  const CurveSkeleton& skeleton_;
-  const std::vector<Branch>& all_;
-};
-
 /// Half-edges, sorted, with their faces.
 std::vector<std::pair<std::array<int, 2>, int>> sorted_half_edges(const Triangles& triangles) {
   std::vector<std::pair<std::array<int, 2>, int>> half_edges;
@@ -132,19 +92,123 @@ std::vector<std::pair<std::array<int, 2>, int>> sorted_half_edges(const Triangle
   return half_edges;
 }
 
-void close_territories(const Surface& surface, const Borders& borders,
-                       const Eigen::Vector3d& origin, BranchTerritories& territories) {
-  const auto half_edges = sorted_half_edges(surface.triangles);
+/// An edge of a face of `branch`, from a to b, whose twin belongs to `other`.
+struct BorderEdge {
+  int branch;
+  int other;
+  int a;
+  int b;
+};
+
+std::vector<BorderEdge> border_edges(const Triangles& triangles, const Eigen::VectorXi& of_face) {
+  const auto half_edges = sorted_half_edges(triangles);
+  std::vector<BorderEdge> border;
   for (const auto& [edge, face] : half_edges) {
-    const int branch = territories.branch_of_face[face];
+    const int branch = of_face[face];
     const std::array<int, 2> twin{edge[1], edge[0]};
     const auto found = std::lower_bound(
         half_edges.begin(), half_edges.end(), twin,
         [](const auto& entry, const auto& wanted) { return entry.first < wanted; });
     if (branch < 0 || found == half_edges.end() || found->first != twin) continue;
-    const int other = territories.branch_of_face[found->second];
-    if (other < 0 || other == branch) continue;
-    territories.volumes[idx(branch)] += borders.closing(branch, other, edge[0], edge[1], origin);
+    const int other = of_face[found->second];
+    if (other >= 0 && other != branch) border.push_back({branch, other, edge[0], edge[1]});
+  }
+  return border;
+}
+
+/// Nodes of the skeleton to which the territories are closed against each other.
+class Apexes {
+ public:
+  Apexes(const Surface& surface, const CurveSkeleton& skeleton, const std::vector<Branch>& all)
+      : surface_(surface),
+        skeleton_(skeleton),
+        all_(all),
+        of_vertex_(idx(surface.positions.rows()), -1) {}
+
+  /// Of the nodes at which both branches end the nearest to the edge's middle; where they share
+  /// none, of those of either. The same for the edge's twin.
+  [[nodiscard]] int of_edge(const BorderEdge& edge) const {
+    const Eigen::Vector3d middle = (place(edge.a) + place(edge.b)) / 2;
+    const std::vector<int>& mine = all_[idx(edge.branch)].nodes;
+    const std::vector<int>& theirs = all_[idx(edge.other)].nodes;
+    int best = -1;
+    for (const int node : {mine.front(), mine.back()}) {
+      if (node == theirs.front() || node == theirs.back()) best = nearer(middle, best, node);
+    }
+    if (best >= 0) return best;
+    for (const int node : {mine.front(), mine.back(), theirs.front(), theirs.back()}) {
+      best = nearer(middle, best, node);
+    }
+    return best;
+  }
+
+  void add(const BorderEdge& edge) {
+    for (const int v : {edge.a, edge.b}) {
+      of_vertex_[idx(v)] = nearer(place(v), of_vertex_[idx(v)], of_edge(edge));
+    }
+  }
+  /// Of the apexes of the vertex's border edges, once all are added, the nearest.
+  [[nodiscard]] int of_vertex(int v) const { return of_vertex_[idx(v)]; }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d place(int vertex) const { return surface_.positions.row(vertex); }
+
+  /// The lower one if both are as near; -1 = none.
+  [[nodiscard]] int nearer(const Eigen::Vector3d& to, int one, int other) const {
+    if (one < 0) return other;
+    const auto rank = [&](int node) {
+      return std::pair((skeleton_.nodes.row(node).transpose() - to).squaredNorm(), node);
+    };
+    return rank(other) < rank(one) ? other : one;
+  }
+
+  const Surface& surface_;
+  const CurveSkeleton& skeleton_;
+  const std::vector<Branch>& all_;
+  std::vector<int> of_vertex_;
+};
+
+/// Per branch the mean of the nodes of its component.
+std::vector<Eigen::Vector3d> centres_of_components(const CurveSkeleton& skeleton,
+                                                   const std::vector<Branch>& all) {
+  const std::vector<int> component = component_of_node(skeleton);
+  std::vector<Eigen::Vector3d> sums(component.size(), Eigen::Vector3d::Zero());
+  std::vector<int> counts(component.size(), 0);
+  for (std::size_t node = 0; node < component.size(); ++node) {
+    sums[idx(component[node])] += skeleton.nodes.row(static_cast<Eigen::Index>(node)).transpose();
+    ++counts[idx(component[node])];
+  }
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(all.size());
+  for (const Branch& branch : all) {
+    const auto of = idx(component[idx(branch.nodes.front())]);
+    centres.emplace_back(sums[of] / counts[of]);
+  }
+  return centres;
+}
+
+/// Along each border edge a triangle to its apex p; and as the next edge of the border may have
+/// another apex, at both of its ends one from p to the apex of the vertex, which all border edges
+/// there share. So the closing has no gap but rings from apex to apex, which are closed to
+/// `centres`. The twin gets the same triangles, turned over.
+void close_territories(const Surface& surface, const CurveSkeleton& skeleton,
+                       const std::vector<Branch>& all, const std::vector<Eigen::Vector3d>& centres,
+                       BranchTerritories& territories) {
+  const std::vector<BorderEdge> border =
+      border_edges(surface.triangles, territories.branch_of_face);
+  Apexes apexes(surface, skeleton, all);
+  for (const BorderEdge& edge : border) apexes.add(edge);
+  for (const BorderEdge& edge : border) {
+    const Eigen::Vector3d& origin = centres[idx(edge.branch)];
+    const auto node = [&](int n) -> Eigen::Vector3d {
+      return skeleton.nodes.row(n).transpose() - origin;
+    };
+    const Eigen::Vector3d from = surface.positions.row(edge.a).transpose() - origin;
+    const Eigen::Vector3d to = surface.positions.row(edge.b).transpose() - origin;
+    const Eigen::Vector3d top = node(apexes.of_edge(edge));
+    territories.volumes[idx(edge.branch)] += six_volumes(to, from, top) +
+                                             six_volumes(to, top, node(apexes.of_vertex(edge.b))) +
+                                             six_volumes(top, from, node(apexes.of_vertex(edge.a)));
   }
 }
 
@@ -157,12 +221,12 @@ BranchTerritories branch_territories(const Surface& surface, const CurveSkeleton
   territories.branch_of_face = label_faces(surface.triangles, territories.branch_of_vertex);
   territories.areas.assign(all.size(), 0);
   territories.volumes.assign(all.size(), 0);
-  const Eigen::Vector3d origin = surface.positions.colwise().mean();
+  const std::vector<Eigen::Vector3d> centres = centres_of_components(skeleton, all);
   for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
     const int branch = territories.branch_of_face[face];
     if (branch < 0) continue;
     const auto corner = [&](int k) -> Eigen::Vector3d {
-      return surface.positions.row(surface.triangles(face, k)).transpose() - origin;
+      return surface.positions.row(surface.triangles(face, k)).transpose() - centres[idx(branch)];
     };
     const Eigen::Vector3d a = corner(0);
     const Eigen::Vector3d b = corner(1);
@@ -170,7 +234,7 @@ BranchTerritories branch_territories(const Surface& surface, const CurveSkeleton
     territories.areas[idx(branch)] += (b - a).cross(c - a).norm() / 2;
     territories.volumes[idx(branch)] += six_volumes(a, b, c);
   }
-  close_territories(surface, Borders(surface, skeleton, all), origin, territories);
+  close_territories(surface, skeleton, all, centres, territories);
   for (double& volume : territories.volumes) volume /= 6;
   return territories;
 }

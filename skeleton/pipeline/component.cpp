@@ -278,6 +278,8 @@ class Pipeline {
           steps("lives", [&] {
             made.lives = lives.valid() ? lives.get() : lives_of(surface, monitor_.stop);
             set_lives(made.skeleton, made.lives);
+            // Tips so clear that they stay at every level.
+            draw_missing(made.skeleton, surface, made.lives, trees.rough, least_life(0));
           });
           return made;
         });
@@ -285,16 +287,23 @@ class Pipeline {
     return stage_("level", kept_.skeleton, {curve, detail}, [&] {
       CurveSkeleton level = level_of(curve->skeleton, least_life(detail));
       if (detail > EmbedOptions().detail) {
-        const double tolerance = SpacingTuning().of_part(extent_).least;
-        std::vector<int> mirror_axes;
-        for (const MirrorPlane& plane : mirror_planes(surface, trees.rough, tolerance)) {
-          mirror_axes.push_back(plane.axis);
-        }
-        add_finer_branches(level, surface, *fine_.get(), curve->lives, mirror_axes,
-                           least_deficit(detail));
+        draw_missing(level, surface, curve->lives, trees.rough, least_deficit(detail));
       }
       return on_model(std::move(level), *cut.vertex_of_canonical);
     });
+  }
+
+  /// The branches that `skeleton` lacks for tips with these lives.
+  void draw_missing(CurveSkeleton& skeleton, const Surface& surface,
+                    const std::vector<TipLife>& lives, const SurfaceTree& rough, double least) {
+    const auto is_clear = [&](const TipLife& tip) { return tip.life >= least; };
+    if (std::none_of(lives.begin(), lives.end(), is_clear)) return;
+    const double tolerance = SpacingTuning().of_part(extent_).least;
+    std::vector<int> mirror_axes;
+    for (const MirrorPlane& plane : mirror_planes(surface, rough, tolerance)) {
+      mirror_axes.push_back(plane.axis);
+    }
+    add_finer_branches(skeleton, surface, *fine_.get(), lives, mirror_axes, least, tolerance);
   }
 
   /// From the canonical frame to the model's, its vertex map from the component's vertices.

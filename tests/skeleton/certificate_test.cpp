@@ -116,6 +116,7 @@ void expect_same(const Certificate& a, const Certificate& b, double tolerance) {
   EXPECT_NEAR(a.centredness_p90, b.centredness_p90, tolerance);
   EXPECT_NEAR(a.coverage, b.coverage, tolerance);
   EXPECT_NEAR(a.reach, b.reach, tolerance);
+  EXPECT_NEAR(a.reach_at_tips, b.reach_at_tips, tolerance);
   EXPECT_NEAR(a.total_curvature, b.total_curvature, tolerance);
 }
 
@@ -273,6 +274,35 @@ TEST(Certificate, TheNumberOfThreadsDoesNotMatter) {
   const Certificate one = evaluate(shape.surface, skeleton, options, {});
   options.threads = 5;
   expect_same(evaluate(shape.surface, skeleton, options, {}), one, 0);
+}
+
+/// However thin the limb, and though half of its area is near the curve.
+TEST(Certificate, ATipThatStopsHalfWayIsFound) {
+  for (const double radius : {0.1, 0.01, 0.001}) {
+    SCOPED_TRACE(radius);
+    const Shape rod = shapes::tube("rod", shapes::straight(2), shapes::constant(radius), 24);
+    const double diagonal = bounding_box_diagonal(rod.surface.positions);
+    const double end = rod.surface.positions.col(0).maxCoeff() - radius;
+    const Certificate half = certify(rod, chain({{0.4 - end, 0, 0}, {0, 0, 0}, {end, 0, 0}}));
+    EXPECT_TRUE(half.correct() && half.curve_like);
+    EXPECT_FALSE(half.holds());
+    EXPECT_NEAR(half.reach_at_tips, 0.4 / diagonal, 0.002);
+    EXPECT_NE(tip_failure(half), "");
+    const Certificate whole = certify(rod, chain({{-end, 0, 0}, {0, 0, 0}, {end, 0, 0}}));
+    EXPECT_TRUE(whole.holds());
+    EXPECT_LT(whole.reach_at_tips, 0.002);
+    EXPECT_EQ(tip_failure(whole), "");
+  }
+}
+
+/// Where another branch goes on, nothing is missing.
+TEST(Certificate, ATipMayLookAlongAnotherBranch) {
+  const Shape rod = shapes::tube("rod", shapes::straight(2), shapes::constant(0.1), 24);
+  CurveSkeleton forked = chain({{-0.9, 0, 0}, {0, 0, 0}, {0.9, 0, 0}, {0.2, 0.04, 0}});
+  forked.edges << 0, 1, 1, 2, 1, 3;
+  EXPECT_TRUE(certify(rod, forked).reaches_ends());
+  const Certificate ring = certify(shapes::torus(1, 0.2, 24), shapes::torus(1, 0.2, 24).axis);
+  EXPECT_EQ(ring.reach_at_tips, 0);
 }
 
 TEST(Certificate, ALoneNodeIsASkeletonOfABall) {

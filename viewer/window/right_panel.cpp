@@ -93,6 +93,7 @@ void certificate(Workbench& bench) {
     if (ImGui::SmallButton("show##exits")) bench.show_exits();
     tip("the edges that leave the surface");
   }
+  line("ahead of tips", fmt::format("{:.4f} D", c.reach_at_tips), verdict(c.reaches_ends()));
   line("tubes", fmt::format("{:.1f} % of the area", 100 * c.tube_share), verdict(c.curve_like));
   if (c.wrap_followed < 1) {
     line("wrap follows", fmt::format("{:.1f} % of the area", 100 * c.wrap_followed),

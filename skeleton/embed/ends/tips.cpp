@@ -11,8 +11,6 @@
 namespace curveskel {
 namespace {
 
-constexpr int most_added = 64;
-
 /// The direction in which the line arrives at its point i, from three points before it, or from
 /// outside its inscribed ball: within, the limb has no direction.
 Point heading(const std::vector<Point>& line, std::size_t i, double radius) {
@@ -64,7 +62,7 @@ void extend_tip(SkeletonGraph& graph, Arc& arc, const SurfaceTree& tree, double 
   const Point first_heading = heading(line, line.size() - 1, radius);
   double nearest = std::numeric_limits<double>::infinity();  // in inscribed radii
   std::size_t kept = 1;
-  for (int step = 0; step < most_added && radius >= tuning.least_radius; ++step) {
+  while (radius >= tuning.least_radius) {  // each step leads on, so the surface ahead ends them
     const Point& tip = line.back();
     const Point direction = heading(line, line.size() - 1, radius);
     const double left = tree.ray(tip, direction).distance;

@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/ends/tips.hpp"
+#include "skeleton/embed/place/cross_section.hpp"
 #include "surface/resample/fourth_moments.hpp"
 
 namespace curveskel {
@@ -66,6 +67,28 @@ bool behind_all_triangles(const std::vector<Point>& corners, const Surface& surf
   return true;
 }
 
+/// The point from the middle half-way to the surface along `ahead`, from there half-way again, and
+/// so on as long as half of the way leads out of the inscribed ball and is longer than `shortest`:
+/// from a thin rod's middle its end is any number of radii off. Each point but the first goes
+/// half-way to the centre of its cross-section.
+std::vector<CurvePoint> half_ways(const SurfaceTree& tree, const Point& middle, Point ahead,
+                                  double shortest) {
+  double half = 0.5 * tree.ray(middle, ahead).distance;
+  std::vector<CurvePoint> points{Point(middle + half * ahead)};
+  while (true) {
+    const Point place = points.back().place();
+    half = 0.5 * tree.ray(place, ahead).distance;
+    if (half <= std::max(points.back().radius(tree), shortest) || !std::isfinite(half)) break;
+    const Point guess = place + half * ahead;
+    const Point centre = cross_section_centre(tree, guess, ahead, tree.inscribed_radius(guess));
+    const CurvePoint next = Point(0.5 * (guess + centre));
+    if (next.radius(tree) <= 0) break;
+    points.push_back(next);
+    ahead = (next.place() - place).normalized();
+  }
+  return points;
+}
+
 }  // namespace
 
 bool is_convex(const WorkingSurface& working, const SurfaceTree& tree, double dent) {
@@ -90,14 +113,15 @@ SkeletonGraph axis_of_convex_body(const Surface& surface, const PartitionGraph& 
   const Point middle = Point::Zero();
   if (!tree.inside(middle)) return graph;
   const Point axis = nearest_line(fourth_moments_of(surface));
-  for (const double side : {-1.0, 1.0}) {
-    const Point along = side * axis;
-    const Point tip = 0.5 * tree.ray(middle, along).distance * along;
-    graph.nodes.push_back({CurvePoint(tip), {}, true, {0}});
-  }
+  const std::vector<CurvePoint> back = half_ways(tree, middle, -axis, tuning.least_radius);
+  const std::vector<CurvePoint> front = half_ways(tree, middle, axis, tuning.least_radius);
+  graph.nodes.push_back({back.back(), {}, true, {0}});
+  graph.nodes.push_back({front.back(), {}, true, {0}});
+  std::vector<CurvePoint> between(back.rbegin() + 1, back.rend());
+  between.insert(between.end(), front.begin(), front.end() - 1);
   std::vector<int> all(idx(partition.nodes()));
   std::iota(all.begin(), all.end(), 0);
-  graph.arcs.push_back({0, 1, {}, std::move(all)});
+  graph.arcs.push_back({0, 1, std::move(between), std::move(all)});
   shape_tips(graph, tree, reach, gap, tuning);
   return graph;
 }

@@ -172,6 +172,28 @@ TEST(ConvexAxis, APrismHasItsOwnOrAWidthOfItsMiddlePlane) {
   }
 }
 
+/// Half of the way is no axis, however many radii the ends are off.
+TEST(ConvexAxis, AThinRodHasItFromEndToEnd) {
+  for (const double ratio : {10.0, 40.0, 100.0, 200.0, 2000.0}) {
+    for (const double taper : {1.0, 0.2}) {
+      for (const Turn& turn : turns()) {
+        SCOPED_TRACE(testing::Message() << ratio << " : 1, taper " << taper);
+        const double radius = 0.5 / ratio;
+        const Surface rod =
+            shapes::tube("rod", shapes::straight(1), shapes::tapered(radius, taper * radius), 12)
+                .surface;
+        const CurveSkeleton curve = curve_of_turned(rod, turn);
+        EXPECT_EQ(graph_topology(curve).tips, 2);
+        EXPECT_LT(off_line(curve, Vector3d::UnitX()), 0.1 * radius);
+        // A tip ends 1.15 radii before the surface, and no nearer than the curve's least spacing.
+        const double margin = std::max(1.2 * radius, 1.0 / 400);
+        EXPECT_LT(curve.nodes.col(0).minCoeff(), -0.5 + margin);
+        EXPECT_GT(curve.nodes.col(0).maxCoeff(), 0.5 - margin);
+      }
+    }
+  }
+}
+
 TEST(ConvexAxis, StarsThatBendOutwardsAtEachEdgeAreNotConvex) {
   for (const int turns : {2, 3}) EXPECT_FALSE(is_convex_shape(prism(7, 0.5, 1, turns))) << turns;
   EXPECT_TRUE(is_convex_shape(prism(7, 0.5, 1)));

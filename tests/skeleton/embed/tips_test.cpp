@@ -52,6 +52,16 @@ TEST(Tips, GoOnFromTheNeckIntoTheHead) {
   }
 }
 
+/// The end of a limb may be any number of radii off.
+TEST(Tips, GoOnAlongAThinLimb) {
+  const SurfaceTree tree(
+      shapes::tube("limb", shapes::straight(1), shapes::constant(0.004), 24).surface);
+  SkeletonGraph graph = arc_along(along_x(-0.1, 0.1, 0.002));
+  shape_tips(graph, tree, reach, gap);
+  EXPECT_LT(graph.place(0).x(), -0.5 + 1.5 * 0.004);
+  EXPECT_GT(graph.place(1).x(), 0.5 - 1.5 * 0.004);
+}
+
 /// Whatever way the last of it went within the ball at the end of a blunt limb.
 TEST(Tips, ThatCurlIntoACornerAreStraightened) {
   const SurfaceTree tree(

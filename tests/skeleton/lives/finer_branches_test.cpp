@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -128,6 +130,32 @@ TEST(FinerBranches, ReachEachBump) {
       EXPECT_TRUE(reached) << way;
     }
   }
+}
+
+/// A ball with so many thin spikes, evenly spread along a spiral.
+Surface spiky_ball(int count, double width, double height) {
+  std::vector<Eigen::RowVector3d> spikes;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1) / double(count);
+    const double angle = 2 * std::numbers::pi * std::numbers::phi * i;
+    spikes.emplace_back(std::sqrt(1 - z * z) * std::cos(angle),
+                        std::sqrt(1 - z * z) * std::sin(angle), z);
+  }
+  Surface ball = shapes::ellipsoid({1, 1, 1}, 6).surface;
+  for (auto row : ball.positions.rowwise()) {
+    double nearest = 2;
+    for (const Eigen::RowVector3d& spike : spikes) {
+      nearest = std::min(nearest, (row.normalized() - spike).norm());
+    }
+    row *= 1 + height * std::exp(-nearest * nearest / (width * width));
+  }
+  return ball;
+}
+
+/// Beside each other the cut and the growth lose some, which stay in life at a detail of 0.
+TEST(FinerBranches, OfTheClearestTipsAreThereByDefault) {
+  const CurveSkeleton curve = extract(spiky_ball(100, 0.06, 0.8)).skeleton;
+  EXPECT_EQ(graph_topology(curve).tips, 100);
 }
 
 TEST(FinerBranches, TheirLimitFallsFromTheDefaultOn) {

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/extract.hpp>
+#include "meshes/shapes.hpp"
 #include "tests/skeleton/measure/tubes.hpp"
 #include "tests/surfaces.hpp"
 
@@ -29,6 +30,38 @@ TEST(BranchTerritories, AddUpToTheSurfaceAndItsVolume) {
     EXPECT_NEAR(sum(parts.areas), area(one.surface), 1e-9 * area(one.surface));
     EXPECT_NEAR(sum(parts.volumes), whole, 1e-9 * whole);
     for (const double part : parts.volumes) EXPECT_GT(part, 0) << "of " << whole;
+  }
+}
+
+/// The surface elsewhere, and a ball beside it without a branch.
+Surface moved_beside_a_ball(const Surface& surface, const Eigen::Vector3d& way) {
+  const Surface ball = shapes::ellipsoid({1, 1, 1}, 2).surface;
+  const Eigen::Index vertices = surface.positions.rows();
+  Surface both;
+  both.positions.resize(vertices + ball.positions.rows(), 3);
+  both.positions << surface.positions.rowwise() + way.transpose(), ball.positions;
+  both.triangles.resize(surface.triangles.rows() + ball.triangles.rows(), 3);
+  both.triangles << surface.triangles, (ball.triangles.array() + int(vertices)).matrix();
+  return both;
+}
+
+TEST(BranchTerritories, AreTheSameElsewhereAndBesideOthers) {
+  for (const NamedSurface& one : families()) {
+    SCOPED_TRACE(one.name);
+    CurveSkeleton skeleton = extract(one.surface).skeleton;
+    if (skeleton.edges.rows() == 0) continue;
+    const BranchTerritories there = branch_territories(one.surface, skeleton);
+    const double size = bounding_box_diagonal(one.surface.positions);
+    const Eigen::Vector3d way = 10 * size * Eigen::Vector3d(0.6, -0.48, 0.64);
+    const Surface both = moved_beside_a_ball(one.surface, way);
+    skeleton.nodes.rowwise() += way.transpose();
+    const Eigen::Index vertices = one.surface.positions.rows();
+    skeleton.node_of_vertex.conservativeResize(both.positions.rows());
+    skeleton.node_of_vertex.tail(both.positions.rows() - vertices).setConstant(-1);
+    const BranchTerritories here = branch_territories(both, skeleton);
+    for (std::size_t b = 0; b < there.volumes.size(); ++b) {
+      EXPECT_NEAR(here.volumes[b], there.volumes[b], 1e-6 * volume(one.surface)) << "branch " << b;
+    }
   }
 }
 
