@@ -10,8 +10,9 @@
 
 namespace curveskel {
 
-/// Throws Error(Fault::usage) where name, author or licence are missing or the licence is no address
-/// of the web, Error(Fault::input) where the rig has not the fifteen bones that VRM requires.
+/// Throws Error(Fault::usage) where name, author or licence are missing or the licence is no
+/// address of the web, Error(Fault::input) where the rig has not the fifteen bones that VRM
+/// requires.
 void require_vrm(const Rig& rig, const VrmMeta& meta);
 
 /// Adds the extension VRMC_vrm to a glTF's JSON whose last skin has the rig's joints, in their

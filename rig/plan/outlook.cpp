@@ -351,9 +351,9 @@ struct Refusal {
   std::string reason;
 
   void consider(const Outlook& outlook) {
-    const double length = explained_by(outlook).length;
-    if (outlook.found.plan != BodyKind::other || length <= this->length) return;
-    this->length = length;
+    const double explained = explained_by(outlook).length;
+    if (outlook.found.plan != BodyKind::other || explained <= length) return;
+    length = explained;
     reason = outlook.found.reason;
   }
 };

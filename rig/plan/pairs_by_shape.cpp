@@ -69,10 +69,10 @@ class ShapePairs {
 
   /// Worth, left and right: the best first.
   [[nodiscard]] std::vector<std::tuple<double, int, int>> candidates() const {
-    constexpr std::size_t most_tips = 200;  // of a body; their pairs are looked at one by one
+    constexpr std::size_t most_paired = 200;  // of a body; their pairs are looked at one by one
     const std::vector<int> tips = tips_of(tree_);
     std::vector<std::tuple<double, int, int>> found;
-    if (tips.size() > most_tips) return found;
+    if (tips.size() > most_paired) return found;
     for (std::size_t a = 0; a < tips.size(); ++a) {
       for (std::size_t b = a + 1; b < tips.size(); ++b) {
         const Between between = between_tips(tips[a], tips[b]);

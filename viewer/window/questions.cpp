@@ -21,11 +21,11 @@ struct Choice {
 
 /// The number of the choice made in this frame, or -1. Not by Enter, which may have ended the
 /// dialogue before.
-int choice_among(std::span<const Choice> choices) {
+int draw_choices(std::span<const Choice> offered) {
   int chosen = -1;
   const float width = 6 * ImGui::GetFontSize();
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const Choice& one = choices[i];
+  for (std::size_t i = 0; i < offered.size(); ++i) {
+    const Choice& one = offered[i];
     if (i > 0) ImGui::SameLine();
     const bool typed = one.key != 0 && ImGui::IsKeyPressed(one.key, false);
     if (ImGui::Button(one.label, {width, 0}) || typed) chosen = static_cast<int>(i);
@@ -36,7 +36,7 @@ int choice_among(std::span<const Choice> choices) {
 
 /// Over all else while it is to be asked; the number of the choice made in this frame, or -1.
 int answer(const char* title, bool asked, const std::string& text,
-           std::span<const Choice> choices) {
+           std::span<const Choice> offered) {
   if (asked && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
@@ -48,7 +48,7 @@ int answer(const char* title, bool asked, const std::string& text,
     ImGui::PushTextWrapPos(std::min(40 * ImGui::GetFontSize(), screen.x * 0.8F));
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
-    chosen = choice_among(choices);
+    chosen = draw_choices(offered);
   }
   if (!asked || chosen >= 0) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
@@ -56,20 +56,20 @@ int answer(const char* title, bool asked, const std::string& text,
 }
 
 void ask_to_replace(Workbench& bench) {
-  constexpr std::array<Choice, 2> choices{{{"Replace", 'R'}, {"Keep it", 0}}};
+  constexpr std::array<Choice, 2> offered{{{"Replace", 'R'}, {"Keep it", 0}}};
   const bool asked = bench.wants_to_replace.has_value();
   const std::string file = asked ? bench.wants_to_replace->string() : "";
-  const int chosen = answer("Replace a file?", asked, file + " is there already.", choices);
+  const int chosen = answer("Replace a file?", asked, file + " is there already.", offered);
   if (chosen < 0) return;
   bench.wants_to_replace.reset();
   if (chosen == 0) bench.save(file, true);
 }
 
 void ask_to_abandon(Workbench& bench, Panels& panels) {
-  constexpr std::array<Choice, 3> choices{{{"Save", 'S'}, {"Discard", 'D'}, {"Stay", 0}}};
+  constexpr std::array<Choice, 3> offered{{{"Save", 'S'}, {"Discard", 'D'}, {"Stay", 0}}};
   const bool asked = bench.wants_to_abandon.has_value();
   const int chosen =
-      answer("Discard corrections?", asked, "The corrections by hand are in no file yet.", choices);
+      answer("Discard corrections?", asked, "The corrections by hand are in no file yet.", offered);
   if (chosen < 0) return;
   const auto files = *std::exchange(bench.wants_to_abandon, std::nullopt);
   if (chosen == 0) {
