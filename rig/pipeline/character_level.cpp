@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,14 +28,15 @@ double distance_to_edge(const CurveSkeleton& skeleton, Eigen::Index edge,
 /// Of the nearest edge; where branches meet, that of the longest life.
 double life_at(const CurveSkeleton& skeleton, const Eigen::VectorXd& lives,
                const Eigen::RowVector3d& place, double near) {
-  Eigen::VectorXd distances(skeleton.edges.rows());
-  for (Eigen::Index edge = 0; edge < distances.size(); ++edge) {
-    distances[edge] = distance_to_edge(skeleton, edge, place);
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> distances(lives.size());
+  for (Eigen::Index edge = 0; edge < lives.size(); ++edge) {
+    distances[idx(edge)] = distance_to_edge(skeleton, edge, place);
+    least = std::min(least, distances[idx(edge)]);
   }
-  const double least = distances.minCoeff();
   double life = 0;
-  for (Eigen::Index edge = 0; edge < distances.size(); ++edge) {
-    if (distances[edge] <= least + near) life = std::max(life, lives[edge]);
+  for (Eigen::Index edge = 0; edge < lives.size(); ++edge) {
+    if (distances[idx(edge)] <= least + near) life = std::max(life, lives[edge]);
   }
   return life;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -116,8 +117,11 @@ Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVec
   result.parents.resize(count + 1);
   result.parents << -1, rig.parents.array() + 1;
   const auto before = [](const auto& list, const auto& item) {
-    auto longer = list;
-    if (!list.empty()) longer.insert(longer.begin(), item);
+    std::remove_cvref_t<decltype(list)> longer;
+    if (list.empty()) return longer;
+    longer.reserve(list.size() + 1);
+    longer.push_back(item);
+    longer.insert(longer.end(), list.begin(), list.end());
     return longer;
   };
   const bool taken = std::find(rig.names.begin(), rig.names.end(), "root") != rig.names.end();
