@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Hangs the mirror image of a part from a node, as the part hangs from `from`.
+/// Hangs the mirror image of a part from a node, as the part hangs from `from`. Precondition: `at`
+/// is not in the part.
 void add_image(Completed& body, const std::vector<int>& part, int from, int at) {
   CurveTree& tree = body.tree;
   const auto image = [&](const Vector3d& p) -> Vector3d {
@@ -98,9 +99,13 @@ std::optional<Completed> with_whole_limb(const CurveTree& tree, const TipPairs& 
   const bool ends_left = tree.is_tip(left);
   if (ends_left == tree.is_tip(right)) return std::nullopt;
   const std::vector<int>& whole = ends_left ? limb.mirror : limb.path;
+  const int stump = ends_left ? left : right;
+  const std::vector<int> part = beyond(tree, whole);
+  // Both ways are of one limb then.
+  if (std::find(part.begin(), part.end(), stump) != part.end()) return std::nullopt;
   Completed body{tree, pairs};
   body.pairs.mate.erase(left);
-  add_image(body, beyond(tree, whole), whole.back(), ends_left ? left : right);
+  add_image(body, part, whole.back(), stump);
   return body;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "rig/plan/completed.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::missing_limb_laws {
@@ -87,6 +88,21 @@ TEST(MissingLimbs, ARefusalIsOfTheLookThatExplainsMost) {
   ASSERT_EQ(plan.plan, BodyKind::other);
   EXPECT_NE(plan.reason.find("one pair of limbs reaches the ground"), std::string::npos)
       << plan.reason;
+}
+
+// The image of a limb was hung from a place within the limb, and grew from its own nodes.
+TEST(MissingLimbs, NoLimbIsItsOwnImage) {
+  CurveTree tree;
+  for (int node = 0; node < 4; ++node) {
+    tree.nodes.emplace_back(node, 0, 0);
+    tree.radii.push_back(1);
+    tree.neighbours.emplace_back();
+    if (node == 0) continue;
+    tree.neighbours[node].push_back(node - 1);
+    tree.neighbours[node - 1].push_back(node);
+  }
+  EXPECT_FALSE(with_whole_limb(tree, {{{3, 1}}, {}}, {{0, 1, 2, 3}, {0, 1}, 3}));
+  EXPECT_FALSE(with_whole_limb(tree, {{{1, 3}}, {}}, {{0, 1}, {0, 1, 2, 3}, 3}));
 }
 
 }  // namespace
