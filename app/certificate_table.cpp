@@ -20,13 +20,14 @@ std::string certificate_table(const Certificate& c, const CertificateOptions& op
                       verdict(c.homology_rank == c.genus));
   text += fmt::format("  length inside    {:>8.3f} %  >= {:.1f} %   {}\n", 100 * c.inside_fraction,
                       100 * options.inside_needed, verdict(c.inside_enough));
-  text += fmt::format("  ahead of tips    {:>10.4f} D  <= 0.1 D    {}\n", c.reach_at_tips,
-                      c.reaches_ends() ? "ok" : "STOPS SHORT");
-  text += fmt::format("  made of tubes    {:>8.1f} %  >= 50 %     {}\n", 100 * c.tube_share,
-                      c.curve_like ? "ok" : "NOT MADE OF TUBES");
+  text += fmt::format("  ahead of tips    {:>10.4f} D  <= {:.1f} D    {}\n", c.reach_at_tips,
+                      reach_at_tips_allowed, c.reaches_ends() ? "ok" : "STOPS SHORT");
+  text += fmt::format("  made of tubes    {:>8.1f} %  >= {:.0f} %     {}\n", 100 * c.tube_share,
+                      100 * tube_share_needed, c.curve_like ? "ok" : "NOT MADE OF TUBES");
   if (c.wrap_followed < 1) {
-    text += fmt::format("  wrap follows     {:>8.1f} %  >= 75 %     {}\n", 100 * c.wrap_followed,
-                        c.wrap_follows() ? "ok" : "ANOTHER SHAPE");
+    text +=
+        fmt::format("  wrap follows     {:>8.1f} %  >= {:.0f} %     {}\n", 100 * c.wrap_followed,
+                    100 * wrap_followed_needed, c.wrap_follows() ? "ok" : "ANOTHER SHAPE");
   }
   text += fmt::format("  deepest exit     {:>10.2g} D\n", c.deepest_exit);
   text += fmt::format("  centredness      {:>10.3f} median, {:.3f} 90th percentile (0 = centred)\n",

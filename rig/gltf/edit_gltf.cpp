@@ -164,8 +164,9 @@ void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const Edi
 void note_shared_names(const OrderedJson& gltf, std::vector<std::string>& notes) {
   std::map<std::string, bool> joints;  // by name, true if another node has it
   std::set<std::size_t> numbers;
-  for (const OrderedJson& joint : gltf.at("skins").back().at("joints"))
+  for (const OrderedJson& joint : gltf.at("skins").back().at("joints")) {
     numbers.insert(joint.get<std::size_t>());
+  }
   const OrderedJson& nodes = gltf.at("nodes");
   for (const std::size_t number : numbers) joints[nodes.at(number).value("name", "")] = false;
   for (std::size_t node = 0; node < nodes.size(); ++node) {

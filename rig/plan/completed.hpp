@@ -17,8 +17,7 @@ struct Completed {
                                                          const TipPairs& pairs, const Limbs& limbs);
 
 /// Of a limb whose one side ends within the other: with the image of all beyond that place at its
-/// end. Nothing where both sides end at tips, or the one
-/// that ends is part of what is beyond.
+/// end. Nothing where both sides end at tips, or the end itself lies beyond that place.
 [[nodiscard]] std::optional<Completed> with_whole_limb(const CurveTree& tree, const TipPairs& pairs,
                                                        const LimbWay& limb);
 

@@ -47,24 +47,24 @@ std::string failures(const Certificate& certificate, const CertificateOptions& o
 std::string tip_failure(const Certificate& certificate) {
   if (certificate.reaches_ends()) return {};
   return "a tip stops short of the end of its limb: the surface ahead of it is " +
-         percent_words(certificate.reach_at_tips, 0) +
-         " of D from the curve, needed 10 % or less; correct the curve there (`view`), or extract "
-         "it anew";
+         percent_words(certificate.reach_at_tips, 0) + " of D from the curve, needed " +
+         percent_words(reach_at_tips_allowed, 0) +
+         " or less; correct the curve there (`view`), or extract it anew";
 }
 
 std::string shape_failure(const Certificate& certificate) {
   if (certificate.curve_like) return {};
   return "the surface is not made of tubes: " + percent_words(certificate.tube_share, 0) +
-         " of its area is within 2.5 inscribed radii of the curve, needed 50 %; a curve says "
-         "little of such a shape";
+         " of its area is within 2.5 inscribed radii of the curve, needed " +
+         percent_words(tube_share_needed, 0) + "; a curve says little of such a shape";
 }
 
 std::string wrap_failure(const Certificate& certificate) {
   if (certificate.wrap_follows()) return {};
   return "the wrap is another shape than the surface given: " +
          percent_words(certificate.wrap_followed, 0) +
-         " of the area lies within D / 100 of the surface given, needed 75 %; choose a narrower "
-         "--wrap-gap, or --wrap never";
+         " of the area lies within D / 100 of the surface given, needed " +
+         percent_words(wrap_followed_needed, 0) + "; choose a narrower --wrap-gap, or --wrap never";
 }
 
 }  // namespace curveskel

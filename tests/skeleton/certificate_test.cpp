@@ -295,7 +295,7 @@ TEST(Certificate, ATipThatStopsHalfWayIsFound) {
   }
 }
 
-/// Where another branch goes on, nothing is missing.
+/// Nothing is missing beyond a tip from which another branch goes on.
 TEST(Certificate, ATipMayLookAlongAnotherBranch) {
   const Shape rod = shapes::tube("rod", shapes::straight(2), shapes::constant(0.1), 24);
   CurveSkeleton forked = chain({{-0.9, 0, 0}, {0, 0, 0}, {0.9, 0, 0}, {0.2, 0.04, 0}});

@@ -60,8 +60,8 @@ class Workbench {
   [[nodiscard]] bool judging() const { return judging_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
-  /// Where corrections would be lost that are in no file, `wants_to_abandon` is set instead, unless
-  /// they may be.
+  /// If corrections would be lost that are in no file, only sets `wants_to_abandon`, unless they
+  /// may be.
   void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
