@@ -69,20 +69,25 @@ glm::mat3 first_axes(const Document& document) {
 
 }  // namespace
 
-Scene::Scene(Document opened)
-    : document(std::move(opened)),
-      given_(shown_surface(document.surface, document.space)),
-      face_blocks_(document.surface),
-      points_(some_points(document, given_)),
-      bounds_(bounds_of(points_)),
-      best_axes_(first_axes(document)) {
+Scene::Scene(Document opened, const Monitor& monitor) : document(std::move(opened)) {
+  const auto report = [&](double fraction) { monitor.report("prepare", fraction); };
+  report(0);
+  given_ = shown_surface(document.surface, document.space);
+  report(0.15);
+  face_blocks_ = FaceBlocks(document.surface);
+  report(0.2);
+  points_ = some_points(document, given_);
+  bounds_ = bounds_of(points_);
+  best_axes_ = first_axes(document);
+  report(0.25);
   if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
   look_from(camera, Side::best, best_axes_);
   constexpr std::array<std::size_t, Pace::levels - 1> vertices{50000, 12000, 3000};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     // Not worth its cost for a form that is nearly as simple.
     if (given_.positions.size() < 2 * vertices[i]) continue;
-    simpler_[i] = simpler_surface(given_, vertices[i]);
+    simpler_[i] = simpler_surface(given_, vertices[i], monitor.stop);
+    report(0.25 * static_cast<double>(i + 2));
   }
   given_.triangles = {};
 }

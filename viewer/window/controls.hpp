@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panels.hpp"
 #include "viewer/workbench/workbench.hpp"
 
@@ -14,6 +15,8 @@ class Controls {
  public:
   /// Within an ImGui frame: turns events of mouse and keys into actions.
   void update(Workbench& bench, Panels& panels, const Area& picture);
+  /// Within the same frame, after the panels.
+  void end_frame() { panel_keys_.end(); }
   /// True while the camera is on its way.
   [[nodiscard]] bool flying() const { return flight_.has_value(); }
   bool wants_to_leave = false;
@@ -42,8 +45,11 @@ class Controls {
   void side_keys(Workbench& bench, const Area& picture);
   void look_keys(Workbench& bench, Panels& panels, const Area& picture);
   void edit_keys(Workbench& bench) const;
-  void escape(Workbench& bench, Panels& panels) const;
+  void escape(Workbench& bench, Panels& panels);
+  void time_keys(Workbench& bench) const;
+  void heed_tab(Panels& panels, bool dialogue);
 
+  PanelKeys panel_keys_;
   Drag drag_ = Drag::none;
   int button_ = 0;
   int dragged_ = -1;     // node or joint

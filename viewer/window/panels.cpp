@@ -33,9 +33,9 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   const Document& document = bench.scene->document;
   std::vector<std::string> facts;
   if (document.has_surface()) {
-    facts.push_back(
-        fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
-                    document.surface.positions.rows(), document.surface.triangles.rows()));
+    facts.push_back(document.mesh_file.filename().string());
+    facts.push_back(fmt::format("{} vertices, {} triangles", document.surface.positions.rows(),
+                                document.surface.triangles.rows()));
   }
   if (const auto skeleton = bench.scene->skeleton()) {
     facts.push_back(
@@ -114,7 +114,7 @@ void help(Panels& panels) {
                                      ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Help", &panels.help, flags)) {
-    constexpr std::array<std::array<const char*, 2>, 18> lines{{
+    constexpr std::array<std::array<const char*, 2>, 20> lines{{
         {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
         {"double click, F", "fly to what is under the pointer; fit everything"},
         {"1 3 7 9", "front, right, top, back; with Ctrl from the other side"},
@@ -133,25 +133,32 @@ void help(Panels& panels) {
         {"L, B", "light or dark, transparent background"},
         {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
         {"F12", "a picture"},
-        {"Tab, H", "panels on and off, this help"},
-        {"Esc, Ctrl-Q", "cancel or clear the selection, leave"},
+        {"P, H", "panels on and off, this help"},
+        {"Tab, Shift + Tab", "into the panels, and from control to control"},
+        {"there: arrows, Space, Enter",
+         "move, press or change with the arrows, type a number; Esc leads back to the picture"},
+        {"Esc, Ctrl-Q", "cancel what goes on or clear the selection, leave"},
     }};
     help_lines(lines, screen.x);
   }
   ImGui::End();
 }
 
-/// In an empty window: the ways to fill it.
+/// In an empty window: the ways to fill it. While files are opened: how far that is.
 void hint(const Workbench& bench, const Area& picture) {
   const Document& document = bench.scene->document;
-  if (document.has_surface() || document.skeleton || bench.opening()) return;
-  constexpr const char* text =
-      "Drop a surface, a skeleton or a rig here,\nor press Ctrl-O to open one; H for help.";
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const OpeningNews::Stage stage = bench.opening_stage();
+  if ((document.has_surface() || document.skeleton) && !bench.opening()) return;
+  const std::string text =
+      bench.opening()
+          ? fmt::format("opening: {} {:.0f} %\nEsc cancels.", stage.name, 100 * stage.fraction)
+          : "Drop a surface, a skeleton or a rig here,\nor press Ctrl-O to open one; H "
+            "for help.";
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   if (size.x > picture.width || size.y > picture.height) return;
   ImGui::GetBackgroundDrawList()->AddText({picture.x + std::floor((picture.width - size.x) / 2),
                                            picture.y + std::floor((picture.height - size.y) / 2)},
-                                          ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+                                          ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
 }
 
 void browser(Workbench& bench, Panels& panels) {
@@ -191,13 +198,17 @@ std::string description_of_joint(int joint, const Rig& rig) {
 }  // namespace
 
 void ask_to_open(Panels& panels) {
-  panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "");
+  panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "",
+                     "Surfaces: " + names_in(surface_formats) +
+                         ", also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
 }
 
 void ask_to_save(const Workbench& bench, Panels& panels) {
   panels.browser.ask(FileBrowser::Purpose::save,
                      bench.shows_made_rig() ? "Save the rig" : "Save the skeleton",
-                     bench.suggested_name());
+                     bench.suggested_name(),
+                     "The extension chooses the format. Skeletons and their pictures: " +
+                         names_in(skeleton_formats) + ". Rigs: " + names_in(rig_formats) + ".");
 }
 
 Area whole_pixels(const Area& area) {
@@ -215,7 +226,7 @@ bool begin_panel(const char* name, const Area& area) {
 }
 
 void tip(const char* text) {
-  if (!ImGui::IsItemHovered()) return;
+  if (text[0] == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   constexpr float widest = 24;  // of a letter's height
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * widest);
@@ -237,6 +248,36 @@ void box_beside_if_it_fits(const char* label) {
                       ImGui::CalcTextSize(label, nullptr, true).x;
   const float right = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
   if (right <= ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
+std::string place_control(const char* label, float share) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room = ImGui::GetContentRegionAvail().x;
+  const float button = ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
+  if (room * share + style.ItemInnerSpacing.x + words + button <= room) {
+    ImGui::SetNextItemWidth(room * share);
+    return label;
+  }
+  ImGui::TextWrapped("%s", label);
+  ImGui::SetNextItemWidth(room - button);
+  return std::string("##") + label;
+}
+
+bool tick(const char* label, bool& value) {
+  const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
+  if (box + words <= ImGui::GetContentRegionAvail().x) return ImGui::Checkbox(label, &value);
+  ImGui::BeginGroup();
+  bool changed = ImGui::Checkbox((std::string("##") + label).c_str(), &value);
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::TextWrapped("%s", label);
+  if (ImGui::IsItemClicked()) {
+    value = !value;
+    changed = true;
+  }
+  ImGui::EndGroup();
+  return changed;
 }
 
 bool list_line(const char* label, bool present) {
@@ -262,8 +303,19 @@ Layout lay_out(float width, float height, float scale, bool panels) {
   layout.status = {0, height - line, width, line};
   layout.picture = {0, 0, width, height - line};
   if (!panels) return layout;
-  const float side = std::floor(std::min(290 * scale, width * 0.30F));
   const float timeline = std::floor(std::min(130 * scale, height * 0.2F));
+  constexpr float narrow = 560;  // too little for two panels beside a picture
+  if (width < narrow * scale && width < height) {
+    const float half = std::floor(width / 2);
+    const float panel = std::floor(height * 0.42F);
+    const float below = height - line - panel;
+    layout.left = {0, below, half, panel};
+    layout.right = {half, below, width - half, panel};
+    layout.timeline = {0, below - timeline, width, timeline};
+    layout.picture = {0, 0, width, below - timeline};
+    return layout;
+  }
+  const float side = std::floor(std::min(290 * scale, width * 0.30F));
   layout.left = {0, 0, side, height - line};
   layout.right = {width - side, 0, side, height - line};
   layout.timeline = {side, height - line - timeline, width - 2 * side, timeline};
@@ -304,6 +356,16 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
     }
   }
   return {};
+}
+
+void for_each_name(const Workbench& bench, const Panels& panels,
+                   const std::function<void(const std::string&)>& visit) {
+  for (const std::filesystem::path& file : bench.files()) visit(file.string());
+  for (const Message& message : bench.messages()) visit(message.text);
+  panels.browser.for_each_name(visit);
+  if (const auto rig = bench.scene->rig()) {
+    for (const std::string& name : rig->names) visit(name);
+  }
 }
 
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {

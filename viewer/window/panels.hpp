@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -58,7 +59,8 @@ struct Panels {
   bool may_be_coarse = true;  ///< while things move, where the machine is slow
   bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
-  Outline outline;  ///< of the rig
+  Outline outline;        ///< of the rig
+  int listed_joint = -1;  // whose line was last made to be seen
   TurnAngles angles;
   float scale = 1;  ///< of letters, by the display
   FrameTimes times;
@@ -75,6 +77,10 @@ struct Panels {
 
 /// All of them, within an ImGui frame; a person's actions reach the workbench at once.
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout);
+
+/// Texts that the panels show and that come from files, folders or a person.
+void for_each_name(const Workbench& bench, const Panels& panels,
+                   const std::function<void(const std::string&)>& visit);
 
 /// Every moment as a step, with area, volume and residual as curves; a drag goes to a moment.
 void draw_timeline(Workbench& bench, const Area& area);

@@ -82,6 +82,14 @@ constexpr Plot plots[] = {
     {"residual", &Moment::residual, IM_COL32(165, 110, 225, 255)},
 };
 
+/// Goes on in the line where text of this width has room in it; false where it has none.
+bool has_room(float distance, float text_width) {
+  const float right = ImGui::GetItemRectMax().x + distance + text_width;
+  if (right > ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) return false;
+  ImGui::SameLine(0, distance);
+  return true;
+}
+
 void draw_title(const Scene& scene, const std::vector<std::size_t>& shown_moments, bool roomy) {
   const Moment& shown = scene.recording.moments()[scene.moment];
   const auto at = std::find(shown_moments.begin(), shown_moments.end(), scene.moment);
@@ -94,14 +102,26 @@ void draw_title(const Scene& scene, const std::vector<std::size_t>& shown_moment
   ImGui::TextUnformatted(title.c_str());
 }
 
+/// The names of the plots, as many as have room beside the title.
+void draw_names_of_plots() {
+  const float letter = ImGui::GetFontSize();
+  for (const Plot& plot : plots) {
+    const float distance = plot.value == &Moment::area_ratio ? 2 * letter : letter;
+    if (!has_room(distance, ImGui::CalcTextSize(plot.name).x)) return;
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
+  }
+}
+
 /// Only where there are several: which one, and ways to those beside it.
 void draw_choice_of_component(Workbench& bench, int component) {
   const auto& moments = bench.scene->recording.moments();
   int last = 0;
   for (const Moment& moment : moments) last = std::max(last, moment.component);
   if (last == 0 || component < 0) return;
+  const std::string words = fmt::format("component {} of {}", component + 1, last + 1);
+  const float letter = ImGui::GetFontSize();
+  (void)has_room(letter, ImGui::CalcTextSize(words.c_str()).x + 6 * letter);
   const auto go_beside = [&](const char* arrow, int other, const char* meaning) {
-    ImGui::SameLine(0, 12);
     ImGui::BeginDisabled(other < 0 || other > last);
     const bool pressed = ImGui::SmallButton(arrow);
     ImGui::EndDisabled();
@@ -114,7 +134,8 @@ void draw_choice_of_component(Workbench& bench, int component) {
   };
   go_beside("<", component - 1, "the component before");
   ImGui::SameLine();
-  ImGui::Text("component %d of %d", component + 1, last + 1);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::SameLine();
   go_beside(">", component + 1, "the next component");
 }
 
@@ -122,7 +143,8 @@ void draw_choice_of_component(Workbench& bench, int component) {
 std::optional<bool> draw_choice_of_tries(const Workbench& bench) {
   const Recording& recording = bench.scene->recording;
   if (!recording.has_other_tries() || bench.running()) return std::nullopt;
-  ImGui::SameLine(0, 30);
+  const float letter = ImGui::GetFontSize();
+  (void)has_room(2 * letter, ImGui::CalcTextSize("all tries").x + 2 * letter);
   bool all = recording.shows_all_tries();
   return ImGui::Checkbox("all tries", &all) ? std::optional(all) : std::nullopt;
 }
@@ -169,10 +191,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
   const int component = component_at(moments, bench.scene->moment);
   const std::vector<std::size_t> shown = moments_with(moments, component);
   draw_title(*bench.scene, shown, area.width > ImGui::GetFontSize() * 60);
-  for (const Plot& plot : plots) {
-    ImGui::SameLine(0, plot.value == &Moment::area_ratio ? 30.0F : 12.0F);
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
-  }
+  draw_names_of_plots();
   draw_choice_of_component(bench, component);
   const std::optional<bool> all_tries = draw_choice_of_tries(bench);
   const ImVec2 low = ImGui::GetCursorScreenPos();

@@ -8,9 +8,11 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <curveskel/edit.hpp>
@@ -44,6 +46,27 @@ struct Judgement {
   std::string error;  ///< why there is none
 };
 
+/// Told by the thread that opens files.
+class OpeningNews {
+ public:
+  struct Stage {
+    std::string name;
+    double fraction = 0;
+  };
+  void tell(std::string_view stage, double fraction) {
+    const std::lock_guard lock(mutex_);
+    now_ = {std::string(stage), fraction};
+  }
+  [[nodiscard]] Stage now() const {
+    const std::lock_guard lock(mutex_);
+    return now_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Stage now_;
+};
+
 class Workbench {
  public:
   explicit Workbench(ViewOptions options);
@@ -65,6 +88,8 @@ class Workbench {
   void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
+  /// Of the files that are being opened.
+  [[nodiscard]] OpeningNews::Stage opening_stage() const;
   void reload();
   /// Reloads if the files on the disk are newer than those that were read.
   void watch_files();
@@ -218,6 +243,7 @@ class Workbench {
   std::vector<std::filesystem::path> files_;
   std::vector<std::filesystem::file_time_type> read_times_;
   std::stop_source opening_stop_;
+  std::shared_ptr<OpeningNews> opening_news_;
   std::future<Opened> opening_;
   std::stop_source document_stop_;  // of all work for the present one but runs and rigs
   bool reloading_ = false;
