@@ -104,6 +104,7 @@ bool Controls::begin_drag(const Workbench& bench, const Panels& panels) {
     if (button != 0 || !io.KeyCtrl || bench.running()) continue;
     if (panels.hovered.kind == Pick::Kind::node) drag_ = Drag::node;
     if (panels.hovered.kind == Pick::Kind::joint) drag_ = Drag::joint;
+    turns_ = false;
     dragged_ = panels.hovered.index;
   }
   return began;
@@ -136,9 +137,10 @@ void Controls::drag(Workbench& bench, const Area& picture) {
 }
 
 /// The joint follows the pointer, in the plane that faces the viewer.
-void Controls::pull(Workbench& bench, const Area& picture) const {
+void Controls::pull(Workbench& bench, const Area& picture) {
   const auto rig = bench.scene->rig();
   if (!rig || dragged_ < 0 || dragged_ >= rig->joints.rows()) return;
+  if (!std::exchange(turns_, true)) bench.begin_turning();
   const glm::vec3 place =
       shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.space);
   bench.pull_joint(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));

@@ -38,7 +38,7 @@ class Controls {
   /// True if a button went down in this frame.
   bool begin_drag(const Workbench& bench, const Panels& panels);
   void drag(Workbench& bench, const Area& picture);
-  void pull(Workbench& bench, const Area& picture) const;
+  void pull(Workbench& bench, const Area& picture);
   void end_drag(Workbench& bench, const Panels& panels, const Area& picture);
   void keys(Workbench& bench, Panels& panels, const Area& picture);
   void command_keys(Workbench& bench, Panels& panels) const;
@@ -56,6 +56,7 @@ class Controls {
   float scale_ = 1;      // of the display
   float travelled_ = 0;  // pixels since the button went down
   bool doubled_ = false;
+  bool turns_ = false;  // the dragged joint, which the workbench was told of
   std::optional<Flight> flight_;
 };
 

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "viewer/window/reading_order.hpp"
+
 namespace curveskel::viewer {
 namespace {
 
@@ -88,7 +90,8 @@ fs::path FileBrowser::named() const {
 void FileBrowser::draw_entries(fs::path& next, std::optional<fs::path>& chosen) {
   if (ImGui::Selectable("../")) next = folder_.parent_path();
   for (const Entry& entry : entries_) {
-    const std::string label = entry.folder ? entry.name + "/" : entry.name;
+    const std::string shown = in_reading_order(entry.name);
+    const std::string label = entry.folder ? shown + "/" : shown;
     const bool is_named = entry.name == name_;
     const bool pressed =
         ImGui::Selectable(label.c_str(), is_named, ImGuiSelectableFlags_AllowDoubleClick);
@@ -134,7 +137,7 @@ std::optional<fs::path> FileBrowser::draw() {
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   std::optional<fs::path> chosen;
   if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
-  ImGui::TextWrapped("%s", folder_.string().c_str());
+  ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
   if (!error_.empty()) ImGui::TextColored({0.9F, 0.2F, 0.2F, 1}, "%s", error_.c_str());
   const ImGuiStyle& style = ImGui::GetStyle();
   const float hint =

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -188,10 +189,10 @@ void corrections(Workbench& bench) {
   button("Split", "a node in the middle of the selected edge (N)", [&] { bench.split(); });
   button("Root", "the selected node is where the hierarchy begins (T)", [&] { bench.set_root(); });
   first = true;
-  ImGui::BeginDisabled(!bench.history().can_undo());
+  ImGui::BeginDisabled(!bench.can_undo());
   button("Undo", "Ctrl-Z", [&] { bench.undo(); });
   ImGui::EndDisabled();
-  ImGui::BeginDisabled(!bench.history().can_redo());
+  ImGui::BeginDisabled(!bench.can_redo());
   button("Redo", "Ctrl-Y", [&] { bench.redo(); });
   ImGui::EndDisabled();
   if (bench.root() >= 0) {
@@ -207,7 +208,7 @@ void kept_messages(const Workbench& bench) {
     const ImVec4 colour = message->bad ? verdict_colour(false, bench.scene->look.theme)
                                        : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", message->text.c_str());
+    ImGui::TextWrapped("%s", in_reading_order(message->text).c_str());
     ImGui::PopStyleColor();
   }
 }

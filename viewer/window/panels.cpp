@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -33,7 +34,7 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   const Document& document = bench.scene->document;
   std::vector<std::string> facts;
   if (document.has_surface()) {
-    facts.push_back(document.mesh_file.filename().string());
+    facts.push_back(in_reading_order(document.mesh_file.filename().string()));
     facts.push_back(fmt::format("{} vertices, {} triangles", document.surface.positions.rows(),
                                 document.surface.triangles.rows()));
   }
@@ -62,18 +63,21 @@ void messages(const Workbench& bench, const Area& picture, float scale) {
   const auto now = std::chrono::steady_clock::now();
   float y = picture.y + 10 * scale;
   for (const Message& message : bench.messages()) {
-    const double shown_seconds = message.bad ? 12 : 4;
+    // As long as it takes to read.
+    const double letters = static_cast<double>(message.text.size());
+    const double shown_seconds = std::max(message.bad ? 12.0 : 4.0, letters / 15);
     const double age = std::chrono::duration<double>(now - message.since).count();
     if (age > shown_seconds) continue;
     const float widest = picture.width - 40 * scale;
-    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, widest);
+    const std::string text = in_reading_order(message.text);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
     const ImVec2 low(picture.x + 12 * scale, y);
     list.AddRectFilled(low, {low.x + size.x + 16 * scale, low.y + size.y + 10 * scale}, back,
                        5 * scale);
     list.AddText(nullptr, 0, {low.x + 8 * scale, low.y + 5 * scale}, IM_COL32(255, 255, 255, 255),
-                 message.text.c_str(), nullptr, widest);
+                 text.c_str(), nullptr, widest);
     y += size.y + 14 * scale;
   }
 }
@@ -185,7 +189,7 @@ std::string description_of_node(int node, const CurveSkeleton& skeleton) {
 std::string description_of_joint(int joint, const Rig& rig) {
   const auto name_of = [&](int index) {
     const std::string& name = rig.names[static_cast<std::size_t>(index)];
-    return name.empty() ? fmt::format("joint {}", index) : name;
+    return name.empty() ? fmt::format("joint {}", index) : in_reading_order(name);
   };
   std::string text = fmt::format("{}\n({:.5g}, {:.5g}, {:.5g})", name_of(joint),
                                  rig.joints(joint, 0), rig.joints(joint, 1), rig.joints(joint, 2));
@@ -404,6 +408,8 @@ void style_panels(Theme theme, float scale) {
   style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.45F;
   style.Colors[ImGuiCol_PlotHistogram] =
       theme == Theme::dark ? ImVec4(0.16F, 0.44F, 0.36F, 1) : ImVec4(0.58F, 0.83F, 0.75F, 1);
+  style.Colors[ImGuiCol_TextDisabled] =
+      theme == Theme::dark ? ImVec4(0.60F, 0.62F, 0.65F, 1) : ImVec4(0.38F, 0.40F, 0.43F, 1);
   style.Colors[ImGuiCol_WindowBg] = {palette.lower.r, palette.lower.g, palette.lower.b, 1};
   style.ScaleAllSizes(scale);
 }

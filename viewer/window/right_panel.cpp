@@ -12,6 +12,7 @@
 
 #include "viewer/model/rigging.hpp"
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -267,7 +268,7 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
       (line.joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
   ImGui::PushID(line.joint);
   ImGui::SetNextItemOpen(open);
-  const std::string& name = rig.names[joint];
+  const std::string name = in_reading_order(rig.names[joint]);
   ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
   ImGui::PopID();
   if (ImGui::IsItemToggledOpen()) return true;
@@ -305,6 +306,7 @@ void turn_controls(Workbench& bench, TurnAngles& kept, int joint) {
   constexpr std::array<const char*, 3> names{"##x", "##y", "##z"};
   constexpr std::array<float, 3> most{180, 90, 180};  // all turns, each once
   bool changed = false;
+  bool begins = false;
   ImGui::BeginGroup();
   const float between = ImGui::GetStyle().ItemInnerSpacing.x;
   const float wide = std::floor((whole - 2 * between) / 3);
@@ -314,6 +316,7 @@ void turn_controls(Workbench& bench, TurnAngles& kept, int joint) {
     changed = ImGui::DragFloat(names[axis], &angles[axis], 0.5F, -most[axis], most[axis], "%.1f",
                                ImGuiSliderFlags_AlwaysClamp) ||
               changed;
+    begins = ImGui::IsItemActivated() || begins;
   }
   if (is_beside) {
     ImGui::SameLine(0, between);
@@ -322,6 +325,7 @@ void turn_controls(Workbench& bench, TurnAngles& kept, int joint) {
   ImGui::EndGroup();
   tip("degrees about x, y, z: drag, or double-click to type; Ctrl + drag of a joint does the same "
       "by hand");
+  if (begins) bench.begin_turning();
   if (changed) set_angles(kept, bench, joint, angles);
 }
 
@@ -385,15 +389,20 @@ void scroll_to_chosen(const Workbench& bench, const Outline& outline, int& liste
 void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
   const float step = ImGui::GetFontSize() * 0.5F;
   // Deeper ones stand below each other, so that their names are still seen.
-  const float most = ImGui::GetContentRegionAvail().x * 0.5F;
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto indent = [&](const HierarchyLine& line) {
+    const std::string& name = rig.names[static_cast<std::size_t>(line.joint)];
+    const float arrow = 2 * ImGui::GetFontSize();
+    const float left = std::max(room - arrow - ImGui::CalcTextSize(name.c_str()).x, 0.0F);
+    return std::min({step * static_cast<float>(line.depth), room * 0.5F, left});
+  };
   int folded = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(outline.seen().size()));
   while (clipper.Step()) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const HierarchyLine& line = outline.seen()[static_cast<std::size_t>(row)];
-      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
-                           std::min(step * static_cast<float>(line.depth), most));
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent(line));
       if (joint_line(bench, rig, line, !outline.folded(line.joint))) folded = line.joint;
     }
   }

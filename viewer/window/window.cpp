@@ -28,6 +28,7 @@
 #include "viewer/window/glfw_window.hpp"
 #include "viewer/window/letters.hpp"
 #include "viewer/window/panels.hpp"
+#include "viewer/window/reading_order.hpp"
 #include "viewer/window/recent_files.hpp"
 #include "viewer/window/window_picture.hpp"
 #include "viewer/workbench/workbench.hpp"
@@ -205,14 +206,16 @@ class Viewer {
 
   /// Those of the texts that the frame will show.
   void renew_letters() {
-    for_each_name(bench_, panels_, [&](const std::string& name) { letters_.want(name); });
+    for_each_name(bench_, panels_, [&](const std::string& name) {
+      letters_.want(name);
+      letters_.want(in_reading_order(name));
+    });
     if (letters_.update()) window_.renew_letters();
     if (letters_.take_lacking()) {
       bench_.say(
           "a name has characters that no font of this system has, so that they are shown as ?; "
           "Debian's fonts-noto-cjk has those of Chinese, Japanese and Korean, fonts-noto-core "
-          "those of most other scripts",
-          true);
+          "those of most other scripts");
     }
   }
 

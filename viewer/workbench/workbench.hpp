@@ -154,6 +154,11 @@ class Workbench {
   void pull_joint(int joint, const glm::vec3& place);
   /// All joints as they are in the file.
   void turn_back();
+  /// The turns from now on are one step, which `undo` takes back before all corrections. Any
+  /// correction, and any other rig, ends that: the pose stays as it is then.
+  void begin_turning();
+  [[nodiscard]] bool can_undo() const;
+  [[nodiscard]] bool can_redo() const;
   /// Corrects the role of the selected joint, which is named and saved so; rigs that are made later
   /// have it, too, where they have a joint in its place. "" = none.
   void set_role(const std::string& role);
@@ -208,6 +213,15 @@ class Workbench {
     std::string on_sheets;                    // see words_on_sheets
     std::string error;
   };
+  /// Poses before and after the one that is shown, of one rig.
+  struct Poses {
+    std::shared_ptr<const Rig> rig;
+    std::vector<std::shared_ptr<const JointTurns>> before;
+    std::vector<std::shared_ptr<const JointTurns>> after;
+  };
+  [[nodiscard]] bool has_pose(const std::vector<std::shared_ptr<const JointTurns>>& poses) const;
+  void go_to_pose(std::vector<std::shared_ptr<const JointTurns>>& from,
+                  std::vector<std::shared_ptr<const JointTurns>>& to);
   bool take_opened();
   bool take_news();
   bool take_defects();
@@ -275,6 +289,7 @@ class Workbench {
   int selected_joint_ = -1;
   std::shared_ptr<const Rig> shown_rig_;          // whose joint that is
   std::shared_ptr<const CharacterRig> made_rig_;  // before roles were corrected
+  Poses poses_;
   std::vector<int> failed_edges_;
   std::vector<int> failed_faces_;
   Path measured_;

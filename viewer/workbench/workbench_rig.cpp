@@ -158,7 +158,35 @@ void Workbench::pull_joint(int joint, const glm::vec3& place) {
   turn_joint(parent, way);
 }
 
-void Workbench::turn_back() { scene->turn_back(); }
+void Workbench::turn_back() {
+  if (!scene->turns()) return;
+  begin_turning();
+  scene->turn_back();
+}
+
+void Workbench::begin_turning() {
+  const auto rig = scene->rig();
+  if (!rig) return;
+  if (poses_.rig != rig) poses_ = {rig, {}, {}};
+  poses_.after.clear();
+  poses_.before.push_back(scene->turns());
+}
+
+bool Workbench::has_pose(const std::vector<std::shared_ptr<const JointTurns>>& poses) const {
+  return !poses.empty() && poses_.rig == scene->rig();
+}
+
+void Workbench::go_to_pose(std::vector<std::shared_ptr<const JointTurns>>& from,
+                           std::vector<std::shared_ptr<const JointTurns>>& to) {
+  to.push_back(scene->turns());
+  const auto wanted = from.back();
+  from.pop_back();
+  if (wanted) {
+    scene->turn(*wanted);
+  } else {
+    scene->turn_back();
+  }
+}
 
 void Workbench::set_role(const std::string& role) {
   const auto shown = scene->character();
