@@ -64,7 +64,7 @@ TEST_F(OnScreen, AClickOnAJointInTheListMovesNoLine) {
   const float x = width - 40;
   constexpr float line = 6;
   std::vector<int> found;
-  for (float y = height - 40; y > 0.3F * height; y -= line) {
+  for (float y = height - 40; y > 0; y -= line) {
     bench.select_joint(-1);
     frame();
     click(x, y);
@@ -142,6 +142,51 @@ TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
   EXPECT_NEAR(turned[2], 35, 1e-3);
   bench.turn_back();
   EXPECT_EQ(angles_of(kept, bench, 1), none);
+}
+
+// Below 500 units labels were cut.
+TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
+  open_rig();
+  bench.select_joint(1);
+  bench.start(false);
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.judgement() != nullptr; }));
+  for (const bool made : {false, true}) {
+    if (made) {
+      bench.rig();
+      ASSERT_TRUE(wait_for(bench, [&] { return bench.has_rig(); }));
+    }
+    for (const auto& [wide, high] :
+         {ImVec2{1200, 800}, {800, 600}, {640, 480}, {500, 420}, {400, 600}, {440, 300}}) {
+      ImGui::GetIO().DisplaySize = {wide, high};
+      const Layout layout = lay_out(wide, high, 1, true);
+      for (int settles = 0; settles < 4; ++settles) {
+        frame([&] { draw_panels(bench, panels, layout); });
+      }
+      for (const char* name : {"run", "look", "timeline"}) {
+        const ImGuiWindow* const panel = ImGui::FindWindowByName(name);
+        EXPECT_LE(panel->ContentSize.x, panel->WorkRect.GetWidth() + 1) << name << " at " << wide;
+      }
+    }
+  }
+}
+
+TEST_F(OnScreen, PartsOfTheWindowFillItAndDoNotOverlap) {
+  for (const float scale : {1.0F, 2.0F}) {
+    for (const ImVec2 size : {ImVec2{1600, 1000}, {800, 600}, {500, 420}, {400, 600}, {330, 250}}) {
+      const ImVec2 window(size.x * scale, size.y * scale);
+      const Layout layout = lay_out(window.x, window.y, scale, true);
+      float sum = 0;
+      for (const Area& area :
+           {layout.picture, layout.left, layout.right, layout.timeline, layout.status}) {
+        EXPECT_GE(std::min({area.x, area.y, area.width, area.height}), 0);
+        EXPECT_LE(area.x + area.width, window.x);
+        EXPECT_LE(area.y + area.height, window.y);
+        sum += area.width * area.height;
+      }
+      EXPECT_NEAR(sum, window.x * window.y, 1);
+      EXPECT_GE(layout.picture.width, 0.3F * window.x);
+    }
+  }
 }
 
 // It ended the program, with all corrections.

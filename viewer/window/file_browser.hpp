@@ -19,6 +19,8 @@ class FileBrowser {
            const std::string& hint = {});
   /// Within an ImGui frame; the chosen file, once.
   [[nodiscard]] std::optional<std::filesystem::path> draw();
+  /// As it stands in the field.
+  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Purpose purpose() const { return purpose_; }
   [[nodiscard]] bool shown() const { return shown_; }
   /// Asked for, and not yet ready to be typed into.

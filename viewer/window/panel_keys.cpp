@@ -60,7 +60,10 @@ void PanelKeys::ask(int direction) {
 void PanelKeys::go(int direction) {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   ImGuiWindow* const panel = panel_beside(g.NavWindow, direction);
-  if (panel == nullptr) return;
+  if (panel == nullptr) {
+    goes_on_ = direction;  // once they are shown
+    return;
+  }
   ImGui::FocusWindow(panel);
   g.NavId = 0;
   g.NavLayer = ImGuiNavLayer_Main;
@@ -87,7 +90,7 @@ bool PanelKeys::begin(bool dialogue) {
   if (!on_) of_dialogue_ = dialogue;
   if (!std::exchange(on_, true) && !dialogue) {
     ImGui::FocusWindow(nullptr);
-    goes_on_ = direction;  // where panels were hidden, they are there by then
+    goes_on_ = direction;
   } else {
     ask(direction);
   }
@@ -99,7 +102,9 @@ void PanelKeys::end() {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   was_in_use_ = ImGui::IsAnyItemActive() || is_list_open();
   asked_before_ = std::exchange(asked_, 0);
-  const bool found = g.NavMoveResultLocal.ID != 0;
+  // Before the first control of a panel ImGui would go round to its last.
+  const bool goes_round = asked_before_ < 0 && g.NavId != 0 && g.NavMoveScoringItems;
+  const bool found = g.NavMoveResultLocal.ID != 0 && !goes_round;
   if (asked_before_ == 0 || found || of_dialogue_ || is_list_open()) return;
   ImGui::NavMoveRequestCancel();
   goes_on_ = std::exchange(asked_before_, 0);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panel_parts.hpp"
 #include "viewer/window/reading_order.hpp"
 
@@ -71,7 +72,9 @@ void messages(const Workbench& bench, const Area& picture, float scale) {
     const float widest = picture.width - 40 * scale;
     const std::string text = in_reading_order(message.text);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
-    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    // A dialogue is not covered.
+    ImDrawList& list =
+        is_list_open() ? *ImGui::GetBackgroundDrawList() : *ImGui::GetForegroundDrawList();
     const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
     const ImVec2 low(picture.x + 12 * scale, y);
     list.AddRectFilled(low, {low.x + size.x + 16 * scale, low.y + size.y + 10 * scale}, back,

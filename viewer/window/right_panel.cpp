@@ -53,7 +53,7 @@ void certificate_line(const char* name, const std::string& value, int verdict, T
   const float column = ImGui::GetFontSize() * 7.5F;
   ImGui::BeginGroup();
   const float room = ImGui::GetContentRegionAvail().x;
-  ImGui::TextUnformatted(name);
+  ImGui::TextWrapped("%s", name);
   if (column + ImGui::CalcTextSize(value.c_str()).x <= room) {
     ImGui::SameLine(column);
   } else {
