@@ -170,25 +170,6 @@ TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
   }
 }
 
-TEST_F(OnScreen, PartsOfTheWindowFillItAndDoNotOverlap) {
-  for (const float scale : {1.0F, 2.0F}) {
-    for (const ImVec2 size : {ImVec2{1600, 1000}, {800, 600}, {500, 420}, {400, 600}, {330, 250}}) {
-      const ImVec2 window(size.x * scale, size.y * scale);
-      const Layout layout = lay_out(window.x, window.y, scale, true);
-      float sum = 0;
-      for (const Area& area :
-           {layout.picture, layout.left, layout.right, layout.timeline, layout.status}) {
-        EXPECT_GE(std::min({area.x, area.y, area.width, area.height}), 0);
-        EXPECT_LE(area.x + area.width, window.x);
-        EXPECT_LE(area.y + area.height, window.y);
-        sum += area.width * area.height;
-      }
-      EXPECT_NEAR(sum, window.x * window.y, 1);
-      EXPECT_GE(layout.picture.width, 0.3F * window.x);
-    }
-  }
-}
-
 // It ended the program, with all corrections.
 TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   const std::filesystem::path before = std::filesystem::current_path();

@@ -363,6 +363,18 @@ TEST_F(Rigging, TurnsGoWithTheRig) {
   EXPECT_EQ(bench.scene->turns(), nullptr);
 }
 
+TEST_F(Rigging, IsCancelledLikeARun) {
+  open_y();
+  EXPECT_FALSE(bench.can_cancel());
+  bench.rig();
+  EXPECT_TRUE(bench.can_cancel());
+  bench.cancel_what_goes_on();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_FALSE(bench.has_rig());
+  EXPECT_EQ(last_said(), "the rig was cancelled");
+  make_rig();
+}
+
 TEST_F(Rigging, PosesAreTakenBackAndDoneAgainStepByStep) {
   bench.pipeline.character.plan.plan = BodyKind::humanoid;
   open_y();

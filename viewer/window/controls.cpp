@@ -208,10 +208,8 @@ void Controls::escape(Workbench& bench, Panels& panels) {
     panels.help = false;
   } else if (panel_keys_.on()) {
     panel_keys_.leave();
-  } else if (bench.opening()) {
-    bench.cancel_opening();
-  } else if (bench.running()) {
-    bench.cancel();
+  } else if (bench.can_cancel()) {
+    bench.cancel_what_goes_on();
   } else {
     bench.clear_selection();
     bench.clear_faults();

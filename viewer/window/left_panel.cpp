@@ -59,11 +59,12 @@ void run_buttons(Workbench& bench) {
   if (ImGui::Button("Rewind")) bench.rewind();
   tip("to the input (Home)");
   beside_if_it_fits("Cancel");
-  ImGui::BeginDisabled(!bench.running() && !bench.opening());
-  if (ImGui::Button("Cancel")) bench.opening() ? bench.cancel_opening() : bench.cancel();
+  ImGui::BeginDisabled(!bench.can_cancel());
+  if (ImGui::Button("Cancel")) bench.cancel_what_goes_on();
   ImGui::EndDisabled();
-  tip(bench.opening() ? "stop the opening, keep what is open (Esc)"
-                      : "stop the run, keep what was recorded (Esc)");
+  tip(bench.opening()   ? "stop the opening, keep what is open (Esc)"
+      : bench.running() ? "stop the run, keep what was recorded (Esc)"
+                        : "stop what goes on (Esc)");
 }
 
 /// Of what is being opened, or of the run that goes on, or how the last one ended.
@@ -71,12 +72,16 @@ void progress(const Workbench& bench, const Glance& glance) {
   float done = 0;
   std::string word;
   if (bench.opening()) {
-    const OpeningNews::Stage stage = bench.opening_stage();
+    const StageNews::Stage stage = bench.opening_stage();
     done = static_cast<float>(stage.fraction);
     word = "opening: " + stage.name;
   } else if (bench.running()) {
     done = static_cast<float>(glance.fraction);
     word = bench.news().stage;
+  } else if (bench.making_rig()) {
+    const StageNews::Stage stage = bench.rig_stage();
+    done = static_cast<float>(stage.fraction);
+    word = stage.name.empty() ? "rig" : "rig: " + stage.name;
   } else if (bench.run_state() == Run::State::cancelled) {
     word = "cancelled";
   } else if (bench.run_state() == Run::State::failed) {

@@ -121,7 +121,7 @@ void help(Panels& panels) {
                                      ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Help", &panels.help, flags)) {
-    constexpr std::array<std::array<const char*, 2>, 20> lines{{
+    constexpr std::array<std::array<const char*, 2>, 21> lines{{
         {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
         {"double click, F", "fly to what is under the pointer; fit everything"},
         {"1 3 7 9", "front, right, top, back; with Ctrl from the other side"},
@@ -140,6 +140,7 @@ void help(Panels& panels) {
         {"L, B", "light or dark, transparent background"},
         {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
         {"F12", "a picture"},
+        {"Ctrl + click on a slider", "type a number"},
         {"P, H", "panels on and off, this help"},
         {"Tab, Shift + Tab", "into the panels, and from control to control"},
         {"there: arrows, Space, Enter",
@@ -154,7 +155,7 @@ void help(Panels& panels) {
 /// In an empty window: the ways to fill it. While files are opened: how far that is.
 void hint(const Workbench& bench, const Area& picture) {
   const Document& document = bench.scene->document;
-  const OpeningNews::Stage stage = bench.opening_stage();
+  const StageNews::Stage stage = bench.opening_stage();
   if ((document.has_surface() || document.skeleton) && !bench.opening()) return;
   const std::string text =
       bench.opening()

@@ -52,6 +52,14 @@ struct TurnAngles {
   std::array<float, 3> degrees{};                            ///< about x, then y, then z
 };
 
+/// How much farther in a line of the outline stands than the one above it, and for which outline.
+struct Indentation {
+  float step = 0;
+  float room = 0;         ///< for all of a line
+  std::size_t lines = 0;  ///< that are seen
+  int glyphs = 0;         ///< that the font has
+};
+
 /// State that the panels keep from one frame to the next.
 struct Panels {
   bool shown = true;
@@ -59,8 +67,9 @@ struct Panels {
   bool may_be_coarse = true;  ///< while things move, where the machine is slow
   bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
-  Outline outline;        ///< of the rig
-  int listed_joint = -1;  // whose line was last made to be seen
+  Outline outline;  ///< of the rig
+  Indentation indentation;
+  int listed_joint = -1;  ///< whose line was last made to be seen
   TurnAngles angles;
   float scale = 1;  ///< of letters, by the display
   FrameTimes times;

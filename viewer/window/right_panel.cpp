@@ -385,24 +385,36 @@ void scroll_to_chosen(const Workbench& bench, const Outline& outline, int& liste
   ImGui::SetScrollY(std::max(place - high / 2, 0.0F));
 }
 
-/// Only the lines within the panel are laid out.
-void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
-  const float step = ImGui::GetFontSize() * 0.5F;
-  // Deeper ones stand below each other, so that their names are still seen.
-  const float room = ImGui::GetContentRegionAvail().x;
-  const auto indent = [&](const HierarchyLine& line) {
+/// As wide as leaves room for each name beside those that stand above it.
+float step_of(const Outline& outline, const Rig& rig, float room) {
+  const float letter = ImGui::GetFontSize();
+  float step = letter * 0.5F;
+  for (const HierarchyLine& line : outline.seen()) {
+    if (line.depth == 0) continue;
     const std::string& name = rig.names[static_cast<std::size_t>(line.joint)];
-    const float arrow = 2 * ImGui::GetFontSize();
-    const float left = std::max(room - arrow - ImGui::CalcTextSize(name.c_str()).x, 0.0F);
-    return std::min({step * static_cast<float>(line.depth), room * 0.5F, left});
-  };
+    const float left = room - 2 * letter - ImGui::CalcTextSize(name.c_str()).x;
+    step = std::min(step, std::max(left, 0.0F) / static_cast<float>(line.depth));
+  }
+  return step;
+}
+
+/// Only the lines within the panel are laid out.
+void hierarchy(Workbench& bench, Panels& panels, const Rig& rig) {
+  Outline& outline = panels.outline;
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::size_t lines = outline.seen().size();
+  const int glyphs = ImGui::GetFont()->Glyphs.Size;
+  Indentation& now = panels.indentation;
+  if (now.room != room || now.lines != lines || now.glyphs != glyphs) {
+    now = {step_of(outline, rig, room), room, lines, glyphs};
+  }
   int folded = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(outline.seen().size()));
   while (clipper.Step()) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const HierarchyLine& line = outline.seen()[static_cast<std::size_t>(row)];
-      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent(line));
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + now.step * static_cast<float>(line.depth));
       if (joint_line(bench, rig, line, !outline.folded(line.joint))) folded = line.joint;
     }
   }
@@ -413,7 +425,7 @@ void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
 /// part of the panel, so that the rest stays at hand.
 void rig(Workbench& bench, Panels& panels) {
   const auto shown = bench.scene->rig();
-  panels.outline.show(shown);
+  if (panels.outline.show(shown)) panels.indentation = {};
   if (!shown || !ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) return;
   chosen_joint(bench, panels.angles, *shown);
   constexpr float most_lines = 14;
@@ -422,7 +434,7 @@ void rig(Workbench& bench, Panels& panels) {
   const float high = lines * ImGui::GetTextLineHeightWithSpacing() + 2 * style.WindowPadding.y;
   if (ImGui::BeginChild("joints", {0, high}, true, ImGuiWindowFlags_NavFlattened)) {
     scroll_to_chosen(bench, panels.outline, panels.listed_joint);
-    hierarchy(bench, panels.outline, *shown);
+    hierarchy(bench, panels, *shown);
   }
   ImGui::EndChild();
   const auto character = bench.scene->character();

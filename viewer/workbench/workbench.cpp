@@ -117,7 +117,7 @@ void Workbench::open(const std::vector<fs::path>& files, bool may_abandon) {
   }
   say("opening " + names_of(files));
   opening_stop_ = {};
-  opening_news_ = std::make_shared<OpeningNews>();
+  opening_news_ = std::make_shared<StageNews>();
   Monitor told = heeding(opening_stop_);
   told.progress = [news = opening_news_](std::string_view stage, double fraction) {
     news->tell(stage, fraction);
@@ -224,8 +224,8 @@ void Workbench::cancel_opening() {
   if (opening_.valid()) opening_stop_.request_stop();
 }
 
-OpeningNews::Stage Workbench::opening_stage() const {
-  return opening_.valid() ? opening_news_->now() : OpeningNews::Stage{};
+StageNews::Stage Workbench::opening_stage() const {
+  return opening_.valid() ? opening_news_->now() : StageNews::Stage{};
 }
 
 void Workbench::reload() {

@@ -46,8 +46,8 @@ struct Judgement {
   std::string error;  ///< why there is none
 };
 
-/// Told by the thread that opens files.
-class OpeningNews {
+/// How far another thread is, told by that thread.
+class StageNews {
  public:
   struct Stage {
     std::string name;
@@ -89,7 +89,7 @@ class Workbench {
   /// The open files stay.
   void cancel_opening();
   /// Of the files that are being opened.
-  [[nodiscard]] OpeningNews::Stage opening_stage() const;
+  [[nodiscard]] StageNews::Stage opening_stage() const;
   void reload();
   /// Reloads if the files on the disk are newer than those that were read.
   void watch_files();
@@ -143,6 +143,13 @@ class Workbench {
   void rig();
   /// True if a rig is being made, of a skeleton chosen before now.
   [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
+  /// Of the rig that is being made.
+  [[nodiscard]] StageNews::Stage rig_stage() const;
+  /// A rig that was made before stays.
+  void cancel_rig();
+  /// What goes on and can be cancelled: files that are opened, else the run, else a rig.
+  [[nodiscard]] bool can_cancel() const;
+  void cancel_what_goes_on();
   [[nodiscard]] bool shows_made_rig() const { return scene->character() != nullptr; }
   [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
@@ -257,7 +264,7 @@ class Workbench {
   std::vector<std::filesystem::path> files_;
   std::vector<std::filesystem::file_time_type> read_times_;
   std::stop_source opening_stop_;
-  std::shared_ptr<OpeningNews> opening_news_;
+  std::shared_ptr<StageNews> opening_news_;
   std::future<Opened> opening_;
   std::stop_source document_stop_;  // of all work for the present one but runs and rigs
   bool reloading_ = false;
@@ -282,6 +289,7 @@ class Workbench {
   std::future<Judgement> judging_;
   std::future<std::shared_ptr<const DrawnMaterials>> materials_;
   std::stop_source rigging_stop_;
+  std::shared_ptr<StageNews> rigging_news_;
   std::future<Rigged> rigging_;
   std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
