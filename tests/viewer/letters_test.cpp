@@ -111,6 +111,9 @@ TEST(FontFaces, AreNoneInFilesThatAreNoFonts) {
   const std::string whole(static_cast<const char*>(face->bytes()), face->size());
   EXPECT_NE(FontFace::open(folder.write("whole.ttf", whole)), nullptr);
   EXPECT_EQ(FontFace::open(folder.write("whole.ttf", whole), 1), nullptr) << "it has one face";
+  for (std::size_t size = 1; size < whole.size(); size *= 3) {
+    EXPECT_EQ(FontFace::open(folder.write("cut.ttf", whole.substr(0, size))), nullptr) << size;
+  }
 }
 
 }  // namespace

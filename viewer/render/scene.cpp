@@ -58,8 +58,8 @@ Surface as_surface(const ShownSurface& shown) {
   Surface surface;
   surface.positions.resize(static_cast<Eigen::Index>(shown.positions.size()), 3);
   for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
-    const glm::vec3& at = shown.positions[static_cast<std::size_t>(v)];
-    surface.positions.row(v) << at.x, at.y, at.z;
+    surface.positions.row(v) =
+        model_vector(shown.positions[static_cast<std::size_t>(v)]).transpose();
   }
   surface.triangles.resize(static_cast<Eigen::Index>(shown.triangles.size()), 3);
   Eigen::Index f = 0;

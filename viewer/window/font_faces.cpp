@@ -22,6 +22,27 @@ const stbtt_fontinfo& outlines_in(const std::shared_ptr<const void>& held) {
   return *static_cast<const stbtt_fontinfo*>(held.get());
 }
 
+std::size_t number_at(const unsigned char* bytes, std::size_t at, int length) {
+  std::size_t number = 0;
+  for (int k = 0; k < length; ++k) number = number << 8U | bytes[at + static_cast<std::size_t>(k)];
+  return number;
+}
+
+/// The tables of the face that begins there lie within the file, beyond which stb_truetype would
+/// read where a file is cut off.
+bool is_whole(const unsigned char* bytes, std::size_t size, std::size_t start) {
+  constexpr std::size_t header = 12;
+  constexpr std::size_t record = 16;  // tag, checksum, offset and length
+  if (start > size || size - start < header) return false;
+  const std::size_t tables = number_at(bytes, start + 4, 2);
+  if (size - start - header < tables * record) return false;
+  for (std::size_t table = 0; table < tables; ++table) {
+    const std::size_t at = start + header + table * record;
+    if (number_at(bytes, at + 8, 4) + number_at(bytes, at + 12, 4) > size) return false;
+  }
+  return true;
+}
+
 /// Keeps the face if it has some of the characters that are still lacking.
 void keep_if_of_use(Faces& faces, std::vector<char32_t>& lacking,
                     const std::shared_ptr<const FontFace>& face) {
@@ -116,11 +137,12 @@ constexpr const char* usual_wide_fonts[] = {
 
 bool FontFace::find_outlines() {
   const auto* const bytes = static_cast<const unsigned char*>(bytes_);
-  constexpr std::size_t header = 12;
-  if (size_ < header) return false;
+  const std::size_t of_collection = 16 + 4 * static_cast<std::size_t>(number_);  // its header
+  if (number_ < 0 || size_ < of_collection) return false;
   const int start = stbtt_GetFontOffsetForIndex(bytes, number_);
+  if (start < 0 || !is_whole(bytes, size_, static_cast<std::size_t>(start))) return false;
   auto outlines = std::make_shared<stbtt_fontinfo>();
-  if (start < 0 || stbtt_InitFont(outlines.get(), bytes, start) == 0) return false;
+  if (stbtt_InitFont(outlines.get(), bytes, start) == 0) return false;
   const float line = stbtt_ScaleForPixelHeight(outlines.get(), 1);
   const float letter = stbtt_ScaleForMappingEmToPixels(outlines.get(), 1);
   if (!(line > 0) || !(letter > 0)) return false;

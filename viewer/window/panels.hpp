@@ -52,7 +52,7 @@ struct TurnAngles {
   std::array<float, 3> degrees{};                            ///< about x, then y, then z
 };
 
-/// How much farther in a line of the outline stands than the one above it, and for which outline.
+/// The step from a line of the outline to those below it, and the outline that it is for.
 struct Indentation {
   float step = 0;
   float room = 0;         ///< for all of a line

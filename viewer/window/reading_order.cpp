@@ -215,6 +215,9 @@ Letters32 turned(const Letters32& run) {
 }  // namespace
 
 std::string in_reading_order(std::string_view text) {
+  constexpr unsigned char first_of_hebrew = 0xD6;  // in UTF-8; of Arabic and their forms more
+  const auto may_be = [](char byte) { return static_cast<unsigned char>(byte) >= first_of_hebrew; };
+  if (std::none_of(text.begin(), text.end(), may_be)) return std::string(text);
   const Letters32 letters = decoded(text);
   if (std::none_of(letters.begin(), letters.end(), is_from_right)) return std::string(text);
   Letters32 written;

@@ -369,7 +369,7 @@ void chosen_joint(Workbench& bench, TurnAngles& angles, const Rig& rig) {
   tip("to the pose of the file");
 }
 
-/// Where another joint was chosen, in the picture or by a key, its line is seen.
+/// Makes the line of a joint seen that was chosen elsewhere: in the picture, or by a key.
 void scroll_to_chosen(const Workbench& bench, const Outline& outline, int& listed) {
   const int joint = bench.selected_joint();
   if (std::exchange(listed, joint) == joint) return;
