@@ -135,6 +135,22 @@ TEST_F(Typed, ArrowsAndSpaceAreForThePanelsUntilEscape) {
   EXPECT_FALSE(are_for_panels());
 }
 
+TEST_F(Typed, EnterPressesAButtonAndTicksABox) {
+  const auto go_to = [&](const char* panel_name, const char* label) {
+    const ImGuiID wanted = ImGui::FindWindowByName(panel_name)->GetID(label);
+    for (int tabs = 0; tabs < 80 && at() != wanted; ++tabs) type(GLFW_KEY_TAB);
+    return at() == wanted;
+  };
+  ASSERT_TRUE(go_to("run", "Help"));
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(panels.help);
+  type(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(panels.help);
+  ASSERT_TRUE(go_to("look", "edges"));
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(bench.scene->look.edges);
+}
+
 TEST_F(Typed, AClickGivesTheKeysBackToThePicture) {
   const std::size_t before = moment();
   type(GLFW_KEY_TAB);
@@ -177,6 +193,27 @@ TEST_F(Typed, ASliderIsChangedByArrowsAndANumberIsTyped) {
   EXPECT_TRUE(are_for_panels()) << "the slider was left, not the panels";
   type(GLFW_KEY_ENTER);
   EXPECT_TRUE(ImGui::GetIO().WantTextInput) << "a number can be typed";
+}
+
+TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
+  const OwnFolder folder;
+  write_rigged_bar(folder.path() / "bar.gltf", {.joints = 5, .first_weight = 0});
+  bench.open({folder.path() / "bar.gltf"});
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.scene->document.rig != nullptr; }));
+  settle();
+  const auto is_in_list = [] {
+    const ImGuiWindow* const window = ImGui::GetCurrentContext()->NavWindow;
+    return window != nullptr && std::string(window->Name).find("joints") != std::string::npos;
+  };
+  for (int tabs = 0; tabs < 60 && !is_in_list(); ++tabs) type(GLFW_KEY_TAB);
+  ASSERT_TRUE(is_in_list());
+  type(GLFW_KEY_SPACE);
+  EXPECT_EQ(bench.selected_joint(), 0);
+  type(GLFW_KEY_DOWN);
+  type(GLFW_KEY_ENTER);
+  EXPECT_EQ(bench.selected_joint(), 1);
+  type(GLFW_KEY_ENTER);
+  EXPECT_EQ(bench.selected_joint(), -1);
 }
 
 TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {

@@ -40,6 +40,12 @@ bool is_list_open() {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
+bool is_pressed_by_key() {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  const ImGuiID item = g.LastItemData.ID;
+  return item != 0 && g.NavActivatePressedId == item;
+}
+
 /// ImGui's own Tab goes to fields alone, so that it is not told of Tab. The control is found while
 /// the panels are laid out in this frame.
 void PanelKeys::ask(int direction) {
@@ -82,6 +88,10 @@ bool PanelKeys::begin(bool dialogue) {
   }
   const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked),
                                    [](bool one) { return one; });
+  if (on_ && g.NavActivateInputId != 0) {
+    // In ImGui 1.86, Enter is for fields alone.
+    g.NavActivateId = g.NavActivateDownId = g.NavActivatePressedId = g.NavActivateInputId;
+  }
   if (on_ && (clicked || (of_dialogue_ && !dialogue))) leave();
   if (const int on = std::exchange(goes_on_, 0); on != 0 && on_) go(on);
   const bool tab = ImGui::IsKeyPressed(GLFW_KEY_TAB, false) && !io.KeyCtrl && !io.KeyAlt;

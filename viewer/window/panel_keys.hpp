@@ -6,6 +6,9 @@ namespace curveskel::viewer {
 /// A combo box or another popup.
 [[nodiscard]] bool is_list_open();
 
+/// The last item, while keys are for the panels, was chosen by Space or Enter.
+[[nodiscard]] bool is_pressed_by_key();
+
 /// Keys are for the picture until Tab is pressed, and again after Esc or a click. While they are
 /// for the panels, a frame stands round a control, and ImGui's own navigation does the rest.
 class PanelKeys {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viewer/model/rigging.hpp"
+#include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panel_parts.hpp"
 #include "viewer/window/reading_order.hpp"
 
@@ -271,8 +272,9 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
   const std::string name = in_reading_order(rig.names[joint]);
   ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
   ImGui::PopID();
-  if (ImGui::IsItemToggledOpen()) return true;
-  if (ImGui::IsItemClicked()) {
+  const bool by_key = is_pressed_by_key();  // which folds nothing, unlike Left and Right
+  if (ImGui::IsItemToggledOpen() && !by_key) return true;
+  if (ImGui::IsItemClicked() || by_key) {
     bench.select_joint(line.joint == bench.selected_joint() ? -1 : line.joint);
   }
   return false;
