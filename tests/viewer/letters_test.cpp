@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "tests/own_folder.hpp"
 
@@ -113,6 +114,21 @@ TEST(FontFaces, AreNoneInFilesThatAreNoFonts) {
   EXPECT_EQ(FontFace::open(folder.write("whole.ttf", whole), 1), nullptr) << "it has one face";
   for (std::size_t size = 1; size < whole.size(); size *= 3) {
     EXPECT_EQ(FontFace::open(folder.write("cut.ttf", whole.substr(0, size))), nullptr) << size;
+  }
+}
+
+TEST(FontFaces, AreThoseThatHaveTheCharactersAndNoOthers) {
+  const std::vector<char32_t> wanted{U'a', U'Я', U'გ'};
+  for (const auto& find : {faces_with, faces_in_usual_places}) {
+    const auto faces = find(wanted);
+    ASSERT_FALSE(faces.empty());
+    for (const char32_t letter : wanted) {
+      EXPECT_TRUE(std::any_of(faces.begin(), faces.end(),
+                              [&](const auto& face) { return face->has(letter); }));
+    }
+    EXPECT_LE(faces.size(), wanted.size());
+    EXPECT_TRUE(find({0xFDD0}).empty()) << "no character";
+    EXPECT_TRUE(find({}).empty());
   }
 }
 

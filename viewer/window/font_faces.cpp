@@ -185,7 +185,12 @@ std::shared_ptr<const FontFace> usual_face() {
 Faces faces_with(const std::vector<char32_t>& characters) {
   Faces faces;
   std::vector<char32_t> lacking = characters;
-  if (ask_fontconfig(faces, lacking)) return faces;
+  return ask_fontconfig(faces, lacking) ? faces : faces_in_usual_places(characters);
+}
+
+Faces faces_in_usual_places(const std::vector<char32_t>& characters) {
+  Faces faces;
+  std::vector<char32_t> lacking = characters;
   for (const auto& list : {std::span<const char* const>(usual_fonts), {usual_wide_fonts}}) {
     for (const char* const file : list) keep_if_of_use(faces, lacking, FontFace::open(file));
   }

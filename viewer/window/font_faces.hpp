@@ -42,9 +42,13 @@ class FontFace {
 
 /// Faces that have the characters, in the order of the person's preferences as fontconfig knows
 /// them, each with one at least that those before lack; some characters may be in none. Without
-/// fontconfig, faces from the usual places. O(installed fonts), 10 ms to seconds: not for the
+/// fontconfig, `faces_in_usual_places`. O(installed fonts), 10 ms to seconds: not for the
 /// drawing thread.
 [[nodiscard]] std::vector<std::shared_ptr<const FontFace>> faces_with(
+    const std::vector<char32_t>& characters);
+
+/// The same of fonts that distributions have, in the places where they have them.
+[[nodiscard]] std::vector<std::shared_ptr<const FontFace>> faces_in_usual_places(
     const std::vector<char32_t>& characters);
 
 }  // namespace curveskel::viewer
