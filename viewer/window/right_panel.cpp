@@ -272,6 +272,10 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
   const std::string name = in_reading_order(rig.names[joint]);
   ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
   ImGui::PopID();
+  const float right =
+      ImGui::GetItemRectMin().x + 2 * ImGui::GetFontSize() + ImGui::CalcTextSize(name.c_str()).x;
+  const bool is_cut = right > ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (is_cut) tip(name.c_str());
   const bool by_key = is_pressed_by_key();  // which folds nothing, unlike Left and Right
   if (ImGui::IsItemToggledOpen() && !by_key) return true;
   if (ImGui::IsItemClicked() || by_key) {
@@ -387,7 +391,7 @@ void scroll_to_chosen(const Workbench& bench, const Outline& outline, int& liste
   ImGui::SetScrollY(std::max(place - high / 2, 0.0F));
 }
 
-/// As wide as leaves room for each name beside those that stand above it.
+/// As wide as leaves room for each name, but never so little that the order is not seen.
 float step_of(const Outline& outline, const Rig& rig, float room) {
   const float letter = ImGui::GetFontSize();
   float step = letter * 0.5F;
@@ -397,7 +401,7 @@ float step_of(const Outline& outline, const Rig& rig, float room) {
     const float left = room - 2 * letter - ImGui::CalcTextSize(name.c_str()).x;
     step = std::min(step, std::max(left, 0.0F) / static_cast<float>(line.depth));
   }
-  return step;
+  return std::max(step, letter * 0.15F);
 }
 
 /// Only the lines within the panel are laid out.
