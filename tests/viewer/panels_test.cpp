@@ -144,6 +144,28 @@ TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
   EXPECT_EQ(angles_of(kept, bench, 1), none);
 }
 
+// In a small window they hid all of the picture, and the timeline below it.
+TEST_F(OnScreen, MessagesLeaveSomeOfThePictureToBeSeen) {
+  constexpr float wide = 500;
+  constexpr float high = 420;
+  ImGui::GetIO().DisplaySize = {wide, high};
+  const Layout layout = lay_out(wide, high, 1, true);
+  const auto lowest = [&] {
+    frame([&] { draw_panels(bench, panels, layout); });
+    float found = 0;
+    for (const ImDrawVert& corner : ImGui::GetForegroundDrawList()->VtxBuffer) {
+      found = std::max(found, corner.pos.y);
+    }
+    return found;
+  };
+  EXPECT_EQ(lowest(), 0);
+  for (int number = 0; number < 9; ++number) {
+    bench.say("a message of some length, in several lines, number " + std::to_string(number));
+    EXPECT_GT(lowest(), 0);
+    EXPECT_LT(lowest(), 0.75F * layout.picture.height);
+  }
+}
+
 // Below 500 units labels were cut.
 TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
   open_rig();

@@ -60,28 +60,50 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   ImGui::End();
 }
 
-void messages(const Workbench& bench, const Area& picture, float scale) {
+/// A message that is still to be read.
+struct Notice {
+  std::string text;
+  bool bad = false;
+  ImVec2 size;
+};
+
+/// The newest ones, as many as leave some of the picture to be seen, one at least. Those before can
+/// be read in the panel.
+std::vector<Notice> notices(const Workbench& bench, float widest, float highest, float between) {
   const auto now = std::chrono::steady_clock::now();
-  float y = picture.y + 10 * scale;
-  for (const Message& message : bench.messages()) {
+  std::vector<Notice> shown;
+  float height = 0;
+  for (auto message = bench.messages().rbegin(); message != bench.messages().rend(); ++message) {
     // As long as it takes to read.
-    const double letters = static_cast<double>(message.text.size());
-    const double shown_seconds = std::max(message.bad ? 12.0 : 4.0, letters / 15);
-    const double age = std::chrono::duration<double>(now - message.since).count();
+    const double letters = static_cast<double>(message->text.size());
+    const double shown_seconds = std::max(message->bad ? 12.0 : 4.0, letters / 15);
+    const double age = std::chrono::duration<double>(now - message->since).count();
     if (age > shown_seconds) continue;
-    const float widest = picture.width - 40 * scale;
-    const std::string text = in_reading_order(message.text);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
-    // A dialogue is not covered.
-    ImDrawList& list =
-        is_list_open() ? *ImGui::GetBackgroundDrawList() : *ImGui::GetForegroundDrawList();
-    const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
+    Notice one{in_reading_order(message->text), message->bad, {}};
+    one.size = ImGui::CalcTextSize(one.text.c_str(), nullptr, false, widest);
+    height += one.size.y + between;
+    if (!shown.empty() && height > highest) break;
+    shown.push_back(std::move(one));
+  }
+  std::reverse(shown.begin(), shown.end());
+  return shown;
+}
+
+void messages(const Workbench& bench, const Area& picture, float scale) {
+  const float widest = picture.width - 40 * scale;
+  const float between = 14 * scale;
+  float y = picture.y + 10 * scale;
+  // A dialogue is not covered.
+  ImDrawList& list =
+      is_list_open() ? *ImGui::GetBackgroundDrawList() : *ImGui::GetForegroundDrawList();
+  for (const Notice& one : notices(bench, widest, picture.height * 0.6F, between)) {
+    const ImU32 back = one.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
     const ImVec2 low(picture.x + 12 * scale, y);
-    list.AddRectFilled(low, {low.x + size.x + 16 * scale, low.y + size.y + 10 * scale}, back,
-                       5 * scale);
+    list.AddRectFilled(low, {low.x + one.size.x + 16 * scale, low.y + one.size.y + 10 * scale},
+                       back, 5 * scale);
     list.AddText(nullptr, 0, {low.x + 8 * scale, low.y + 5 * scale}, IM_COL32(255, 255, 255, 255),
-                 text.c_str(), nullptr, widest);
-    y += size.y + 14 * scale;
+                 one.text.c_str(), nullptr, widest);
+    y += one.size.y + between;
   }
 }
 
