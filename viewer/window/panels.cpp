@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,13 +75,15 @@ std::vector<Notice> notices(const Workbench& bench, float widest, float highest,
   const auto now = std::chrono::steady_clock::now();
   std::vector<Notice> shown;
   float height = 0;
-  for (auto message = bench.messages().rbegin(); message != bench.messages().rend(); ++message) {
+  const std::deque<Message>& all = bench.messages();
+  for (std::size_t i = all.size(); i-- > 0;) {
+    const Message& message = all[i];
     // As long as it takes to read.
-    const double letters = static_cast<double>(message->text.size());
-    const double shown_seconds = std::max(message->bad ? 12.0 : 4.0, letters / 15);
-    const double age = std::chrono::duration<double>(now - message->since).count();
+    const double letters = static_cast<double>(message.text.size());
+    const double shown_seconds = std::max(message.bad ? 12.0 : 4.0, letters / 15);
+    const double age = std::chrono::duration<double>(now - message.since).count();
     if (age > shown_seconds) continue;
-    Notice one{in_reading_order(message->text), message->bad, {}};
+    Notice one{in_reading_order(message.text), message.bad, {}};
     one.size = ImGui::CalcTextSize(one.text.c_str(), nullptr, false, widest);
     height += one.size.y + between;
     if (!shown.empty() && height > highest) break;
