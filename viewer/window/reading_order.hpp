@@ -7,9 +7,8 @@
 namespace curveskel::viewer {
 
 /// The text in the order in which its characters stand from left to right, Arabic letters in the
-/// forms by which they join their neighbours; any other text as it is. The line as a whole begins
-/// at the left, and numbers keep their order (Unicode's rules for such lines, but for embeddings
-/// and marks that no name has). `text`: UTF-8, bytes that are none stay. O(its size).
+/// forms by which they join their neighbours (Unicode's bidirectional algorithm, by FriBidi); any
+/// other text, and what is no UTF-8, as it is. The line as a whole begins at the left. O(its size).
 [[nodiscard]] std::string in_reading_order(std::string_view text);
 
 }  // namespace curveskel::viewer
