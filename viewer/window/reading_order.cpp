@@ -13,16 +13,16 @@ using Letters32 = std::vector<FriBidiChar>;
 Letters32 decoded(std::string_view text) {
   Letters32 letters(text.size());
   const auto size = static_cast<FriBidiStrIndex>(text.size());
-  letters.resize(static_cast<std::size_t>(fribidi_charset_to_unicode(
-      FRIBIDI_CHAR_SET_UTF8, text.data(), size, letters.data())));
+  letters.resize(static_cast<std::size_t>(
+      fribidi_charset_to_unicode(FRIBIDI_CHAR_SET_UTF8, text.data(), size, letters.data())));
   return letters;
 }
 
 std::string encoded(const Letters32& letters) {
   std::string text(4 * letters.size() + 1, '\0');  // with the zero that FriBidi adds
   const auto size = static_cast<FriBidiStrIndex>(letters.size());
-  text.resize(static_cast<std::size_t>(fribidi_unicode_to_charset(
-      FRIBIDI_CHAR_SET_UTF8, letters.data(), size, text.data())));
+  text.resize(static_cast<std::size_t>(
+      fribidi_unicode_to_charset(FRIBIDI_CHAR_SET_UTF8, letters.data(), size, text.data())));
   return text;
 }
 
