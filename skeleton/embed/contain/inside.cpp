@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -324,8 +325,9 @@ class Keeper {
   const BallStep& ball_step(int from, int to) {
     const auto [at, is_new] = ball_steps_.try_emplace({from, to});
     if (is_new && !sees(centre(from), centre(to))) {
-      at->second.between = way_below(from, to);
+      if (more_fruitless_ways_ > 0) at->second.between = way_below(from, to);
       at->second.is_hidden = at->second.between.empty();
+      if (at->second.is_hidden) --more_fruitless_ways_;
     }
     return at->second;
   }
@@ -352,11 +354,25 @@ class Keeper {
     chain = shortcut(chain, tree_);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       if (i > 0) made.points.push_back(chain[i]);
-      std::vector<CurvePoint> between;
-      if (!is_covered(chain[i], chain[i + 1], between)) ++made.uncovered;
-      made.points.insert(made.points.end(), between.begin(), between.end());
+      const CoveredStep& step = covered_step(chain[i], chain[i + 1]);
+      if (!step.is_covered) ++made.uncovered;
+      made.points.insert(made.points.end(), step.between.begin(), step.between.end());
     }
     return made;
+  }
+
+  /// What has to come between two points.
+  struct CoveredStep {
+    bool is_covered = false;
+    std::vector<CurvePoint> between;
+  };
+
+  /// Known from then on, as a detour differs from the last in a few of its steps.
+  const CoveredStep& covered_step(const CurvePoint& p, const CurvePoint& q) {
+    const auto [at, is_new] = covered_steps_.try_emplace(
+        {p.place().x(), p.place().y(), p.place().z(), q.place().x(), q.place().y(), q.place().z()});
+    if (is_new) at->second.is_covered = is_covered(p, q, at->second.between);
+    return at->second;
   }
 
   /// The way between two points; round the steps that lead outside, if the surface meets itself.
@@ -405,9 +421,12 @@ class Keeper {
   BallChains chains_;
   std::map<int, CurvePoint> centres_;                   ///< of the balls passed so far
   std::map<std::pair<int, int>, BallStep> ball_steps_;  ///< of the steps taken so far
+  std::map<std::array<double, 6>, CoveredStep> covered_steps_;
   int uncovered_ = 0;
-  int detours_ = 0;       ///< of the arc at hand
-  int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere
+  int detours_ = 0;  ///< of the arc at hand
+  // For all detours, as a surface may meet itself everywhere.
+  int more_tries_ = 300;
+  int more_fruitless_ways_ = 300;  ///< below the surface, from ball to ball
 };
 
 }  // namespace

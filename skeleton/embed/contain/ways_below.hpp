@@ -35,6 +35,12 @@ class WaysBelow {
 
  private:
   using Step = std::pair<std::int32_t, std::int32_t>;  // half-edges; -1: one of the two points
+  struct Reached {
+    double length = 0;
+    std::int32_t before = -1;
+    bool done = false;
+    int search = 0;  // in which it was reached
+  };
 
   [[nodiscard]] std::optional<std::vector<std::int32_t>> edges_between(
       const SurfaceTree::Nearest& from, const SurfaceTree::Nearest& to,
@@ -47,6 +53,8 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
+  std::vector<Reached> reached_;         // the end, then by half-edge
+  int searches_ = 0;                     // so far
 };
 
 }  // namespace curveskel
