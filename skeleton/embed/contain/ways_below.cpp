@@ -45,7 +45,7 @@ std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, con
   };
   if (!stays(from.place(), start) || !stays(end, to.place())) return std::nullopt;
   std::set<Step> avoided;
-  for (int t = 0; t < most_tries; ++t) {
+  for (int t = 0; t < most_tries && more_fruitless_tries_ > 0; ++t) {
     throw_if_stopped(stop_);
     const auto edges = edges_between(first, last, avoided);
     if (!edges) return std::nullopt;
@@ -58,6 +58,7 @@ std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, con
       avoided.insert({k == 0 ? -1 : (*edges)[k - 1], k == edges->size() ? -1 : (*edges)[k]});
     }
     if (avoided.size() == known) return line;
+    --more_fruitless_tries_;
   }
   return std::nullopt;
 }
