@@ -44,7 +44,7 @@ SkeletonGraph first_course(const Setting& in) {
   const double limit = in.tuning.prominence;
   SkeletonGraph whole =
       skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
-  cut_pockets(whole, in.working, in.tree, in.partition, limit);
+  cut_pockets(whole, in.working, in.partition, limit);
   SkeletonGraph graph = whole;
   prune_blunt(graph, in.working, in.partition, limit);
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -11,31 +12,35 @@
 namespace curveskel {
 namespace {
 
+struct Pocket {
+  std::size_t pieces = 0;  ///< of those from the tip on; 0 = none
+  Point rim = Point::Zero();
+  Point bottom = Point::Zero();
+};
+
 /// The surface from a tip on, taken group by group.
 class PocketSearch {
  public:
-  PocketSearch(const WorkingSurface& working, const SurfaceTree& tree,
-               const PartitionGraph& partition, double limit)
+  PocketSearch(const WorkingSurface& working, const PartitionGraph& partition, double limit)
       : working_(working),
-        tree_(tree),
         partition_(partition),
         limit_(limit),
         vertices_(idx(partition.groups)),
-        taken_at_(idx(partition.groups), not_taken) {
+        taken_(idx(partition.groups), 0) {
     for (int v = 0; v < working.vertices(); ++v) {
       vertices_[idx(partition.group_of_vertex[v])].push_back(v);
     }
   }
 
-  /// How many of the pieces, which are a tip's and its arc's in order, form a pocket.
-  [[nodiscard]] std::size_t pocket(const std::vector<int>& pieces) {
+  /// The pocket that the first of the pieces, which are a tip's and its arc's in order, form.
+  [[nodiscard]] Pocket pocket(const std::vector<int>& pieces) {
     std::size_t best = 0;
     double least = 0;
     six_volumes_ = 0;
     two_areas_.setZero();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i] < partition_.groups) {
-        take(pieces[i], static_cast<int>(i));
+        take(pieces[i]);
         continue;
       }
       const double volume = six_volumes_ - rim(pieces[i]).centre.dot(two_areas_);
@@ -44,13 +49,12 @@ class PocketSearch {
       best = i + 1;
     }
     for (const int piece : pieces) {
-      if (piece < partition_.groups) taken_at_[idx(piece)] = not_taken;
+      if (piece < partition_.groups) taken_[idx(piece)] = 0;
     }
-    return best > 0 && is_hollow(pieces, best) ? best : 0;
+    return best > 0 ? hollow(pieces, best) : Pocket();
   }
 
  private:
-  static constexpr int not_taken = -1;
   struct Rim {
     Point centre = Point::Zero();
     double radius = 0;  ///< mean distance from the centre
@@ -69,8 +73,8 @@ class PocketSearch {
   }
 
   /// Adds the triangles of a group, and those between it and groups taken before.
-  void take(int group, int order) {
-    taken_at_[idx(group)] = order;
+  void take(int group) {
+    taken_[idx(group)] = 1;
     const auto& triangles_around = working_.triangles_around();
     for (const int v : vertices_[idx(group)]) {
       const auto first = idx(triangles_around.offsets[idx(v)]);
@@ -83,7 +87,7 @@ class PocketSearch {
     const auto corners = working_.surface().triangles.row(triangle);
     const auto group_of = [this](int v) { return partition_.group_of_vertex[v]; };
     for (const int corner : corners) {
-      if (taken_at_[idx(group_of(corner))] == not_taken) return;
+      if (taken_[idx(group_of(corner))] == 0) return;
     }
     const auto counted = std::find_if(corners.begin(), corners.end(),
                                       [&](int corner) { return group_of(corner) == group; });
@@ -95,25 +99,29 @@ class PocketSearch {
     two_areas_ += a.cross(b) + b.cross(c) + c.cross(a);
   }
 
-  [[nodiscard]] bool is_hollow(const std::vector<int>& pieces, std::size_t count) const {
+  /// Made of the first pieces; none if they stick out too little.
+  [[nodiscard]] Pocket hollow(const std::vector<int>& pieces, std::size_t count) const {
     const Rim found = rim(pieces[count - 1]);
-    if (tree_.inside(found.centre)) return false;  // a sheet that crosses itself has no opening
-    double height = 0;
+    Point bottom = found.centre;
+    double depth = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (pieces[i] >= partition_.groups) continue;
       for (const int v : vertices_[idx(pieces[i])]) {
-        height = std::max(height, (working_.place(v) - found.centre).norm());
+        const double distance = (working_.place(v) - found.centre).norm();
+        if (distance <= depth) continue;
+        depth = distance;
+        bottom = working_.place(v);
       }
     }
-    return height >= limit_ * found.radius;
+    if (depth < limit_ * found.radius) return {};
+    return {count, found.centre, bottom};
   }
 
   const WorkingSurface& working_;
-  const SurfaceTree& tree_;
   const PartitionGraph& partition_;
   double limit_;
   std::vector<std::vector<int>> vertices_;  // per group
-  std::vector<int> taken_at_;               // per group
+  std::vector<char> taken_;                 // per group
   double six_volumes_ = 0;                  // of the tetrahedra from the origin
   Point two_areas_ = Point::Zero();
 };
@@ -128,6 +136,30 @@ std::vector<int> pieces_from(const SkeletonGraph& graph, int tip) {
     pieces.insert(pieces.end(), arc.pieces.rbegin(), arc.pieces.rend());
   }
   return pieces;
+}
+
+/// True if the curve that stays passes the bottom at less than the pocket's depth: it leads back
+/// along the limb that it ends. In the wall of a larger hollow, or where the surface crosses
+/// itself, it does not.
+bool leads_back(const SkeletonGraph& graph, int tip, const Pocket& pocket) {
+  const double depth = (pocket.bottom - pocket.rim).norm();
+  const auto is_near = [&](const CurvePoint& p) {
+    return (p.place() - pocket.bottom).norm() < depth;
+  };
+  const int leaf = graph.nodes[idx(tip)].arcs.front();
+  const Arc& its = graph.arcs[idx(leaf)];
+  const Node& base = graph.nodes[idx(its.from == tip ? its.to : its.from)];
+  if (is_near(base.point)) return true;
+  for (const int s : base.arcs) {
+    std::span<const CurvePoint> points = graph.arcs[idx(s)].points;
+    if (s == leaf) {
+      const std::size_t gone = pocket.pieces - graph.nodes[idx(tip)].pieces.size();
+      const std::size_t stay = points.size() - std::min(points.size(), gone);
+      points = its.from == tip ? points.last(stay) : points.first(stay);
+    }
+    if (std::any_of(points.begin(), points.end(), is_near)) return true;
+  }
+  return false;
 }
 
 /// The arc loses its first pieces, all of the tip's among them, to what comes next.
@@ -149,13 +181,15 @@ void cut_back(SkeletonGraph& graph, int s, int tip, std::size_t count) {
 
 }  // namespace
 
-void cut_pockets(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
+void cut_pockets(SkeletonGraph& graph, const WorkingSurface& working,
                  const PartitionGraph& partition, double limit) {
-  PocketSearch search(working, tree, partition, limit);
+  PocketSearch search(working, partition, limit);
   const auto nodes = static_cast<int>(graph.nodes.size());
   std::vector<std::size_t> pockets(idx(nodes), 0);
   for (int tip = 0; tip < nodes; ++tip) {
-    if (graph.degree(tip) == 1) pockets[idx(tip)] = search.pocket(pieces_from(graph, tip));
+    if (graph.degree(tip) != 1) continue;
+    const Pocket found = search.pocket(pieces_from(graph, tip));
+    if (found.pieces > 0 && leads_back(graph, tip, found)) pockets[idx(tip)] = found.pieces;
   }
   for (int tip = 0; tip < nodes; ++tip) {
     if (pockets[idx(tip)] == 0 || graph.degree(tip) != 1) continue;

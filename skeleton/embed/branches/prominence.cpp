@@ -113,21 +113,9 @@ ProminenceSweep::Boundary ProminenceSweep::boundary_at(double depth) const {
   return boundary;
 }
 
-bool ProminenceSweep::is_pocket(const Vector3d& boundary_centre) const {
-  double volume = 0;
-  for (const int t : touched_) {
-    if (taken_corners_[idx(t)] != 3) continue;
-    const Vector3d a = place(surface_, surface_.triangles(t, 0)) - boundary_centre;
-    const Vector3d b = place(surface_, surface_.triangles(t, 1)) - boundary_centre;
-    const Vector3d c = place(surface_, surface_.triangles(t, 2)) - boundary_centre;
-    volume += a.dot(b.cross(c));
-  }
-  return volume < 0;
-}
-
 Protrusion ProminenceSweep::protrusion_at(double depth) const {
   const Boundary boundary = boundary_at(depth);
-  if (!(boundary.radius > 0) || is_pocket(boundary.centre)) return {};
+  if (!(boundary.radius > 0)) return {};
   double height = 0;
   for (const int v : part_) {
     height = std::max(height, (place(surface_, v) - boundary.centre).norm());

@@ -28,8 +28,8 @@ class ProminenceSweep {
   /// prominence is the largest height of such a part, from the middle of its boundary, over the
   /// mean radius of its boundary. A part counts as long as it holds vertices with `is_own` only,
   /// once it holds `least_vertices` and is a fifth of the way from the apex to the base, so that
-  /// the triangles' size does not matter; pockets do not count; 0 if none counts. Ends as soon as
-  /// `enough` is reached. O(n log n) in the vertices passed.
+  /// the triangles' size does not matter; 0 if none counts. Ends as soon as `enough` is reached.
+  /// O(n log n) in the vertices passed.
   [[nodiscard]] Protrusion operator()(const Eigen::Vector3d& base, int apex,
                                       const std::function<bool(int)>& is_own, double enough,
                                       std::size_t least_vertices = 1);
@@ -42,9 +42,6 @@ class ProminenceSweep {
   void take(int vertex);
   [[nodiscard]] std::span<const std::int32_t> around(int vertex) const;
   [[nodiscard]] Boundary boundary_at(double depth) const;
-  /// Of a part that leads into the body, such as the lining of a mouth, the inside is not that of
-  /// the body: seen from the middle of the boundary its triangles show their front.
-  [[nodiscard]] bool is_pocket(const Eigen::Vector3d& boundary_centre) const;
   [[nodiscard]] Protrusion protrusion_at(double depth) const;
   [[nodiscard]] Eigen::Vector3d cap_centre(const Protrusion& part) const;
   void forget();

@@ -8,7 +8,6 @@
 
 #include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
-#include "skeleton/embed/branches/prominence.hpp"
 
 namespace curveskel::pocket_laws {
 namespace {
@@ -51,18 +50,6 @@ TEST(Pockets, DoNotShortenTheLimbThatTheyAreIn) {
           << "depth " << mouth.depth << ", end " << end;
     }
   }
-}
-
-TEST(Pockets, AreNotProminent) {
-  Surface limb = shapes::tube("limb", shapes::straight(8), shapes::constant(1), 24).surface;
-  limb.triangles.col(0).swap(limb.triangles.col(1));
-  int apex = 0;
-  limb.positions.col(0).maxCoeff(&apex);
-  const InscribedBalls none;
-  const WorkingSurface working(limb, none);
-  ProminenceSweep prominence(working);
-  const auto is_ahead = [&](int v) { return limb.positions(v, 0) > 0; };
-  EXPECT_EQ(prominence(Eigen::Vector3d::Zero(), apex, is_ahead, 100).prominence, 0);
 }
 
 }  // namespace
