@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/embed/branches/pockets.hpp"
 #include "skeleton/embed/branches/prune.hpp"
 #include "skeleton/embed/contain/inside.hpp"
 #include "skeleton/homology/reroute.hpp"
@@ -41,8 +42,9 @@ std::vector<Point> positions_from_balls(const WorkingSurface& working,
 
 SkeletonGraph first_course(const Setting& in) {
   const double limit = in.tuning.prominence;
-  const SkeletonGraph whole =
+  SkeletonGraph whole =
       skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
+  cut_pockets(whole, in.working, in.partition, limit);
   SkeletonGraph graph = whole;
   prune_blunt(graph, in.working, in.partition, limit);
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet

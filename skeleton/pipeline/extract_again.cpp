@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include "skeleton/pipeline/failing_components.hpp"
+#include "skeleton/pipeline/notes_of_components.hpp"
 
 namespace curveskel {
 namespace {
@@ -16,8 +17,13 @@ namespace {
 class OtherTries {
  public:
   OtherTries(const AnotherWay& way, const Parts& parts, SurfaceStages& stages, bool keep,
-             const Plan<Extracted>::Room& room)
-      : way_(way), all_(parts_of(parts, way.options)), stages_(stages), keep_(keep), room_(room) {
+             const Plan<Extracted>::Room& room, const Monitor& monitor)
+      : way_(way),
+        all_(parts_of(parts, way.options)),
+        stages_(stages),
+        keep_(keep),
+        room_(room),
+        monitor_(monitor) {
     stages_.components.resize(all_.size());
   }
 
@@ -26,7 +32,7 @@ class OtherTries {
     const int first = room_.log.next();
     std::optional<ComponentResult> made;
     const auto failure = failure_of([&] {
-      made = component_result(all_[c], way_.options, room_.monitor,
+      made = component_result(all_[c], way_.options, monitor_,
                               keep_ ? &stages_.components[c] : nullptr, room_.log, room_.number);
     });
     if (failure) {
@@ -58,6 +64,7 @@ class OtherTries {
   SurfaceStages& stages_;
   bool keep_;
   const Plan<Extracted>::Room& room_;
+  const Monitor& monitor_;
   std::exception_ptr last_thrown_;
 };
 
@@ -80,7 +87,8 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
     return certificate_alone(before.parts->components[c].surface, before.parts->counted.genus[c],
                              diagonal, *result.skeleton, way.options.certificate, room.monitor);
   };
-  OtherTries tries(way, *before.parts, stages, kept != nullptr, room);
+  const NotesOfComponents notes(room.monitor);
+  OtherTries tries(way, *before.parts, stages, kept != nullptr, room, notes.monitor());
   StandingResults standing;
   bool any = false;
   for (std::size_t c = 0; c < before.components.size(); ++c) {
@@ -100,6 +108,7 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
     standing.back() = std::move(made);
     any = true;
   }
+  notes.say_all();
   if (!any && tries.last_thrown()) std::rethrow_exception(tries.last_thrown());
   if (!any) throw GaveUp("no component's own certificate is better so");
   Assembled whole = extract_once(surface, way.options, room.monitor, &stages, room.log, room.number,

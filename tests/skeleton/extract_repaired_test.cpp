@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -122,6 +123,28 @@ TEST(ExtractRepaired, WrapsWhatItCanWhereSomethingElseCannotBeHelped) {
   EXPECT_EQ(found.wrapped->repairs.faces_wrapped, ragged().surface.triangles.rows());
   EXPECT_NE(notes.back().find("1 of the 2 components"), std::string::npos) << notes.back();
   EXPECT_NE(notes.back().find("% of the length is inside"), std::string::npos) << notes.back();
+}
+
+// Components that are made again one by one each said that they are too coarse to be faired.
+TEST(ExtractRepaired, SaysOnceWhatIsSoOfManyComponents) {
+  std::vector<Shape> several;
+  for (int i = 0; i < 3; ++i) {
+    Shape flat = shapes::ellipsoid({1, 1, 1}, 2);
+    flat.surface.positions.col(2) *= 1e-9;
+    several.push_back(shapes::translated(shapes::noisy(flat, 1e-5, 1), {0, 0, 3.0 * i}));
+  }
+  std::vector<std::string> notes;
+  Monitor monitor;
+  monitor.note = [&](std::string_view line) { notes.emplace_back(line); };
+  static_cast<void>(
+      extract_repaired(as_given(shapes::together("several", several)), {}, {}, monitor));
+  const auto is_coarse = [](const std::string& line) {
+    return line.find("too coarse to be faired") != std::string::npos;
+  };
+  ASSERT_EQ(std::count_if(notes.begin(), notes.end(), is_coarse), 1)
+      << "0 = no test: thicker noise";
+  const auto line = std::find_if(notes.begin(), notes.end(), is_coarse);
+  EXPECT_NE(line->find("(3 components)"), std::string::npos) << *line;
 }
 
 // A wrap whose curve failed in the end was taken although the header said that it must hold.
