@@ -21,6 +21,10 @@ struct LegLimits {
 constexpr LegLimits upright_legs{0.1, 0.45};
 constexpr LegLimits sprawling_legs{0.05, 0.8};
 
+/// Of the height: the middle of a human's shin. A curve that ends higher has no foot at its end,
+/// whatever of the surface about it is on the ground.
+constexpr double highest_foot = 0.2;
+
 bool reaches_ground(const CurveTree& tree, const LimbPair& pair) {
   return pair.lowest < tree.ground + near_ground * tree.height;
 }
@@ -30,8 +34,10 @@ bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
   const bool mostly_down = std::abs(tip.x() - root.x()) < limits.aside * pair.length;
-  return reaches_ground(tree, pair) && pair.length > limits.shortest * tree.size && goes_down &&
-         mostly_down;
+  const double sole = tip.y() - tree.radii[idx(pair.ways.front().path.back())];
+  const bool has_foot = sole < tree.ground + highest_foot * tree.height;
+  return reaches_ground(tree, pair) && has_foot && pair.length > limits.shortest * tree.size &&
+         goes_down && mostly_down;
 }
 
 /// Short or sprawling ones, as a crocodile's, if there are two pairs and no others: arms may hang
@@ -131,6 +137,28 @@ Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms)
 
 std::string rounded(double value) { return std::to_string(std::lround(value)); }
 
+/// True if the trunk reaches above the arms: by half a head, which the shoulders of a body without
+/// a head do, too.
+bool has_shoulders(const CurveTree& tree, const Limbs& limbs, int arms) {
+  constexpr double half_head = 1.0 / 16;  // of a human's height
+  const double above = tree.nodes[idx(limbs.pairs[idx(arms)].root)].y() + half_head * tree.height;
+  return std::any_of(limbs.trunk.begin(), limbs.trunk.end(), [&](int node) {
+    return tree.nodes[idx(node)].y() + tree.radii[idx(node)] > above;
+  });
+}
+
+/// Why what stands upright with a pair of upper limbs is no human; empty for a human.
+std::string why_no_human(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  constexpr double shortest_arm = 1.0 / 3;  // of the leg: a rex has such arms, and a chair
+  constexpr int most_cycles = 4;            // by folded hands, hands on hips, crossed legs
+  if (tree.cycles > most_cycles) return "the curve has more cycles than a human has limbs; ";
+  const double leg = limbs.pairs[idx(found.legs.front())].length;
+  if (limbs.pairs[idx(found.arms)].length < shortest_arm * leg) {
+    return "the upper limbs are shorter than a third of the legs; ";
+  }
+  return has_shoulders(tree, limbs, found.arms) ? "" : "nothing rises above the upper limbs; ";
+}
+
 void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const int leg = found.legs.front();
   const Posture posture = posture_of(tree, limbs, leg, found.arms);
@@ -139,9 +167,13 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
                             rounded(100 * posture.back) + " % of the size lies behind the legs";
   const double leg_length = limbs.pairs[idx(leg)].length;
   const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;
+  constexpr double level = 90;
   if (found.arms >= 0 && posture.lean < 35 && posture.back < 0.2) {
-    found.plan = BodyKind::humanoid;
-    found.reason = "one pair of legs and one of arms above them; " + leans;
+    const std::string why = why_no_human(tree, limbs, found);
+    if (why.empty()) found.plan = BodyKind::humanoid;
+    found.reason = why + "one pair of legs and one of arms above them; " + leans;
+  } else if (posture.lean >= level) {
+    found.reason = "the upper end of the trunk lies below the hips; " + leans;
   } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
     found.plan = BodyKind::bird;
     found.reason = "one pair of legs, wings longer than these; " + leans;

@@ -78,14 +78,14 @@ std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
 namespace {
 
 /// The mean distance of the curve's mirror image from the curve, of the size.
-double asymmetry(const CurveTree& tree, double middle) {
+double asymmetry(const CurveTree& tree, int axis, double middle) {
   constexpr std::size_t samples = 300;
   const std::size_t stride = 1 + tree.nodes.size() / samples;
   double sum = 0;
   int count = 0;
   for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
     Vector3d image = tree.nodes[k];
-    image.x() = 2 * middle - image.x();
+    image[axis] = 2 * middle - image[axis];
     double least = std::numeric_limits<double>::infinity();
     for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
     sum += std::sqrt(least);
@@ -130,9 +130,9 @@ std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& ti
 /// That of the least asymmetry; the box's where there is no better one.
 double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
   double best = tree.middle;
-  double least = asymmetry(tree, best);
+  double least = asymmetry(tree, 0, best);
   for (const double middle : middles_of(tree, tips)) {
-    const double off = asymmetry(tree, middle);
+    const double off = asymmetry(tree, 0, middle);
     if (off >= least) continue;
     least = off;
     best = middle;
@@ -143,11 +143,25 @@ double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
 /// Two pairs of limbs that are where they should be are no accident.
 bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
 
+/// Of some pair of legs next to nothing of the mean course lies within both.
+bool legs_are_apart(const Outlook& outlook) {
+  constexpr double least = 0.1;
+  const auto& legs = outlook.found.legs;
+  return std::any_of(legs.begin(), legs.end(), [&](int pair) {
+    return share_within_both(outlook.tree, outlook.limbs.pairs[idx(pair)].ways.front()) < least;
+  });
+}
+
 Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
              BodyKind wanted) {
   Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::images, {}};
   outlook.limbs = find_limbs(outlook.tree, pairs_by_place(outlook.tree));
   outlook.found = classify(outlook.tree, outlook.limbs, wanted);
+  const bool is_seen = wanted == BodyKind::automatic && outlook.found.plan != BodyKind::other;
+  if (is_seen && legs_are_apart(outlook)) {
+    outlook.found.plan = BodyKind::other;
+    outlook.found.reason += "; but left and right legs are apart";
+  }
   return outlook;
 }
 
@@ -200,12 +214,24 @@ bool is_stump(const CurveTree& tree, const LimbPair& arm, const LimbPair& leg) {
   return arm.length < with_shoulder * trunk;
 }
 
-/// True if the trunk goes on above the arms by a head, which is an eighth of a human's height.
+constexpr double head_height = 0.125;  // of a human's
+
+/// True if the arms leave the trunk above the legs by a head: what forks twice in one place has no
+/// trunk.
+bool has_trunk(const Outlook& outlook) {
+  const CurveTree& tree = outlook.tree;
+  const auto root = [&](int pair) {
+    return tree.nodes[idx(outlook.limbs.pairs[idx(pair)].root)].y();
+  };
+  const double trunk = root(outlook.found.arms) - root(outlook.found.legs.front());
+  return trunk > head_height * tree.height;
+}
+
+/// True if the trunk goes on above the arms by a head.
 bool has_head(const Outlook& outlook) {
-  constexpr double head = 0.125;
   const CurveTree& tree = outlook.tree;
   const int chest = outlook.limbs.pairs[idx(outlook.found.arms)].root;
-  const double above = tree.nodes[idx(chest)].y() + head * tree.height;
+  const double above = tree.nodes[idx(chest)].y() + head_height * tree.height;
   return std::any_of(outlook.limbs.trunk.begin(), outlook.limbs.trunk.end(),
                      [&](int node) { return tree.nodes[idx(node)].y() > above; });
 }
@@ -214,9 +240,9 @@ bool has_head(const Outlook& outlook) {
 /// arms: of three limbs and a trunk many things are made.
 bool is_whole_but_for_a_limb(const Outlook& outlook) {
   const PlanFound& found = outlook.found;
-  if (found.plan != BodyKind::humanoid || found.arms < 0 || outlook.tree.has_cycles) return false;
+  if (found.plan != BodyKind::humanoid || found.arms < 0 || outlook.tree.cycles > 0) return false;
   const auto& pairs = outlook.limbs.pairs;
-  return explained_by(outlook).share >= most_of_it && has_head(outlook) &&
+  return explained_by(outlook).share >= most_of_it && has_trunk(outlook) && has_head(outlook) &&
          !is_stump(outlook.tree, pairs[idx(found.arms)], pairs[idx(found.legs.front())]);
 }
 
@@ -341,7 +367,7 @@ bool lies_across(const CurveTree& tree, const Limbs& limbs) {
 bool is_body_in_pose(const Outlook& outlook, const Explained& explained, BodyKind wanted) {
   const bool is_one = is_clear(outlook.found.plan) ||
                       outlook.found.plan == BodyKind::tailed_biped || outlook.found.plan == wanted;
-  return is_one && explained.share >= most_of_it && !outlook.posed.has_cycles &&
+  return is_one && explained.share >= most_of_it && outlook.posed.cycles == 0 &&
          !lies_across(outlook.posed, outlook.limbs);
 }
 
@@ -363,12 +389,12 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
                       Refusal& refusal) {
   Outlook best = look(surface, skeleton, frames.front(), options.plan);
   refusal.consider(best);
-  double off = asymmetry(best.tree, best.tree.middle);
+  double off = asymmetry(best.tree, 0, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(surface, skeleton, frames[k], options.plan);
     refusal.consider(other);
-    const double other_off = asymmetry(other.tree, other.tree.middle);
+    const double other_off = asymmetry(other.tree, 0, other.tree.middle);
     const bool is_better =
         is_clear(other.found.plan)
             ? !is_clear(best.found.plan) || other_off < off
@@ -385,11 +411,52 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
   return best;
 }
 
+/// Up is none of a file's usual directions.
+std::vector<Eigen::Matrix3d> frames_of_lying(const PlanOptions& options) {
+  std::vector<Eigen::Matrix3d> frames;
+  if (options.up != Direction::automatic) return frames;
+  for (const Direction up :
+       {Direction::x, Direction::minus_x, Direction::minus_z, Direction::minus_y}) {
+    PlanOptions turned = options;
+    turned.up = up;
+    if (options.front != Direction::automatic &&
+        vector_of(up).cross(vector_of(options.front)).norm() == 0) {
+      continue;
+    }
+    const std::vector<Eigen::Matrix3d> more = frames_of(turned);
+    frames.insert(frames.end(), more.begin(), more.end());
+  }
+  return frames;
+}
+
+/// A human or a quadruped on its back, its front or a side. Nobody stands so, so nothing is left to
+/// chance: its sides are images of each other, and it is all that there is.
+std::optional<Outlook> best_lying(const Surface& surface, const CurveSkeleton& skeleton,
+                                  const PlanOptions& options, const Outlook& usual) {
+  std::optional<Outlook> best;
+  double least = symmetric;
+  for (const Eigen::Matrix3d& axes : frames_of_lying(options)) {
+    const bool is_upside_down = axes.row(1).dot(usual.axes.row(1)) < 0;
+    if (is_upside_down && usual.found.plan != BodyKind::other) continue;
+    Outlook other = look(surface, skeleton, axes, options.plan);
+    if (!is_clear(other.found.plan) || other.tree.cycles > 0) continue;
+    const double off = asymmetry(other.tree, 0, other.tree.middle);
+    if (off >= least || explained_by(other).share < most_of_it) continue;
+    if (other.found.plan == BodyKind::humanoid && !has_trunk(other)) continue;
+    least = off;
+    best = std::move(other);
+  }
+  return best;
+}
+
 Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleton,
                             const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
   Outlook best = best_by_place(surface, skeleton, frames, options, refusal);
+  if (!is_clear(best.found.plan)) {
+    if (std::optional<Outlook> lying = best_lying(surface, skeleton, options, best)) return *lying;
+  }
   Explained most = explained_by(best);
   for (std::size_t k = 0; k < frames.size() && !is_clear(best.found.plan); ++k) {
     Outlook other = look_at_shape(surface, skeleton, frames[k], options.plan);
@@ -425,6 +492,20 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
 
 }  // namespace
 
+bool is_alike_from_both_ends(const Outlook& outlook) {
+  if (outlook.sides != Sides::images && outlook.sides != Sides::posed) return false;
+  const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
+  double rear = std::numeric_limits<double>::infinity();
+  double front = -rear;
+  for (const Vector3d& node : tree.nodes) {
+    rear = std::min(rear, node.z());
+    front = std::max(front, node.z());
+  }
+  const double off = asymmetry(tree, 2, 0.5 * (rear + front));
+  const bool is_in_pose = outlook.sides == Sides::posed;
+  return off < (is_in_pose ? symmetric : std::max(symmetric, asymmetry(tree, 0, tree.middle)));
+}
+
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   Outlook outlook = best_before_turning(surface, skeleton, options);
@@ -448,6 +529,12 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
     }
   }
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
+  const std::vector<Eigen::Matrix3d> usual = frames_of(options);
+  if (std::none_of(usual.begin(), usual.end(), [&](const Eigen::Matrix3d& axes) {
+        return axes.row(1) == outlook.axes.row(1);
+      })) {
+    outlook.found.reason.insert(0, "lying: ");
+  }
   return outlook;
 }
 
