@@ -21,10 +21,6 @@ struct LegLimits {
 constexpr LegLimits upright_legs{0.1, 0.45};
 constexpr LegLimits sprawling_legs{0.05, 0.8};
 
-/// Of the height: the middle of a human's shin. A curve that ends higher has no foot at its end,
-/// whatever of the surface about it is on the ground.
-constexpr double highest_foot = 0.2;
-
 bool reaches_ground(const CurveTree& tree, const LimbPair& pair) {
   return pair.lowest < tree.ground + near_ground * tree.height;
 }
@@ -34,10 +30,8 @@ bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
   const bool mostly_down = std::abs(tip.x() - root.x()) < limits.aside * pair.length;
-  const double sole = tip.y() - tree.radii[idx(pair.ways.front().path.back())];
-  const bool has_foot = sole < tree.ground + highest_foot * tree.height;
-  return reaches_ground(tree, pair) && has_foot && pair.length > limits.shortest * tree.size &&
-         goes_down && mostly_down;
+  return reaches_ground(tree, pair) && pair.length > limits.shortest * tree.size && goes_down &&
+         mostly_down;
 }
 
 /// Short or sprawling ones, as a crocodile's, if there are two pairs and no others: arms may hang

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
 #include "rig/plan/roles.hpp"
 #include "rig/plan/trunk.hpp"
 
@@ -204,15 +205,16 @@ void place_unpaired(const CurveTree& tree, const Trunk& trunk, const std::vector
   }
 }
 
-/// Towards one of its ends, as a rod does not, and a bus at its very end alone: half-way of a third
-/// of the length.
+/// Towards one of its ends, as a rod does not.
 bool tapers(const CurveTree& tree, const Trunk& trunk, double thick) {
-  const auto radius_at = [&](double share) {
-    std::size_t k = 0;
-    while (k + 1 < trunk.path.size() && trunk.line.way[k] < share * trunk.line.whole()) ++k;
-    return tree.radii[idx(trunk.path[k])];
-  };
-  return std::min(radius_at(1.0 / 6), radius_at(5.0 / 6)) < 0.5 * thick;
+  constexpr double end = 0.2;  // of the length
+  std::vector<double> radii[2];
+  for (std::size_t k = 0; k < trunk.path.size(); ++k) {
+    const double share = trunk.line.way[k] / trunk.line.whole();
+    if (share < end) radii[0].push_back(tree.radii[idx(trunk.path[k])]);
+    if (share > 1 - end) radii[1].push_back(tree.radii[idx(trunk.path[k])]);
+  }
+  return std::min(median_of(std::move(radii[0])), median_of(std::move(radii[1]))) < 0.5 * thick;
 }
 
 }  // namespace

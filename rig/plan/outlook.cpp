@@ -152,6 +152,14 @@ bool legs_are_apart(const Outlook& outlook) {
   });
 }
 
+/// The middle of a human's shin lies in the lowest fifth: a leg whose tip does not has no foot
+/// there, whatever of the surface about it is on the ground.
+bool has_foot(const CurveTree& tree, const LimbPair& leg) {
+  constexpr double highest = 0.2;
+  const int tip = leg.ways.front().path.back();
+  return tree.nodes[idx(tip)].y() - tree.radii[idx(tip)] < tree.ground + highest * tree.height;
+}
+
 Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
              BodyKind wanted) {
   Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::images, {}};
@@ -161,6 +169,12 @@ Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen:
   if (is_seen && legs_are_apart(outlook)) {
     outlook.found.plan = BodyKind::other;
     outlook.found.reason += "; but left and right legs are apart";
+  }
+  for (const int leg : outlook.found.legs) {
+    if (!is_seen || has_foot(outlook.tree, outlook.limbs.pairs[idx(leg)])) continue;
+    outlook.found.plan = BodyKind::other;
+    outlook.found.reason += "; but a leg ends above the shins";
+    break;
   }
   return outlook;
 }
@@ -367,7 +381,10 @@ bool lies_across(const CurveTree& tree, const Limbs& limbs) {
 bool is_body_in_pose(const Outlook& outlook, const Explained& explained, BodyKind wanted) {
   const bool is_one = is_clear(outlook.found.plan) ||
                       outlook.found.plan == BodyKind::tailed_biped || outlook.found.plan == wanted;
-  return is_one && explained.share >= most_of_it && outlook.posed.cycles == 0 &&
+  const std::vector<int>& legs = outlook.found.legs;
+  const bool stands =  // another pair may be lifted
+      legs.empty() || has_foot(outlook.tree, outlook.limbs.pairs[idx(legs.front())]);
+  return is_one && stands && explained.share >= most_of_it && outlook.posed.cycles == 0 &&
          !lies_across(outlook.posed, outlook.limbs);
 }
 
