@@ -156,8 +156,10 @@ bool legs_are_apart(const Outlook& outlook) {
 /// there, whatever of the surface about it is on the ground.
 bool has_foot(const CurveTree& tree, const LimbPair& leg) {
   constexpr double highest = 0.2;
-  const int tip = leg.ways.front().path.back();
-  return tree.nodes[idx(tip)].y() - tree.radii[idx(tip)] < tree.ground + highest * tree.height;
+  const auto sole = [&](int tip) { return tree.nodes[idx(tip)].y() - tree.radii[idx(tip)]; };
+  const LimbWay& way = leg.ways.front();  // one side may be a peg
+  return std::min(sole(way.path.back()), sole(way.mirror.back())) <
+         tree.ground + highest * tree.height;
 }
 
 Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
