@@ -134,6 +134,8 @@ set(CPACK_DEBIAN_CURVESKEL_PACKAGE_SUGGESTS "curveskel-view, libeigen3-dev, pocl
 set(CPACK_COMPONENT_VIEWER_DESCRIPTION "Curve skeletons: the window, and pictures by OpenGL")
 set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME curveskel-view)
 set(CPACK_DEBIAN_VIEWER_PACKAGE_DEPENDS "curveskel (= ${PROJECT_VERSION}), libgl1-mesa-dri")
+# Letters of names; each is used where it is there.
+set(CPACK_DEBIAN_VIEWER_PACKAGE_RECOMMENDS "fonts-dejavu-core, fonts-noto-cjk, libfontconfig1")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Curve skeletons: import curveskel in Python 3")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-curveskel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -54,7 +54,7 @@ struct RigSettings {
   ExportOptions form;
 };
 
-RigSettings settings_of(const py::dict& options) {
+RigSettings rig_settings_of(const py::dict& options) {
   RigSettings settings;
   RigPolygonsOptions& make = settings.make;
   make.extract.fair.iterations = 0;
@@ -136,7 +136,7 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
                             const py::dict& options, const py::object& listener) {
   const Wanted wanted{as_bound, keep_rig, skeleton, joints};
   require_effect(wanted, options);
-  RigSettings settings = settings_of(options);
+  RigSettings settings = rig_settings_of(options);
   PythonRig result;
   result.as_bound = as_bound;
   result.pose = settings.form.pose;

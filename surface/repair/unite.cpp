@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -305,6 +306,17 @@ class Uniting {
     return a == root ? joined_.root(meeting_[pair].second) : a;
   }
 
+  /// Two bodies meet in many pairs of parts: what could not be united for one of these is not tried
+  /// for the next.
+  UnionOrReason asked_once(int root, std::size_t pair, const Growing& other) {
+    const std::pair<int, int> both = std::minmax(root, other_than(root, pair));
+    const auto known = refusals_.find(both);
+    if (known != refusals_.end()) return {std::nullopt, known->second};
+    UnionOrReason outcome = union_of(bodies_[idx(root)], other, extent_);
+    if (!outcome.body) refusals_.emplace(both, outcome.why);
+    return outcome;
+  }
+
   /// All at once; where that fails in halves, so that one that cannot be united bars no other.
   void unite_with(int hub, const Pairs& pairs, const Monitor& monitor) {
     if (monitor.stop.stop_requested()) throw Cancelled();
@@ -316,7 +328,8 @@ class Uniting {
       others.volume += one.volume;
       others.cavities += one.cavities;
     }
-    UnionOrReason outcome = union_of(bodies_[idx(root)], others, extent_);
+    UnionOrReason outcome = pairs.size() == 1 ? asked_once(root, pairs.front(), others)
+                                              : union_of(bodies_[idx(root)], others, extent_);
     if (!outcome.body && pairs.size() > 1) {
       const auto half = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
       unite_with(hub, {pairs.begin(), half}, monitor);
@@ -337,6 +350,10 @@ class Uniting {
 
   /// Two bodies; the mesh of the union is still to be given to the one that stands for it.
   void join(int one, int other) {
+    std::erase_if(refusals_, [&](const auto& refusal) {
+      const auto& [a, b] = refusal.first;
+      return a == one || a == other || b == one || b == other;
+    });
     bodies_[idx(one)].mesh.clear();
     bodies_[idx(other)].mesh.clear();
     Pairs pairs = std::move(pairs_of_[idx(one)]);
@@ -353,7 +370,8 @@ class Uniting {
   std::vector<Growing> bodies_;
   std::vector<Pairs> pairs_of_;  // with a part of the body, by the part that stands for it
   std::vector<RefusedUnion> refused_;
-  double extent_ = 0;  ///< of all parts together
+  std::map<std::pair<int, int>, std::string> refusals_;  // of bodies as they are, by their parts
+  double extent_ = 0;                                    ///< of all parts together
 };
 
 }  // namespace

@@ -95,6 +95,32 @@ Eigen::Vector3d scattered_direction(int i) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
+/// With the inverses of their coordinates, none of which is 0.
+class ScatteredDirections {
+ public:
+  ScatteredDirections() {
+    for (std::size_t i = 0; i < size(); ++i) {
+      directions_[i] = scattered_direction(static_cast<int>(i));
+      inverses_[i] = directions_[i].cwiseInverse();
+    }
+  }
+  [[nodiscard]] const Eigen::Vector3d& operator[](std::size_t i) const { return directions_[i]; }
+  [[nodiscard]] const Eigen::Vector3d& inverse(std::size_t i) const { return inverses_[i]; }
+  [[nodiscard]] static constexpr std::size_t size() { return 24; }
+
+ private:
+  std::array<Eigen::Vector3d, 24> directions_;
+  std::array<Eigen::Vector3d, 24> inverses_;
+};
+
+/// The distance from a point within the surface's box to where the ray leaves it.
+double exit_depth(const WideTree& tree, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& inverse) {
+  return ((tree.lower - origin).cwiseProduct(inverse))
+      .cwiseMax((tree.upper - origin).cwiseProduct(inverse))
+      .minCoeff();
+}
+
 struct Winding {
   int turns = 0;
   bool clear = true;  // no crossing too close to an edge to be sure of
@@ -269,9 +295,19 @@ void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin
 
 bool winds_around(const WideTree& tree, const Eigen::Vector3d& p) {
   if (outside_box(tree, p)) return false;
+  static const ScatteredDirections directions;
+  // The way out that is shortest meets least.
+  std::size_t first = 0;
+  double shortest = infinity;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double depth = exit_depth(tree, p, directions.inverse(i));
+    if (depth >= shortest) continue;
+    shortest = depth;
+    first = i;
+  }
   Winding winding;
-  for (int attempt = 0; attempt < 24; ++attempt) {
-    winding = winding_along(tree, p, scattered_direction(attempt));
+  for (std::size_t attempt = 0; attempt < directions.size(); ++attempt) {
+    winding = winding_along(tree, p, directions[(first + attempt) % directions.size()]);
     if (winding.clear) break;
   }
   return winding.turns != 0;

@@ -64,7 +64,7 @@ TEST_F(OnScreen, AClickOnAJointInTheListMovesNoLine) {
   const float x = width - 40;
   constexpr float line = 6;
   std::vector<int> found;
-  for (float y = height - 40; y > 0.3F * height; y -= line) {
+  for (float y = height - 40; y > 0; y -= line) {
     bench.select_joint(-1);
     frame();
     click(x, y);
@@ -142,6 +142,54 @@ TEST_F(OnScreen, AnglesStayAsTheyWereSet) {
   EXPECT_NEAR(turned[2], 35, 1e-3);
   bench.turn_back();
   EXPECT_EQ(angles_of(kept, bench, 1), none);
+}
+
+// In a small window they hid all of the picture, and the timeline below it.
+TEST_F(OnScreen, MessagesLeaveSomeOfThePictureToBeSeen) {
+  constexpr float wide = 500;
+  constexpr float high = 420;
+  ImGui::GetIO().DisplaySize = {wide, high};
+  const Layout layout = lay_out(wide, high, 1, true);
+  const auto lowest = [&] {
+    frame([&] { draw_panels(bench, panels, layout); });
+    float found = 0;
+    for (const ImDrawVert& corner : ImGui::GetForegroundDrawList()->VtxBuffer) {
+      found = std::max(found, corner.pos.y);
+    }
+    return found;
+  };
+  EXPECT_EQ(lowest(), 0);
+  for (int number = 0; number < 9; ++number) {
+    bench.say("a message of some length, in several lines, number " + std::to_string(number));
+    EXPECT_GT(lowest(), 0);
+    EXPECT_LT(lowest(), 0.75F * layout.picture.height);
+  }
+}
+
+// Below 500 units labels were cut.
+TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
+  open_rig();
+  bench.select_joint(1);
+  bench.start(false);
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.judgement() != nullptr; }));
+  for (const bool made : {false, true}) {
+    if (made) {
+      bench.rig();
+      ASSERT_TRUE(wait_for(bench, [&] { return bench.has_rig(); }));
+    }
+    for (const auto& [wide, high] :
+         {ImVec2{1200, 800}, {800, 600}, {640, 480}, {500, 420}, {400, 600}, {440, 300}}) {
+      ImGui::GetIO().DisplaySize = {wide, high};
+      const Layout layout = lay_out(wide, high, 1, true);
+      for (int settles = 0; settles < 4; ++settles) {
+        frame([&] { draw_panels(bench, panels, layout); });
+      }
+      for (const char* name : {"run", "look", "timeline"}) {
+        const ImGuiWindow* const panel = ImGui::FindWindowByName(name);
+        EXPECT_LE(panel->ContentSize.x, panel->WorkRect.GetWidth() + 1) << name << " at " << wide;
+      }
+    }
+  }
 }
 
 // It ended the program, with all corrections.

@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/read.hpp>
@@ -360,6 +361,48 @@ TEST_F(Rigging, TurnsGoWithTheRig) {
   bench.rig();
   ASSERT_TRUE(wait([&] { return !bench.busy(); }));
   EXPECT_EQ(bench.scene->turns(), nullptr);
+}
+
+TEST_F(Rigging, IsCancelledLikeARun) {
+  open_y();
+  EXPECT_FALSE(bench.can_cancel());
+  bench.rig();
+  EXPECT_TRUE(bench.can_cancel());
+  bench.cancel_what_goes_on();
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  EXPECT_FALSE(bench.has_rig());
+  EXPECT_EQ(last_said(), "the rig was cancelled");
+  make_rig();
+}
+
+TEST_F(Rigging, PosesAreTakenBackAndDoneAgainStepByStep) {
+  bench.pipeline.character.plan.plan = BodyKind::humanoid;
+  open_y();
+  make_rig();
+  const Positions rest = bench.scene->joints_now();
+  EXPECT_FALSE(bench.can_undo());
+  std::vector<Positions> poses{rest};
+  for (const double degrees : {20.0, 40.0}) {
+    bench.begin_turning();  // one step, however many turns
+    for (int part = 0; part < 3; ++part) bench.turn_joint(0, turn_by({0, 0, degrees / 3}));
+    poses.push_back(bench.scene->joints_now());
+  }
+  bench.turn_back();
+  EXPECT_EQ(bench.scene->joints_now(), rest);
+  bench.undo();
+  EXPECT_EQ(bench.scene->joints_now(), poses[2]);
+  bench.undo();
+  EXPECT_EQ(bench.scene->joints_now(), poses[1]);
+  bench.undo();
+  EXPECT_EQ(bench.scene->joints_now(), rest);
+  EXPECT_FALSE(bench.can_undo());
+  bench.redo();
+  EXPECT_EQ(bench.scene->joints_now(), poses[1]);
+  bench.select_joint(0);
+  bench.set_role("jaw");
+  bench.undo();  // the role, which came last
+  EXPECT_NE(bench.scene->rig()->roles[0], "jaw");
+  EXPECT_EQ(bench.scene->joints_now(), poses[1]) << "the pose stays";
 }
 
 TEST_F(Rigging, ARoleIsSavedAsItWasCorrected) {

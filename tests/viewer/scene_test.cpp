@@ -47,6 +47,48 @@ Document document_of(const Surface& surface, const CurveSkeleton* skeleton = nul
   return document;
 }
 
+/// Of 125,000 vertices, so that it has simpler forms.
+Surface large_surface() { return shapes::torus(3, 1, 210).surface; }
+
+// A large file could not be stopped from being opened, once it was read.
+TEST(Opening, StopsWhereverItIs) {
+  const Document large = document_of(large_surface());
+  std::vector<double> told;
+  Monitor monitor;
+  monitor.progress = [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "prepare");
+    told.push_back(fraction);
+  };
+  const Scene scene(large, monitor);
+  ASSERT_GT(told.size(), 5U);
+  EXPECT_EQ(told.front(), 0);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+  for (std::size_t reports = 0; reports + 1 < told.size(); ++reports) {
+    std::stop_source stop;
+    std::size_t seen = 0;
+    Monitor stopped;
+    stopped.stop = stop.get_token();
+    stopped.progress = [&](std::string_view, double) {
+      if (seen++ == reports) stop.request_stop();
+    };
+    EXPECT_THROW(Scene(large, stopped), Cancelled) << reports;
+    EXPECT_EQ(seen, reports + 1) << "nothing more was begun";
+  }
+}
+
+TEST(Opening, ALargeSurfaceIsSeenFromTheSameSideAsASmallOne) {
+  for (const auto& made : {shapes::torus(3, 1, 20), shapes::cone(1, 4, 16)}) {
+    shapes::Shape large = made;
+    while (large.surface.positions.rows() < 110000) large = shapes::subdivided(large);
+    const Scene small(document_of(made.surface));
+    const Scene scene(document_of(large.surface));
+    for (int row = 0; row < 3; ++row) {
+      EXPECT_GT(glm::dot(scene.best_axes()[row], small.best_axes()[row]), 0.99F) << made.name;
+    }
+  }
+}
+
 Look look_by(ColourBy by) {
   Look look;
   look.surface_colour = look.skeleton_colour = by;

@@ -132,11 +132,27 @@ class Looking(WindowTest):
     def test_panels_go_and_come_back(self):
         window = self.opened()
         before = window.rest(window.whole)
-        without = window.changes("Tab", see=window.whole)
+        without = window.changes("p", see=window.whole)
         left = numpy.s_[:600, :window.side()]
         self.assertGreater(different(without[left], before[left]), 0.2)
-        with_them = window.changes("Tab", see=window.whole)
+        with_them = window.changes("p", see=window.whole)
         self.assertLess(different(with_them[left], before[left]), 0.01)
+        self.leave(window)
+
+    def test_tab_leads_into_the_panels_and_escape_back(self):
+        window = self.opened()
+        before = window.rest(window.whole)
+        window.key("Tab")
+        window.wait_for_change(before, 0.0001, window.whole)
+        window.key("Home")  # for the panels
+        window.rest(window.whole)
+        self.assertIn("(skeleton)", window.title())
+        dialogue = window.changes("space", least=0.05, see=window.whole)  # presses "Open"
+        window.changes("Escape", least=0.05, see=window.whole)
+        self.assertGreater(different(dialogue, before), 0.05)
+        window.key("Escape")
+        window.key("Home")
+        window.wait_for_title(r"\(input\)")
         self.leave(window)
 
     def test_parts_drawn_anew_fit_those_that_are_not(self):

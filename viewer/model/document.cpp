@@ -46,7 +46,7 @@ void add_surface(Document& document, PolygonSoup soup, const fs::path& file,
   document.faces_minus_z = soup.faces_minus_z;
   document.z_is_up = soup.z_is_up;
   document.to_gltf = soup.to_gltf;
-  document.surface.triangles = triangulate(soup);
+  document.surface.triangles = triangulate(soup, monitor.stop);
   if (has_same_triangles(soup, document.surface.triangles)) {
     document.surface.positions = std::move(soup.positions);
   } else {

@@ -29,12 +29,13 @@ std::vector<HierarchyLine> hierarchy_of(const Rig& rig) {
   return lines;
 }
 
-void Outline::show(const std::shared_ptr<const Rig>& rig) {
-  if (rig == rig_) return;
+bool Outline::show(const std::shared_ptr<const Rig>& rig) {
+  if (rig == rig_) return false;
   rig_ = rig;
   lines_ = rig ? hierarchy_of(*rig) : std::vector<HierarchyLine>();
   folded_.assign(lines_.size(), false);
   list();
+  return true;
 }
 
 void Outline::fold(int joint) {

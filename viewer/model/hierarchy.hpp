@@ -21,8 +21,8 @@ struct HierarchyLine {
 /// The lines that are seen.
 class Outline {
  public:
-  /// Begins anew, all unfolded, where the rig is another one; null for none.
-  void show(const std::shared_ptr<const Rig>& rig);
+  /// Begins anew, all unfolded, where the rig is another one; null for none. True if it is.
+  bool show(const std::shared_ptr<const Rig>& rig);
   /// Hides the joints below this one, or shows them again. O(joints).
   void fold(int joint);
   [[nodiscard]] bool folded(int joint) const { return folded_[static_cast<std::size_t>(joint)]; }

@@ -54,13 +54,31 @@ std::vector<glm::vec3> some_points(const Document& document, const ShownSurface&
   return points;
 }
 
-glm::mat3 first_axes(const Document& document) {
+Surface as_surface(const ShownSurface& shown) {
+  Surface surface;
+  surface.positions.resize(static_cast<Eigen::Index>(shown.positions.size()), 3);
+  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+    surface.positions.row(v) =
+        model_vector(shown.positions[static_cast<std::size_t>(v)]).transpose();
+  }
+  surface.triangles.resize(static_cast<Eigen::Index>(shown.triangles.size()), 3);
+  Eigen::Index f = 0;
+  for (const glm::uvec3& corners : shown.triangles) {
+    surface.triangles.row(f++) << static_cast<int>(corners.x), static_cast<int>(corners.y),
+        static_cast<int>(corners.z);
+  }
+  return surface;
+}
+
+/// The best side of a large surface is that of a simpler one, which takes no time to find.
+glm::mat3 first_axes(const Document& document, const ShownSurface& simpler) {
   const bool has_triangles = document.surface.triangles.rows() > 0;
   if (!has_triangles && !document.skeleton) return glm::mat3(1);
   constexpr int wide = 1600;
   constexpr int high = 1000;
-  const auto views = has_triangles ? best_views(document.surface, wide, high)
-                                   : best_views(*document.skeleton, wide, high);
+  const auto views = simpler.triangles.size() > 0 ? best_views(as_surface(simpler), wide, high)
+                     : has_triangles              ? best_views(document.surface, wide, high)
+                                                  : best_views(*document.skeleton, wide, high);
   const Eigen::Matrix3f axes = views[0].axes.cast<float>();
   glm::mat3 rows(1);
   for (int row = 0; row < 3; ++row) rows[row] = {axes(row, 0), axes(row, 1), axes(row, 2)};
@@ -69,21 +87,26 @@ glm::mat3 first_axes(const Document& document) {
 
 }  // namespace
 
-Scene::Scene(Document opened)
-    : document(std::move(opened)),
-      given_(shown_surface(document.surface, document.space)),
-      face_blocks_(document.surface),
-      points_(some_points(document, given_)),
-      bounds_(bounds_of(points_)),
-      best_axes_(first_axes(document)) {
+Scene::Scene(Document opened, const Monitor& monitor) : document(std::move(opened)) {
+  const auto report = [&](double fraction) { monitor.report("prepare", fraction); };
+  report(0);
+  given_ = shown_surface(document.surface, document.space);
+  report(0.15);
+  face_blocks_ = FaceBlocks(document.surface);
+  report(0.2);
+  points_ = some_points(document, given_);
+  bounds_ = bounds_of(points_);
+  report(0.25);
   if (document.skeleton) own_skeleton = std::make_shared<const CurveSkeleton>(*document.skeleton);
-  look_from(camera, Side::best, best_axes_);
   constexpr std::array<std::size_t, Pace::levels - 1> vertices{50000, 12000, 3000};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     // Not worth its cost for a form that is nearly as simple.
     if (given_.positions.size() < 2 * vertices[i]) continue;
-    simpler_[i] = simpler_surface(given_, vertices[i]);
+    simpler_[i] = simpler_surface(given_, vertices[i], monitor.stop);
+    report(0.25 * static_cast<double>(i + 2));
   }
+  best_axes_ = first_axes(document, simpler_[0].surface);
+  look_from(camera, Side::best, best_axes_);
   given_.triangles = {};
 }
 

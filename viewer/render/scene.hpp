@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/monitor.hpp>
 #include <curveskel/pose.hpp>
 #include "viewer/model/document.hpp"
 #include "viewer/model/drawn_materials.hpp"
@@ -23,7 +24,8 @@ namespace curveskel::viewer {
 
 class Scene {
  public:
-  explicit Scene(Document opened);
+  /// Reports the stage "prepare". Throws Cancelled where a stop is requested. O(#V log #V + #F).
+  explicit Scene(Document opened, const Monitor& monitor = {});
 
   Document document;
   Recording recording;

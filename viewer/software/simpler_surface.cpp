@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <curveskel/monitor.hpp>
 #include "viewer/render/camera.hpp"
 
 namespace curveskel::viewer {
@@ -38,14 +39,19 @@ std::vector<std::uint64_t> cells_of(const ShownSurface& given, float size) {
 
 }  // namespace
 
-SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices) {
+SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices,
+                               const std::stop_token& stop) {
   SimplerSurface simpler;
   const float size = std::sqrt(std::max(area_of(given), 1e-30F) /
                                static_cast<float>(std::max<std::size_t>(vertices, 1)));
   const std::vector<std::uint64_t> cells = cells_of(given, size);
   std::vector<std::uint32_t> order(cells.size());
   std::iota(order.begin(), order.end(), 0U);
+  throw_if_stopped(stop);
+  constexpr std::size_t per_look = 1U << 19U;  // some milliseconds
+  std::size_t compared = 0;
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (++compared % per_look == 0) throw_if_stopped(stop);
     return cells[a] != cells[b] ? cells[a] < cells[b] : a < b;
   });
   std::vector<std::uint32_t> cluster(cells.size());
@@ -61,6 +67,7 @@ SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices) 
     surface.positions.push_back(sum / static_cast<float>(last - first));
     first = last;
   }
+  throw_if_stopped(stop);
   std::vector<glm::uvec3> triangles;
   for (const glm::uvec3& triangle : given.triangles) {
     const glm::uvec3 merged(cluster[triangle.x], cluster[triangle.y], cluster[triangle.z]);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "viewer/render/shapes_shown.hpp"
@@ -15,8 +16,10 @@ struct SimplerSurface {
 };
 
 /// Vertices within a cell of a grid become one (Rossignac and Borrel 1993); about `vertices` are
-/// left. Made to be looked at only: the topology may change. O(#V log #V + #F).
-[[nodiscard]] SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices);
+/// left. Made to be looked at only: the topology may change. O(#V log #V + #F). Throws Cancelled
+/// where a stop is requested.
+[[nodiscard]] SimplerSurface simpler_surface(const ShownSurface& given, std::size_t vertices,
+                                             const std::stop_token& stop = {});
 
 /// The triangles of such a form with corners that are vertices of the given surface, so that it
 /// moves as that does.

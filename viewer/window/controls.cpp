@@ -33,10 +33,6 @@ bool holds(const Area& picture, const glm::vec2& at) {
 
 bool pressed(int key) { return ImGui::IsKeyPressed(key, false); }
 
-bool is_list_open() {
-  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-}
-
 template <typename Choice, std::size_t Count>
 void next(Choice& value, const NameTable<Choice, Count>& table) {
   const auto at = std::find_if(table.begin(), table.end(),
@@ -108,6 +104,7 @@ bool Controls::begin_drag(const Workbench& bench, const Panels& panels) {
     if (button != 0 || !io.KeyCtrl || bench.running()) continue;
     if (panels.hovered.kind == Pick::Kind::node) drag_ = Drag::node;
     if (panels.hovered.kind == Pick::Kind::joint) drag_ = Drag::joint;
+    turns_ = false;
     dragged_ = panels.hovered.index;
   }
   return began;
@@ -140,9 +137,10 @@ void Controls::drag(Workbench& bench, const Area& picture) {
 }
 
 /// The joint follows the pointer, in the plane that faces the viewer.
-void Controls::pull(Workbench& bench, const Area& picture) const {
+void Controls::pull(Workbench& bench, const Area& picture) {
   const auto rig = bench.scene->rig();
   if (!rig || dragged_ < 0 || dragged_ >= rig->joints.rows()) return;
+  if (!std::exchange(turns_, true)) bench.begin_turning();
   const glm::vec3 place =
       shown_point(bench.scene->joints_now().row(dragged_), bench.scene->document.space);
   bench.pull_joint(dragged_, beside(bench.scene->camera, place, pointer_in(picture), picture));
@@ -194,7 +192,7 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   }
 }
 
-void Controls::escape(Workbench& bench, Panels& panels) const {
+void Controls::escape(Workbench& bench, Panels& panels) {
   if (bench.wants_to_abandon || bench.wants_to_replace) {
     bench.wants_to_abandon.reset();
     bench.wants_to_replace.reset();
@@ -204,13 +202,14 @@ void Controls::escape(Workbench& bench, Panels& panels) const {
     panels.browser.close();
     return;
   }
-  if (ImGui::IsAnyItemActive() || is_list_open()) return;  // it is for those
+  // It is for those.
+  if (ImGui::IsAnyItemActive() || is_list_open() || panel_keys_.escape_is_theirs()) return;
   if (panels.help) {
     panels.help = false;
-  } else if (bench.opening()) {
-    bench.cancel_opening();
-  } else if (bench.running()) {
-    bench.cancel();
+  } else if (panel_keys_.on()) {
+    panel_keys_.leave();
+  } else if (bench.can_cancel()) {
+    bench.cancel_what_goes_on();
   } else {
     bench.clear_selection();
     bench.clear_faults();
@@ -250,7 +249,10 @@ void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) 
   if (pressed(GLFW_KEY_E)) look.edges = !look.edges;
   if (pressed(GLFW_KEY_B)) look.transparent_background = !look.transparent_background;
   if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) panels.help = !panels.help;
-  if (pressed(GLFW_KEY_TAB)) panels.shown = !panels.shown;
+  if (pressed(GLFW_KEY_P)) {
+    panels.shown = !panels.shown;
+    if (!panels.shown && panel_keys_.on()) panel_keys_.leave();
+  }
   if (pressed(GLFW_KEY_F12)) panels.wants_picture = true;
   if (pressed(GLFW_KEY_F)) fit_all(bench, picture, false);
   if (pressed(GLFW_KEY_O)) bench.scene->camera.orthographic ^= true;
@@ -268,7 +270,26 @@ void Controls::edit_keys(Workbench& bench) const {
   if (pressed(GLFW_KEY_G)) bench.rig();
 }
 
+void Controls::time_keys(Workbench& bench) const {
+  if (pressed(GLFW_KEY_SPACE)) {
+    const bool active = bench.running() && bench.run_state() == Run::State::running;
+    active ? bench.pause() : bench.resume();
+  }
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) bench.step(!pressed(GLFW_KEY_RIGHT));
+  const std::size_t moment = bench.scene->moment;
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT) && moment > 0) bench.go_to(moment - 1);
+  if (pressed(GLFW_KEY_HOME)) bench.rewind();
+  if (pressed(GLFW_KEY_END)) bench.go_to(bench.scene->recording.moments().size() - 1);
+}
+
+/// The panels appear where they were hidden.
+void Controls::heed_tab(Panels& panels, bool dialogue) {
+  if (panel_keys_.begin(dialogue) && !dialogue) panels.shown = true;
+}
+
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
+  const bool dialogue = panels.browser.shown() || bench.wants_to_replace || bench.wants_to_abandon;
+  heed_tab(panels, dialogue);
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
   // WantTextInput outlives the field by a frame.
   const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
@@ -283,15 +304,7 @@ void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
   look_keys(bench, panels, picture);
   edit_keys(bench);
   if (pressed(GLFW_KEY_R)) bench.reload();
-  if (pressed(GLFW_KEY_SPACE)) {
-    const bool active = bench.running() && bench.run_state() == Run::State::running;
-    active ? bench.pause() : bench.resume();
-  }
-  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) bench.step(!pressed(GLFW_KEY_RIGHT));
-  const std::size_t moment = bench.scene->moment;
-  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT) && moment > 0) bench.go_to(moment - 1);
-  if (pressed(GLFW_KEY_HOME)) bench.rewind();
-  if (pressed(GLFW_KEY_END)) bench.go_to(bench.scene->recording.moments().size() - 1);
+  if (!panel_keys_.on()) time_keys(bench);
 }
 
 void Controls::update(Workbench& bench, Panels& panels, const Area& picture) {

@@ -4,7 +4,11 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdlib>
 #include <system_error>
+
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -44,14 +48,81 @@ void FileBrowser::list() {
   });
 }
 
-void FileBrowser::ask(Purpose purpose, const std::string& title,
-                      const std::string& suggested_name) {
+void FileBrowser::for_each_name(const std::function<void(const std::string&)>& visit) const {
+  if (!shown_) return;
+  visit(folder_.string());
+  visit(error_);
+  visit(name_);
+  for (const Entry& entry : entries_) visit(entry.name);
+}
+
+void FileBrowser::ask(Purpose purpose, const std::string& title, const std::string& suggested_name,
+                      const std::string& hint) {
   purpose_ = purpose;
   title_ = title;
+  hint_ = hint;
   name_ = suggested_name;
   shown_ = opens_now_ = true;
   frames_to_open_ = 5;  // ImGui takes two
   go_to(folder_.empty() ? first_folder() : folder_);
+}
+
+std::string FileBrowser::name_beside(const std::string& name, int lines) const {
+  if (entries_.empty()) return name;
+  const auto now = std::find_if(entries_.begin(), entries_.end(),
+                                [&](const Entry& entry) { return entry.name == name; });
+  const auto last = static_cast<std::ptrdiff_t>(entries_.size()) - 1;
+  const std::ptrdiff_t at = now != entries_.end() ? now - entries_.begin() + lines
+                            : lines > 0           ? 0
+                                                  : last;
+  return entries_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, last))].name;
+}
+
+/// A name typed as in a shell: from the folder that is shown, or from the home folder.
+fs::path FileBrowser::named() const {
+  const char* const home = std::getenv("HOME");
+  if (home != nullptr && (name_ == "~" || name_.starts_with("~/"))) {
+    return fs::path(home) / (name_.size() > 2 ? name_.substr(2) : "");
+  }
+  return folder_ / name_;  // itself if it is absolute
+}
+
+void FileBrowser::draw_entries(fs::path& next, std::optional<fs::path>& chosen) {
+  if (ImGui::Selectable("../")) next = folder_.parent_path();
+  for (const Entry& entry : entries_) {
+    const std::string shown = in_reading_order(entry.name);
+    const std::string label = entry.folder ? shown + "/" : shown;
+    const bool is_named = entry.name == name_;
+    const bool pressed =
+        ImGui::Selectable(label.c_str(), is_named, ImGuiSelectableFlags_AllowDoubleClick);
+    if (is_named && scrolls_) ImGui::SetScrollHereY();
+    if (!pressed) continue;
+    if (entry.folder) {
+      next = folder_ / entry.name;
+      continue;
+    }
+    name_ = entry.name;
+    // To replace it takes a word more. Keys choose by a single stroke.
+    const bool by_key = ImGui::GetIO().NavVisible && !ImGui::IsMouseReleased(0);
+    const bool opens = by_key || ImGui::IsMouseDoubleClicked(0);
+    if (purpose_ == Purpose::open && opens) chosen = folder_ / name_;
+  }
+  scrolls_ = false;
+}
+
+bool FileBrowser::draw_name() {
+  const auto choose_beside = [](ImGuiInputTextCallbackData* data) {
+    auto& self = *static_cast<FileBrowser*>(data->UserData);
+    const int lines = data->EventKey == ImGuiKey_UpArrow ? -1 : 1;
+    const std::string name = self.name_beside({data->Buf, data->Buf + data->BufTextLen}, lines);
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, name.c_str());
+    self.scrolls_ = true;
+    return 0;
+  };
+  constexpr ImGuiInputTextFlags flags =
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory;
+  return ImGui::InputText("##name", &name_, flags, choose_beside, this);
 }
 
 std::optional<fs::path> FileBrowser::draw() {
@@ -66,48 +137,43 @@ std::optional<fs::path> FileBrowser::draw() {
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   std::optional<fs::path> chosen;
   if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
-  ImGui::TextUnformatted(folder_.string().c_str());
+  ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
   if (!error_.empty()) ImGui::TextColored({0.9F, 0.2F, 0.2F, 1}, "%s", error_.c_str());
-  const float line = ImGui::GetFrameHeightWithSpacing();
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float hint =
+      hint_.empty() ? 0
+                    : style.ItemSpacing.y + ImGui::CalcTextSize(hint_.c_str(), nullptr, false,
+                                                                ImGui::GetContentRegionAvail().x)
+                                                .y;
+  const float line = ImGui::GetFrameHeightWithSpacing() + hint;
   fs::path next;
-  if (ImGui::BeginChild("files", {0, -line}, true)) {
-    if (ImGui::Selectable("../")) next = folder_.parent_path();
-    for (const Entry& entry : entries_) {
-      const std::string label = entry.folder ? entry.name + "/" : entry.name;
-      if (!ImGui::Selectable(label.c_str(), entry.name == name_,
-                             ImGuiSelectableFlags_AllowDoubleClick)) {
-        continue;
-      }
-      if (entry.folder) {
-        next = folder_ / entry.name;
-      } else {
-        name_ = entry.name;
-        // To replace it takes a word more.
-        const bool opens = purpose_ == Purpose::open && ImGui::IsMouseDoubleClicked(0);
-        if (opens) chosen = folder_ / name_;
-      }
-    }
+  if (ImGui::BeginChild("files", {0, -line}, true, ImGuiWindowFlags_NavFlattened)) {
+    draw_entries(next, chosen);
   }
   ImGui::EndChild();
   if (!next.empty()) go_to(next);
-  if (opens_now_) ImGui::SetKeyboardFocusHere();
-  opens_now_ = false;
+  if (!hint_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", hint_.c_str());
+    ImGui::PopStyleColor();
+  }
+  if (opens_now_ || focuses_) ImGui::SetKeyboardFocusHere();
+  opens_now_ = focuses_ = false;
   const float button = 5 * letter;
-  ImGui::SetNextItemWidth(-2 * button - 2 * ImGui::GetStyle().ItemSpacing.x - 1);
-  const bool entered = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SetNextItemWidth(-2 * button - 2 * style.ItemSpacing.x - 1);
+  const bool entered = draw_name();
   frames_to_open_ = ImGui::IsItemActive() ? 0 : std::max(frames_to_open_ - 1, 0);
   ImGui::SameLine();
   const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {button, 0});
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {button, 0})) shown_ = false;
-  if ((entered || pressed) && !name_.empty()) {
-    const fs::path typed(name_);
-    chosen = typed.is_absolute() ? typed : folder_ / typed;
-  }
+  if ((entered || pressed) && !name_.empty()) chosen = named();
   if (chosen) {
     std::error_code error;
     if (fs::is_directory(*chosen, error)) {
       go_to(*chosen);
+      name_.clear();
+      focuses_ = true;
       chosen.reset();
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,15 +14,21 @@ class FileBrowser {
   enum class Purpose { open, save };
 
   /// Shows up at the next `draw`, in the folder last seen. `title`: of the dialogue.
-  void ask(Purpose purpose, const std::string& title, const std::string& suggested_name);
+  /// `hint`: what may be opened, or how names are understood.
+  void ask(Purpose purpose, const std::string& title, const std::string& suggested_name,
+           const std::string& hint = {});
   /// Within an ImGui frame; the chosen file, once.
   [[nodiscard]] std::optional<std::filesystem::path> draw();
+  /// As it stands in the field.
+  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Purpose purpose() const { return purpose_; }
   [[nodiscard]] bool shown() const { return shown_; }
   /// Asked for, and not yet ready to be typed into.
   [[nodiscard]] bool opening() const { return shown_ && frames_to_open_ > 0; }
   void close() { shown_ = false; }
   void go_to(const std::filesystem::path& folder);
+  /// The texts that it shows, if it is shown.
+  void for_each_name(const std::function<void(const std::string&)>& visit) const;
 
  private:
   struct Entry {
@@ -29,11 +36,20 @@ class FileBrowser {
     bool folder = false;
   };
   void list();
+  void draw_entries(std::filesystem::path& next, std::optional<std::filesystem::path>& chosen);
+  /// True if a name was typed and ended by Enter.
+  [[nodiscard]] bool draw_name();
+  /// The name of the entry so many lines from the one that is named.
+  [[nodiscard]] std::string name_beside(const std::string& name, int lines) const;
+  [[nodiscard]] std::filesystem::path named() const;
 
   Purpose purpose_ = Purpose::open;
   std::string title_;
+  std::string hint_;
   bool shown_ = false;
   bool opens_now_ = false;
+  bool focuses_ = false;    // on the name
+  bool scrolls_ = false;    // to the entry that is named
   int frames_to_open_ = 0;  // at most
   std::filesystem::path folder_;
   std::vector<Entry> entries_;

@@ -11,7 +11,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <system_error>
 #include <utility>
 
 #include <curveskel/error.hpp>
@@ -124,6 +123,12 @@ void GlfwWindow::finish_frame() {
   glFinish();
 }
 
+void GlfwWindow::renew_letters() {
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  spoilt_ = true;
+}
+
 void GlfwWindow::present() {
   if (!software_) glfwSwapBuffers(window_);
 }
@@ -137,26 +142,6 @@ void GlfwWindow::start_imgui() const {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  constexpr float letters = 14;
-  // Latin, Greek, Cyrillic, Armenian, Hebrew, more Latin and Greek, signs. ImGui keeps the address.
-  static constexpr ImWchar written[] = {0x20,   0x2FF,  0x370,  0x58F,  0x5D0,  0x5EA,
-                                        0x1E00, 0x1FFF, 0x2010, 0x205E, 0x20A0, 0x20BF,
-                                        0x2100, 0x214F, 0x2190, 0x21FF, 0};
-  std::error_code error;
-  for (const char* font :
-       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-        "/usr/share/fonts/noto/NotoSans-Regular.ttf",
-        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-        "/usr/share/fonts/truetype/freefont/FreeSans.ttf"}) {
-    if (std::filesystem::exists(font, error)) {
-      ImGui::GetIO().Fonts->AddFontFromFileTTF(font, letters * scale_, nullptr, written);
-      return;
-    }
-  }
-  ImGui::GetIO().FontGlobalScale = scale_;
 }
 
 /// Keys and letters in place of ImGui's own callbacks, which are called from `type`.

@@ -11,7 +11,7 @@ struct GLFWwindow;
 
 namespace curveskel::viewer {
 
-/// One window with a current OpenGL context, and ImGui in it.
+/// One window with a current OpenGL context, and ImGui in it, which has no fonts yet.
 class GlfwWindow {
  public:
   /// Throws Error(Fault::device) where there is no display or no OpenGL 3.3.
@@ -35,6 +35,8 @@ class GlfwWindow {
   [[nodiscard]] bool take_kept();
   /// Waits until all that was drawn is there.
   void finish_frame();
+  /// Between frames: ImGui's fonts are others.
+  void renew_letters();
   /// Shows the frame. With a graphics card this waits for the screen.
   void present();
   /// Files that were dropped on it since the last call.

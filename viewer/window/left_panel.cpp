@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -30,13 +31,15 @@ bool finish_slider(const char* label, Number& value, Number standard, const char
 
 bool slide(const char* label, int& value, int standard, int least, int most, const char* meaning,
            ImGuiSliderFlags flags = 0) {
-  ImGui::SliderInt(label, &value, least, most, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
+  const std::string name = place_control(label, control_share);
+  ImGui::SliderInt(name.c_str(), &value, least, most, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
   return finish_slider(label, value, standard, meaning);
 }
 
 bool slide(const char* label, double& value, double standard, double least, double most,
            const char* meaning) {
-  ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most, "%.3g",
+  const std::string name = place_control(label, control_share);
+  ImGui::SliderScalar(name.c_str(), ImGuiDataType_Double, &value, &least, &most, "%.3g",
                       ImGuiSliderFlags_AlwaysClamp);
   return finish_slider(label, value, standard, meaning);
 }
@@ -56,19 +59,29 @@ void run_buttons(Workbench& bench) {
   if (ImGui::Button("Rewind")) bench.rewind();
   tip("to the input (Home)");
   beside_if_it_fits("Cancel");
-  ImGui::BeginDisabled(!bench.running());
-  if (ImGui::Button("Cancel")) bench.cancel();
+  ImGui::BeginDisabled(!bench.can_cancel());
+  if (ImGui::Button("Cancel")) bench.cancel_what_goes_on();
   ImGui::EndDisabled();
-  tip("stop the run, keep what was recorded (Esc)");
+  tip(bench.opening()   ? "stop the opening, keep what is open (Esc)"
+      : bench.running() ? "stop the run, keep what was recorded (Esc)"
+                        : "stop what goes on (Esc)");
 }
 
-/// Of the run that goes on, or how the last one ended.
+/// Of what is being opened, or of the run that goes on, or how the last one ended.
 void progress(const Workbench& bench, const Glance& glance) {
   float done = 0;
   std::string word;
-  if (bench.running()) {
+  if (bench.opening()) {
+    const StageNews::Stage stage = bench.opening_stage();
+    done = static_cast<float>(stage.fraction);
+    word = "opening: " + stage.name;
+  } else if (bench.running()) {
     done = static_cast<float>(glance.fraction);
     word = bench.news().stage;
+  } else if (bench.making_rig()) {
+    const StageNews::Stage stage = bench.rig_stage();
+    done = static_cast<float>(stage.fraction);
+    word = stage.name.empty() ? "rig" : "rig: " + stage.name;
   } else if (bench.run_state() == Run::State::cancelled) {
     word = "cancelled";
   } else if (bench.run_state() == Run::State::failed) {
@@ -84,7 +97,6 @@ void parameters(Workbench& bench) {
   const ExtractOptions standard;
   ExtractOptions& options = bench.pipeline.extract;
   bool changed = false;
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
   changed |=
       slide("fairing", options.fair.iterations, 0, 0, 50,
             "Iterations of smoothing before anything else. For noisy scans: about ten times the "
@@ -97,8 +109,10 @@ void parameters(Workbench& bench) {
   const double detail = options.embed.detail;
   const bool finished = slide("detail", options.embed.detail, standard.embed.detail, 0, 1,
                               "How small a branch may be and stay: 0 = only the main limbs, 1 = "
-                              "every bump that makes one. Below the default branches are hidden "
-                              "and shown at once, above it some are added; nothing moves.");
+                              "every bump that makes one. Each branch has a life, how clearly the "
+                              "surface has its limb; less detail hides those of short lives. "
+                              "Below the default branches are hidden and shown at once, above it "
+                              "some are added; nothing moves.");
   if (options.embed.detail != detail) bench.show_level();
   const double wanted = std::max(options.embed.detail, standard.embed.detail);
   changed |= finished && wanted != bench.detail_made();
@@ -120,7 +134,6 @@ void parameters(Workbench& bench) {
                      "Within so many inscribed radii of a junction, branches run straight.");
     ImGui::TreePop();
   }
-  ImGui::PopItemWidth();
   if (ImGui::Button("Defaults")) {
     const auto cache = options.contraction.program_cache;
     options = standard;
@@ -137,11 +150,14 @@ void rig(Workbench& bench) {
   CharacterOptions& options = bench.pipeline.character;
   const PlanOptions plan = options.plan;
   const NameStyle names = options.names;
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48F);
-  choose("plan", options.plan.plan, body_kinds);
-  choose("names", options.names, name_styles);
-  choose("up", options.plan.up, directions);
-  choose("front", options.plan.front, directions);
+  choose("plan", options.plan.plan, body_kinds,
+         "What kind of body it is: it says which joints there are, and what they are. auto = found "
+         "from the curve.");
+  choose("names", options.names, name_styles, "Whose words the joints' names are in.");
+  choose("up", options.plan.up, directions, "The axis of the file that leads up. auto = found.");
+  choose("front", options.plan.front, directions,
+         "The axis of the file that the body looks along; left and right follow from it. auto = "
+         "found.");
   bool changed = plan.plan != options.plan.plan || plan.up != options.plan.up ||
                  plan.front != options.plan.front || names != options.names;
   changed |= slide("followers", options.parts.follow, usual.parts.follow, 0, 5,
@@ -153,11 +169,12 @@ void rig(Workbench& bench) {
             "many joints. A plan says itself how many joints its limbs have.");
   changed |= slide("softness", options.rig.skin.softness, usual.rig.skin.softness, 0.2, 5,
                    "How gently the skin goes over from one joint to the next.");
-  ImGui::PopItemWidth();
   ImGui::BeginDisabled(bench.running() || bench.history().empty());
   if (ImGui::Button("Make rig")) bench.rig();
   ImGui::EndDisabled();
-  tip("joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
+  tip(bench.history().empty()
+          ? "a rig is made of a skeleton: press Run first"
+          : "joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
   if (changed && (bench.has_rig() || bench.making_rig())) bench.rig();
 }
 
@@ -177,10 +194,10 @@ void corrections(Workbench& bench) {
   button("Split", "a node in the middle of the selected edge (N)", [&] { bench.split(); });
   button("Root", "the selected node is where the hierarchy begins (T)", [&] { bench.set_root(); });
   first = true;
-  ImGui::BeginDisabled(!bench.history().can_undo());
+  ImGui::BeginDisabled(!bench.can_undo());
   button("Undo", "Ctrl-Z", [&] { bench.undo(); });
   ImGui::EndDisabled();
-  ImGui::BeginDisabled(!bench.history().can_redo());
+  ImGui::BeginDisabled(!bench.can_redo());
   button("Redo", "Ctrl-Y", [&] { bench.redo(); });
   ImGui::EndDisabled();
   if (bench.root() >= 0) {
@@ -196,7 +213,7 @@ void kept_messages(const Workbench& bench) {
     const ImVec4 colour = message->bad ? verdict_colour(false, bench.scene->look.theme)
                                        : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", message->text.c_str());
+    ImGui::TextWrapped("%s", in_reading_order(message->text).c_str());
     ImGui::PopStyleColor();
   }
 }

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
@@ -33,9 +37,9 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   const Document& document = bench.scene->document;
   std::vector<std::string> facts;
   if (document.has_surface()) {
-    facts.push_back(
-        fmt::format("{}: {} vertices, {} triangles", document.mesh_file.filename().string(),
-                    document.surface.positions.rows(), document.surface.triangles.rows()));
+    facts.push_back(in_reading_order(document.mesh_file.filename().string()));
+    facts.push_back(fmt::format("{} vertices, {} triangles", document.surface.positions.rows(),
+                                document.surface.triangles.rows()));
   }
   if (const auto skeleton = bench.scene->skeleton()) {
     facts.push_back(
@@ -58,23 +62,52 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   ImGui::End();
 }
 
-void messages(const Workbench& bench, const Area& picture, float scale) {
+/// A message that is still to be read.
+struct Notice {
+  std::string text;
+  bool bad = false;
+  ImVec2 size;
+};
+
+/// The newest ones, as many as leave some of the picture to be seen, one at least. Those before can
+/// be read in the panel.
+std::vector<Notice> notices(const Workbench& bench, float widest, float highest, float between) {
   const auto now = std::chrono::steady_clock::now();
-  float y = picture.y + 10 * scale;
-  for (const Message& message : bench.messages()) {
-    const double shown_seconds = message.bad ? 12 : 4;
+  std::vector<Notice> shown;
+  float height = 0;
+  const std::deque<Message>& all = bench.messages();
+  for (std::size_t i = all.size(); i-- > 0;) {
+    const Message& message = all[i];
+    // As long as it takes to read.
+    const double letters = static_cast<double>(message.text.size());
+    const double shown_seconds = std::max(message.bad ? 12.0 : 4.0, letters / 15);
     const double age = std::chrono::duration<double>(now - message.since).count();
     if (age > shown_seconds) continue;
-    const float widest = picture.width - 40 * scale;
-    const ImVec2 size = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, widest);
-    ImDrawList& list = *ImGui::GetForegroundDrawList();
-    const ImU32 back = message.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
+    Notice one{in_reading_order(message.text), message.bad, {}};
+    one.size = ImGui::CalcTextSize(one.text.c_str(), nullptr, false, widest);
+    height += one.size.y + between;
+    if (!shown.empty() && height > highest) break;
+    shown.push_back(std::move(one));
+  }
+  std::reverse(shown.begin(), shown.end());
+  return shown;
+}
+
+void messages(const Workbench& bench, const Area& picture, float scale) {
+  const float widest = picture.width - 40 * scale;
+  const float between = 14 * scale;
+  float y = picture.y + 10 * scale;
+  // A dialogue is not covered.
+  ImDrawList& list =
+      is_list_open() ? *ImGui::GetBackgroundDrawList() : *ImGui::GetForegroundDrawList();
+  for (const Notice& one : notices(bench, widest, picture.height * 0.6F, between)) {
+    const ImU32 back = one.bad ? IM_COL32(170, 35, 30, 235) : IM_COL32(40, 46, 54, 215);
     const ImVec2 low(picture.x + 12 * scale, y);
-    list.AddRectFilled(low, {low.x + size.x + 16 * scale, low.y + size.y + 10 * scale}, back,
-                       5 * scale);
+    list.AddRectFilled(low, {low.x + one.size.x + 16 * scale, low.y + one.size.y + 10 * scale},
+                       back, 5 * scale);
     list.AddText(nullptr, 0, {low.x + 8 * scale, low.y + 5 * scale}, IM_COL32(255, 255, 255, 255),
-                 message.text.c_str(), nullptr, widest);
-    y += size.y + 14 * scale;
+                 one.text.c_str(), nullptr, widest);
+    y += one.size.y + between;
   }
 }
 
@@ -114,7 +147,7 @@ void help(Panels& panels) {
                                      ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Help", &panels.help, flags)) {
-    constexpr std::array<std::array<const char*, 2>, 18> lines{{
+    constexpr std::array<std::array<const char*, 2>, 21> lines{{
         {"drag", "turn (left), move (middle, or Shift + left), nearer (right, or the wheel)"},
         {"double click, F", "fly to what is under the pointer; fit everything"},
         {"1 3 7 9", "front, right, top, back; with Ctrl from the other side"},
@@ -133,25 +166,33 @@ void help(Panels& panels) {
         {"L, B", "light or dark, transparent background"},
         {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
         {"F12", "a picture"},
-        {"Tab, H", "panels on and off, this help"},
-        {"Esc, Ctrl-Q", "cancel or clear the selection, leave"},
+        {"Ctrl + click on a slider", "type a number"},
+        {"P, H", "panels on and off, this help"},
+        {"Tab, Shift + Tab", "into the panels, and from control to control"},
+        {"there: arrows, Space, Enter",
+         "move, press or change with the arrows, type a number; Esc leads back to the picture"},
+        {"Esc, Ctrl-Q", "cancel what goes on or clear the selection, leave"},
     }};
     help_lines(lines, screen.x);
   }
   ImGui::End();
 }
 
-/// In an empty window: the ways to fill it.
+/// In an empty window: the ways to fill it. While files are opened: how far that is.
 void hint(const Workbench& bench, const Area& picture) {
   const Document& document = bench.scene->document;
-  if (document.has_surface() || document.skeleton || bench.opening()) return;
-  constexpr const char* text =
-      "Drop a surface, a skeleton or a rig here,\nor press Ctrl-O to open one; H for help.";
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const StageNews::Stage stage = bench.opening_stage();
+  if ((document.has_surface() || document.skeleton) && !bench.opening()) return;
+  const std::string text =
+      bench.opening()
+          ? fmt::format("opening: {} {:.0f} %\nEsc cancels.", stage.name, 100 * stage.fraction)
+          : "Drop a surface, a skeleton or a rig here,\nor press Ctrl-O to open one; H "
+            "for help.";
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   if (size.x > picture.width || size.y > picture.height) return;
   ImGui::GetBackgroundDrawList()->AddText({picture.x + std::floor((picture.width - size.x) / 2),
                                            picture.y + std::floor((picture.height - size.y) / 2)},
-                                          ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+                                          ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
 }
 
 void browser(Workbench& bench, Panels& panels) {
@@ -178,7 +219,7 @@ std::string description_of_node(int node, const CurveSkeleton& skeleton) {
 std::string description_of_joint(int joint, const Rig& rig) {
   const auto name_of = [&](int index) {
     const std::string& name = rig.names[static_cast<std::size_t>(index)];
-    return name.empty() ? fmt::format("joint {}", index) : name;
+    return name.empty() ? fmt::format("joint {}", index) : in_reading_order(name);
   };
   std::string text = fmt::format("{}\n({:.5g}, {:.5g}, {:.5g})", name_of(joint),
                                  rig.joints(joint, 0), rig.joints(joint, 1), rig.joints(joint, 2));
@@ -191,13 +232,17 @@ std::string description_of_joint(int joint, const Rig& rig) {
 }  // namespace
 
 void ask_to_open(Panels& panels) {
-  panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "");
+  panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "",
+                     "Surfaces: " + names_in(surface_formats) +
+                         ", also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
 }
 
 void ask_to_save(const Workbench& bench, Panels& panels) {
   panels.browser.ask(FileBrowser::Purpose::save,
                      bench.shows_made_rig() ? "Save the rig" : "Save the skeleton",
-                     bench.suggested_name());
+                     bench.suggested_name(),
+                     "The extension chooses the format. Skeletons and their pictures: " +
+                         names_in(skeleton_formats) + ". Rigs: " + names_in(rig_formats) + ".");
 }
 
 Area whole_pixels(const Area& area) {
@@ -215,7 +260,7 @@ bool begin_panel(const char* name, const Area& area) {
 }
 
 void tip(const char* text) {
-  if (!ImGui::IsItemHovered()) return;
+  if (text[0] == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   constexpr float widest = 24;  // of a letter's height
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * widest);
@@ -237,6 +282,36 @@ void box_beside_if_it_fits(const char* label) {
                       ImGui::CalcTextSize(label, nullptr, true).x;
   const float right = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
   if (right <= ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
+std::string place_control(const char* label, float share) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room = ImGui::GetContentRegionAvail().x;
+  const float button = ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
+  if (room * share + style.ItemInnerSpacing.x + words + button <= room) {
+    ImGui::SetNextItemWidth(room * share);
+    return label;
+  }
+  ImGui::TextWrapped("%s", label);
+  ImGui::SetNextItemWidth(room - button);
+  return std::string("##") + label;
+}
+
+bool tick(const char* label, bool& value) {
+  const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
+  if (box + words <= ImGui::GetContentRegionAvail().x) return ImGui::Checkbox(label, &value);
+  ImGui::BeginGroup();
+  bool changed = ImGui::Checkbox((std::string("##") + label).c_str(), &value);
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::TextWrapped("%s", label);
+  if (ImGui::IsItemClicked()) {
+    value = !value;
+    changed = true;
+  }
+  ImGui::EndGroup();
+  return changed;
 }
 
 bool list_line(const char* label, bool present) {
@@ -262,8 +337,19 @@ Layout lay_out(float width, float height, float scale, bool panels) {
   layout.status = {0, height - line, width, line};
   layout.picture = {0, 0, width, height - line};
   if (!panels) return layout;
-  const float side = std::floor(std::min(290 * scale, width * 0.30F));
   const float timeline = std::floor(std::min(130 * scale, height * 0.2F));
+  constexpr float narrow = 560;  // too little for two panels beside a picture
+  if (width < narrow * scale && width < height) {
+    const float half = std::floor(width / 2);
+    const float panel = std::floor(height * 0.42F);
+    const float below = height - line - panel;
+    layout.left = {0, below, half, panel};
+    layout.right = {half, below, width - half, panel};
+    layout.timeline = {0, below - timeline, width, timeline};
+    layout.picture = {0, 0, width, below - timeline};
+    return layout;
+  }
+  const float side = std::floor(std::min(290 * scale, width * 0.30F));
   layout.left = {0, 0, side, height - line};
   layout.right = {width - side, 0, side, height - line};
   layout.timeline = {side, height - line - timeline, width - 2 * side, timeline};
@@ -306,6 +392,16 @@ std::string description_of(const Pick& picked, const Workbench& bench) {
   return {};
 }
 
+void for_each_name(const Workbench& bench, const Panels& panels,
+                   const std::function<void(const std::string&)>& visit) {
+  for (const std::filesystem::path& file : bench.files()) visit(file.string());
+  for (const Message& message : bench.messages()) visit(message.text);
+  panels.browser.for_each_name(visit);
+  if (const auto rig = bench.scene->rig()) {
+    for (const std::string& name : rig->names) visit(name);
+  }
+}
+
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   glance_at(bench, panels);
   draw_left_panel(bench, panels, layout.left);
@@ -342,6 +438,8 @@ void style_panels(Theme theme, float scale) {
   style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.45F;
   style.Colors[ImGuiCol_PlotHistogram] =
       theme == Theme::dark ? ImVec4(0.16F, 0.44F, 0.36F, 1) : ImVec4(0.58F, 0.83F, 0.75F, 1);
+  style.Colors[ImGuiCol_TextDisabled] =
+      theme == Theme::dark ? ImVec4(0.60F, 0.62F, 0.65F, 1) : ImVec4(0.38F, 0.40F, 0.43F, 1);
   style.Colors[ImGuiCol_WindowBg] = {palette.lower.r, palette.lower.g, palette.lower.b, 1};
   style.ScaleAllSizes(scale);
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -51,6 +52,14 @@ struct TurnAngles {
   std::array<float, 3> degrees{};                            ///< about x, then y, then z
 };
 
+/// The step from a line of the outline to those below it, and the outline that it is for.
+struct Indentation {
+  float step = 0;
+  float room = 0;         ///< for all of a line
+  std::size_t lines = 0;  ///< that are seen
+  int glyphs = 0;         ///< that the font has
+};
+
 /// State that the panels keep from one frame to the next.
 struct Panels {
   bool shown = true;
@@ -59,6 +68,8 @@ struct Panels {
   bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
   Outline outline;  ///< of the rig
+  Indentation indentation;
+  int listed_joint = -1;  ///< whose line was last made to be seen
   TurnAngles angles;
   float scale = 1;  ///< of letters, by the display
   FrameTimes times;
@@ -75,6 +86,10 @@ struct Panels {
 
 /// All of them, within an ImGui frame; a person's actions reach the workbench at once.
 void draw_panels(Workbench& bench, Panels& panels, const Layout& layout);
+
+/// Texts that the panels show and that come from files, folders or a person.
+void for_each_name(const Workbench& bench, const Panels& panels,
+                   const std::function<void(const std::string&)>& visit);
 
 /// Every moment as a step, with area, volume and residual as curves; a drag goes to a moment.
 void draw_timeline(Workbench& bench, const Area& area);

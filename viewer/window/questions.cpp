@@ -29,6 +29,7 @@ int draw_choices(std::span<const Choice> offered) {
     if (i > 0) ImGui::SameLine();
     const bool typed = one.key != 0 && ImGui::IsKeyPressed(one.key, false);
     if (ImGui::Button(one.label, {width, 0}) || typed) chosen = static_cast<int>(i);
+    if (one.key == 0) ImGui::SetItemDefaultFocus();  // nothing is lost by it
     tip(one.key == 0 ? "Esc" : std::string(1, one.key).c_str());
   }
   return chosen;

@@ -11,46 +11,61 @@
 #include <vector>
 
 #include "viewer/model/rigging.hpp"
+#include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panel_parts.hpp"
+#include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
 namespace {
 
 void look_controls(Look& look, Camera& camera) {
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.52F);
-  choose("surface", look.surface, surface_styles);
-  choose("its colours", look.surface_colour, colourings);
-  choose("skeleton", look.skeleton, skeleton_styles);
-  choose("its colours ", look.skeleton_colour, colourings);
-  choose("map", look.map, colour_maps);
-  choose("theme", look.theme, themes);
-  ImGui::SliderFloat("opacity", &look.opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  choose("surface", look.surface, surface_styles, "how the surface is drawn (S)");
+  choose("its colours", look.surface_colour, colourings, "what the surface's colours say");
+  choose("skeleton", look.skeleton, skeleton_styles, "how the skeleton is drawn (K)");
+  choose("its colours ", look.skeleton_colour, colourings, "what the skeleton's colours say");
+  choose("map", look.map, colour_maps, "colours of numbers, such as radius and weight");
+  choose("theme", look.theme, themes, "L");
+  ImGui::SliderFloat(place_control("opacity", control_share).c_str(), &look.opacity, 0, 1, "%.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
   tip("of the transparent surface");
-  ImGui::SliderFloat("thickness", &look.thickness, 0.2F, 5, "%.2f",
-                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat(place_control("thickness", control_share).c_str(), &look.thickness, 0.2F, 5,
+                     "%.2f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tip("of tubes and lines");
-  ImGui::PopItemWidth();
-  ImGui::Checkbox("edges", &look.edges);
+  tick("edges", look.edges);
+  tip("of the surface, over its faces (E)");
   box_beside_if_it_fits("joints");
-  ImGui::Checkbox("joints", &look.joints);
+  tick("joints", look.joints);
+  tip("the skeleton's tips and junctions as balls");
   box_beside_if_it_fits("through");
-  ImGui::Checkbox("through", &look.through);
+  tick("through", look.through);
   tip("the skeleton shows through an opaque surface");
-  ImGui::Checkbox("bones", &look.bones);
+  tick("bones", look.bones);
   tip("joints and bones of a rig");
   box_beside_if_it_fits("parallel projection");
-  ImGui::Checkbox("parallel projection", &camera.orthographic);
-  tip("O");
+  tick("parallel projection", camera.orthographic);
+  tip("what is farther away is no smaller (O)");
 }
 
-void certificate_line(const char* name, const std::string& value, int verdict, Theme theme) {
-  ImGui::TextUnformatted(name);
-  ImGui::SameLine(ImGui::GetFontSize() * 7.5F);
-  if (verdict < 0) {
-    ImGui::TextUnformatted(value.c_str());
+/// The figure below its name where there is no room beside it.
+void certificate_line(const char* name, const std::string& value, int verdict, Theme theme,
+                      const char* meaning) {
+  const ImVec4 colour =
+      verdict < 0 ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : verdict_colour(verdict != 0, theme);
+  const float column = ImGui::GetFontSize() * 7.5F;
+  ImGui::BeginGroup();
+  const float room = ImGui::GetContentRegionAvail().x;
+  ImGui::TextWrapped("%s", name);
+  if (column + ImGui::CalcTextSize(value.c_str()).x <= room) {
+    ImGui::SameLine(column);
   } else {
-    ImGui::TextColored(verdict_colour(verdict != 0, theme), "%s", value.c_str());
+    ImGui::Indent();
   }
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextWrapped("%s", value.c_str());
+  ImGui::PopStyleColor();
+  if (column + ImGui::CalcTextSize(value.c_str()).x > room) ImGui::Unindent();
+  ImGui::EndGroup();
+  tip(meaning);
 }
 
 const char* why_not_judged(const Workbench& bench) {
@@ -77,42 +92,62 @@ void certificate(Workbench& bench) {
   }
   const Certificate& c = found->certificate;
   const auto line = [theme = bench.scene->look.theme](const char* name, const std::string& value,
-                                                      int verdict) {
-    certificate_line(name, value, verdict, theme);
+                                                      int verdict, const char* meaning) {
+    certificate_line(name, value, verdict, theme, meaning);
   };
   const auto verdict = [](bool good) { return good ? 1 : 0; };
   line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
-       verdict(c.components_right()));
+       verdict(c.components_right()),
+       "Pieces of the skeleton, and of the surface. Green figures are as they have to be, red ones "
+       "are faults, the others only tell.");
   line("cycles", fmt::format("{}, genus {}", c.cycle_rank, c.genus),
-       verdict(c.cycle_rank == c.genus));
+       verdict(c.cycle_rank == c.genus),
+       "Rings of the skeleton, and handles of the surface, as a cup has one: as many.");
   line("handles", fmt::format("round {} of {}", c.homology_rank, c.genus),
-       verdict(c.homology_rank == c.genus));
-  line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough));
+       verdict(c.homology_rank == c.genus), "Handles of the surface that a ring runs through.");
+  line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough),
+       "Share of the skeleton's length that lies inside the surface; 99.9 % have to.");
   if (!found->findings.exits.empty()) {
-    ImGui::SameLine();
+    beside_if_it_fits("show");
     if (ImGui::SmallButton("show##exits")) bench.show_exits();
     tip("the edges that leave the surface");
   }
-  line("ahead of tips", fmt::format("{:.4f} D", c.reach_at_tips), verdict(c.reaches_ends()));
-  line("tubes", fmt::format("{:.1f} % of the area", 100 * c.tube_share), verdict(c.curve_like));
+  line("ahead of tips", fmt::format("{:.4f} D", c.reach_at_tips), verdict(c.reaches_ends()),
+       "The farthest that the surface goes on beyond the end of a branch; up to 0.1 D is right. D "
+       "is the diagonal of the box round the model.");
+  line("tubes", fmt::format("{:.1f} % of the area", 100 * c.tube_share), verdict(c.curve_like),
+       "Share of the surface that is like a tube round the skeleton. Below a half it is made of "
+       "plates or leaves, for which no curve stands.");
   if (c.wrap_followed < 1) {
     line("wrap follows", fmt::format("{:.1f} % of the area", 100 * c.wrap_followed),
-         verdict(c.wrap_follows()));
+         verdict(c.wrap_follows()),
+         "The surface was wrapped, as it encloses nothing by itself: how much of the wrap lies at "
+         "the given faces; 75 % have to.");
   }
-  line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0));
+  line("spurs", fmt::format("{}", c.spurs), verdict(c.spurs == 0),
+       "Branches that do not come out of the ball at the junction where they begin.");
   if (c.spurs > 0) {
-    ImGui::SameLine();
+    beside_if_it_fits("show");
     if (ImGui::SmallButton("show##spurs")) bench.show_spurs();
+    tip("the edges of those branches");
   }
-  line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1);
+  line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1,
+       "How far the skeleton comes out of the surface; D is the diagonal of the box round the "
+       "model.");
   line("centredness", fmt::format("{:.3f}, p90 {:.3f}", c.centredness_median, c.centredness_p90),
-       -1);
-  line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1);
-  line("reach", fmt::format("{:.4f} D", c.reach), -1);
-  line("tips", fmt::format("{}", c.tips), -1);
-  line("junctions", fmt::format("{}", c.junctions), -1);
-  line("length", fmt::format("{:.3f} D", c.length), -1);
-  line("total curvature", fmt::format("{:.1f} rad/D", c.total_curvature), -1);
+       -1,
+       "How unequal the ways to the surface all round the skeleton are: 0 = in the very middle. In "
+       "the median, and for 90 % of the length. A flat part has no better than 0.25 to 0.5.");
+  line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1,
+       "Share of the surface within 1.5 inscribed radii of the skeleton.");
+  line("reach", fmt::format("{:.4f} D", c.reach), -1,
+       "How far the surface is from the skeleton's inscribed balls, but for the farthest 5 %.");
+  line("tips", fmt::format("{}", c.tips), -1, "Ends of branches.");
+  line("junctions", fmt::format("{}", c.junctions), -1, "Nodes where three branches or more meet.");
+  line("length", fmt::format("{:.3f} D", c.length), -1,
+       "Of the whole skeleton, in diagonals of the box round the model.");
+  line("total curvature", fmt::format("{:.1f} rad/D", c.total_curvature), -1,
+       "How much the skeleton bends along its length: low where it runs smoothly.");
 }
 
 /// Seconds of the stages, of the embedding also of its steps.
@@ -234,11 +269,16 @@ bool joint_line(Workbench& bench, const Rig& rig, const HierarchyLine& line, boo
       (line.joint == bench.selected_joint() ? ImGuiTreeNodeFlags_Selected : 0);
   ImGui::PushID(line.joint);
   ImGui::SetNextItemOpen(open);
-  const std::string& name = rig.names[joint];
+  const std::string name = in_reading_order(rig.names[joint]);
   ImGui::TreeNodeEx("joint", flags, "%s", name.empty() ? "?" : name.c_str());
   ImGui::PopID();
-  if (ImGui::IsItemToggledOpen()) return true;
-  if (ImGui::IsItemClicked()) {
+  const float right =
+      ImGui::GetItemRectMin().x + 2 * ImGui::GetFontSize() + ImGui::CalcTextSize(name.c_str()).x;
+  const bool is_cut = right > ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (is_cut) tip(name.c_str());
+  const bool by_key = is_pressed_by_key();  // which folds nothing, unlike Left and Right
+  if (ImGui::IsItemToggledOpen() && !by_key) return true;
+  if (ImGui::IsItemClicked() || by_key) {
     bench.select_joint(line.joint == bench.selected_joint() ? -1 : line.joint);
   }
   return false;
@@ -262,27 +302,36 @@ Eigen::Quaterniond turn_of(const Workbench& bench, int joint) {
   return is_turned ? (*turns)[static_cast<std::size_t>(joint)] : Eigen::Quaterniond::Identity();
 }
 
+constexpr float turn_share = 0.7F;  // of the panel's width
+
 /// `joint` may be none. Half a degree for a pixel, as a slider of this width would be too coarse.
 void turn_controls(Workbench& bench, TurnAngles& kept, int joint) {
   std::array<float, 3> angles = angles_of(kept, bench, joint);
+  const bool is_beside = place_control("turn", turn_share) == "turn";
+  const float whole = ImGui::CalcItemWidth();
   constexpr std::array<const char*, 3> names{"##x", "##y", "##z"};
   constexpr std::array<float, 3> most{180, 90, 180};  // all turns, each once
   bool changed = false;
+  bool begins = false;
   ImGui::BeginGroup();
   const float between = ImGui::GetStyle().ItemInnerSpacing.x;
-  const float wide = std::floor((ImGui::CalcItemWidth() - 2 * between) / 3);
+  const float wide = std::floor((whole - 2 * between) / 3);
   for (std::size_t axis = 0; axis < angles.size(); ++axis) {
     if (axis > 0) ImGui::SameLine(0, between);
     ImGui::SetNextItemWidth(wide);
     changed = ImGui::DragFloat(names[axis], &angles[axis], 0.5F, -most[axis], most[axis], "%.1f",
                                ImGuiSliderFlags_AlwaysClamp) ||
               changed;
+    begins = ImGui::IsItemActivated() || begins;
   }
-  ImGui::SameLine(0, between);
-  ImGui::TextUnformatted("turn");
+  if (is_beside) {
+    ImGui::SameLine(0, between);
+    ImGui::TextUnformatted("turn");
+  }
   ImGui::EndGroup();
   tip("degrees about x, y, z: drag, or double-click to type; Ctrl + drag of a joint does the same "
       "by hand");
+  if (begins) bench.begin_turning();
   if (changed) set_angles(kept, bench, joint, angles);
 }
 
@@ -292,7 +341,13 @@ void role_choice(Workbench& bench, const CharacterRig& character, int joint) {
   const auto at = static_cast<std::size_t>(joint);
   const std::string now = joint >= 0 && at < roles.size() ? roles[at] : "";
   const std::vector<std::string> all = roles_of(character.plan.plan);
-  if (all.empty() || !ImGui::BeginCombo("role", now.empty() ? "none" : now.c_str())) return;
+  if (all.empty()) return;
+  const std::string name = place_control("role", turn_share);
+  const bool open = ImGui::BeginCombo(name.c_str(), now.empty() ? "none" : now.c_str());
+  if (!open)
+    tip("what the joint is, such as the left upper arm; another choice corrects it (Ctrl-Z "
+        "takes it back)");
+  if (!open) return;
   std::optional<std::string> chosen;
   if (list_line("none", now.empty())) chosen = "";
   for (const std::string& role : all) {
@@ -307,8 +362,9 @@ void role_choice(Workbench& bench, const CharacterRig& character, int joint) {
 void chosen_joint(Workbench& bench, TurnAngles& angles, const Rig& rig) {
   const bool is_chosen = bench.selected_joint() >= 0 && bench.selected_joint() < rig.joints.rows();
   const int joint = is_chosen ? bench.selected_joint() : -1;
-  ImGui::TextDisabled(is_chosen ? "the chosen joint:" : "choose a joint to turn or correct it");
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.7F);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", is_chosen ? "the chosen joint:" : "click a joint to turn or correct it");
+  ImGui::PopStyleColor();
   ImGui::BeginDisabled(!is_chosen);
   if (const auto character = bench.scene->character()) role_choice(bench, *character, joint);
   turn_controls(bench, angles, joint);
@@ -316,26 +372,79 @@ void chosen_joint(Workbench& bench, TurnAngles& angles, const Rig& rig) {
   ImGui::BeginDisabled(!bench.scene->turns());
   if (ImGui::Button("Turn all back")) bench.turn_back();
   ImGui::EndDisabled();
-  ImGui::PopItemWidth();
+  tip("to the pose of the file");
+}
+
+/// Makes the line of a joint seen that was chosen elsewhere: in the picture, or by a key.
+void scroll_to_chosen(const Workbench& bench, const Outline& outline, int& listed) {
+  const int joint = bench.selected_joint();
+  if (std::exchange(listed, joint) == joint) return;
+  const std::vector<HierarchyLine>& seen = outline.seen();
+  const auto at = std::find_if(seen.begin(), seen.end(),
+                               [&](const HierarchyLine& line) { return line.joint == joint; });
+  if (at == seen.end()) return;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float place = line * static_cast<float>(at - seen.begin());
+  const float from = ImGui::GetScrollY();
+  const float high = ImGui::GetWindowHeight() - 2 * ImGui::GetStyle().WindowPadding.y;
+  if (place >= from && place + line <= from + high) return;
+  ImGui::SetScrollY(std::max(place - high / 2, 0.0F));
+}
+
+/// As wide as leaves room for each name, but never so little that the order is not seen.
+float step_of(const Outline& outline, const Rig& rig, float room) {
+  const float letter = ImGui::GetFontSize();
+  float step = letter * 0.5F;
+  for (const HierarchyLine& line : outline.seen()) {
+    if (line.depth == 0) continue;
+    const std::string& name = rig.names[static_cast<std::size_t>(line.joint)];
+    const float left = room - 2 * letter - ImGui::CalcTextSize(name.c_str()).x;
+    step = std::min(step, std::max(left, 0.0F) / static_cast<float>(line.depth));
+  }
+  return std::max(step, letter * 0.15F);
 }
 
 /// Only the lines within the panel are laid out.
-void hierarchy(Workbench& bench, Outline& outline, const Rig& rig) {
-  const float step = ImGui::GetFontSize() * 0.5F;
-  // Deeper ones stand below each other, so that their names are still seen.
-  const float most = ImGui::GetContentRegionAvail().x * 0.5F;
+void hierarchy(Workbench& bench, Panels& panels, const Rig& rig) {
+  Outline& outline = panels.outline;
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::size_t lines = outline.seen().size();
+  const int glyphs = ImGui::GetFont()->Glyphs.Size;
+  Indentation& now = panels.indentation;
+  if (now.room != room || now.lines != lines || now.glyphs != glyphs) {
+    now = {step_of(outline, rig, room), room, lines, glyphs};
+  }
   int folded = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(outline.seen().size()));
   while (clipper.Step()) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const HierarchyLine& line = outline.seen()[static_cast<std::size_t>(row)];
-      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
-                           std::min(step * static_cast<float>(line.depth), most));
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + now.step * static_cast<float>(line.depth));
       if (joint_line(bench, rig, line, !outline.folded(line.joint))) folded = line.joint;
     }
   }
   if (folded >= 0) outline.fold(folded);
+}
+
+/// First of all, where there is one: it is what a person has asked for. Its joints scroll within a
+/// part of the panel, so that the rest stays at hand.
+void rig(Workbench& bench, Panels& panels) {
+  const auto shown = bench.scene->rig();
+  if (panels.outline.show(shown)) panels.indentation = {};
+  if (!shown || !ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  chosen_joint(bench, panels.angles, *shown);
+  constexpr float most_lines = 14;
+  const float lines = std::min(static_cast<float>(panels.outline.seen().size()), most_lines);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float high = lines * ImGui::GetTextLineHeightWithSpacing() + 2 * style.WindowPadding.y;
+  if (ImGui::BeginChild("joints", {0, high}, true, ImGuiWindowFlags_NavFlattened)) {
+    scroll_to_chosen(bench, panels.outline, panels.listed_joint);
+    hierarchy(bench, panels, *shown);
+  }
+  ImGui::EndChild();
+  const auto character = bench.scene->character();
+  if (character) ImGui::TextWrapped("%s", words_of(*character).c_str());
 }
 
 }  // namespace
@@ -358,9 +467,10 @@ void set_angles(TurnAngles& kept, Workbench& bench, int joint,
 
 void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
   if (!begin_panel("look", area)) return;
+  rig(bench, panels);
   if (ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) {
     look_controls(bench.scene->look, bench.scene->camera);
-    ImGui::Checkbox("coarser while it moves", &panels.may_be_coarse);
+    tick("coarser while it moves", panels.may_be_coarse);
     tip("only where this machine cannot draw sixty whole pictures a second");
     colour_bar(bench);
   }
@@ -370,14 +480,6 @@ void draw_right_panel(Workbench& bench, Panels& panels, const Area& area) {
     input_defects(bench);
   }
   if (ImGui::CollapsingHeader("Times")) times(bench);
-  const auto rig = bench.scene->rig();
-  panels.outline.show(rig);
-  if (rig && ImGui::CollapsingHeader("Rig", ImGuiTreeNodeFlags_DefaultOpen)) {
-    const auto& character = bench.scene->recording.moments()[bench.scene->moment].character;
-    if (character) ImGui::TextWrapped("%s", words_of(*character).c_str());
-    chosen_joint(bench, panels.angles, *rig);
-    hierarchy(bench, panels.outline, *rig);
-  }
   ImGui::End();
 }
 

@@ -73,25 +73,54 @@ ImU32 colour_of(const std::string& stage) {
 struct Plot {
   const char* name;
   double Moment::*value;
-  ImU32 colour;
+  const char* meaning;
+  ImU32 on_light;
+  ImU32 on_dark;
+  [[nodiscard]] ImU32 colour_on(Theme theme) const {
+    return theme == Theme::dark ? on_dark : on_light;
+  }
 };
 
 constexpr Plot plots[] = {
-    {"area", &Moment::area_ratio, IM_COL32(40, 110, 200, 255)},
-    {"volume", &Moment::volume_ratio, IM_COL32(200, 60, 40, 255)},
-    {"residual", &Moment::residual, IM_COL32(165, 110, 225, 255)},
+    {"area", &Moment::area_ratio, "of the surface, as a share of what it had; logarithmic",
+     IM_COL32(30, 95, 185, 255), IM_COL32(110, 175, 255, 255)},
+    {"volume", &Moment::volume_ratio, "of the surface, as a share of what it had; logarithmic",
+     IM_COL32(185, 45, 30, 255), IM_COL32(255, 125, 105, 255)},
+    {"residual", &Moment::residual, "how far each solve was from exact; logarithmic",
+     IM_COL32(120, 65, 190, 255), IM_COL32(200, 150, 255, 255)},
 };
+
+/// Goes on in the line where text of this width has room in it; false where it has none.
+bool has_room(float distance, float text_width) {
+  const float right = ImGui::GetItemRectMax().x + distance + text_width;
+  if (right > ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) return false;
+  ImGui::SameLine(0, distance);
+  return true;
+}
 
 void draw_title(const Scene& scene, const std::vector<std::size_t>& shown_moments, bool roomy) {
   const Moment& shown = scene.recording.moments()[scene.moment];
   const auto at = std::find(shown_moments.begin(), shown_moments.end(), scene.moment);
-  std::string title = fmt::format("{}   {} of {}", title_of(shown), at - shown_moments.begin(),
-                                  shown_moments.size() - 1);
+  std::string title = title_of(shown);
+  if (shown_moments.size() > 1) {
+    title += fmt::format("   {} of {}", at - shown_moments.begin(), shown_moments.size() - 1);
+  }
   if (roomy && shown.surface) {
     title += fmt::format("   area {:.3g}   volume {:.3g}   residual {:.2g}", shown.area_ratio,
                          shown.volume_ratio, shown.residual);
   }
   ImGui::TextUnformatted(title.c_str());
+}
+
+/// The names of the plots, as many as have room beside the title.
+void draw_names_of_plots(Theme theme) {
+  const float letter = ImGui::GetFontSize();
+  for (const Plot& plot : plots) {
+    const float distance = plot.value == &Moment::area_ratio ? 2 * letter : letter;
+    if (!has_room(distance, ImGui::CalcTextSize(plot.name).x)) return;
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour_on(theme)), "%s", plot.name);
+    tip(plot.meaning);
+  }
 }
 
 /// Only where there are several: which one, and ways to those beside it.
@@ -100,8 +129,10 @@ void draw_choice_of_component(Workbench& bench, int component) {
   int last = 0;
   for (const Moment& moment : moments) last = std::max(last, moment.component);
   if (last == 0 || component < 0) return;
+  const std::string words = fmt::format("component {} of {}", component + 1, last + 1);
+  const float letter = ImGui::GetFontSize();
+  (void)has_room(letter, ImGui::CalcTextSize(words.c_str()).x + 6 * letter);
   const auto go_beside = [&](const char* arrow, int other, const char* meaning) {
-    ImGui::SameLine(0, 12);
     ImGui::BeginDisabled(other < 0 || other > last);
     const bool pressed = ImGui::SmallButton(arrow);
     ImGui::EndDisabled();
@@ -114,7 +145,8 @@ void draw_choice_of_component(Workbench& bench, int component) {
   };
   go_beside("<", component - 1, "the component before");
   ImGui::SameLine();
-  ImGui::Text("component %d of %d", component + 1, last + 1);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::SameLine();
   go_beside(">", component + 1, "the next component");
 }
 
@@ -122,14 +154,15 @@ void draw_choice_of_component(Workbench& bench, int component) {
 std::optional<bool> draw_choice_of_tries(const Workbench& bench) {
   const Recording& recording = bench.scene->recording;
   if (!recording.has_other_tries() || bench.running()) return std::nullopt;
-  ImGui::SameLine(0, 30);
+  const float letter = ImGui::GetFontSize();
+  (void)has_room(2 * letter, ImGui::CalcTextSize("all tries").x + 2 * letter);
   bool all = recording.shows_all_tries();
   return ImGui::Checkbox("all tries", &all) ? std::optional(all) : std::nullopt;
 }
 
 /// The moments as steps, with the plots of the component; tries are not connected with each other.
 void draw_moments(const std::vector<Moment>& moments, const std::vector<std::size_t>& shown,
-                  const ImVec2& low, const ImVec2& size) {
+                  const ImVec2& low, const ImVec2& size, Theme theme) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float step = size.x / static_cast<float>(shown.size());
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -150,7 +183,7 @@ void draw_moments(const std::vector<Moment>& moments, const std::vector<std::siz
       const Moment& after = moments[shown[k]];
       const bool has_both = before.surface && after.surface && before.*plot.value > 0 &&
                             after.*plot.value > 0 && before.try_number == after.try_number;
-      if (has_both) list.AddLine(place_of(k - 1), place_of(k), plot.colour, 1.6F);
+      if (has_both) list.AddLine(place_of(k - 1), place_of(k), plot.colour_on(theme), 1.6F);
     }
   }
 }
@@ -169,10 +202,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
   const int component = component_at(moments, bench.scene->moment);
   const std::vector<std::size_t> shown = moments_with(moments, component);
   draw_title(*bench.scene, shown, area.width > ImGui::GetFontSize() * 60);
-  for (const Plot& plot : plots) {
-    ImGui::SameLine(0, plot.value == &Moment::area_ratio ? 30.0F : 12.0F);
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(plot.colour), "%s", plot.name);
-  }
+  if (shown.size() > 1) draw_names_of_plots(bench.scene->look.theme);
   draw_choice_of_component(bench, component);
   const std::optional<bool> all_tries = draw_choice_of_tries(bench);
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -185,7 +215,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
     const float place = std::clamp(share * count, 0.0F, std::max(count - 1, 0.0F));
     bench.go_to(shown[static_cast<std::size_t>(place)]);
   }
-  draw_moments(moments, shown, low, size);
+  draw_moments(moments, shown, low, size, bench.scene->look.theme);
   const auto at = std::find(shown.begin(), shown.end(), bench.scene->moment);
   const float step = size.x / count;
   const float cursor = low.x + step * (static_cast<float>(at - shown.begin()) + 0.5F);

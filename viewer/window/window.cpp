@@ -26,7 +26,9 @@
 #include "viewer/software/panel_changes.hpp"
 #include "viewer/window/controls.hpp"
 #include "viewer/window/glfw_window.hpp"
+#include "viewer/window/letters.hpp"
 #include "viewer/window/panels.hpp"
+#include "viewer/window/reading_order.hpp"
 #include "viewer/window/recent_files.hpp"
 #include "viewer/window/window_picture.hpp"
 #include "viewer/workbench/workbench.hpp"
@@ -47,6 +49,7 @@ class Viewer {
       : options_(options),
         session_(session),
         window_(options.width, options.height),
+        letters_(line_pixels * window_.scale()),
         bench_(options) {
     window_.show();
     panels_.gl = gl_name();
@@ -114,8 +117,8 @@ class Viewer {
   void wait_for_events() {
     constexpr double picture_seconds = 1.0 / 60;
     constexpr double idle_seconds = 0.25;
-    const bool moving =
-        bench_.busy() || controls_.flying() || frames_to_come_ > 0 || picture_.unrefined();
+    const bool moving = bench_.busy() || letters_.looking() || controls_.flying() ||
+                        frames_to_come_ > 0 || picture_.unrefined();
     const double left = picture_seconds - seconds_since(last_wait_);
     glfwWaitEventsTimeout(moving ? std::max(left, 1e-4) : idle_seconds);
     last_wait_ = Clock::now();
@@ -128,7 +131,8 @@ class Viewer {
     constexpr double idle_seconds = 0.24;  // messages fade, cursors blink
     const bool refines = picture_.unrefined() && !picture_.moving();
     return frames_to_come_ > 0 || controls_.flying() || refines ||
-           seconds_since(last_frame_) > (bench_.busy() ? progress_seconds : idle_seconds);
+           seconds_since(last_frame_) >
+               (bench_.busy() || letters_.looking() ? progress_seconds : idle_seconds);
   }
 
   void take_files() {
@@ -170,6 +174,7 @@ class Viewer {
     glfwGetFramebufferSize(window_.get(), &width, &height);
     if (width == 0 || height == 0) return;  // minimised
     const Clock::time_point began = Clock::now();
+    renew_letters();
     const Layout layout = lay_out_frame();
     const float ratio = ImGui::GetIO().DisplayFramebufferScale.x;
     const auto pixels = [ratio](float length) { return static_cast<int>(length * ratio); };
@@ -199,6 +204,21 @@ class Viewer {
     if (picture_seconds > 0) panels_.times.add(1000 * seconds);
   }
 
+  /// Those of the texts that the frame will show.
+  void renew_letters() {
+    for_each_name(bench_, panels_, [&](const std::string& name) {
+      letters_.want(name);
+      letters_.want(in_reading_order(name));
+    });
+    if (letters_.update()) window_.renew_letters();
+    if (letters_.take_lacking()) {
+      bench_.say(
+          "a name has characters that no font of this system has, so that they are shown as ?; "
+          "Debian's fonts-noto-cjk has those of Chinese, Japanese and Korean, fonts-noto-core "
+          "those of most other scripts");
+    }
+  }
+
   /// Actions of panels and keys are done at once.
   Layout lay_out_frame() {
     if (!styled_ || *styled_ != bench_.scene->look.theme) {
@@ -215,6 +235,7 @@ class Viewer {
       controls_.update(bench_, panels_, layout.picture);
       panels_.coarse = picture_.coarse();
       draw_panels(bench_, panels_, layout);
+      controls_.end_frame();
       if (panels_.wants_picture) save_picture();
     });
     if (!done) ImGui::ErrorCheckEndFrameRecover(nullptr);  // ends what was begun
@@ -257,7 +278,9 @@ class Viewer {
 
   const ViewOptions& options_;
   Session& session_;
+  static constexpr float line_pixels = 14;
   GlfwWindow window_;
+  Letters letters_;
   Workbench bench_;  // opens the files meanwhile
   WindowPicture picture_;
   Panels panels_;

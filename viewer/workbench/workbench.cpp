@@ -117,14 +117,19 @@ void Workbench::open(const std::vector<fs::path>& files, bool may_abandon) {
   }
   say("opening " + names_of(files));
   opening_stop_ = {};
-  opening_ = std::async(std::launch::async, [files, monitor = heeding(opening_stop_)] {
+  opening_news_ = std::make_shared<StageNews>();
+  Monitor told = heeding(opening_stop_);
+  told.progress = [news = opening_news_](std::string_view stage, double fraction) {
+    news->tell(stage, fraction);
+  };
+  opening_ = std::async(std::launch::async, [files, monitor = std::move(told)] {
     Opened opened;
     opened.files = files;
     for (const fs::path& file : files) opened.times.push_back(time_of(file));
     try {
       Document document = open_document(files, monitor);
       throw_if_stopped(monitor.stop);
-      opened.scene = std::make_shared<Scene>(std::move(document));
+      opened.scene = std::make_shared<Scene>(std::move(document), monitor);
     } catch (const std::bad_alloc&) {
       opened.error = names_of(files) + ": out of memory";
     } catch (const std::exception& error) {
@@ -215,7 +220,13 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   inspect();
 }
 
-void Workbench::cancel_opening() { opening_stop_.request_stop(); }
+void Workbench::cancel_opening() {
+  if (opening_.valid()) opening_stop_.request_stop();
+}
+
+StageNews::Stage Workbench::opening_stage() const {
+  return opening_.valid() ? opening_news_->now() : StageNews::Stage{};
+}
 
 void Workbench::reload() {
   if (files_.empty() || opening_.valid()) return;

@@ -8,9 +8,11 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <curveskel/edit.hpp>
@@ -44,6 +46,27 @@ struct Judgement {
   std::string error;  ///< why there is none
 };
 
+/// How far another thread is, told by that thread.
+class StageNews {
+ public:
+  struct Stage {
+    std::string name;
+    double fraction = 0;
+  };
+  void tell(std::string_view stage, double fraction) {
+    const std::lock_guard lock(mutex_);
+    now_ = {std::string(stage), fraction};
+  }
+  [[nodiscard]] Stage now() const {
+    const std::lock_guard lock(mutex_);
+    return now_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Stage now_;
+};
+
 class Workbench {
  public:
   explicit Workbench(ViewOptions options);
@@ -65,6 +88,8 @@ class Workbench {
   void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
+  /// Of the files that are being opened.
+  [[nodiscard]] StageNews::Stage opening_stage() const;
   void reload();
   /// Reloads if the files on the disk are newer than those that were read.
   void watch_files();
@@ -118,6 +143,13 @@ class Workbench {
   void rig();
   /// True if a rig is being made, of a skeleton chosen before now.
   [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
+  /// Of the rig that is being made.
+  [[nodiscard]] StageNews::Stage rig_stage() const;
+  /// A rig that was made before stays.
+  void cancel_rig();
+  /// What goes on and can be cancelled: files that are opened, else the run, else a rig.
+  [[nodiscard]] bool can_cancel() const;
+  void cancel_what_goes_on();
   [[nodiscard]] bool shows_made_rig() const { return scene->character() != nullptr; }
   [[nodiscard]] bool has_rig() const { return scene->recording.moments().back().rig != nullptr; }
 
@@ -129,6 +161,11 @@ class Workbench {
   void pull_joint(int joint, const glm::vec3& place);
   /// All joints as they are in the file.
   void turn_back();
+  /// The turns from now on are one step, which `undo` takes back before all corrections. Any
+  /// correction, and any other rig, ends that: the pose stays as it is then.
+  void begin_turning();
+  [[nodiscard]] bool can_undo() const;
+  [[nodiscard]] bool can_redo() const;
   /// Corrects the role of the selected joint, which is named and saved so; rigs that are made later
   /// have it, too, where they have a joint in its place. "" = none.
   void set_role(const std::string& role);
@@ -183,6 +220,15 @@ class Workbench {
     std::string on_sheets;                    // see words_on_sheets
     std::string error;
   };
+  /// Poses before and after the one that is shown, of one rig.
+  struct Poses {
+    std::shared_ptr<const Rig> rig;
+    std::vector<std::shared_ptr<const JointTurns>> before;
+    std::vector<std::shared_ptr<const JointTurns>> after;
+  };
+  [[nodiscard]] bool has_pose(const std::vector<std::shared_ptr<const JointTurns>>& poses) const;
+  void go_to_pose(std::vector<std::shared_ptr<const JointTurns>>& from,
+                  std::vector<std::shared_ptr<const JointTurns>>& to);
   bool take_opened();
   bool take_news();
   bool take_defects();
@@ -218,6 +264,7 @@ class Workbench {
   std::vector<std::filesystem::path> files_;
   std::vector<std::filesystem::file_time_type> read_times_;
   std::stop_source opening_stop_;
+  std::shared_ptr<StageNews> opening_news_;
   std::future<Opened> opening_;
   std::stop_source document_stop_;  // of all work for the present one but runs and rigs
   bool reloading_ = false;
@@ -242,6 +289,7 @@ class Workbench {
   std::future<Judgement> judging_;
   std::future<std::shared_ptr<const DrawnMaterials>> materials_;
   std::stop_source rigging_stop_;
+  std::shared_ptr<StageNews> rigging_news_;
   std::future<Rigged> rigging_;
   std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
@@ -249,6 +297,7 @@ class Workbench {
   int selected_joint_ = -1;
   std::shared_ptr<const Rig> shown_rig_;          // whose joint that is
   std::shared_ptr<const CharacterRig> made_rig_;  // before roles were corrected
+  Poses poses_;
   std::vector<int> failed_edges_;
   std::vector<int> failed_faces_;
   Path measured_;

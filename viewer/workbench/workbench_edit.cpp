@@ -69,6 +69,7 @@ void Workbench::show_state() {
   if (rig != shown_rig_) {
     selected_joint_ = -1;
     scene->turn_back();
+    poses_ = {};
   }
   shown_rig_ = rig;
   set_highlights();
@@ -333,7 +334,15 @@ void Workbench::go_in_history(const std::function<void()>& way) {
   show_state();
 }
 
+bool Workbench::can_undo() const { return has_pose(poses_.before) || history_.can_undo(); }
+
+bool Workbench::can_redo() const { return has_pose(poses_.after) || history_.can_redo(); }
+
 void Workbench::undo() {
+  if (has_pose(poses_.before)) {
+    go_to_pose(poses_.before, poses_.after);
+    return;
+  }
   if (!history_.can_undo()) {
     say("nothing to take back");
     return;
@@ -342,6 +351,10 @@ void Workbench::undo() {
 }
 
 void Workbench::redo() {
+  if (has_pose(poses_.after)) {
+    go_to_pose(poses_.after, poses_.before);
+    return;
+  }
   if (!history_.can_redo()) {
     say("nothing to do again");
     return;

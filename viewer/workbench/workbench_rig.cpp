@@ -40,34 +40,51 @@ void Workbench::rig() {
   }
   auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
-  rigging_ = std::async(std::launch::async, [of = history_.now(), held = scene, options, repaired,
-                                             certificate, ground = ground_,
-                                             certificate_options = pipeline.extract.certificate,
-                                             repair_options = pipeline.repair,
-                                             stop = rigging_stop_.get_token()]() mutable {
-    give_way();
-    Monitor monitor;
-    monitor.stop = stop;
-    Rigged made;
-    made.scene = held;
-    made.of = of;
-    try {
-      if (!repaired) {
-        repaired = std::make_shared<const RepairedSurface>(
-            repair(*held->document.polygons(), repair_options, monitor));
-      }
-      if (!certificate) {
-        if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
-        certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
-      }
-      made.rig = rig_of(held->document, *repaired, *of.skeleton, &*certificate, options, monitor);
-      made.on_sheets = words_on_sheets(*repaired, repair_options);
-    } catch (const Cancelled&) {
-    } catch (const std::exception& error) {
-      made.error = error.what();
-    }
-    return made;
-  });
+  rigging_news_ = std::make_shared<StageNews>();
+  rigging_ = std::async(
+      std::launch::async,
+      [of = history_.now(), held = scene, options, repaired, certificate, ground = ground_,
+       certificate_options = pipeline.extract.certificate, repair_options = pipeline.repair,
+       stop = rigging_stop_.get_token(), news = rigging_news_]() mutable {
+        give_way();
+        Monitor monitor;
+        monitor.stop = stop;
+        monitor.progress = [news](std::string_view stage, double fraction) {
+          news->tell(stage, fraction);
+        };
+        Rigged made;
+        made.scene = held;
+        made.of = of;
+        try {
+          if (!repaired) {
+            repaired = std::make_shared<const RepairedSurface>(
+                repair(*held->document.polygons(), repair_options, monitor));
+          }
+          if (!certificate) {
+            if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
+            certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
+          }
+          made.rig =
+              rig_of(held->document, *repaired, *of.skeleton, &*certificate, options, monitor);
+          made.on_sheets = words_on_sheets(*repaired, repair_options);
+        } catch (const Cancelled&) {
+        } catch (const std::exception& error) {
+          made.error = error.what();
+        }
+        return made;
+      });
+}
+
+StageNews::Stage Workbench::rig_stage() const {
+  return rigging_.valid() ? rigging_news_->now() : StageNews::Stage{};
+}
+
+void Workbench::cancel_rig() {
+  if (!rigging_.valid()) return;
+  rigging_stop_.request_stop();
+  rig_again_ = false;
+  save_rig_to_.clear();
+  say("the rig was cancelled");
 }
 
 bool Workbench::take_rig() {
@@ -75,7 +92,8 @@ bool Workbench::take_rig() {
       rigging_.valid() && rigging_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!ready) return false;
   const Rigged made = rigging_.get();
-  const bool stopped = !made.rig && made.error.empty();  // by a change, even one taken back
+  // By a person, or by a change, even one taken back.
+  const bool stopped = rigging_stop_.stop_requested() || (!made.rig && made.error.empty());
   const bool stale = stopped || run_ || made.scene != scene || history_.empty() ||
                      made.of.skeleton != history_.now().skeleton ||
                      made.of.root != history_.now().root;
@@ -158,7 +176,35 @@ void Workbench::pull_joint(int joint, const glm::vec3& place) {
   turn_joint(parent, way);
 }
 
-void Workbench::turn_back() { scene->turn_back(); }
+void Workbench::turn_back() {
+  if (!scene->turns()) return;
+  begin_turning();
+  scene->turn_back();
+}
+
+void Workbench::begin_turning() {
+  const auto rig = scene->rig();
+  if (!rig) return;
+  if (poses_.rig != rig) poses_ = {rig, {}, {}};
+  poses_.after.clear();
+  poses_.before.push_back(scene->turns());
+}
+
+bool Workbench::has_pose(const std::vector<std::shared_ptr<const JointTurns>>& poses) const {
+  return !poses.empty() && poses_.rig == scene->rig();
+}
+
+void Workbench::go_to_pose(std::vector<std::shared_ptr<const JointTurns>>& from,
+                           std::vector<std::shared_ptr<const JointTurns>>& to) {
+  to.push_back(scene->turns());
+  const auto wanted = from.back();
+  from.pop_back();
+  if (wanted) {
+    scene->turn(*wanted);
+  } else {
+    scene->turn_back();
+  }
+}
 
 void Workbench::set_role(const std::string& role) {
   const auto shown = scene->character();

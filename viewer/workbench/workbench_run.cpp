@@ -94,6 +94,18 @@ void Workbench::cancel() {
   say("cancelled; what was recorded is kept");
 }
 
+bool Workbench::can_cancel() const { return opening() || running() || making_rig(); }
+
+void Workbench::cancel_what_goes_on() {
+  if (opening()) {
+    cancel_opening();
+  } else if (running()) {
+    cancel();
+  } else {
+    cancel_rig();
+  }
+}
+
 /// After a run that did not come to its end: what there was before is the last moment again.
 void Workbench::put_back_skeleton() {
   const auto& moments = scene->recording.moments();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -235,29 +236,30 @@ class Keeper {
   }
 
   /// A point of the vertex' ball close to the vertex.
-  Point under(int vertex) const {
+  CurvePoint under(int vertex) const {
     constexpr double share = 0.02;  // of the radius
     const Point top = working_.place(vertex);
-    return top + share * (Point(balls_.centres.row(vertex)) - top);
+    return Point(top + share * (Point(balls_.centres.row(vertex)) - top));
   }
 
-  bool leaves(const std::vector<Point>& way) const {
-    const auto hidden = [&](const Point& p, const Point& q) { return !sees(p, q); };
+  bool leaves(const std::vector<CurvePoint>& way) const {
+    const auto hidden = [&](const CurvePoint& p, const CurvePoint& q) { return !sees(p, q); };
     return std::adjacent_find(way.begin(), way.end(), hidden) != way.end();
   }
 
   /// From below a vertex to where its steps begin, by the first of its triangles whose corner there
   /// is seen, and from that one round the vertex. Empty if none is.
-  std::vector<Point> way_down(int vertex) {
+  std::vector<CurvePoint> way_down(int vertex) {
     const Point top = working_.place(vertex);
-    const Point start = under(vertex);
+    const CurvePoint start = under(vertex);
+    if (start.radius(tree_) <= 0) return {};  // nothing is seen from outside
     const auto around = below().around(vertex);
     for (std::size_t k = 0; k < around.size(); k += 2) {
-      const double share = (start - top).norm() / (around[k] - top).norm();
-      const Point corner = top + std::min(share, 1.0) * (around[k] - top);
+      const double share = (start.place() - top).norm() / (around[k] - top).norm();
+      const CurvePoint corner = Point(top + std::min(share, 1.0) * (around[k] - top));
       if (!sees(start, corner) || !sees(corner, around[k])) continue;
-      std::vector<Point> way{start, corner};
-      for (std::size_t i = k + 1; i-- > 0;) way.push_back(around[i]);
+      std::vector<CurvePoint> way{start, corner};
+      for (std::size_t i = k + 1; i-- > 0;) way.emplace_back(around[i]);
       return way;
     }
     return {};
@@ -265,8 +267,8 @@ class Keeper {
 
   /// From one ball to that of a neighbour: to the surface, along below it, and up again. Empty
   /// where the surface meets itself and that leads outside.
-  std::vector<Point> way_below(int from, int to) {
-    std::vector<Point> way = short_way_below(from, to);
+  std::vector<CurvePoint> way_below(int from, int to) {
+    std::vector<CurvePoint> way = short_way_below(from, to);
     if (!way.empty()) return way;
     way = way_down(from);
     auto up = way_down(to);
@@ -275,21 +277,25 @@ class Keeper {
     const auto step = below().step(from, to);
     way.insert(way.end(), step.begin() + 1, step.end());
     way.insert(way.end(), up.begin() + 1, up.end());
-    return leaves(way) ? std::vector<Point>{} : way;
+    return leaves(way) ? std::vector<CurvePoint>{} : way;
   }
 
   /// The same, if the way below the vertices is seen from them.
-  std::vector<Point> short_way_below(int from, int to) {
-    std::vector<Point> way = below().step(from, to);
+  std::vector<CurvePoint> short_way_below(int from, int to) {
+    const CurvePoint first = under(from);
+    const CurvePoint last = under(to);
+    if (first.radius(tree_) <= 0 || last.radius(tree_) <= 0) return {};
+    const std::vector<Point> step = below().step(from, to);
+    std::vector<CurvePoint> way(step.begin(), step.end());
     // One-rings need not be seen as a whole from below their vertex.
-    const auto from_first = [&](const Point& q) { return sees(under(from), q); };
-    const auto from_last = [&](const Point& q) { return sees(q, under(to)); };
+    const auto from_first = [&](const CurvePoint& q) { return sees(first, q); };
+    const auto from_last = [&](const CurvePoint& q) { return sees(q, last); };
     way.erase(way.begin(), std::find_if(way.begin(), way.end(), from_first));
     way.erase(std::find_if(way.rbegin(), way.rend(), from_last).base(), way.end());
     if (way.empty()) return {};
-    way.insert(way.begin(), under(from));
-    way.push_back(under(to));
-    return leaves(way) ? std::vector<Point>{} : way;
+    way.insert(way.begin(), first);
+    way.push_back(last);
+    return leaves(way) ? std::vector<CurvePoint>{} : way;
   }
 
   /// The vertices of a chain of balls. The ball that holds an end best may not be seen from it;
@@ -313,14 +319,15 @@ class Keeper {
   /// The balls that have to come between those of two neighbours.
   struct BallStep {
     bool is_hidden = false;
-    std::vector<Point> between;
+    std::vector<CurvePoint> between;
   };
 
   const BallStep& ball_step(int from, int to) {
     const auto [at, is_new] = ball_steps_.try_emplace({from, to});
     if (is_new && !sees(centre(from), centre(to))) {
-      at->second.between = way_below(from, to);
+      if (more_fruitless_ways_ > 0) at->second.between = way_below(from, to);
       at->second.is_hidden = at->second.between.empty();
+      if (at->second.is_hidden) --more_fruitless_ways_;
     }
     return at->second;
   }
@@ -347,11 +354,25 @@ class Keeper {
     chain = shortcut(chain, tree_);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       if (i > 0) made.points.push_back(chain[i]);
-      std::vector<CurvePoint> between;
-      if (!is_covered(chain[i], chain[i + 1], between)) ++made.uncovered;
-      made.points.insert(made.points.end(), between.begin(), between.end());
+      const CoveredStep& step = covered_step(chain[i], chain[i + 1]);
+      if (!step.is_covered) ++made.uncovered;
+      made.points.insert(made.points.end(), step.between.begin(), step.between.end());
     }
     return made;
+  }
+
+  /// What has to come between two points.
+  struct CoveredStep {
+    bool is_covered = false;
+    std::vector<CurvePoint> between;
+  };
+
+  /// Known from then on, as a detour differs from the last in a few of its steps.
+  const CoveredStep& covered_step(const CurvePoint& p, const CurvePoint& q) {
+    const auto [at, is_new] = covered_steps_.try_emplace(
+        {p.place().x(), p.place().y(), p.place().z(), q.place().x(), q.place().y(), q.place().z()});
+    if (is_new) at->second.is_covered = is_covered(p, q, at->second.between);
+    return at->second;
   }
 
   /// The way between two points; round the steps that lead outside, if the surface meets itself.
@@ -400,9 +421,12 @@ class Keeper {
   BallChains chains_;
   std::map<int, CurvePoint> centres_;                   ///< of the balls passed so far
   std::map<std::pair<int, int>, BallStep> ball_steps_;  ///< of the steps taken so far
+  std::map<std::array<double, 6>, CoveredStep> covered_steps_;
   int uncovered_ = 0;
-  int detours_ = 0;       ///< of the arc at hand
-  int more_tries_ = 300;  ///< for all detours, as a surface may meet itself everywhere
+  int detours_ = 0;  ///< of the arc at hand
+  // For all detours, as a surface may meet itself everywhere.
+  int more_tries_ = 300;
+  int more_fruitless_ways_ = 300;  ///< below the surface, from ball to ball
 };
 
 }  // namespace

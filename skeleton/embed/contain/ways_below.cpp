@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
-#include <unordered_map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -46,7 +45,7 @@ std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, con
   };
   if (!stays(from.place(), start) || !stays(end, to.place())) return std::nullopt;
   std::set<Step> avoided;
-  for (int t = 0; t < most_tries; ++t) {
+  for (int t = 0; t < most_tries && more_fruitless_tries_ > 0; ++t) {
     throw_if_stopped(stop_);
     const auto edges = edges_between(first, last, avoided);
     if (!edges) return std::nullopt;
@@ -59,6 +58,7 @@ std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, con
       avoided.insert({k == 0 ? -1 : (*edges)[k - 1], k == edges->size() ? -1 : (*edges)[k]});
     }
     if (avoided.size() == known) return line;
+    --more_fruitless_tries_;
   }
   return std::nullopt;
 }
@@ -71,21 +71,18 @@ std::optional<std::vector<std::int32_t>> WaysBelow::edges_between(const SurfaceT
     half_edges_ =
         pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
   }
-  struct Reached {
-    double length;
-    std::int32_t before;
-    bool done = false;
-  };
-  std::unordered_map<std::int32_t, Reached> reached;  // -1: the end
+  reached_.resize(idx(3 * surface_.triangles.rows() + 1));
+  ++searches_;
+  const auto reached = [this](std::int32_t h) -> Reached& { return reached_[idx(h + 1)]; };
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto reach = [&](std::int32_t h, std::int32_t by, const Point& at, double length) {
     if (avoided.count({by, h}) != 0) return;
     const Point place = h < 0 ? Point(to.point) : middle(h);
     const double its = length + (place - at).norm();
-    const auto [entry, is_new] = reached.try_emplace(h, Reached{its, by});
-    if (!is_new && (entry->second.done || entry->second.length <= its)) return;
-    entry->second = {its, by};
+    Reached& entry = reached(h);
+    if (entry.search == searches_ && (entry.done || entry.length <= its)) return;
+    entry = {its, by, false, searches_};
     open.emplace(its + (to.point - place).norm(), h);
   };
   const auto leave = [&](std::int32_t face, std::int32_t by, const Point& at, double length) {
@@ -98,14 +95,14 @@ std::optional<std::vector<std::int32_t>> WaysBelow::edges_between(const SurfaceT
   while (!open.empty()) {
     const std::int32_t h = open.top().second;
     open.pop();
-    Reached& here = reached.at(h);
+    Reached& here = reached(h);
     if (std::exchange(here.done, true)) continue;
     if (h >= 0) {
       leave(half_edges_->twin[idx(h)] / 3, h, middle(h), here.length);
       continue;
     }
     std::vector<std::int32_t> way;
-    for (std::int32_t e = here.before; e >= 0; e = reached.at(e).before) way.push_back(e);
+    for (std::int32_t e = here.before; e >= 0; e = reached(e).before) way.push_back(e);
     std::reverse(way.begin(), way.end());
     return way;
   }

@@ -27,14 +27,20 @@ class WaysBelow {
 
   /// From the nearest triangle of one point to that of the other by the shortest way across edges
   /// that stays inside: its places, without the two points themselves. Nothing if there is none, or
-  /// not after going round a hundred places where the surface goes through itself. Precondition:
-  /// both points inside. O(m log m) for the m edges as near as the other point. Throws Cancelled if
-  /// a stop was requested.
+  /// not after a hundred tries to go round places where the surface goes through itself, a thousand
+  /// for all ways together. Precondition: both points inside. O(m log m) for the m edges as near as
+  /// the other point. Throws Cancelled if a stop was requested.
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
                                                           const CurvePoint& to);
 
  private:
   using Step = std::pair<std::int32_t, std::int32_t>;  // half-edges; -1: one of the two points
+  struct Reached {
+    double length = 0;
+    std::int32_t before = -1;
+    bool done = false;
+    int search = 0;  // in which it was reached
+  };
 
   [[nodiscard]] std::optional<std::vector<std::int32_t>> edges_between(
       const SurfaceTree::Nearest& from, const SurfaceTree::Nearest& to,
@@ -47,6 +53,9 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
+  std::vector<Reached> reached_;         // the end, then by half-edge
+  int searches_ = 0;                     // so far
+  int more_fruitless_tries_ = 1000;      // for all ways, as a surface may meet itself everywhere
 };
 
 }  // namespace curveskel

@@ -1,0 +1,237 @@
+// Laws of the keys for the panels, frame by frame, without a window.
+#include "viewer/window/panel_keys.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/own_folder.hpp"
+#include "tests/rig/rigged_bar.hpp"
+#include "tests/viewer/imgui_context.hpp"
+#include "tests/viewer/waiting.hpp"
+#include "viewer/window/controls.hpp"
+
+namespace curveskel::viewer::panel_keys_laws {
+namespace {
+
+constexpr float width = 1200;
+constexpr float height = 900;
+
+class Typed : public testing::Test {
+ protected:
+  Typed() {
+    ImGuiIO& io = ImGui::GetIO();
+    // As the window does.
+    for (const auto& [key, code] : {std::pair<int, int>{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                    {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                    {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                    {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                    {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                    {ImGuiKey_Home, GLFW_KEY_HOME},
+                                    {ImGuiKey_End, GLFW_KEY_END},
+                                    {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                    {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                    {ImGuiKey_Escape, GLFW_KEY_ESCAPE}}) {
+      io.KeyMap[key] = code;
+    }
+    bench.open({mesh_called("y.off")});
+    EXPECT_TRUE(wait_for(bench, [&] { return bench.result() != nullptr && !bench.busy(); }));
+    settle();
+  }
+  void frame() {
+    ImGui::NewFrame();
+    const Layout layout = lay_out(width, height, 1, panels.shown);
+    controls.update(bench, panels, layout.picture);
+    draw_panels(bench, panels, layout);
+    controls.end_frame();
+    ImGui::Render();
+  }
+  void settle() {
+    for (int frames = 0; frames < 4; ++frames) frame();
+  }
+  void type(int key, bool shift = false) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyShift = shift;
+    io.KeysDown[key] = true;
+    frame();
+    io.KeysDown[key] = false;
+    io.KeyShift = false;
+    settle();
+  }
+  [[nodiscard]] std::size_t moment() const { return bench.scene->moment; }
+  [[nodiscard]] static ImGuiID at() { return ImGui::GetCurrentContext()->NavId; }
+  [[nodiscard]] static std::string panel() {
+    const ImGuiWindow* const window = ImGui::GetCurrentContext()->NavWindow;
+    return window == nullptr ? "" : window->RootWindow->Name;
+  }
+  /// A frame stands round a control.
+  [[nodiscard]] static bool are_for_panels() { return ImGui::GetIO().NavVisible; }
+
+  ImGuiContextWithoutWindow context{width, height};
+  Workbench bench{ViewOptions{}};
+  Panels panels;
+  Controls controls;
+};
+
+TEST_F(Typed, WithoutTabAllKeysAreForThePicture) {
+  const std::size_t last = bench.scene->recording.moments().size() - 1;
+  EXPECT_EQ(moment(), last);
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(moment(), last - 1);
+  type(GLFW_KEY_HOME);
+  EXPECT_EQ(moment(), 0);
+  type(GLFW_KEY_DOWN);
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(are_for_panels());
+}
+
+TEST_F(Typed, TabGoesThroughAllPanelsAndRound) {
+  std::vector<std::string> visited;
+  std::set<ImGuiID> controls_met;
+  ImGuiID first = 0;
+  constexpr int enough = 200;
+  int pressed = 0;
+  for (; pressed < enough; ++pressed) {
+    type(GLFW_KEY_TAB);
+    ASSERT_TRUE(are_for_panels());
+    ASSERT_NE(at(), 0U);
+    if (visited.empty() || visited.back() != panel()) visited.push_back(panel());
+    if (first == 0) first = at();
+    if (pressed > 0 && at() == first) break;
+    controls_met.insert(at());
+    EXPECT_EQ(ImGui::GetCurrentContext()->ActiveId, 0U) << "nothing is edited or pressed";
+  }
+  EXPECT_EQ(visited, (std::vector<std::string>{"run", "look", "timeline", "run"}));
+  EXPECT_EQ(static_cast<int>(controls_met.size()), pressed) << "each once";
+  EXPECT_GT(pressed, 40);
+  type(GLFW_KEY_TAB, true);
+  EXPECT_EQ(panel(), "timeline") << "and back";
+}
+
+TEST_F(Typed, ArrowsAndSpaceAreForThePanelsUntilEscape) {
+  const std::size_t before = moment();
+  type(GLFW_KEY_TAB);
+  const ImGuiID first = at();
+  type(GLFW_KEY_RIGHT);
+  EXPECT_NE(at(), first);
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(at(), first);
+  EXPECT_EQ(moment(), before);
+  type(GLFW_KEY_SPACE);  // on "Open"
+  EXPECT_TRUE(panels.browser.shown());
+  EXPECT_FALSE(bench.running());
+  type(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(panels.browser.shown());
+  if (are_for_panels()) type(GLFW_KEY_ESCAPE);
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(moment(), before - 1);
+  EXPECT_FALSE(are_for_panels());
+}
+
+TEST_F(Typed, EnterPressesAButtonAndTicksABox) {
+  const auto go_to = [&](const char* panel_name, const char* label) {
+    const ImGuiID wanted = ImGui::FindWindowByName(panel_name)->GetID(label);
+    for (int tabs = 0; tabs < 80 && at() != wanted; ++tabs) type(GLFW_KEY_TAB);
+    return at() == wanted;
+  };
+  ASSERT_TRUE(go_to("run", "Help"));
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(panels.help);
+  type(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(panels.help);
+  ASSERT_TRUE(go_to("look", "edges"));
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(bench.scene->look.edges);
+}
+
+TEST_F(Typed, AClickGivesTheKeysBackToThePicture) {
+  const std::size_t before = moment();
+  type(GLFW_KEY_TAB);
+  ImGui::GetIO().MousePos = {width / 2, 60};
+  frame();
+  for (const bool down : {true, false}) {
+    ImGui::GetIO().MouseDown[0] = down;
+    frame();
+  }
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(moment(), before - 1);
+  EXPECT_FALSE(are_for_panels());
+}
+
+TEST_F(Typed, LettersStayShortcutsWithinThePanels) {
+  type(GLFW_KEY_TAB);
+  type(GLFW_KEY_E);
+  EXPECT_TRUE(bench.scene->look.edges);
+  type(GLFW_KEY_P);
+  EXPECT_FALSE(panels.shown);
+  type(GLFW_KEY_TAB);
+  EXPECT_TRUE(panels.shown) << "Tab brings them back";
+  EXPECT_TRUE(are_for_panels());
+}
+
+TEST_F(Typed, ASliderIsChangedByArrowsAndANumberIsTyped) {
+  const auto go_to_detail = [&] {
+    const ImGuiWindow* const run = ImGui::FindWindowByName("run");
+    const ImGuiID detail = const_cast<ImGuiWindow*>(run)->GetID("detail");
+    for (int tabs = 0; tabs < 40 && at() != detail; ++tabs) type(GLFW_KEY_TAB);
+    return at() == detail;
+  };
+  ASSERT_TRUE(go_to_detail());
+  const double before = bench.pipeline.extract.embed.detail;
+  type(GLFW_KEY_SPACE);
+  type(GLFW_KEY_LEFT);
+  EXPECT_LT(bench.pipeline.extract.embed.detail, before);
+  type(GLFW_KEY_ESCAPE);
+  EXPECT_EQ(ImGui::GetCurrentContext()->ActiveId, 0U);
+  EXPECT_TRUE(are_for_panels()) << "the slider was left, not the panels";
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(ImGui::GetIO().WantTextInput) << "a number can be typed";
+}
+
+TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
+  const OwnFolder folder;
+  write_rigged_bar(folder.path() / "bar.gltf", {.joints = 5, .first_weight = 0});
+  bench.open({folder.path() / "bar.gltf"});
+  ASSERT_TRUE(wait_for(bench, [&] { return bench.scene->document.rig != nullptr; }));
+  settle();
+  const auto is_in_list = [] {
+    const ImGuiWindow* const window = ImGui::GetCurrentContext()->NavWindow;
+    return window != nullptr && std::string(window->Name).find("joints") != std::string::npos;
+  };
+  for (int tabs = 0; tabs < 60 && !is_in_list(); ++tabs) type(GLFW_KEY_TAB);
+  ASSERT_TRUE(is_in_list());
+  type(GLFW_KEY_SPACE);
+  EXPECT_EQ(bench.selected_joint(), 0);
+  type(GLFW_KEY_DOWN);
+  type(GLFW_KEY_ENTER);
+  EXPECT_EQ(bench.selected_joint(), 1);
+  type(GLFW_KEY_ENTER);
+  EXPECT_EQ(bench.selected_joint(), -1);
+}
+
+TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {
+  const OwnFolder folder;
+  for (const char* name : {"a.off", "b.off", "c.off"}) (void)folder.write(name, "OFF\n");
+  panels.browser.go_to(folder.path());
+  ask_to_open(panels);
+  settle();
+  std::vector<std::string> named;
+  for (const int key : {GLFW_KEY_DOWN, GLFW_KEY_DOWN, GLFW_KEY_DOWN, GLFW_KEY_DOWN, GLFW_KEY_UP}) {
+    type(key);
+    named.push_back(panels.browser.name());
+  }
+  EXPECT_EQ(named, (std::vector<std::string>{"a.off", "b.off", "c.off", "c.off", "b.off"}));
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(panels.browser.shown());
+  EXPECT_EQ(bench.messages().back().text, "opening b.off");
+}
+
+}  // namespace
+}  // namespace curveskel::viewer::panel_keys_laws
