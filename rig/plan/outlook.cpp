@@ -232,14 +232,26 @@ bool is_stump(const CurveTree& tree, const LimbPair& arm, const LimbPair& leg) {
 
 constexpr double head_height = 0.125;  // of a human's
 
+/// The node at which a limb leaves the mirror plane: what is made for one that is missing may begin
+/// with a trunk of its own.
+int fork_of(const CurveTree& tree, const LimbPair& pair) {
+  const std::vector<int>& path = pair.ways.front().path;
+  const auto is_apart = [&](int node) {
+    return std::abs(tree.aside(node)) > tree.radii[idx(node)];
+  };
+  const auto first = std::find_if(path.begin(), path.end(), is_apart);
+  return first == path.begin() ? pair.root : *std::prev(first);
+}
+
 /// True if the arms leave the trunk above the legs by a head: what forks twice in one place has no
 /// trunk.
 bool has_trunk(const Outlook& outlook) {
   const CurveTree& tree = outlook.tree;
-  const auto root = [&](int pair) {
-    return tree.nodes[idx(outlook.limbs.pairs[idx(pair)].root)].y();
+  const auto height_of_fork = [&](int pair) {
+    return tree.nodes[idx(fork_of(tree, outlook.limbs.pairs[idx(pair)]))].y();
   };
-  const double trunk = root(outlook.found.arms) - root(outlook.found.legs.front());
+  const double trunk =
+      height_of_fork(outlook.found.arms) - height_of_fork(outlook.found.legs.front());
   return trunk > head_height * tree.height;
 }
 
