@@ -442,12 +442,12 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
   return best;
 }
 
-/// Up is none of a file's usual directions.
+/// Up is none of a file's usual directions. Nor is it -y: few bodies lie so in files whose up is z,
+/// and chairs upside down have arms and legs.
 std::vector<Eigen::Matrix3d> frames_of_lying(const PlanOptions& options) {
   std::vector<Eigen::Matrix3d> frames;
   if (options.up != Direction::automatic) return frames;
-  for (const Direction up :
-       {Direction::x, Direction::minus_x, Direction::minus_z, Direction::minus_y}) {
+  for (const Direction up : {Direction::x, Direction::minus_x, Direction::minus_z}) {
     PlanOptions turned = options;
     turned.up = up;
     if (options.front != Direction::automatic &&
