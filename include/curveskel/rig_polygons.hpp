@@ -29,7 +29,8 @@ struct RigSources {
 
 /// For `Rig::to_y_up`. Of formats that state their axes, and FBX and COLLADA their unit, it is
 /// `stated` (`PolygonSoup::to_gltf`). Of others a turn, and none where neither the plan nor `asked`
-/// tells which way is up; of z up, as Blender and scanners have it, z ahead is -y there.
+/// tells which way is up; of z up, as Blender and scanners have it, z ahead is -y there. None of a
+/// body that lies, so is upright in no file's axes, unless `asked` says that it stands.
 [[nodiscard]] Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated,
                                            const BodyPlan& plan,
                                            Direction asked = Direction::automatic);

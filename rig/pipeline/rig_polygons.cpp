@@ -100,7 +100,10 @@ Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
   const Eigen::RowVector3d up = plan.axes.row(1);
   if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
-  if (up != Eigen::RowVector3d::UnitZ()) return plan.axes;
+  if (up != Eigen::RowVector3d::UnitZ()) {
+    const bool lies = asked == Direction::automatic;
+    return lies ? Eigen::Matrix3d::Identity() : plan.axes;
+  }
   return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
 

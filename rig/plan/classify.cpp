@@ -131,6 +131,28 @@ Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms)
 
 std::string rounded(double value) { return std::to_string(std::lround(value)); }
 
+/// True if the trunk reaches above the arms: by half a head, which the shoulders of a body without
+/// a head do, too.
+bool has_shoulders(const CurveTree& tree, const Limbs& limbs, int arms) {
+  constexpr double half_head = 1.0 / 16;  // of a human's height
+  const double above = tree.nodes[idx(limbs.pairs[idx(arms)].root)].y() + half_head * tree.height;
+  return std::any_of(limbs.trunk.begin(), limbs.trunk.end(), [&](int node) {
+    return tree.nodes[idx(node)].y() + tree.radii[idx(node)] > above;
+  });
+}
+
+/// Why what stands upright with a pair of upper limbs is no human; empty for a human.
+std::string why_no_human(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  constexpr double shortest_arm = 1.0 / 3;  // of the leg: a rex has such arms, and a chair
+  constexpr int most_cycles = 4;            // by folded hands, hands on hips, crossed legs
+  if (tree.cycles > most_cycles) return "the curve has more cycles than a human has limbs; ";
+  const double leg = limbs.pairs[idx(found.legs.front())].length;
+  if (limbs.pairs[idx(found.arms)].length < shortest_arm * leg) {
+    return "the upper limbs are shorter than a third of the legs; ";
+  }
+  return has_shoulders(tree, limbs, found.arms) ? "" : "nothing rises above the upper limbs; ";
+}
+
 void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const int leg = found.legs.front();
   const Posture posture = posture_of(tree, limbs, leg, found.arms);
@@ -139,9 +161,13 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
                             rounded(100 * posture.back) + " % of the size lies behind the legs";
   const double leg_length = limbs.pairs[idx(leg)].length;
   const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;
+  constexpr double level = 90;
   if (found.arms >= 0 && posture.lean < 35 && posture.back < 0.2) {
-    found.plan = BodyKind::humanoid;
-    found.reason = "one pair of legs and one of arms above them; " + leans;
+    const std::string why = why_no_human(tree, limbs, found);
+    if (why.empty()) found.plan = BodyKind::humanoid;
+    found.reason = why + "one pair of legs and one of arms above them; " + leans;
+  } else if (posture.lean >= level) {
+    found.reason = "the upper end of the trunk lies below the hips; " + leans;
   } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
     found.plan = BodyKind::bird;
     found.reason = "one pair of legs, wings longer than these; " + leans;

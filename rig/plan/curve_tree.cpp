@@ -59,7 +59,7 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
   const auto nodes = static_cast<Eigen::Index>(tree.nodes.size());
   const auto components = static_cast<Eigen::Index>(rooted.roots.size());
   tree.own_nodes = static_cast<int>(nodes);
-  tree.has_cycles = skeleton.edges.rows() > nodes - components;
+  tree.cycles = static_cast<int>(skeleton.edges.rows() - (nodes - components));
   tree.size = (high - low).maxCoeff();
   tree.ground = low.y();
   tree.height = high.y() - low.y();

@@ -190,13 +190,16 @@ bool is_put_together(const Surface& surface, const PlanOptions& options) {
 
 /// Chairs and tables have legs and rungs between them. Humans are spared, as they may fold their
 /// hands.
-void refuse_things(PlanFound& found, const CurveTree& tree, const Surface& surface,
-                   const PlanOptions& options) {
+void refuse_things(Outlook& outlook, const Surface& surface, const PlanOptions& options) {
+  PlanFound& found = outlook.found;
   if (found.plan == BodyKind::humanoid || found.plan == BodyKind::other) return;
   std::string why;
-  if (tree.has_cycles) why = "the curve of an animal has no cycles, as this one has; ";
+  if (outlook.tree.cycles > 0) why = "the curve of an animal has no cycles, as this one has; ";
   if (is_put_together(surface, options)) {
     why = "most of an animal is one component, which here is less than half; ";
+  }
+  if (is_alike_from_both_ends(outlook)) {
+    why = "an animal has a head at one end, and this is alike from both; ";
   }
   if (why.empty()) return;
   found.plan = BodyKind::other;
@@ -219,7 +222,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   }
   Outlook outlook = best_outlook(surface, skeleton, options);
   if (options.plan == BodyKind::automatic) {
-    refuse_things(outlook.found, outlook.tree, surface, options);
+    refuse_things(outlook, surface, options);
   }
   const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
   result.axes = outlook.axes.array() + 0.0;  // no -0

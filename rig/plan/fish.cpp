@@ -221,7 +221,7 @@ bool tapers(const CurveTree& tree, const Trunk& trunk, double thick) {
 
 bool is_fish(const CurveTree& tree, const Limbs& limbs) {
   constexpr double least_fin = 0.05;  // of the size, as of those that get joints
-  if (tree.has_cycles || limbs.pairs.empty() || limbs.trunk.empty()) return false;
+  if (tree.cycles > 0 || limbs.pairs.empty() || limbs.trunk.empty()) return false;
   if (limbs.pairs.front().length < least_fin * tree.size) return false;
   double width = 0;
   for (const Vector3d& p : tree.vertices)

@@ -78,14 +78,14 @@ std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
 namespace {
 
 /// The mean distance of the curve's mirror image from the curve, of the size.
-double asymmetry(const CurveTree& tree, double middle) {
+double asymmetry(const CurveTree& tree, int axis, double middle) {
   constexpr std::size_t samples = 300;
   const std::size_t stride = 1 + tree.nodes.size() / samples;
   double sum = 0;
   int count = 0;
   for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
     Vector3d image = tree.nodes[k];
-    image.x() = 2 * middle - image.x();
+    image[axis] = 2 * middle - image[axis];
     double least = std::numeric_limits<double>::infinity();
     for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
     sum += std::sqrt(least);
@@ -130,9 +130,9 @@ std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& ti
 /// That of the least asymmetry; the box's where there is no better one.
 double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
   double best = tree.middle;
-  double least = asymmetry(tree, best);
+  double least = asymmetry(tree, 0, best);
   for (const double middle : middles_of(tree, tips)) {
-    const double off = asymmetry(tree, middle);
+    const double off = asymmetry(tree, 0, middle);
     if (off >= least) continue;
     least = off;
     best = middle;
@@ -143,11 +143,41 @@ double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
 /// Two pairs of limbs that are where they should be are no accident.
 bool is_clear(BodyKind plan) { return plan == BodyKind::humanoid || plan == BodyKind::quadruped; }
 
+/// Of some pair of legs next to nothing of the mean course lies within both.
+bool legs_are_apart(const Outlook& outlook) {
+  constexpr double least = 0.1;
+  const auto& legs = outlook.found.legs;
+  return std::any_of(legs.begin(), legs.end(), [&](int pair) {
+    return share_within_both(outlook.tree, outlook.limbs.pairs[idx(pair)].ways.front()) < least;
+  });
+}
+
+/// The middle of a human's shin lies in the lowest fifth: a leg whose tip does not has no foot
+/// there, whatever of the surface about it is on the ground.
+bool has_foot(const CurveTree& tree, const LimbPair& leg) {
+  constexpr double highest = 0.2;
+  const auto sole = [&](int tip) { return tree.nodes[idx(tip)].y() - tree.radii[idx(tip)]; };
+  const LimbWay& way = leg.ways.front();  // one side may be a peg
+  return std::min(sole(way.path.back()), sole(way.mirror.back())) <
+         tree.ground + highest * tree.height;
+}
+
 Outlook look(const Surface& surface, const CurveSkeleton& skeleton, const Eigen::Matrix3d& axes,
              BodyKind wanted) {
   Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::images, {}};
   outlook.limbs = find_limbs(outlook.tree, pairs_by_place(outlook.tree));
   outlook.found = classify(outlook.tree, outlook.limbs, wanted);
+  const bool is_seen = wanted == BodyKind::automatic && outlook.found.plan != BodyKind::other;
+  if (is_seen && legs_are_apart(outlook)) {
+    outlook.found.plan = BodyKind::other;
+    outlook.found.reason += "; but left and right legs are apart";
+  }
+  for (const int leg : outlook.found.legs) {
+    if (!is_seen || has_foot(outlook.tree, outlook.limbs.pairs[idx(leg)])) continue;
+    outlook.found.plan = BodyKind::other;
+    outlook.found.reason += "; but a leg ends above the shins";
+    break;
+  }
   return outlook;
 }
 
@@ -200,12 +230,36 @@ bool is_stump(const CurveTree& tree, const LimbPair& arm, const LimbPair& leg) {
   return arm.length < with_shoulder * trunk;
 }
 
-/// True if the trunk goes on above the arms by a head, which is an eighth of a human's height.
+constexpr double head_height = 0.125;  // of a human's
+
+/// The node at which a limb leaves the mirror plane: what is made for one that is missing may begin
+/// with a trunk of its own.
+int fork_of(const CurveTree& tree, const LimbPair& pair) {
+  const std::vector<int>& path = pair.ways.front().path;
+  const auto is_apart = [&](int node) {
+    return std::abs(tree.aside(node)) > tree.radii[idx(node)];
+  };
+  const auto first = std::find_if(path.begin(), path.end(), is_apart);
+  return first == path.begin() ? pair.root : *std::prev(first);
+}
+
+/// True if the arms leave the trunk above the legs by a head: what forks twice in one place has no
+/// trunk.
+bool has_trunk(const Outlook& outlook) {
+  const CurveTree& tree = outlook.tree;
+  const auto height_of_fork = [&](int pair) {
+    return tree.nodes[idx(fork_of(tree, outlook.limbs.pairs[idx(pair)]))].y();
+  };
+  const double trunk =
+      height_of_fork(outlook.found.arms) - height_of_fork(outlook.found.legs.front());
+  return trunk > head_height * tree.height;
+}
+
+/// True if the trunk goes on above the arms by a head.
 bool has_head(const Outlook& outlook) {
-  constexpr double head = 0.125;
   const CurveTree& tree = outlook.tree;
   const int chest = outlook.limbs.pairs[idx(outlook.found.arms)].root;
-  const double above = tree.nodes[idx(chest)].y() + head * tree.height;
+  const double above = tree.nodes[idx(chest)].y() + head_height * tree.height;
   return std::any_of(outlook.limbs.trunk.begin(), outlook.limbs.trunk.end(),
                      [&](int node) { return tree.nodes[idx(node)].y() > above; });
 }
@@ -214,9 +268,9 @@ bool has_head(const Outlook& outlook) {
 /// arms: of three limbs and a trunk many things are made.
 bool is_whole_but_for_a_limb(const Outlook& outlook) {
   const PlanFound& found = outlook.found;
-  if (found.plan != BodyKind::humanoid || found.arms < 0 || outlook.tree.has_cycles) return false;
+  if (found.plan != BodyKind::humanoid || found.arms < 0 || outlook.tree.cycles > 0) return false;
   const auto& pairs = outlook.limbs.pairs;
-  return explained_by(outlook).share >= most_of_it && has_head(outlook) &&
+  return explained_by(outlook).share >= most_of_it && has_trunk(outlook) && has_head(outlook) &&
          !is_stump(outlook.tree, pairs[idx(found.arms)], pairs[idx(found.legs.front())]);
 }
 
@@ -341,7 +395,10 @@ bool lies_across(const CurveTree& tree, const Limbs& limbs) {
 bool is_body_in_pose(const Outlook& outlook, const Explained& explained, BodyKind wanted) {
   const bool is_one = is_clear(outlook.found.plan) ||
                       outlook.found.plan == BodyKind::tailed_biped || outlook.found.plan == wanted;
-  return is_one && explained.share >= most_of_it && !outlook.posed.has_cycles &&
+  const std::vector<int>& legs = outlook.found.legs;
+  const bool stands =  // another pair may be lifted
+      legs.empty() || has_foot(outlook.tree, outlook.limbs.pairs[idx(legs.front())]);
+  return is_one && stands && explained.share >= most_of_it && outlook.posed.cycles == 0 &&
          !lies_across(outlook.posed, outlook.limbs);
 }
 
@@ -363,12 +420,12 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
                       Refusal& refusal) {
   Outlook best = look(surface, skeleton, frames.front(), options.plan);
   refusal.consider(best);
-  double off = asymmetry(best.tree, best.tree.middle);
+  double off = asymmetry(best.tree, 0, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(surface, skeleton, frames[k], options.plan);
     refusal.consider(other);
-    const double other_off = asymmetry(other.tree, other.tree.middle);
+    const double other_off = asymmetry(other.tree, 0, other.tree.middle);
     const bool is_better =
         is_clear(other.found.plan)
             ? !is_clear(best.found.plan) || other_off < off
@@ -385,11 +442,52 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
   return best;
 }
 
+/// Up is none of a file's usual directions. Nor is it -y: few bodies lie so in files whose up is z,
+/// and chairs upside down have arms and legs.
+std::vector<Eigen::Matrix3d> frames_of_lying(const PlanOptions& options) {
+  std::vector<Eigen::Matrix3d> frames;
+  if (options.up != Direction::automatic) return frames;
+  for (const Direction up : {Direction::x, Direction::minus_x, Direction::minus_z}) {
+    PlanOptions turned = options;
+    turned.up = up;
+    if (options.front != Direction::automatic &&
+        vector_of(up).cross(vector_of(options.front)).norm() == 0) {
+      continue;
+    }
+    const std::vector<Eigen::Matrix3d> more = frames_of(turned);
+    frames.insert(frames.end(), more.begin(), more.end());
+  }
+  return frames;
+}
+
+/// A human or a quadruped on its back, its front or a side. Nobody stands so, so nothing is left to
+/// chance: its sides are images of each other, and it is all that there is.
+std::optional<Outlook> best_lying(const Surface& surface, const CurveSkeleton& skeleton,
+                                  const PlanOptions& options, const Outlook& usual) {
+  std::optional<Outlook> best;
+  double least = symmetric;
+  for (const Eigen::Matrix3d& axes : frames_of_lying(options)) {
+    const bool is_upside_down = axes.row(1).dot(usual.axes.row(1)) < 0;
+    if (is_upside_down && usual.found.plan != BodyKind::other) continue;
+    Outlook other = look(surface, skeleton, axes, options.plan);
+    if (!is_clear(other.found.plan) || other.tree.cycles > 0) continue;
+    const double off = asymmetry(other.tree, 0, other.tree.middle);
+    if (off >= least || explained_by(other).share < most_of_it) continue;
+    if (other.found.plan == BodyKind::humanoid && !has_trunk(other)) continue;
+    least = off;
+    best = std::move(other);
+  }
+  return best;
+}
+
 Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleton,
                             const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
   Outlook best = best_by_place(surface, skeleton, frames, options, refusal);
+  if (!is_clear(best.found.plan)) {
+    if (std::optional<Outlook> lying = best_lying(surface, skeleton, options, best)) return *lying;
+  }
   Explained most = explained_by(best);
   for (std::size_t k = 0; k < frames.size() && !is_clear(best.found.plan); ++k) {
     Outlook other = look_at_shape(surface, skeleton, frames[k], options.plan);
@@ -425,6 +523,20 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
 
 }  // namespace
 
+bool is_alike_from_both_ends(const Outlook& outlook) {
+  if (outlook.sides != Sides::images && outlook.sides != Sides::posed) return false;
+  const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
+  double rear = std::numeric_limits<double>::infinity();
+  double front = -rear;
+  for (const Vector3d& node : tree.nodes) {
+    rear = std::min(rear, node.z());
+    front = std::max(front, node.z());
+  }
+  const double off = asymmetry(tree, 2, 0.5 * (rear + front));
+  const bool is_in_pose = outlook.sides == Sides::posed;
+  return off < (is_in_pose ? symmetric : std::max(symmetric, asymmetry(tree, 0, tree.middle)));
+}
+
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   Outlook outlook = best_before_turning(surface, skeleton, options);
@@ -448,6 +560,12 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
     }
   }
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
+  const std::vector<Eigen::Matrix3d> usual = frames_of(options);
+  if (std::none_of(usual.begin(), usual.end(), [&](const Eigen::Matrix3d& axes) {
+        return axes.row(1) == outlook.axes.row(1);
+      })) {
+    outlook.found.reason.insert(0, "lying: ");
+  }
   return outlook;
 }
 

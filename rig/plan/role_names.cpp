@@ -217,6 +217,8 @@ void name_plan(std::vector<std::string>& names, const BodyPlan& plan, NameStyle 
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     names[k] = name_of_role(plan.joints[k].role, plan.plan, words);
     taken.insert(names[k]);
+    // A hat on the head is no head in any style.
+    taken.insert(name_of_role(plan.joints[k].role, plan.plan, NameStyle::automatic));
   }
   for (std::size_t k = plan.joints.size(); k < names.size(); ++k) {
     while (!taken.insert(names[k]).second) names[k].insert(0, "extra_");

@@ -90,6 +90,21 @@ TEST(MissingLimbs, ARefusalIsOfTheLookThatExplainsMost) {
       << plan.reason;
 }
 
+/// A robot's forearm, say: one place from which three limbs lead, and a fourth one's image.
+TEST(MissingLimbs, WhatForksTwiceInOnePlaceIsNoHuman) {
+  Figure figure;
+  const int fork = figure.add({0, 14, 0}, 1);
+  figure.add({0, 19, 0}, 1, fork);
+  for (const double x : {2.0, -2.0}) {
+    const int knee = figure.add({x, 7, 0}, 0.8, figure.add({x, 12, 0}, 0.8, fork));
+    figure.add({x, 0.8, 0}, 0.8, knee);
+  }
+  figure.add({9, 14.3, 0}, 0.6, figure.add({3, 14.3, 0}, 0.6, fork));
+  const RigSubject subject = subject_of("forks", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+}
+
 // The image of a limb was hung from a place within the limb, and grew from its own nodes.
 TEST(MissingLimbs, NoLimbIsItsOwnImage) {
   CurveTree tree;

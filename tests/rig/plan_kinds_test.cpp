@@ -157,6 +157,78 @@ TEST(Upright, IsTheBareFileOfWhatStatesItsAxesAndUnit) {
   }
 }
 
+/// On its back, its front or a side, in a file with y or z up.
+TEST(FindPlan, ALyingBodyIsWhatItIsUpright) {
+  using Eigen::Vector3d;
+  std::vector<Eigen::Matrix3d> frames;
+  for (const double side : {1.0, -1.0}) {
+    frames.push_back(frame(side * Vector3d::UnitX(), Vector3d::UnitY()));
+    frames.push_back(frame(side * Vector3d::UnitX(), -Vector3d::UnitZ()));
+    frames.push_back(frame(-Vector3d::UnitZ(), side * Vector3d::UnitY()));
+    frames.push_back(frame(-Vector3d::UnitZ(), side * Vector3d::UnitX()));
+  }
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    const BodyPlan usual = find_plan(subject.surface, subject.skeleton);
+    for (const Eigen::Matrix3d& axes : frames) {
+      SCOPED_TRACE(testing::Message() << subject.name << "\n" << axes);
+      const RigSubject lies = standing_in(subject, axes);
+      const BodyPlan found = find_plan(lies.surface, lies.skeleton);
+      ASSERT_EQ(found.plan, usual.plan) << found.reason;
+      EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
+      ASSERT_EQ(found.joints.size(), usual.joints.size());
+      for (std::size_t k = 0; k < found.joints.size(); ++k) {
+        EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
+        EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
+      }
+      PlanOptions options;
+      options.up = Direction::y;  // what is said holds
+      EXPECT_NE(find_plan(lies.surface, lies.skeleton, options).plan, usual.plan);
+    }
+  }
+}
+
+TEST(Upright, IsNoFileOfALyingBody) {
+  RigSubject lies = standing_in(human(), frame(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()));
+  const PolygonsRig found = rig_polygons(soup_of(lies.surface));
+  EXPECT_EQ(found.character.plan.plan, BodyKind::humanoid) << found.character.plan.reason;
+  EXPECT_TRUE(found.character.rig.to_y_up.isIdentity(0));
+}
+
+/// On four legs about a top, with a head at one end or without.
+TEST(FindPlan, AnAnimalHasAHeadAtOneEnd) {
+  for (const bool has_head : {true, false}) {
+    Figure figure;
+    const int rear = figure.add({0, 10, -6}, 0.8);
+    const int front = figure.add({0, 10, 6}, 0.8, rear);
+    if (has_head) figure.add({0, 13, 10}, 0.8, front);
+    figure.add_pair(rear, {{4, 9.5, -6}, {4, 4, -6}, {4, 0.5, -6}}, 0.5);
+    figure.add_pair(front, {{4, 9.5, 6}, {4, 4, 6}, {4, 0.5, 6}}, 0.5);
+    const RigSubject subject = subject_of("table", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, has_head ? BodyKind::quadruped : BodyKind::other) << plan.reason;
+  }
+}
+
+/// Arms as long as the forearms of a doll, or at the very top.
+TEST(FindPlan, AChairsBackAndALadderAreNoHumans) {
+  for (const double reach : {8.5, 2.6}) {
+    Figure figure;
+    const int chest = add_body_without_arms(figure);
+    figure.add_pair(chest, {{2.2, 15, 0}, {reach, 15, 0}}, 0.5);
+    const RigSubject subject = subject_of("short arms", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan == BodyKind::humanoid, reach > 5) << plan.reason;
+  }
+  Figure figure;
+  const int hips = figure.add({0, 10, 0}, 0.5);
+  const int top = figure.add({0, 19.4, 0}, 0.5, hips);
+  figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}}, 0.5);
+  figure.add_pair(top, {{2.2, 19.4, 0}, {6, 19.4, 0}}, 0.5);
+  const RigSubject subject = subject_of("rack", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_NE(plan.plan, BodyKind::humanoid) << plan.reason;
+}
+
 TEST(FindPlan, ABipedWithATailIsOneWithZUpToo) {
   const RigSubject subject = t_rex();
   const RigSubject stands =

@@ -36,6 +36,21 @@ TEST(RoleNames, OfFingersAreThoseOfThePrograms) {
   has(NameStyle::automatic, {"thumb_1.L", "thumb_3.L", "finger_pinky_2.R"});
 }
 
+/// A joint beside the plan was called "head" where the plan's had Mixamo's name.
+TEST(RoleNames, AreTheRoleBearersAloneInAnyStyle) {
+  const RigSubject subject = human_with_hands(3);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  for (const auto& style : name_styles) {
+    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    ASSERT_GT(rig.names.size(), plan.joints.size());
+    rig.names.back() = "head";
+    name_roles(rig, plan, style.value);
+    for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {
+      EXPECT_NE(rig.names[k], "head") << style.name;
+    }
+  }
+}
+
 TEST(RoleNames, AreUniqueAndOfTheirStyle) {
   for (const RigSubject& subject : {human(), human_with_hands(3), beast(1), tree()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
