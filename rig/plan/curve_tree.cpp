@@ -36,7 +36,7 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
     tree.neighbours[idx(a)].push_back(b);
     tree.neighbours[idx(b)].push_back(a);
   };
-  const RootedTree rooted = rooted_tree(skeleton, -1);
+  const RootedTree rooted = rooted_tree(skeleton, -1, {}, axes.row(1).transpose());
   for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
     if (rooted.parent[idx(node)] >= 0) join(node, rooted.parent[idx(node)]);
   }
