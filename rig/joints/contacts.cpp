@@ -10,6 +10,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/advanced/union_find.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/joints/rooted_tree.hpp"
 
@@ -85,6 +86,34 @@ std::vector<Patch> patches_of(const Surface& surface, double area, int wanted) {
     }
   }
   return patches;
+}
+
+/// The vector sum of the areas.
+Vector3d section_of(const std::vector<Facing>& found) {
+  Vector3d section = Vector3d::Zero();
+  for (const Facing& facing : found) section += facing.area;
+  return section;
+}
+
+/// Of places farther apart than this, as of a forearm's in its sleeve and its hand's on the waist,
+/// those of the largest section.
+std::vector<Facing> widest(const std::vector<Facing>& found, double apart) {
+  UnionFind joined(static_cast<Eigen::Index>(found.size()));
+  for (std::size_t a = 0; a < found.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if ((found[a].place - found[b].place).squaredNorm() > apart * apart) continue;
+      joined.unite(static_cast<int>(a), static_cast<int>(b));
+    }
+  }
+  std::vector<std::vector<Facing>> places(found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    places[idx(joined.root(static_cast<int>(k)))].push_back(found[k]);
+  }
+  const auto largest = std::max_element(
+      places.begin(), places.end(), [](const auto& a, const auto& b) {
+        return section_of(a).squaredNorm() < section_of(b).squaredNorm();
+      });
+  return largest == places.end() ? found : *largest;
 }
 
 class ContactFinder {
@@ -259,18 +288,19 @@ class ContactFinder {
     const double limit = limit_of(one, other);
     contact.gap = gap_between(one, other, limit);
     if (contact.gap > limit) return false;
-    const std::vector<Facing> found = facing(one, other, contact.gap + 0.5 * std::min(one.thickness, other.thickness));
+    const double thinner = std::min(one.thickness, other.thickness);
+    const double each = std::sqrt(one.area / static_cast<double>(one.patches.size()));
+    const std::vector<Facing> found =
+        widest(facing(one, other, contact.gap + 0.5 * thinner), std::max(thinner, 2 * each));
     Vector3d sum = Vector3d::Zero();
-    Vector3d section = Vector3d::Zero();
     double whole = 0;
     for (const Facing& facing : found) {
       whole += facing.weight;
       sum += facing.weight * facing.place;
-      section += facing.area;
     }
     if (!(whole > 0)) return false;
     contact.middle = sum / whole;
-    contact.area = section.norm();
+    contact.area = section_of(found).norm();
     contact.one = side_of(one, found, contact.middle);
     contact.other = side_of(other, found, contact.middle);
     return true;

@@ -58,6 +58,7 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
   for (const Vector3d& p : spread_points(surface, spread)) tree.spread.push_back(in_frame(p));
   const auto nodes = static_cast<Eigen::Index>(tree.nodes.size());
   const auto components = static_cast<Eigen::Index>(rooted.roots.size());
+  tree.component = component_of_node(skeleton);
   tree.own_nodes = static_cast<int>(nodes);
   tree.has_cycles = skeleton.edges.rows() > nodes - components;
   tree.size = (high - low).maxCoeff();
