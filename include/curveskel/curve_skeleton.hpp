@@ -21,7 +21,7 @@ struct ContactSide {
 /// The place where the surfaces of two components touch, or come nearest.
 struct Contact {
   ContactSide one, other;
-  double area = 0;  ///< in which they face each other
+  double area = 0;  ///< of the section through which they meet
   double gap = 0;   ///< between them, in model units; 0 where they touch or overlap
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
 };

@@ -109,8 +109,8 @@ std::vector<Facing> widest(const std::vector<Facing>& found, double apart) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     places[idx(joined.root(static_cast<int>(k)))].push_back(found[k]);
   }
-  const auto largest = std::max_element(
-      places.begin(), places.end(), [](const auto& a, const auto& b) {
+  const auto largest =
+      std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
         return section_of(a).squaredNorm() < section_of(b).squaredNorm();
       });
   return largest == places.end() ? found : *largest;
@@ -289,9 +289,8 @@ class ContactFinder {
     contact.gap = gap_between(one, other, limit);
     if (contact.gap > limit) return false;
     const double thinner = std::min(one.thickness, other.thickness);
-    const double each = std::sqrt(one.area / static_cast<double>(one.patches.size()));
     const std::vector<Facing> found =
-        widest(facing(one, other, contact.gap + 0.5 * thinner), std::max(thinner, 2 * each));
+        widest(facing(one, other, contact.gap + 0.5 * thinner), limit);
     Vector3d sum = Vector3d::Zero();
     double whole = 0;
     for (const Facing& facing : found) {

@@ -30,11 +30,9 @@ struct Hinge {
 /// node of `ground`, and nothing hangs from them.
 /// Precondition: the components are the skeleton's, by their nodes; radii by node, > 0. Nothing
 /// hangs from any but the first 1000.
-[[nodiscard]] std::vector<Hinge> hang_components(const CurveSkeleton& skeleton,
-                                                 const Eigen::VectorXd& radii,
-                                                 const std::vector<std::vector<int>>& components,
-                                                 const std::vector<int>& ground = {},
-                                                 const Eigen::Vector3d& up =
-                                                     Eigen::Vector3d::UnitY());
+[[nodiscard]] std::vector<Hinge> hang_components(
+    const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
+    const std::vector<std::vector<int>>& components, const std::vector<int>& ground = {},
+    const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
 
 }  // namespace curveskel

@@ -252,7 +252,8 @@ class Groups {
   const FigureOptions& options_;
 };
 
-/// True if the plan has joints on each of them: pieces of one body, as a doll's upper and lower half.
+/// True if the plan has joints on each of them: pieces of one body, as a doll's upper and lower
+/// half.
 bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
                 const std::vector<Figure>& figures) {
   return std::all_of(figures.begin(), figures.end(), [&](const Figure& figure) {

@@ -245,9 +245,9 @@ bool is_fish(const CurveTree& tree, const Limbs& limbs) {
   const double length = std::abs(along.z());
   const int middle = thickest(tree, limbs);
   const double thick = tree.radii[idx(middle)];
-  return length_of_one_piece(tree, trunk, middle) > 0.5 * tree.size && std::abs(along.y()) < 0.5 * length &&
-         trunk.line.whole() < 1.2 * length && width < 0.8 * tree.size && thick > 0.04 * length &&
-         tapers(tree, trunk, thick);
+  return length_of_one_piece(tree, trunk, middle) > 0.5 * tree.size &&
+         std::abs(along.y()) < 0.5 * length && trunk.line.whole() < 1.2 * length &&
+         width < 0.8 * tree.size && thick > 0.04 * length && tapers(tree, trunk, thick);
 }
 
 bool swims_back(const CurveTree& tree, const Limbs& limbs) {
