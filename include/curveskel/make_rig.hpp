@@ -23,11 +23,10 @@ struct RigOptions {
 /// range.
 void require_valid(const RigOptions& options);
 
-/// The skeleton with more nodes, after those given, half a radius apart or less: a straight stretch
-/// has few, but joints lie along it, and the skin on either side of a joint is its own. Vertices go
-/// to the nearest of the nodes about their node. With the contacts of its components; the curve of
-/// one that is as wide as it is long turns to what it hangs from. Precondition: node_of_vertex, if
-/// there is one, is the surface's. O(#V + nodes made), and a million nearest points for contacts.
+/// The skeleton with more nodes, after those given, half a radius apart or less, for joints and
+/// skin on straight stretches; vertices go to the nearest about theirs. With its contacts; curves of
+/// components as wide as long turn to what they hang from. Precondition: node_of_vertex, if there is
+/// one, is the surface's. O(#V + nodes made), and a million nearest points for contacts.
 [[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
 
 /// `place_joints`, `skin_weights`, then the sides: limbs that mirror each other end in .L and .R.
