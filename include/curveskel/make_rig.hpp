@@ -24,8 +24,8 @@ struct RigOptions {
 void require_valid(const RigOptions& options);
 
 /// The skeleton with more nodes, after those given, half a radius apart or less, for joints and
-/// skin on straight stretches; vertices go to the nearest about theirs. With its contacts; curves of
-/// components as wide as long turn to what they hang from. Precondition: node_of_vertex, if there is
+/// skin on straight stretches; vertices go to the nearest about theirs. With the places at which
+/// its components meet (`contacts`). Precondition: node_of_vertex, if there is
 /// one, is the surface's. O(#V + nodes made), and a million nearest points for contacts.
 [[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
 

@@ -100,7 +100,6 @@ CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skelet
   }
   hand_vertices_on(dense, surface, skeleton, made.pieces);
   dense.contacts = contacts_of(surface, dense);
-  turn_to_contacts(dense, surface);
   return dense;
 }
 

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/contacts.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
 
@@ -129,7 +130,9 @@ struct Body {
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                       const CurveSkeleton& skeleton, const CharacterOptions& options,
                       const Monitor& monitor) {
-  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  const bool is_root_chosen = options.rig.joints.root >= 0;  // it stays in its place
+  if (!is_root_chosen) turn_to_contacts(dense, body.surface);
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
   std::vector<Figure> figures = find_figures(body, dense, {wanted, options.rig.skin.threads});
