@@ -12,6 +12,20 @@ namespace curveskel {
 /// #E by 2 node indices; i < j in each row, rows sorted, no row twice.
 using Edges = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
+/// The side of one component where another is nearest.
+struct ContactSide {
+  int node = -1;          ///< the nearest to the middle of the place
+  std::vector<int> tips;  ///< of its curve, if that is a chain, that lie at the place
+};
+
+/// The place where the surfaces of two components touch, or come nearest.
+struct Contact {
+  ContactSide one, other;
+  double area = 0;  ///< of the section through which they meet
+  double gap = 0;   ///< between them, in model units; 0 where they touch or overlap
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+};
+
 struct CurveSkeleton {
   Positions nodes;        ///< #N by 3, in model units
   Edges edges;            ///< #E by 2
@@ -21,6 +35,7 @@ struct CurveSkeleton {
                                    ///< (-1 = the vertex is on no component), or empty
   Eigen::VectorXd lives = {};      ///< #N: of a tip how clearly the surface has it there (see
                                    ///< `tip_lives`), 0 = not at all, and of other nodes; or empty
+  std::vector<Contact> contacts = {};  ///< of two components each, or empty: see `dense_skeleton`
 };
 
 /// A maximal chain of edges whose inner nodes have degree 2; first == last for a closed chain.

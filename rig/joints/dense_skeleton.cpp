@@ -4,6 +4,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/make_rig.hpp>
+#include "rig/joints/contacts.hpp"
 #include "rig/joints/rooted_tree.hpp"
 
 namespace curveskel {
@@ -98,6 +99,7 @@ CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skelet
     dense.edges.row(static_cast<Eigen::Index>(k)) = made.edges[k];
   }
   hand_vertices_on(dense, surface, skeleton, made.pieces);
+  dense.contacts = contacts_of(surface, dense);
   return dense;
 }
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
@@ -24,6 +27,7 @@ struct Link {
   double length = endless;
   double gap = endless;  // decides where lengths are equal: the deeper, the better
   Hinge hinge;
+  int contact = -1;  // of the skeleton's, between the two
 
   [[nodiscard]] bool operator<(const Link& other) const {
     return length < other.length || (length == other.length && gap < other.gap);
@@ -49,11 +53,12 @@ class Hanging {
 
   /// Prim (1957) for those that others may hang from; the rest hang from the nearest of these.
   std::vector<Hinge> hang(const std::vector<std::vector<int>>& components,
-                          const std::vector<char>& is_ground) {
+                          const std::vector<char>& is_ground, const Eigen::Vector3d& up) {
     constexpr std::size_t most_above = 1000;
     const std::size_t above = std::min(components.size(), most_above);
     for (const auto& component : components) parts_.push_back(bunches(component));
     links_.resize(components.size());
+    find_contacts(components);
     std::vector<std::size_t> open;
     for (std::size_t part = 1; part < above; ++part) {
       if (is_ground[part] == 0) open.push_back(part);
@@ -71,7 +76,9 @@ class Hanging {
       open.erase(next);
     }
     std::vector<Hinge> hinges;
-    for (const Link& link : links_) hinges.push_back(moved_to_end(link.hinge));
+    for (const Link& link : links_) {
+      hinges.push_back(moved_to_end(link.contact < 0 ? link.hinge : at_contact(link, up)));
+    }
     let_go(hinges, components);
     return hinges;
   }
@@ -135,6 +142,11 @@ class Hanging {
   /// True if `part` hangs better from `above` than from those before.
   void link(std::size_t part, std::size_t above) {
     Link& best = links_[part];
+    const auto touching = contacts_.find({part, above});
+    if (touching != contacts_.end()) {
+      best = std::min(best, link_by_contact(touching->second, part));
+      return;
+    }
     for (const Bunch& lower : parts_[part]) {
       for (const Bunch& upper : parts_[above]) {
         const double apart = lower.box.exteriorDistance(upper.box);
@@ -155,7 +167,69 @@ class Hanging {
     const double gap = distance - radii_[node] - radii_[above];
     return {std::max(gap, -2 * smaller) + smaller * sideways(way, distance, node, above),
             gap,
-            {node, above, gap}};
+            {node, above, gap},
+            -1};
+  }
+
+  /// By their numbers, either way.
+  void find_contacts(const std::vector<std::vector<int>>& components) {
+    part_of_.resize(idx(graph_.nodes()));
+    for (std::size_t part = 0; part < components.size(); ++part) {
+      for (const int node : components[part]) part_of_[idx(node)] = part;
+    }
+    for (std::size_t k = 0; k < skeleton_.contacts.size(); ++k) {
+      const Contact& contact = skeleton_.contacts[k];
+      const std::size_t one = part_of_[idx(contact.one.node)];
+      const std::size_t other = part_of_[idx(contact.other.node)];
+      contacts_[{one, other}] = contacts_[{other, one}] = static_cast<int>(k);
+    }
+  }
+
+  [[nodiscard]] Link link_by_contact(int number, std::size_t part) const {
+    const Contact& contact = skeleton_.contacts[idx(number)];
+    int node = contact.one.node;
+    int above = contact.other.node;
+    if (part_of_[idx(node)] != part) std::swap(node, above);
+    const double thicker = std::max(radii_[node], radii_[above]);
+    const double width = std::min(thicker, std::sqrt(contact.area / std::numbers::pi));
+    const double aside = std::min(aside_of(node, contact.middle), aside_of(above, contact.middle));
+    return {contact.gap + width * (aside - 2),
+            contact.gap - std::sqrt(contact.area),
+            {node, above, contact.gap},
+            number};
+  }
+
+  /// How far the place is from the curve's line at the node: 0 on it, 1 a radius off or more.
+  [[nodiscard]] double aside_of(int node, const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d direction = directions_.row(node).transpose();
+    return std::min(1.0, direction.cross(place - point(node)).norm() / radii_[node]);
+  }
+
+  /// At the end of its curve that the contact reaches, the upper one of both.
+  [[nodiscard]] Hinge at_contact(const Link& link, const Eigen::Vector3d& up) const {
+    constexpr double upright = 0.5;  // of the way between the ends
+    const Contact& contact = skeleton_.contacts[idx(link.contact)];
+    Hinge hinge = link.hinge;
+    const bool is_one = contact.one.node == hinge.node;
+    const std::vector<int>& tips = (is_one ? contact.one : contact.other).tips;
+    if (tips.empty()) return hinge;
+    hinge.node = tips.front();
+    if (tips.size() == 2) {
+      const Eigen::Vector3d way = point(tips.back()) - point(tips.front());
+      const double rise = way.dot(up);
+      if (std::abs(rise) < upright * way.norm()) return link.hinge;
+      hinge.node = rise > 0 ? tips.back() : tips.front();
+    }
+    double nearest = endless;
+    for (const Bunch& bunch : parts_[part_of_[idx(link.hinge.above)]]) {
+      for (const int node : bunch.nodes) {
+        const double distance = (point(node) - point(hinge.node)).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        hinge.above = node;
+      }
+    }
+    return hinge;
   }
 
   /// 0 where one of the curves leads to the other, 1 where they lie side by side.
@@ -172,10 +246,8 @@ class Hanging {
   /// each link that holds.
   void let_go(std::vector<Hinge>& hinges, const std::vector<std::vector<int>>& components) const {
     constexpr double far_apart = 0.25;
-    std::vector<std::size_t> part_of(idx(graph_.nodes()));
     std::vector<Eigen::AlignedBox3d> boxes(components.size());
     for (std::size_t part = 0; part < components.size(); ++part) {
-      for (const int node : components[part]) part_of[idx(node)] = part;
       for (const Bunch& bunch : parts_[part]) {
         boxes[part].extend(bunch.box.min() - Eigen::Vector3d::Constant(bunch.radius));
         boxes[part].extend(bunch.box.max() + Eigen::Vector3d::Constant(bunch.radius));
@@ -190,7 +262,7 @@ class Hanging {
       grew = false;
       for (std::size_t part = 1; part < components.size(); ++part) {
         if (holds[part] != 0 || hinges[part].above < 0) continue;
-        const std::size_t above = part_of[idx(hinges[part].above)];
+        const std::size_t above = part_of_[idx(hinges[part].above)];
         Eigen::AlignedBox3d both = box_of(part);
         const double larger = std::max(both.diagonal().norm(), box_of(above).diagonal().norm());
         if (hinges[part].gap > far_apart * larger) continue;
@@ -235,6 +307,8 @@ class Hanging {
   Eigen::MatrixX3d directions_;  // by node
   std::vector<bool> seen_;       // by node
   std::vector<std::vector<Bunch>> parts_;
+  std::vector<std::size_t> part_of_;  // by node
+  std::map<std::pair<std::size_t, std::size_t>, int> contacts_;
   std::vector<Link> links_;  // by part, to those that others hang from so far
 };
 
@@ -252,8 +326,8 @@ std::vector<char> are_ground(const std::vector<std::vector<int>>& components,
 
 std::vector<Hinge> hang_components(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
                                    const std::vector<std::vector<int>>& components,
-                                   const std::vector<int>& ground) {
-  return Hanging(skeleton, radii).hang(components, are_ground(components, ground));
+                                   const std::vector<int>& ground, const Eigen::Vector3d& up) {
+  return Hanging(skeleton, radii).hang(components, are_ground(components, ground), up);
 }
 
 }  // namespace curveskel

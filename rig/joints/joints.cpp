@@ -47,11 +47,13 @@ double usual_planned_bone(const std::vector<PlannedJoint>& planned) {
 class JointPlacer {
  public:
   JointPlacer(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
-              const JointOptions& options, const std::vector<int>& ground)
+              const JointOptions& options, const std::vector<int>& ground,
+              const Eigen::Vector3d& up)
       : skeleton_(skeleton),
         planned_(planned),
         options_(options),
-        tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node, ground)),
+        tree_(rooted_tree(skeleton, planned.empty() ? options.root : planned.front().node, ground,
+                          up)),
         radii_(usable_radii(skeleton)),
         least_length_(options.least_bone * longest_side(skeleton.nodes)),
         least_radius_(std::max(options.straight_bone * longest_side(skeleton.nodes),
@@ -463,7 +465,8 @@ Joints place_joints(const CurveSkeleton& skeleton, const JointOptions& options) 
 }
 
 Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<PlannedJoint>& planned,
-                            const JointOptions& options, const std::vector<int>& ground) {
+                            const JointOptions& options, const std::vector<int>& ground,
+                            const Eigen::Vector3d& up) {
   require_valid(options);
   require_sound(skeleton, "place_joints");
   const Eigen::Index nodes = skeleton.nodes.rows();
@@ -475,7 +478,7 @@ Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<Pla
                                   std::to_string(nodes) + " nodes, counted from 0; or -1 to have " +
                                   "it chosen");
   }
-  return JointPlacer(skeleton, planned, options, ground).place();
+  return JointPlacer(skeleton, planned, options, ground, up).place();
 }
 
 }  // namespace curveskel

@@ -72,8 +72,9 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   require_sound(skeleton, "make_rig");
   require_nodes_for(surface, skeleton, "make_rig");
   monitor.report("joints", 0);
-  Joints joints = place_planned_joints(skeleton, plan.joints, options.joints,
-                                       ground_nodes(surface, skeleton, plan));
+  Joints joints =
+      place_planned_joints(skeleton, plan.joints, options.joints,
+                           ground_nodes(surface, skeleton, plan), plan.axes.row(1).transpose());
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights = skin_weights(

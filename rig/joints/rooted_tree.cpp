@@ -33,7 +33,7 @@ class Rooting {
     tree_.children.resize(mass_.size());
   }
 
-  RootedTree grow(int wanted, const std::vector<int>& ground) {
+  RootedTree grow(int wanted, const std::vector<int>& ground, const Eigen::Vector3d& up) {
     std::vector<std::vector<int>> components = find_components();
     const auto has_wanted = [wanted](const std::vector<int>& nodes) {
       return std::binary_search(nodes.begin(), nodes.end(), wanted);
@@ -41,7 +41,7 @@ class Rooting {
     std::stable_partition(components.begin(), components.end(), has_wanted);
     std::vector<Hinge> hinges;
     if (!components.empty()) {
-      hinges = hang_components(skeleton_, usable_radii(skeleton_), components, ground);
+      hinges = hang_components(skeleton_, usable_radii(skeleton_), components, ground, up);
       hinges.front().node = has_wanted(components.front())
                                 ? wanted
                                 : root_of(components.front(), components.size() > 1);
@@ -233,8 +233,9 @@ Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
   return Eigen::VectorXd::Constant(skeleton.nodes.rows(), diagonal > 0 ? diagonal / 50 : 1);
 }
 
-RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground) {
-  return Rooting(skeleton).grow(wanted, ground);
+RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground,
+                       const Eigen::Vector3d& up) {
+  return Rooting(skeleton).grow(wanted, ground, up);
 }
 
 }  // namespace curveskel

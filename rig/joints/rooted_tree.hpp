@@ -21,9 +21,10 @@ struct RootedTree {
 [[nodiscard]] Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton);
 
 /// The shortest ways from a root of each component, `wanted` (-1 = none) in its own. The choice of
-/// roots and the cutting of cycles: see `place_joints`; the links of components, and the ground:
+/// roots and the cutting of cycles: see `place_joints`; the links of components, the ground and up:
 /// `hang_components`.
 [[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted,
-                                     const std::vector<int>& ground = {});
+                                     const std::vector<int>& ground = {},
+                                     const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
 
 }  // namespace curveskel

@@ -252,6 +252,19 @@ class Groups {
   const FigureOptions& options_;
 };
 
+/// True if the plan has joints on each of them: pieces of one body, as a doll's upper and lower
+/// half.
+bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
+                const std::vector<Figure>& figures) {
+  return std::all_of(figures.begin(), figures.end(), [&](const Figure& figure) {
+    return std::any_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& joint) {
+      if (joint.node < 0) return false;
+      const Eigen::RowVector3d place = skeleton.nodes.row(joint.node);
+      return (figure.skeleton.nodes.rowwise() - place).rowwise().squaredNorm().minCoeff() == 0;
+    });
+  });
+}
+
 }  // namespace
 
 std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
@@ -267,7 +280,10 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   constexpr int no_ground = -1;
   std::vector<Figure> figures = groups.figures(no_ground);
   const std::size_t planned = whole.front().plan.joints.size();
-  if (figures.size() > 1) return figures;
+  if (figures.size() > 1) {
+    const BodyPlan& plan = whole.front().plan;
+    return planned > 0 && is_on_each(plan, skeleton, figures) ? whole : figures;
+  }
   if (figures.size() == 1 && figures.front().plan.joints.size() >= planned) return figures;
   if (planned > 0) return whole;
   const std::vector<double> areas = component_areas(body.surface, counted);

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/contacts.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
 
@@ -63,6 +64,24 @@ BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skel
   return find_plan(body.surface, skeleton, options);
 }
 
+namespace {
+
+/// Those of which both components have a number, of their nodes.
+std::vector<Contact> contacts_among(const std::vector<Contact>& contacts,
+                                    const std::vector<int>& number) {
+  std::vector<Contact> among;
+  for (Contact contact : contacts) {
+    for (ContactSide* const side : {&contact.one, &contact.other}) {
+      side->node = number[idx(side->node)];
+      for (int& tip : side->tips) tip = number[idx(tip)];
+    }
+    if (contact.one.node >= 0 && contact.other.node >= 0) among.push_back(std::move(contact));
+  }
+  return among;
+}
+
+}  // namespace
+
 CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
   const std::vector<int> nodes = nodes_of_body(skeleton, parts);
   std::vector<int> number(idx(skeleton.nodes.rows()), -1);
@@ -76,6 +95,7 @@ CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& pa
   }
   body.edges = skeleton.edges(edges, Eigen::all);
   for (int& node : body.edges.reshaped()) node = number[idx(node)];
+  body.contacts = contacts_among(skeleton.contacts, number);
   std::vector<int> node_of_vertex;
   for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
     if (parts.parts[idx(parts.part_of_vertex[v])].follows) continue;
@@ -110,7 +130,9 @@ struct Body {
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                       const CurveSkeleton& skeleton, const CharacterOptions& options,
                       const Monitor& monitor) {
-  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  const bool is_root_chosen = options.rig.joints.root >= 0;  // it stays in its place
+  if (!is_root_chosen) turn_to_contacts(dense, body.surface);
   PlanOptions wanted = options.plan;
   if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
   std::vector<Figure> figures = find_figures(body, dense, {wanted, options.rig.skin.threads});

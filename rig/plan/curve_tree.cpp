@@ -36,7 +36,7 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
     tree.neighbours[idx(a)].push_back(b);
     tree.neighbours[idx(b)].push_back(a);
   };
-  const RootedTree rooted = rooted_tree(skeleton, -1);
+  const RootedTree rooted = rooted_tree(skeleton, -1, {}, axes.row(1).transpose());
   for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
     if (rooted.parent[idx(node)] >= 0) join(node, rooted.parent[idx(node)]);
   }
@@ -58,6 +58,7 @@ CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
   for (const Vector3d& p : spread_points(surface, spread)) tree.spread.push_back(in_frame(p));
   const auto nodes = static_cast<Eigen::Index>(tree.nodes.size());
   const auto components = static_cast<Eigen::Index>(rooted.roots.size());
+  tree.component = component_of_node(skeleton);
   tree.own_nodes = static_cast<int>(nodes);
   tree.cycles = static_cast<int>(skeleton.edges.rows() - (nodes - components));
   tree.size = (high - low).maxCoeff();

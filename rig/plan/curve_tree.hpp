@@ -17,6 +17,7 @@ struct CurveTree {
   std::vector<Eigen::Vector3d> vertices;  ///< of the surface
   std::vector<int> node_of_vertex;        ///< -1 = none
   std::vector<Eigen::Vector3d> spread;    ///< points evenly over the surface
+  std::vector<int> component;             ///< by own node: of the skeleton
   double size = 0;                        ///< longest side of the surface's box
   double ground = 0;                      ///< lowest y
   double height = 0;

@@ -1,4 +1,5 @@
 // The places of a fish's joints, and what makes a body a fish.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -217,6 +218,19 @@ bool tapers(const CurveTree& tree, const Trunk& trunk, double thick) {
   return std::min(median_of(std::move(radii[0])), median_of(std::move(radii[1]))) < 0.5 * thick;
 }
 
+/// The trunk's extent within the component that is the thickest: a fish is of one piece.
+double length_of_one_piece(const CurveTree& tree, const Trunk& trunk, int thickest) {
+  const auto piece_of = [&](int node) {
+    return idx(node) < tree.component.size() ? tree.component[idx(node)] : -1;
+  };
+  Eigen::AlignedBox1d extent;
+  for (const int node : trunk.path) {
+    const Eigen::Matrix<double, 1, 1> place(tree.nodes[idx(node)].z());
+    if (piece_of(node) == piece_of(thickest)) extent.extend(place);
+  }
+  return extent.isEmpty() ? 0 : extent.sizes()[0];
+}
+
 }  // namespace
 
 bool is_fish(const CurveTree& tree, const Limbs& limbs) {
@@ -229,10 +243,11 @@ bool is_fish(const CurveTree& tree, const Limbs& limbs) {
   const Trunk trunk = trunk_of(tree, limbs);
   const Vector3d along = trunk.line.points.front() - trunk.line.points.back();
   const double length = std::abs(along.z());
-  const double thick = tree.radii[idx(thickest(tree, limbs))];
-  return length > 0.5 * tree.size && std::abs(along.y()) < 0.5 * length &&
-         trunk.line.whole() < 1.2 * length && width < 0.8 * tree.size && thick > 0.04 * length &&
-         tapers(tree, trunk, thick);
+  const int middle = thickest(tree, limbs);
+  const double thick = tree.radii[idx(middle)];
+  return length_of_one_piece(tree, trunk, middle) > 0.5 * tree.size &&
+         std::abs(along.y()) < 0.5 * length && trunk.line.whole() < 1.2 * length &&
+         width < 0.8 * tree.size && thick > 0.04 * length && tapers(tree, trunk, thick);
 }
 
 bool swims_back(const CurveTree& tree, const Limbs& limbs) {

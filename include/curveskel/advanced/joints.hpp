@@ -44,7 +44,7 @@ struct Joints {
 /// all choices (dynamic programming), the sum over bones of 1 + (length / (bone_length r))^2 +
 /// (deviation / (bend r))^2, lengths measured in the radius r where they are (or in that of which
 /// straight_bone is so many), deviation the largest distance of the curve from the bone. Components
-/// hang from each other where they overlap or are nearest, in a tree from the heaviest (length
+/// hang from each other where they touch widely or are nearest, in a tree from the heaviest (length
 /// times radius) or that of a wanted root, so that there is one root for what belongs together;
 /// each is rooted where it hangs. Bodies that stand apart (by more than a quarter of the larger
 /// one's diagonal) have roots of their own. Throws Error(Fault::usage) where the root is no node,
@@ -60,6 +60,7 @@ struct Joints {
 [[nodiscard]] Joints place_planned_joints(const CurveSkeleton& skeleton,
                                           const std::vector<PlannedJoint>& planned,
                                           const JointOptions& options = {},
-                                          const std::vector<int>& ground = {});
+                                          const std::vector<int>& ground = {},
+                                          const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
 
 }  // namespace curveskel
