@@ -236,8 +236,9 @@ constexpr double head_height = 0.125;  // of a human's
 /// with a trunk of its own.
 int fork_of(const CurveTree& tree, const LimbPair& pair) {
   const std::vector<int>& path = pair.ways.front().path;
+  constexpr double near = 0.5;  // radii
   const auto is_apart = [&](int node) {
-    return std::abs(tree.aside(node)) > tree.radii[idx(node)];
+    return std::abs(tree.aside(node)) > near * tree.radii[idx(node)];
   };
   const auto first = std::find_if(path.begin(), path.end(), is_apart);
   return first == path.begin() ? pair.root : *std::prev(first);
