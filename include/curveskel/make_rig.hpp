@@ -25,8 +25,8 @@ void require_valid(const RigOptions& options);
 
 /// The skeleton with more nodes, after those given, half a radius apart or less, for joints and
 /// skin on straight stretches; vertices go to the nearest about theirs. With the places at which
-/// its components meet (`contacts`). Precondition: node_of_vertex, if there is
-/// one, is the surface's. O(#V + nodes made), and a million nearest points for contacts.
+/// its components meet (`contacts`). Precondition: node_of_vertex, if there is one, is
+/// the surface's. O(#V + nodes made), and a million nearest points for contacts.
 [[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
 
 /// `place_joints`, `skin_weights`, then the sides: limbs that mirror each other end in .L and .R.

@@ -1,6 +1,5 @@
 #include "rig/joints/contacts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -310,123 +309,7 @@ class ContactFinder {
   std::vector<Piece> pieces_;
 };
 
-/// By component of the skeleton: the middles of the contacts by which it hangs, or others from it.
-std::vector<std::vector<Vector3d>> hinges_by_curve(const CurveSkeleton& skeleton,
-                                                   const std::vector<int>& curve_of_node) {
-  std::vector<std::vector<Vector3d>> hinges(
-      idx(1 + *std::max_element(curve_of_node.begin(), curve_of_node.end())));
-  const RootedTree rooted = rooted_tree(skeleton, -1);
-  for (std::size_t k = 0; k < rooted.roots.size(); ++k) {
-    if (rooted.above[k] < 0) continue;
-    const int lower = curve_of_node[idx(rooted.roots[k])];
-    const int upper = curve_of_node[idx(rooted.above[k])];
-    for (const Contact& contact : skeleton.contacts) {
-      const int one = curve_of_node[idx(contact.one.node)];
-      const int other = curve_of_node[idx(contact.other.node)];
-      if (std::minmax(one, other) != std::minmax(lower, upper)) continue;
-      hinges[idx(lower)].push_back(contact.middle);
-      hinges[idx(upper)].push_back(contact.middle);
-    }
-  }
-  return hinges;
-}
-
-/// By component of the skeleton: how far its surface spreads, by area.
-std::vector<Eigen::Matrix3d> spreads_by_curve(const CurveSkeleton& skeleton, const Surface& surface,
-                                              const std::vector<int>& curve_of_node) {
-  const auto curves = idx(1 + *std::max_element(curve_of_node.begin(), curve_of_node.end()));
-  std::vector<Eigen::Matrix3d> squares(curves, Eigen::Matrix3d::Zero());
-  std::vector<Vector3d> sums(curves, Vector3d::Zero());
-  std::vector<double> areas(curves, 0);
-  const Vector3d origin = surface.positions.colwise().mean().transpose();
-  for (const auto& t : surface.triangles.rowwise()) {
-    const int node = skeleton.node_of_vertex[t[0]];
-    if (node < 0) continue;
-    const std::size_t curve = idx(curve_of_node[idx(node)]);
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) corners.col(k) = surface.positions.row(t[k]).transpose() - origin;
-    const Vector3d a = corners.col(1) - corners.col(0);
-    const Vector3d b = corners.col(2) - corners.col(0);
-    const double size = 0.5 * a.cross(b).norm();
-    const Vector3d sum = corners.rowwise().sum();
-    squares[curve] += size / 12 * (corners * corners.transpose() + sum * sum.transpose());
-    sums[curve] += size / 3 * sum;
-    areas[curve] += size;
-  }
-  for (std::size_t curve = 0; curve < curves; ++curve) {
-    if (!(areas[curve] > 0)) continue;
-    const Vector3d mean = sums[curve] / areas[curve];
-    squares[curve] = squares[curve] / areas[curve] - mean * mean.transpose();
-  }
-  return squares;
-}
-
-/// True if it spreads no more along the direction than the most across.
-bool is_without_axis(const Eigen::Matrix3d& spread, const Vector3d& along) {
-  constexpr double clearly = 1.25;  // longer than wide
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> sections(across * spread * across);
-  return along.dot(spread * along) < clearly * clearly * sections.eigenvalues()[2];
-}
-
 }  // namespace
-
-void turn_to_contacts(CurveSkeleton& skeleton, const Surface& surface) {
-  if (skeleton.contacts.empty()) return;
-  const std::vector<int> curve_of_node = component_of_node(skeleton);
-  const std::vector<std::vector<Vector3d>> hinges = hinges_by_curve(skeleton, curve_of_node);
-  const std::vector<Eigen::Matrix3d> spreads = spreads_by_curve(skeleton, surface, curve_of_node);
-  std::vector<int> degree(curve_of_node.size(), 0);
-  for (const int node : skeleton.edges.reshaped()) ++degree[idx(node)];
-  std::vector<std::vector<int>> nodes(hinges.size());
-  for (std::size_t n = 0; n < curve_of_node.size(); ++n) {
-    nodes[idx(curve_of_node[n])].push_back(static_cast<int>(n));
-  }
-  std::vector<char> is_turned(hinges.size(), 0);
-  for (std::size_t curve = 0; curve < hinges.size(); ++curve) {
-    std::vector<int> tips;
-    bool is_chain = true;
-    Vector3d middle = Vector3d::Zero();
-    for (const int node : nodes[curve]) {
-      if (degree[idx(node)] == 1) tips.push_back(node);
-      is_chain = is_chain && degree[idx(node)] <= 2;
-      middle += skeleton.nodes.row(node).transpose() / static_cast<double>(nodes[curve].size());
-    }
-    const std::size_t count = hinges[curve].size();
-    if (!is_chain || tips.size() != 2 || count < 1 || count > 2) continue;
-    const Vector3d along =
-        (skeleton.nodes.row(tips[1]) - skeleton.nodes.row(tips[0])).transpose().stableNormalized();
-    const Vector3d wanted =
-        (count == 1 ? middle - hinges[curve][0] : hinges[curve][1] - hinges[curve][0])
-            .stableNormalized();
-    if (wanted.isZero() || !is_without_axis(spreads[curve], along)) continue;
-    for (const int node : nodes[curve]) {
-      const double way = along.dot(skeleton.nodes.row(node).transpose() - middle);
-      skeleton.nodes.row(node) = (middle + way * wanted).transpose();
-    }
-    is_turned[curve] = 1;
-    for (Contact& contact : skeleton.contacts) {
-      for (ContactSide* const side : {&contact.one, &contact.other}) {
-        if (curve_of_node[idx(side->node)] != static_cast<int>(curve)) continue;
-        const auto nearer = [&](int a, int b) {
-          return (skeleton.nodes.row(a).transpose() - contact.middle).squaredNorm() <
-                 (skeleton.nodes.row(b).transpose() - contact.middle).squaredNorm();
-        };
-        side->node = *std::min_element(nodes[curve].begin(), nodes[curve].end(), nearer);
-        side->tips = {*std::min_element(tips.begin(), tips.end(), nearer)};
-      }
-    }
-  }
-  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
-    const int given = skeleton.node_of_vertex[v];
-    if (given < 0 || is_turned[idx(curve_of_node[idx(given)])] == 0) continue;
-    const auto& own = nodes[idx(curve_of_node[idx(given)])];
-    skeleton.node_of_vertex[v] = *std::min_element(own.begin(), own.end(), [&](int a, int b) {
-      return (skeleton.nodes.row(a) - surface.positions.row(v)).squaredNorm() <
-             (skeleton.nodes.row(b) - surface.positions.row(v)).squaredNorm();
-    });
-  }
-}
 
 std::vector<Contact> contacts_of(const Surface& surface, const CurveSkeleton& skeleton) {
   const bool says_of = skeleton.node_of_vertex.size() == surface.positions.rows();
