@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -112,8 +113,8 @@ TEST(Contacts, MakeAHumanOfOpenBoxes) {
 
 TEST(Contacts, AreTheSameOfATurnedAScaledAndAMirroredBody) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-  const Eigen::AngleAxisd lying(0.5 * EIGEN_PI, Eigen::Vector3d::UnitX());
-  const Eigen::AngleAxisd aside(0.5 * EIGEN_PI, Eigen::Vector3d::UnitY());
+  const Eigen::AngleAxisd lying(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd aside(0.5 * std::numbers::pi, Eigen::Vector3d::UnitY());
   const Eigen::DiagonalMatrix<double, 3> mirrored(-1, 1, 1);
   for (const auto& boxes : {blocky(0, 12), blocky(0.3, 14)}) {
     expect_human(soup_of_boxes(boxes, false, Eigen::Affine3d(lying)));
