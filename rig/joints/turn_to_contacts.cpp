@@ -71,20 +71,20 @@ bool is_without_axis(const Eigen::Matrix3d& spread, const Vector3d& along) {
 }
 
 /// A component's curve, with its two tips if it is a chain.
-struct Curve {
+struct ComponentCurve {
   std::vector<int> nodes;
   std::vector<int> tips;
   Vector3d middle = Vector3d::Zero();
 };
 
-std::vector<Curve> curves_of(const CurveSkeleton& skeleton, const std::vector<int>& curve_of_node,
-                             std::size_t count) {
+std::vector<ComponentCurve> curves_of(const CurveSkeleton& skeleton,
+                                      const std::vector<int>& curve_of_node, std::size_t count) {
   std::vector<int> degree(curve_of_node.size(), 0);
   for (const int node : skeleton.edges.reshaped()) ++degree[idx(node)];
-  std::vector<Curve> curves(count);
+  std::vector<ComponentCurve> curves(count);
   std::vector<char> is_chain(count, 1);
   for (std::size_t n = 0; n < curve_of_node.size(); ++n) {
-    Curve& curve = curves[idx(curve_of_node[n])];
+    ComponentCurve& curve = curves[idx(curve_of_node[n])];
     curve.nodes.push_back(static_cast<int>(n));
     if (degree[n] == 1) curve.tips.push_back(static_cast<int>(n));
     if (degree[n] > 2) is_chain[idx(curve_of_node[n])] = 0;
@@ -114,7 +114,7 @@ int nearest_of(const CurveSkeleton& skeleton, const std::vector<int>& nodes, con
 }
 
 /// True if the curve was turned.
-bool turn(CurveSkeleton& skeleton, const Curve& curve, const std::vector<Vector3d>& hinges,
+bool turn(CurveSkeleton& skeleton, const ComponentCurve& curve, const std::vector<Vector3d>& hinges,
           const Eigen::Matrix3d& spread) {
   if (curve.tips.size() != 2) return false;
   const Vector3d along =
@@ -136,7 +136,7 @@ void turn_to_contacts(CurveSkeleton& skeleton, const Surface& surface) {
   const std::vector<int> curve_of_node = component_of_node(skeleton);
   const std::vector<std::vector<Vector3d>> hinges = hinges_by_curve(skeleton, curve_of_node);
   const std::vector<Eigen::Matrix3d> spreads = spreads_by_curve(skeleton, surface, curve_of_node);
-  const std::vector<Curve> curves = curves_of(skeleton, curve_of_node, hinges.size());
+  const std::vector<ComponentCurve> curves = curves_of(skeleton, curve_of_node, hinges.size());
   std::vector<char> is_turned(curves.size(), 0);
   for (std::size_t k = 0; k < curves.size(); ++k) {
     is_turned[k] = turn(skeleton, curves[k], hinges[k], spreads[k]) ? 1 : 0;
@@ -152,7 +152,7 @@ void turn_to_contacts(CurveSkeleton& skeleton, const Surface& surface) {
   for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
     int& node = skeleton.node_of_vertex[v];
     if (node < 0 || is_turned[idx(curve_of_node[idx(node)])] == 0) continue;
-    const Curve& own = curves[idx(curve_of_node[idx(node)])];
+    const ComponentCurve& own = curves[idx(curve_of_node[idx(node)])];
     node = nearest_of(skeleton, own.nodes, surface.positions.row(v).transpose());
   }
 }
