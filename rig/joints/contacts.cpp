@@ -37,7 +37,7 @@ struct Piece {
   std::vector<Patch> patches;
 };
 
-/// What faces the other component.
+/// A patch that faces the other component.
 struct Facing {
   Vector3d place;
   double weight;

@@ -199,7 +199,7 @@ class Hanging {
             number};
   }
 
-  /// How far the place is from the curve's line at the node: 0 on it, 1 a radius off or more.
+  /// The distance of the place from the curve's line at the node, in radii; 1 at most.
   [[nodiscard]] double aside_of(int node, const Eigen::Vector3d& place) const {
     const Eigen::Vector3d direction = directions_.row(node).transpose();
     return std::min(1.0, direction.cross(place - point(node)).norm() / radii_[node]);

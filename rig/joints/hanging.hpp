@@ -21,15 +21,15 @@ struct Hinge {
 /// more sideways it leads from both curves: a finger hangs from the hand in front of which it is,
 /// not from the finger beside it. Of a link the component's own end goes on to the tip of its curve
 /// within two radii, else to the junction within one.
-/// Where the surfaces of two components come near (`skeleton.contacts`) that is what counts: the
-/// link is as long as their gap, less the diameter of the smaller ball by the share of its section
-/// in which they face each other, and sideways as above. Where they face each other along all of a
-/// curve it hangs from the end of it that is upper, as a limb does that lies beside the body.
-/// Bodies of a scene stand apart: where the gap is more than a quarter of the longer diagonal of
-/// the two bodies, whatever hangs from them included, one hangs from none. Nor do those with a
-/// node of `ground`, and nothing hangs from them.
-/// Precondition: the components are the skeleton's, by their nodes; radii by node, > 0. Nothing
-/// hangs from any but the first 1000.
+/// Two components whose surfaces come near (`skeleton.contacts`) are linked there instead: by their
+/// gap, less twice the radius w of a disc as large as the section through which they meet (that of
+/// the thicker ball at most), and longer by up to w the more sideways it leads. Where they face
+/// each other along all of a curve that hangs from its upper end, as a limb does that lies beside
+/// the body; `up` is a unit vector. Bodies of a scene stand apart: where the gap is more than a
+/// quarter of the longer diagonal of the two bodies, whatever hangs from them included, one hangs
+/// from none. Nor do those with a node of `ground`, and nothing hangs from them. Precondition: the
+/// components are the skeleton's, by their nodes; radii by node, > 0. Nothing hangs from any but
+/// the first 1000.
 [[nodiscard]] std::vector<Hinge> hang_components(
     const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
     const std::vector<std::vector<int>>& components, const std::vector<int>& ground = {},

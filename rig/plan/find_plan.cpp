@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
 #include "surface/mesh/component_areas.hpp"
 

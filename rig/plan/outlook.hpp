@@ -1,31 +1,10 @@
-// A body as one sees it in a frame, and the frame in which most is seen.
+// The frame in which most is seen of a body.
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include <curveskel/body_plan.hpp>
-#include "rig/plan/curve_tree.hpp"
-#include "rig/plan/roles.hpp"
+#include "rig/plan/looks.hpp"
 
 namespace curveskel {
-
-/// The places of the joints of limbs. Of bodies whose sides are not quite images of each other they
-/// lie on their own side's curve, and so where a limb is missing; of bodies in a pose where the
-/// unposed limb has them.
-enum class Sides { images, own, completed, posed };
-
-struct Outlook {
-  Eigen::Matrix3d axes;
-  CurveTree tree;  ///< of `Sides::posed` the unposed one
-  Limbs limbs;
-  PlanFound found;
-  Sides sides = Sides::images;
-  CurveTree posed;  ///< of `Sides::posed` the tree as it is
-};
-
-/// The usual one first. Throws Error(usage) where up and front are one direction.
-[[nodiscard]] std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options);
 
 /// In the usual frame what is seen there; in others what is clear, of that the most symmetric, or
 /// a tailed biped. Then a body beside the middle of its box, then one that lies, then one in a

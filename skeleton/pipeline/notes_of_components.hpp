@@ -1,4 +1,4 @@
-// What is said of many components.
+// Notes that many components give, said once.
 #pragma once
 
 #include <algorithm>

@@ -46,7 +46,7 @@ struct Judgement {
   std::string error;  ///< why there is none
 };
 
-/// How far another thread is, told by that thread.
+/// The progress of another thread, told by that thread.
 class StageNews {
  public:
   struct Stage {
@@ -147,7 +147,7 @@ class Workbench {
   [[nodiscard]] StageNews::Stage rig_stage() const;
   /// A rig that was made before stays.
   void cancel_rig();
-  /// What goes on and can be cancelled: files that are opened, else the run, else a rig.
+  /// The work that can be cancelled: files that are opened, else the run, else a rig.
   [[nodiscard]] bool can_cancel() const;
   void cancel_what_goes_on();
   [[nodiscard]] bool shows_made_rig() const { return scene->character() != nullptr; }

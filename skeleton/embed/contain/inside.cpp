@@ -361,7 +361,7 @@ class Keeper {
     return made;
   }
 
-  /// What has to come between two points.
+  /// The points that have to come between two.
   struct CoveredStep {
     bool is_covered = false;
     std::vector<CurvePoint> between;
