@@ -68,21 +68,25 @@ std::vector<Stretch> stretches_of(const CurveSkeleton& graph, const std::vector<
     const auto count = std::min(length, branch.size() - first);
     Stretch stretch{{begin, begin + static_cast<std::ptrdiff_t>(count)}, Vector3d::Zero()};
     Eigen::AlignedBox3d bounds;
-    for (const int e : stretch.edges) {
-      for (int k = 0; k < 2; ++k) bounds.extend(graph.nodes.row(graph.edges(e, k)).transpose());
+    double thickest = 0;
+    for (const int node : graph.edges(stretch.edges, Eigen::all).reshaped()) {
+      bounds.extend(graph.nodes.row(node).transpose());
+      thickest = std::max(thickest, graph.radii[node]);
     }
     stretch.centre = bounds.center();
-    stretch.reach = bounds.diagonal().norm() / 2 + graph.radii.maxCoeff();
+    stretch.reach = bounds.diagonal().norm() / 2 + thickest;
     stretches.push_back(std::move(stretch));
   }
   return stretches;
 }
 
+/// The distance to a branch, or `beyond` if that is less.
 double distance_to_branch(const CurveSkeleton& graph, const std::vector<Stretch>& branch,
-                          const Vector3d& p) {
-  double nearest = std::numeric_limits<double>::infinity();
+                          const Vector3d& p, double beyond) {
+  double nearest = beyond;
   for (const Stretch& stretch : branch) {
-    if ((p - stretch.centre).norm() - stretch.reach >= nearest) continue;
+    const double limit = nearest + stretch.reach;
+    if (limit <= 0 || (p - stretch.centre).squaredNorm() >= limit * limit) continue;
     for (const int e : stretch.edges) nearest = std::min(nearest, distance_to_tube(graph, e, p));
   }
   return nearest;
@@ -92,15 +96,16 @@ Field field_of(const CurveSkeleton& graph, double melt) {
   std::vector<std::vector<Stretch>> branches;
   for (const auto& branch : edges_by_branch(graph)) branches.push_back(stretches_of(graph, branch));
   return [&graph, melt, branches = std::move(branches)](const Vector3d& p) {
-    std::vector<double> distances;
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& branch : branches) {
-      distances.push_back(distance_to_branch(graph, branch, p));
-      least = std::min(least, distances.back());
-    }
+    for (const auto& branch : branches) least = distance_to_branch(graph, branch, p, least);
     if (melt <= 0) return least;
+    // A branch as far as that adds less to the sum, which is at least 1, than its last bit.
+    const double beyond = least + 45 * melt;
     double sum = 0;
-    for (const double d : distances) sum += std::exp((least - d) / melt);
+    for (const auto& branch : branches) {
+      const double distance = distance_to_branch(graph, branch, p, beyond);
+      if (distance < beyond) sum += std::exp((least - distance) / melt);
+    }
     return least - melt * std::log(sum);
   };
 }

@@ -1,4 +1,5 @@
-// usage: PROGRAM [--file=NAME] [GoogleTest's options]: all laws, or those of NAME_test.cpp.
+// usage: PROGRAM [--file=NAME | --thorough=NAME] [GoogleTest's options]: all laws, those of
+// NAME_test.cpp that users' ./test runs, or the rest of them, in suites named "Thorough...".
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,12 +9,14 @@
 
 namespace {
 
-/// The filter that picks the tests of this file; empty where there are none.
-std::string tests_of(const std::string& file) {
+/// The filter that picks the tests of this file, the thorough or the others; empty where there are
+/// none.
+std::string tests_of(const std::string& file, bool thorough) {
   std::string filter;
   const testing::UnitTest& program = *testing::UnitTest::GetInstance();
   for (int s = 0; s < program.total_test_suite_count(); ++s) {
     const testing::TestSuite& suite = *program.GetTestSuite(s);
+    if (std::string_view(suite.name()).starts_with("Thorough") != thorough) continue;
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const testing::TestInfo& test = *suite.GetTestInfo(t);
       if (std::filesystem::path(test.file()).filename() != file) continue;
@@ -27,10 +30,10 @@ std::string tests_of(const std::string& file) {
 
 int main(int count, char** arguments) {
   testing::InitGoogleTest(&count, arguments);
-  constexpr std::string_view option = "--file=";
-  if (count > 1 && std::string_view(arguments[1]).starts_with(option)) {
+  for (const std::string_view option : {"--file=", "--thorough="}) {
+    if (count < 2 || !std::string_view(arguments[1]).starts_with(option)) continue;
     const std::string name(std::string_view(arguments[1]).substr(option.size()));
-    const std::string filter = tests_of(name + "_test.cpp");
+    const std::string filter = tests_of(name + "_test.cpp", option != "--file=");
     if (filter.empty()) {
       std::cerr << "no tests of " << name << "_test.cpp in this program\n";
       return 1;
