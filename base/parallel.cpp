@@ -139,7 +139,8 @@ void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   RangeJob job(count, std::max<std::size_t>(grain, 1), body);
-  const std::size_t workers = std::min(thread_count(threads), job.chunks());
+  // The number of cores is asked of the system, which takes longer than many a small job.
+  const std::size_t workers = job.chunks() > 1 ? std::min(thread_count(threads), job.chunks()) : 1;
   if (workers > 1) {
     crew().run(job, workers - 1);
   } else {

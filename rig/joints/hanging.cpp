@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -142,9 +141,9 @@ class Hanging {
   /// True if `part` hangs better from `above` than from those before.
   void link(std::size_t part, std::size_t above) {
     Link& best = links_[part];
-    const auto touching = contacts_.find({part, above});
-    if (touching != contacts_.end()) {
-      best = std::min(best, link_by_contact(touching->second, part));
+    const int touching = contact_between(part, above);
+    if (touching >= 0) {
+      best = std::min(best, link_by_contact(touching, part));
       return;
     }
     for (const Bunch& lower : parts_[part]) {
@@ -174,6 +173,7 @@ class Hanging {
   /// By their numbers, either way.
   void find_contacts(const std::vector<std::vector<int>>& components) {
     part_of_.resize(idx(graph_.nodes()));
+    contacts_.resize(components.size());
     for (std::size_t part = 0; part < components.size(); ++part) {
       for (const int node : components[part]) part_of_[idx(node)] = part;
     }
@@ -181,8 +181,18 @@ class Hanging {
       const Contact& contact = skeleton_.contacts[k];
       const std::size_t one = part_of_[idx(contact.one.node)];
       const std::size_t other = part_of_[idx(contact.other.node)];
-      contacts_[{one, other}] = contacts_[{other, one}] = static_cast<int>(k);
+      contacts_[one].emplace_back(other, static_cast<int>(k));
+      contacts_[other].emplace_back(one, static_cast<int>(k));
     }
+  }
+
+  /// The last there is; -1 = none. A trunk touches all its leaves, but a leaf few parts.
+  [[nodiscard]] int contact_between(std::size_t part, std::size_t other) const {
+    if (contacts_[other].size() < contacts_[part].size()) std::swap(part, other);
+    const auto& its = contacts_[part];
+    const auto found = std::find_if(its.rbegin(), its.rend(),
+                                    [&](const auto& contact) { return contact.first == other; });
+    return found == its.rend() ? -1 : found->second;
   }
 
   [[nodiscard]] Link link_by_contact(int number, std::size_t part) const {
@@ -307,8 +317,8 @@ class Hanging {
   Eigen::MatrixX3d directions_;  // by node
   std::vector<bool> seen_;       // by node
   std::vector<std::vector<Bunch>> parts_;
-  std::vector<std::size_t> part_of_;  // by node
-  std::map<std::pair<std::size_t, std::size_t>, int> contacts_;
+  std::vector<std::size_t> part_of_;                                // by node
+  std::vector<std::vector<std::pair<std::size_t, int>>> contacts_;  // by part: with which, numbers
   std::vector<Link> links_;  // by part, to those that others hang from so far
 };
 

@@ -86,8 +86,9 @@ std::vector<BodySoFar::Contact> BodySoFar::contacts(const ProbedPart& part) cons
   std::transform(pieces_.begin(), pieces_.end(), near.begin(), [](const Piece& p) { return &p; });
   std::vector<Contact> found;
   found.reserve(part.places.size());
+  const Piece* last = nullptr;  // the nearest of the place before
   for (const Vector3d& place : part.places) {
-    found.push_back(nearest_of(near, place));
+    found.push_back(nearest_of(near, place, last));
     if (found.size() > 1) continue;
     // No place of the part is further from the body than the first one and the part's extent.
     const double most = found.front().distance + part.diagonal();
@@ -101,15 +102,26 @@ std::vector<BodySoFar::Contact> BodySoFar::contacts(const ProbedPart& part) cons
 }
 
 BodySoFar::Contact BodySoFar::nearest_of(const std::vector<const Piece*>& pieces,
-                                         const Vector3d& place) {
-  Contact contact{std::numeric_limits<double>::infinity(), -1, place};
-  for (const Piece* piece : pieces) {
-    if (piece->box.exteriorDistance(place) >= contact.distance) continue;
-    const SurfaceTree::Nearest nearest = piece->tree.nearest(place, contact.distance);
-    if (nearest.triangle < 0) continue;
-    contact = {nearest.distance, piece->number, nearest.point};
+                                         const Vector3d& place, const Piece*& guess) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double rounding = 1e-12;  // of two queries, so that the guess itself is found again
+  const auto within = [&](double limit) {
+    Contact contact{limit, -1, place};
+    for (const Piece* piece : pieces) {
+      if (piece->box.exteriorDistance(place) >= contact.distance) continue;
+      const SurfaceTree::Nearest nearest = piece->tree.nearest(place, contact.distance);
+      if (nearest.triangle < 0) continue;
+      contact = {nearest.distance, piece->number, nearest.point};
+      guess = piece;
+    }
+    return contact;
+  };
+  if (guess != nullptr) {  // others are asked only if they may be nearer
+    const double limit = (1 + rounding) * guess->tree.nearest(place).distance;
+    const Contact contact = within(limit);
+    if (contact.component >= 0) return contact;
   }
-  return contact;
+  return within(infinity);
 }
 
 double BodySoFar::thickness_at(const Contact& contact) const {

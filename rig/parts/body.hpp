@@ -49,8 +49,9 @@ class BodySoFar {
     std::vector<Eigen::Vector3d> places;   // on the surface
     std::vector<SurfaceTree::Ball> balls;  // that touch it there
   };
+  /// `guess` is one of the pieces or null, and becomes the nearest.
   [[nodiscard]] static Contact nearest_of(const std::vector<const Piece*>& pieces,
-                                          const Eigen::Vector3d& place);
+                                          const Eigen::Vector3d& place, const Piece*& guess);
 
   std::vector<Piece> pieces_;
   double most_thickness_ = 0;

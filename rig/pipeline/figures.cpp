@@ -14,6 +14,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/limb_name.hpp"
+#include "skeleton/certify/tube_share.hpp"
 #include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
@@ -207,8 +208,9 @@ class Groups {
     const CurveSkeleton skeleton = skeleton_of_body(skeleton_, parts);
     PlanOptions options = options_.plan;
     if (!options.made_of_tubes) {
-      options.made_of_tubes = made_of_tubes_but_for_sheets(
-          evaluate(body.surface, skeleton, {.threads = options_.threads}), body);
+      Certificate certificate;
+      certificate.tube_share = tube_share(body.surface, skeleton, {.threads = options_.threads});
+      options.made_of_tubes = made_of_tubes_but_for_sheets(certificate, body);
     }
     return plan_with_sheets(body, skeleton, options);
   }

@@ -11,16 +11,25 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Standard deviation over mean of the ray lengths in the plane normal to the curve.
-double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int rays) {
+// Standard deviation over mean of the ray lengths in the plane normal to the curve. Rays that are
+// no longer than a few times the distance to the surface, most of them in a tube, go together.
+double ray_variation(const SurfaceTree& tree, const CurveSample& sample, double radius, int rays) {
+  constexpr double together = 4;  // radii
   const Vector3d u = sample.tangent.unitOrthogonal();
   const Vector3d w = sample.tangent.cross(u);
-  double sum = 0;
-  double squares = 0;
+  std::vector<Vector3d> directions;
+  directions.reserve(static_cast<std::size_t>(rays));
   for (int k = 0; k < rays; ++k) {
     const double angle = 2 * std::numbers::pi * k / rays;
-    const double length =
-        tree.ray(sample.position, std::cos(angle) * u + std::sin(angle) * w).distance;
+    directions.emplace_back(std::cos(angle) * u + std::sin(angle) * w);
+  }
+  std::vector<double> lengths(directions.size());
+  tree.rays_in_plane(sample.position, sample.tangent, directions, together * radius, lengths);
+  double sum = 0;
+  double squares = 0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    double length = lengths[k];
+    if (!std::isfinite(length)) length = tree.ray(sample.position, directions[k]).distance;
     if (!std::isfinite(length)) return 0;  // the surface is not closed
     sum += length;
     squares += length * length;
@@ -52,7 +61,7 @@ std::vector<double> ray_variations(const MeasuredCurve& curve, int rays, const M
       if (curve.radius[i] <= 0) {
         variation[i] = std::numeric_limits<double>::infinity();
       } else if (at_junctions_too || !at_junction(curve, sample)) {
-        variation[i] = ray_variation(curve.tree, sample, rays);
+        variation[i] = ray_variation(curve.tree, sample, curve.radius[i], rays);
       }
     });
   };

@@ -20,6 +20,7 @@
 #include "skeleton/certify/reach_at_tips.hpp"
 #include "skeleton/certify/sample_balls.hpp"
 #include "skeleton/certify/tube_share.hpp"
+#include "skeleton/certify/verdict.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/homology/homology_rank.hpp"
@@ -33,7 +34,8 @@ constexpr double curvature_scale = 1.0 / 100;  // of D
 constexpr double coverage_factor = 1.5;        // of the local radius
 constexpr Eigen::Index most_vertices = 20000;
 
-void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
+void measure_inside(const MeasuredCurve& subject, const CertificateOptions& options,
+                    Certificate& certificate) {
   double length = 0;
   double inside = 0;
   for (std::size_t i = 0; i < subject.samples.size(); ++i) {
@@ -46,6 +48,7 @@ void measure_inside(const MeasuredCurve& subject, Certificate& certificate) {
     }
   }
   certificate.inside_fraction = length > 0 ? inside / length : 0;
+  certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
 }
 
 void measure_centredness(const MeasuredCurve& subject, int rays, const Monitor& monitor,
@@ -91,9 +94,9 @@ void measure_coverage(const MeasuredCurve& subject, const Positions& vertices,
         return own;
       };
       uncovered[i] = std::max(0.0, balls.minimum(v, 0, gap_to, first));
-      met = met || wide_balls.minimum(v, 0, [&](std::size_t sample) {
+      met = met || wide_balls.reaches(v, [&](std::size_t sample) {
         return sample_balls.gap(sample, v, coverage_factor);
-      }) <= 0;
+      });
       covered[i] = met ? 1 : 0;
     }
   });
@@ -146,6 +149,22 @@ void count(const CurveSkeleton& skeleton, Certificate& certificate) {
   certificate.junctions = graph.junctions;
 }
 
+/// All that `Certificate::correct` asks.
+Certificate judged(const CertifiedSurface& surface, const MeasuredCurve& subject,
+                   const CertificateOptions& options) {
+  const CurveSkeleton& skeleton = subject.skeleton;
+  Certificate certificate;
+  count(skeleton, certificate);
+  certificate.components_of_surface = surface.components;
+  certificate.genus = surface.genus;
+  if (surface.components > 1 && certificate.components == surface.components) {
+    certificate.components_without_curve = components_without_curve(surface.surface, skeleton);
+  }
+  certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
+  measure_inside(subject, options, certificate);
+  return certificate;
+}
+
 }  // namespace
 
 void require_valid(const CertificateOptions& options) {
@@ -172,20 +191,10 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
   require_sound(skeleton, "evaluate");
-  Certificate certificate;
   monitor.report("certify", 0);
-  count(skeleton, certificate);
-  certificate.components_of_surface = surface.components;
-  certificate.genus = surface.genus;
   const MeasuredCurve subject =
       measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor);
-
-  if (surface.components > 1 && certificate.components == surface.components) {
-    certificate.components_without_curve = components_without_curve(surface.surface, skeleton);
-  }
-  certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
-  measure_inside(subject, certificate);
-  certificate.inside_enough = certificate.inside_fraction >= options.inside_needed;
+  Certificate certificate = judged(surface, subject, options);
   measure_centredness(subject, options.rays, monitor, certificate);
   measure_coverage(subject, surface.surface.positions, monitor, certificate);
   certificate.reach_at_tips = reach_at_tips(subject);
@@ -194,6 +203,13 @@ Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skele
   measure_shape(subject, certificate);
   monitor.report("certify", 1);
   return certificate;
+}
+
+Certificate verdict(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
+                    const CertificateOptions& options, const Monitor& monitor) {
+  monitor.report("certify", 0);
+  return judged(surface, measured_curve(surface.tree, surface.diagonal, skeleton, options, monitor),
+                options);
 }
 
 }  // namespace curveskel

@@ -8,6 +8,7 @@
 #include <curveskel/certificate.hpp>
 #include <curveskel/error.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/spatial/morton.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,6 +26,28 @@ void add_samples(MeasuredCurve& curve, double spacing) {
   }
 }
 
+/// One branch after the other, these along the Morton curve: those of a thousand leaves follow each
+/// other in the order of the file, from one end of the tree to the other.
+std::vector<std::int32_t> along_pieces(const std::vector<CurveSample>& samples) {
+  std::vector<std::int32_t> firsts;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i == 0 || samples[i].branch < 0 || samples[i].branch != samples[i - 1].branch) {
+      firsts.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  Positions places(static_cast<Eigen::Index>(firsts.size()), 3);
+  for (std::size_t k = 0; k < firsts.size(); ++k) {
+    places.row(static_cast<Eigen::Index>(k)) = samples[idx(firsts[k])].position;
+  }
+  firsts.push_back(static_cast<std::int32_t>(samples.size()));
+  std::vector<std::int32_t> order;
+  order.reserve(samples.size());
+  for (const std::int32_t piece : along_morton_curve(places, 1)) {
+    for (std::int32_t i = firsts[idx(piece)]; i < firsts[idx(piece) + 1]; ++i) order.push_back(i);
+  }
+  return order;
+}
+
 }  // namespace
 
 MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
@@ -37,7 +60,7 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
                 "the skeleton has a coordinate that is no finite number; the certificate "
                 "needs finite ones: repair or write the skeleton again");
   }
-  MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}};
+  MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}, {}};
   curve.diagonal = diagonal;
   curve.threads = options.threads;
   curve.degree = degrees(skeleton.nodes.rows(), skeleton.edges);
@@ -47,6 +70,7 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
     curve.clearance[node] = tree.inscribed_radius(skeleton.nodes.row(node));
   }
   add_samples(curve, options.sample_spacing * diagonal);
+  curve.order = along_pieces(curve.samples);
   curve.radius.resize(curve.samples.size());
   for_sample_ranges(curve, 0.1, 0.2, monitor, [&](std::size_t begin, std::size_t end) {
     SurfaceTree::Ball before;  // mostly it holds the next sample

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -23,6 +24,7 @@ struct MeasuredCurve {
   Eigen::VectorXd clearance;         ///< per node: signed distance to the surface; junctions only
   std::vector<CurveSample> samples;  ///< the branches', then the lone nodes', worth one step each
   std::vector<int> lone_nodes;       ///< those of the last samples
+  std::vector<std::int32_t> order;   ///< of the samples: near ones mostly near each other
   std::vector<double> radius;  ///< per sample: signed distance to the surface, positive inside
   double diagonal = 0;
   int threads = 0;

@@ -52,7 +52,7 @@ double reach_at_tips(const MeasuredCurve& curve) {
   for (const Vector3d& place : places_ahead(curve)) {
     if (!place.allFinite()) continue;
     const auto gap_to = [&](std::size_t sample) { return sample_balls.gap(sample, place, 1); };
-    farthest = std::max(farthest, balls.minimum(place, 0, gap_to));
+    farthest = std::max(farthest, balls.minimum(place, farthest, gap_to));
   }
   return farthest / curve.diagonal;
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "skeleton/certify/curve_pieces.hpp"
@@ -32,7 +31,7 @@ struct SampleBalls {
     for (std::size_t i = 0; i < subject.samples.size(); ++i) {
       items.push_back(pieces.item(i, rolled(i), factor * radius(i)));
     }
-    return SequenceTree(std::move(items));
+    return {items, subject.order};
   }
 };
 

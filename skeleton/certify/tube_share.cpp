@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include "skeleton/certify/curve_pieces.hpp"
 #include "surface/spatial/spread_points.hpp"
 
@@ -44,7 +46,7 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
   items.reserve(curve.samples.size());
   for (std::size_t i = 0; i < curve.samples.size(); ++i)
     items.push_back(pieces.item(i, pieces.reach(i), 0));
-  const SequenceTree tree(std::move(items));
+  const SequenceTree tree(items, curve.order);
   const std::vector<Vector3d> points = spread_points(surface, points_over_area);
   if (points.empty()) return 0;
   std::vector<char> near(points.size());
@@ -67,6 +69,14 @@ double tube_share(const MeasuredCurve& curve, const Surface& surface, const Moni
   });
   return static_cast<double>(std::count(near.begin(), near.end(), 1)) /
          static_cast<double>(points.size());
+}
+
+double tube_share(const Surface& surface, const CurveSkeleton& skeleton,
+                  const CertificateOptions& options, const Monitor& monitor) {
+  const SurfaceTree tree(surface, options.threads);
+  return tube_share(
+      measured_curve(tree, bounding_box_diagonal(surface.positions), skeleton, options, monitor),
+      surface, monitor);
 }
 
 }  // namespace curveskel

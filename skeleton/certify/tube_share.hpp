@@ -12,4 +12,8 @@ namespace curveskel {
 [[nodiscard]] double tube_share(const MeasuredCurve& curve, const Surface& surface,
                                 const Monitor& monitor);
 
+/// The certificate's `tube_share` and nothing else of it, for a fraction of the time.
+[[nodiscard]] double tube_share(const Surface& surface, const CurveSkeleton& skeleton,
+                                const CertificateOptions& options, const Monitor& monitor = {});
+
 }  // namespace curveskel

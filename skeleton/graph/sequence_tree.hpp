@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -22,21 +23,25 @@ class SequenceTree {
 
   explicit SequenceTree(std::vector<Item> items) {
     levels_.push_back(std::move(items));
-    while (levels_.back().size() > 1) {
-      const std::vector<Item>& below = levels_.back();
-      std::vector<Item> groups;
-      for (std::size_t i = 0; i < below.size(); ++i) {
-        if (i % width == 0) {
-          groups.push_back(below[i]);
-          continue;
-        }
-        Item& group = groups.back();
-        group.lower = group.lower.cwiseMin(below[i].lower);
-        group.upper = group.upper.cwiseMax(below[i].upper);
-        group.weight = std::max(group.weight, below[i].weight);
-      }
-      levels_.push_back(std::move(groups));
-    }
+    group();
+  }
+
+  /// Items whose neighbours may lie anywhere, and the order in which they lie close together: all
+  /// their numbers. Values and finds are of the items' own numbers.
+  SequenceTree(const std::vector<Item>& items, std::vector<std::int32_t> order)
+      : order_(std::move(order)) {
+    std::vector<Item>& along = levels_.emplace_back();
+    along.reserve(items.size());
+    for (const std::int32_t i : order_) along.push_back(items[static_cast<std::size_t>(i)]);
+    group();
+  }
+
+  /// True if value(i) <= 0 for any item, where value(i) is as in `minimum`.
+  template <typename Value>
+  [[nodiscard]] bool reaches(const Eigen::Vector3d& p, const Value& value) const {
+    double best = std::numeric_limits<double>::min();  // leaves out all above zero
+    if (!levels_.front().empty()) visit(levels_.size() - 1, 0, p, 0, value, best);
+    return best <= 0;
   }
 
   /// Calls found(i) once for every item whose box has a point in common with the one from `lower`
@@ -64,6 +69,28 @@ class SequenceTree {
  private:
   static constexpr std::size_t width = 8;
 
+  [[nodiscard]] std::size_t item_at(std::size_t place) const {
+    return order_.empty() ? place : static_cast<std::size_t>(order_[place]);
+  }
+
+  void group() {
+    while (levels_.back().size() > 1) {
+      const std::vector<Item>& below = levels_.back();
+      std::vector<Item> groups;
+      for (std::size_t i = 0; i < below.size(); ++i) {
+        if (i % width == 0) {
+          groups.push_back(below[i]);
+          continue;
+        }
+        Item& group = groups.back();
+        group.lower = group.lower.cwiseMin(below[i].lower);
+        group.upper = group.upper.cwiseMax(below[i].upper);
+        group.weight = std::max(group.weight, below[i].weight);
+      }
+      levels_.push_back(std::move(groups));
+    }
+  }
+
   template <typename Found>
   void overlap(std::size_t level, std::size_t index, const Eigen::Vector3d& lower,
                const Eigen::Vector3d& upper, const Found& found) const {
@@ -72,7 +99,7 @@ class SequenceTree {
       return;
     }
     if (level == 0) {
-      found(index);
+      found(item_at(index));
       return;
     }
     const std::size_t end = std::min((index + 1) * width, levels_[level - 1].size());
@@ -83,7 +110,7 @@ class SequenceTree {
   void visit(std::size_t level, std::size_t index, const Eigen::Vector3d& p, double enough,
              const Value& value, double& best) const {
     if (level == 0) {
-      best = std::min(best, value(index));
+      best = std::min(best, value(item_at(index)));
       return;
     }
     const std::vector<Item>& below = levels_[level - 1];
@@ -106,6 +133,7 @@ class SequenceTree {
     }
   }
 
+  std::vector<std::int32_t> order_;        // the item at each place; empty: in their own order
   std::vector<std::vector<Item>> levels_;  // the items first, the one root last
 };
 

@@ -79,6 +79,7 @@ std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>
     own[idx(parts.counted.component_of_vertex[rim.front()])].push_back(rim);
   }
   const std::vector<Surface> open = open_components(surface, parts.counted, own);
+  const double diagonal = bounding_box_diagonal(surface.positions);
   std::vector<Shared<CurveSkeleton>> skeletons;
   skeletons.reserve(results.size());
   for (std::size_t c = 0; c < results.size(); ++c) {
@@ -87,7 +88,7 @@ std::vector<Shared<CurveSkeleton>> on_to_rims(const std::vector<ComponentResult>
     std::optional<SurfaceTree> its;
     if (results.size() > 1) its.emplace(parts.components[c].surface);
     CurveSkeleton led = *results[c].skeleton;
-    reach_rims(led, surface, its ? *its : tree_of_all, open[c], own[c]);
+    reach_rims(led, surface, diagonal, its ? *its : tree_of_all, open[c], own[c]);
     skeletons.back() = std::make_shared<const CurveSkeleton>(std::move(led));
   }
   return skeletons;

@@ -84,8 +84,8 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
   const bool single = before.components.size() == 1;
   const double diagonal = bounding_box_diagonal(surface.positions);
   const auto judged = [&](std::size_t c, const ComponentResult& result) {
-    return certificate_alone(before.parts->components[c].surface, before.parts->counted.genus[c],
-                             diagonal, *result.skeleton, way.options.certificate, room.monitor);
+    return verdict_alone(before.parts->components[c].surface, before.parts->counted.genus[c],
+                         diagonal, *result.skeleton, way.options.certificate, room.monitor);
   };
   const NotesOfComponents notes(room.monitor);
   OtherTries tries(way, *before.parts, stages, kept != nullptr, room, notes.monitor());

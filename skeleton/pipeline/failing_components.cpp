@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include "skeleton/certify/verdict.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "surface/spatial/morton.hpp"
 
@@ -135,11 +136,11 @@ std::vector<CurveSkeleton> divided(const CurveSkeleton& skeleton,
   return parts;
 }
 
-Certificate certificate_alone(const Surface& component, int genus, double diagonal,
-                              const CurveSkeleton& skeleton, const CertificateOptions& options,
-                              const Monitor& monitor) {
+Certificate verdict_alone(const Surface& component, int genus, double diagonal,
+                          const CurveSkeleton& skeleton, const CertificateOptions& options,
+                          const Monitor& monitor) {
   const SurfaceTree tree(component);
-  return evaluate({component, tree, diagonal, 1, genus}, skeleton, options, monitor);
+  return verdict({component, tree, diagonal, 1, genus}, skeleton, options, monitor);
 }
 
 std::vector<FailingComponent> failing_components(const Surface& surface, const Topology& counted,
@@ -155,7 +156,7 @@ std::vector<FailingComponent> failing_components(const Surface& surface, const T
     Surface& part = parts[idx(c)].surface;
     const int genus = counted.genus[idx(c)];
     const CurveSkeleton& curve = curves[idx(c)];
-    if (certificate_alone(part, genus, diagonal, curve, options, monitor).correct()) continue;
+    if (verdict_alone(part, genus, diagonal, curve, options, monitor).correct()) continue;
     failing.push_back({c, std::move(part), genus, std::move(curves[idx(c)])});
   }
   return failing;

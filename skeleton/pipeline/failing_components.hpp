@@ -24,11 +24,10 @@ namespace curveskel {
                                                  const std::vector<int>& component_of_node,
                                                  int components);
 
-/// The certificate of a component alone; `diagonal` is D, that of the whole surface.
-[[nodiscard]] Certificate certificate_alone(const Surface& component, int genus, double diagonal,
-                                            const CurveSkeleton& skeleton,
-                                            const CertificateOptions& options,
-                                            const Monitor& monitor);
+/// The verdict on a component alone; `diagonal` is D, that of the whole surface.
+[[nodiscard]] Certificate verdict_alone(const Surface& component, int genus, double diagonal,
+                                        const CurveSkeleton& skeleton,
+                                        const CertificateOptions& options, const Monitor& monitor);
 
 /// A component whose own certificate does not hold.
 struct FailingComponent {

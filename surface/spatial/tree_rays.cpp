@@ -167,11 +167,12 @@ void meet(const WideTree& tree, const TriangleLeaf& leaf, const ShearedRay& shea
           LocalHit& hit) {
   for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
     const Crossings crossing = crossings(tree, leaf, pair, sheared);
+    const Double2 zero{0, 0};
+    const auto misses = ((crossing.u < zero) | (crossing.v < zero) | (crossing.w < zero)) &
+                        ((crossing.u > zero) | (crossing.v > zero) | (crossing.w > zero));
+    if ((misses[0] & misses[1]) != 0) continue;  // most
     for (int lane = 0; lane < 2; ++lane) {
-      const double u = crossing.u[lane];
-      const double v = crossing.v[lane];
-      const double w = crossing.w[lane];
-      if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) continue;
+      if (misses[lane] != 0) continue;
       const double determinant = crossing.determinant[lane];
       if (determinant == 0) continue;
       const double depth = crossing.scaled_depth[lane] / determinant;

@@ -12,6 +12,8 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/certify/tube_share.hpp"
+#include "skeleton/certify/verdict.hpp"
 
 namespace curveskel::certificate_laws {
 namespace {
@@ -413,6 +415,28 @@ TEST(Certificate, NoSkeletonCoversNothing) {
   EXPECT_EQ(none.coverage, 0);
   EXPECT_EQ(none.tube_share, 0);
   EXPECT_TRUE(std::isinf(none.reach));
+}
+
+TEST(Certificate, TheVerdictIsItsOwnWithoutTheOtherFigures) {
+  const Shape ring = shapes::torus(1, 0.2, 16);
+  const CurveSkeleton line = chain({{0.9, 0, 0}, {0, 0.9, 0}, {0, 3, 0}});
+  for (const CurveSkeleton* const skeleton : {&ring.axis, &line}) {
+    const CertifiedSurface surface{ring.surface, SurfaceTree(ring.surface),
+                                   bounding_box_diagonal(ring.surface.positions), 1, 1};
+    const Certificate whole = evaluate(surface, *skeleton, {}, {});
+    const Certificate own = verdict(surface, *skeleton, {}, {});
+    EXPECT_EQ(own.topology_correct(), whole.topology_correct());
+    EXPECT_EQ(own.correct(), whole.correct());
+    EXPECT_EQ(own.inside_fraction, whole.inside_fraction);
+    EXPECT_EQ(own.deepest_exit, whole.deepest_exit);
+    EXPECT_EQ(failures(own, {}), failures(whole, {}));
+    // They take thousands of points and rays for each of a tree's leaves.
+    EXPECT_EQ(own.tube_share, 0);
+    EXPECT_EQ(own.coverage, 0);
+    EXPECT_GT(whole.tube_share, 0);
+    EXPECT_GT(whole.coverage, 0);
+    EXPECT_EQ(tube_share(ring.surface, *skeleton, {}), whole.tube_share);
+  }
 }
 
 TEST(Certificate, RefusesPositionsThatAreNoNumbers) {

@@ -8,7 +8,6 @@
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/advanced/measures.hpp>
 #include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel {
@@ -96,11 +95,11 @@ std::vector<Limb> limbs_of(const CurveSkeleton& skeleton) {
 /// Leads the curve to the middles of rims.
 class Reaching {
  public:
-  Reaching(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-           const std::vector<std::vector<std::int32_t>>& rims)
+  Reaching(CurveSkeleton& skeleton, const Surface& surface, double diagonal,
+           const SurfaceTree& tree, const std::vector<std::vector<std::int32_t>>& rims)
       : skeleton_(skeleton),
         tree_(tree),
-        below_(depth * bounding_box_diagonal(surface.positions)),
+        below_(depth * diagonal),
         limbs_(limbs_of(skeleton)),
         taken_(limbs_.size(), false),
         reached_(rims.size(), false) {
@@ -297,10 +296,11 @@ class Reaching {
 
 }  // namespace
 
-void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const Surface& open, const std::vector<std::vector<std::int32_t>>& rims) {
+void reach_rims(CurveSkeleton& skeleton, const Surface& surface, double diagonal,
+                const SurfaceTree& tree, const Surface& open,
+                const std::vector<std::vector<std::int32_t>>& rims) {
   if (rims.empty()) return;
-  Reaching(skeleton, surface, tree, rims).run();
+  Reaching(skeleton, surface, diagonal, tree, rims).run();
   if (open.triangles.rows() == 0) return;
   constexpr double rounding = 1e-9;  // of two trees over the same faces
   const SurfaceTree open_tree(open);

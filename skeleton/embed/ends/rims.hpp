@@ -22,10 +22,12 @@ namespace curveskel {
 /// straight line, if that is no narrower half-way (0.7). A rim that no tip leads to and that is 0.7
 /// as wide as the ball of a node 1.1 radii away or more gets a branch from there, from a junction
 /// by preference: the waist of trousers; its life is its length over the ball's radius. A tip that
-/// is led on hands its life to the new one. Other nodes stay. `rims` name vertices of `surface`;
-/// `tree` is over the component that has skeleton and rims, `open` is that component without what
-/// closes holes, or empty. O(nodes x rims + #F log #F).
-void reach_rims(CurveSkeleton& skeleton, const Surface& surface, const SurfaceTree& tree,
-                const Surface& open, const std::vector<std::vector<std::int32_t>>& rims);
+/// is led on hands its life to the new one. Other nodes stay. `rims` name vertices of `surface`,
+/// whose D is `diagonal`: one of many components costs no more than it is large; `tree` is over the
+/// component that has skeleton and rims, `open` is that component without what closes holes, or
+/// empty. O(nodes x rims + #F log #F).
+void reach_rims(CurveSkeleton& skeleton, const Surface& surface, double diagonal,
+                const SurfaceTree& tree, const Surface& open,
+                const std::vector<std::vector<std::int32_t>>& rims);
 
 }  // namespace curveskel
