@@ -83,6 +83,7 @@ RigSettings rig_settings_of(const py::dict& options) {
   require_valid(character.rig);
   require_valid(character.parts);
   require_together(make.repair);
+  require_root_alone(character.rig.joints.root, character.plan.plan);
   return settings;
 }
 

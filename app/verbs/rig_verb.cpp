@@ -123,6 +123,12 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
     if (formats.back() == RigFormat::vrm) require_whole(arguments.vrm);
     require_pose(formats.back(), arguments.pose, name);
   }
+  const VrmMeta& vrm = arguments.vrm;
+  const bool has_meta = !(vrm.name + vrm.author + vrm.licence_url).empty();
+  if (has_meta && std::count(formats.begin(), formats.end(), RigFormat::vrm) == 0) {
+    throw UsageError("--vrm-name, --vrm-author and --vrm-licence are for a .vrm file");
+  }
+  require_root_alone(arguments.rig.joints.root, arguments.plan.plan);
   if (is_standard_input(arguments.mesh)) {
     if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
     arguments.bare = true;

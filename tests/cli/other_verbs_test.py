@@ -422,6 +422,13 @@ class Rig(CommandLineTest):
         self.refused(3, "rig", Y, "--joints", "crate.dae", "-o", "x.glb", cwd=self.folder,
                      says=["none of 1 joints"])
 
+    def test_what_would_have_no_effect_on_a_rig_is_refused(self):
+        self.refused(2, "rig", Y, "-o", "y.glb", "--vrm-name", "Y", cwd=self.folder,
+                     says=["--vrm-name", ".vrm"])
+        self.refused(2, "rig", Y, "-o", "y.glb", "--root", "3", "--plan", "humanoid",
+                     cwd=self.folder, says=["--root 3", "--plan humanoid", "leave out"])
+        self.run_ok("rig", Y, "-o", "y.glb", "--root", "3", "--plan", "none", cwd=self.folder)
+
     def test_a_vrm_is_of_a_human_that_somebody_has_made(self):
         self.refused(2, "rig", Y, "-o", "y.vrm", cwd=self.folder,
                      says=["--vrm-name", "--vrm-author", "--vrm-licence"])
