@@ -137,6 +137,20 @@ std::string what_is_too_much(const CLI::App& verb) {
   return name + " is no option; the options are: " + options_of(verb);
 }
 
+/// CLI11's words for options that are given too often or without a value, in plain ones.
+std::string in_plain_words(std::string message) {
+  const std::string often = "At Most 1 required but received ";
+  if (const std::size_t at = message.find(often); at != std::string::npos) {
+    return message.substr(0, at) + "needed once, given " + message.substr(at + often.size()) +
+           " times";
+  }
+  const std::string lacks = ": 1 required ";
+  const std::size_t at = message.find(lacks);
+  if (at == std::string::npos || !message.ends_with(" missing")) return message;
+  message.resize(message.size() - std::string(" missing").size());
+  return message.substr(0, at) + ": needs a value, " + message.substr(at + lacks.size());
+}
+
 /// The fault in the arguments, and the right form.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
@@ -148,7 +162,7 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   const CLI::App& verb = *chosen.front();
   const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string message =
-      verb.get_name() + ": " + (has_extras ? what_is_too_much(verb) : error.what());
+      verb.get_name() + ": " + (has_extras ? what_is_too_much(verb) : in_plain_words(error.what()));
   return message + "\nsee curveskel " + verb.get_name() + " --help";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/names.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/role_names.hpp>
 #include "app/certificate_table.hpp"
@@ -86,6 +87,13 @@ void require_pose(RigFormat format, RestPose pose, const std::string& output) {
               output +
                   ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, vrm, "
                   "fbx and usda");
+}
+
+void require_root_alone(int root, BodyKind plan) {
+  if (root < 0 || plan == BodyKind::automatic || plan == BodyKind::none) return;
+  throw Error(Fault::usage, fmt::format("--root {}: a root that is chosen needs joints without a "
+                                        "plan, found --plan {}; leave out one of the two",
+                                        root, name_of(body_kinds, plan)));
 }
 
 }  // namespace curveskel

@@ -42,4 +42,7 @@ namespace curveskel {
 /// Throws Error(Fault::usage) for a format that has no pose at rest apart from the surface's.
 void require_pose(RigFormat format, RestPose pose, const std::string& output);
 
+/// Throws Error(Fault::usage) for a plan that is named beside a root: the joints are made without.
+void require_root_alone(int root, BodyKind plan);
+
 }  // namespace curveskel

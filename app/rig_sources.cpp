@@ -54,7 +54,8 @@ void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
                           name, map, soup.positions.rows()));
 }
 
-Rig rig_in(const std::filesystem::path& mesh, const Monitor& monitor) {
+Rig rig_in(const std::filesystem::path& mesh, SurfaceFormat format, const Monitor& monitor) {
+  if (keeps_joints_alone(format)) return read_joints(mesh, monitor);
   std::optional<Rig> rig = read_rig(mesh, monitor);
   if (rig) return std::move(*rig);
   throw Error(Fault::input, mesh.string() +

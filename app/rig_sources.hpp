@@ -24,11 +24,13 @@ inline constexpr std::array idle_beside_kept_rig{"ground-root", "pose"};
 void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
                          const std::string& name);
 
-/// The rig that a file has. Throws Error(Fault::input) where there is none.
-[[nodiscard]] Rig rig_in(const std::filesystem::path& mesh, const Monitor& monitor);
-
 /// FBX and COLLADA become other files: a rig that is kept is made anew of the joints that they had.
 [[nodiscard]] bool keeps_joints_alone(SurfaceFormat format);
+
+/// The rig that a file of this format has, or its joints alone; they are the surface's, wherever
+/// they lie. Throws Error(Fault::input) where there is none.
+[[nodiscard]] Rig rig_in(const std::filesystem::path& mesh, SurfaceFormat format,
+                         const Monitor& monitor);
 
 struct GivenJoints {
   Rig rig;

@@ -83,6 +83,7 @@ RigSettings rig_settings_of(const py::dict& options) {
   require_valid(character.rig);
   require_valid(character.parts);
   require_together(make.repair);
+  require_root_alone(character.rig.joints.root, character.plan.plan);
   return settings;
 }
 
@@ -112,19 +113,14 @@ RigSources sources_of(const Wanted& wanted, PythonRig& result, const Monitor& mo
   RigSources sources;
   sources.skeleton = wanted.skeleton;
   if (sources.skeleton) require_skeleton_of(result.soup, *sources.skeleton, "skeleton");
-  std::optional<std::filesystem::path> joints = wanted.joints;
   if (wanted.keep_rig) {
     const std::filesystem::path& file = result.soup.file;
     if (file.empty()) throw Error(Fault::usage, "keep_rig needs a file, not arrays");
-    if (keeps_joints_alone(result.soup.format)) {
-      joints = file;
-    } else {
-      result.old_rig = OldRig::kept;
-      sources.joints = rig_in(file, monitor);
-    }
+    sources.joints = rig_in(file, result.soup.format, monitor);
+    if (!keeps_joints_alone(result.soup.format)) result.old_rig = OldRig::kept;
   }
-  if (!joints) return sources;
-  GivenJoints given = joints_for(*joints, result.soup, monitor);
+  if (!wanted.joints) return sources;
+  GivenJoints given = joints_for(*wanted.joints, result.soup, monitor);
   if (!given.finding.empty()) result.findings.push_back(given.finding);
   sources.joints = std::move(given.rig);
   return sources;

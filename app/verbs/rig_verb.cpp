@@ -123,6 +123,12 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
     if (formats.back() == RigFormat::vrm) require_whole(arguments.vrm);
     require_pose(formats.back(), arguments.pose, name);
   }
+  const VrmMeta& vrm = arguments.vrm;
+  const bool has_meta = !(vrm.name + vrm.author + vrm.licence_url).empty();
+  if (has_meta && std::count(formats.begin(), formats.end(), RigFormat::vrm) == 0) {
+    throw UsageError("--vrm-name, --vrm-author and --vrm-licence are for a .vrm file");
+  }
+  require_root_alone(arguments.rig.joints.root, arguments.plan.plan);
   if (is_standard_input(arguments.mesh)) {
     if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
     arguments.bare = true;
@@ -136,11 +142,8 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
 RigSources sources_of(RigArguments& arguments, const PolygonSoup& soup, Session& session) {
   const Monitor monitor = session.monitor();
   RigSources sources;
-  if (arguments.keep_rig && keeps_joints_alone(soup.format)) {
-    arguments.keep_rig = false;
-    arguments.joints = arguments.mesh.string();
-  }
-  if (arguments.keep_rig) sources.joints = rig_in(arguments.mesh, monitor);
+  if (arguments.keep_rig) sources.joints = rig_in(arguments.mesh, soup.format, monitor);
+  if (keeps_joints_alone(soup.format)) arguments.keep_rig = false;
   if (!arguments.joints.empty()) {
     GivenJoints given = joints_for(arguments.joints, soup, monitor);
     if (!given.finding.empty()) session.terminal.warn(given.finding);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "rig/fbx/fbx_materials.hpp"
 #include "rig/fbx/fbx_mesh.hpp"
 #include "rig/fbx/fbx_set_names.hpp"
+#include "rig/io/rig_formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_scene.hpp"
@@ -85,6 +87,7 @@ class SceneWriter {
     for (const tinygltf::Skin& skin : model.skins) {
       for (const int node : skin.joints) is_joint_[idx(node)] = true;
     }
+    name_joints();
   }
 
   std::string write(const std::string& provenance) {
@@ -96,6 +99,45 @@ class SceneWriter {
   }
 
  private:
+  /// As `read_rig` does: programs find joints and the vertices that they move by names.
+  void name_joints() {
+    std::vector<std::string> names;
+    for (const int node : scene_.nodes) {
+      if (is_joint_[idx(node)]) names.push_back(node_of(node).name);
+    }
+    name_nameless(names);
+    auto name = names.begin();
+    for (const int node : scene_.nodes) {
+      if (is_joint_[idx(node)]) joint_name_[node] = *name++;
+    }
+  }
+
+  /// The frame of Blender's armature: the topmost node from which a joint hangs directly. Without
+  /// it Blender takes that node's own move for its place in the scene.
+  [[nodiscard]] Affine3d armature_of(int joint) const {
+    Affine3d frame = Affine3d::Identity();
+    for (int node = joint; node >= 0;) {
+      const int parent = scene_.parents[idx(node)];
+      if (parent >= 0 && !is_joint_[idx(parent)] && has_joint(parent)) {
+        frame = scene_.frames[idx(parent)];
+      } else if (parent < 0 && is_joint_[idx(node)]) {
+        frame = Affine3d::Identity();
+      }
+      node = parent;
+    }
+    return frame;
+  }
+
+  [[nodiscard]] bool has_joint(int node) const {
+    const std::vector<int>& children = node_of(node).children;
+    return std::any_of(children.begin(), children.end(),
+                       [&](int child) { return is_joint_[idx(child)]; });
+  }
+
+  [[nodiscard]] const std::string& name_of(int node) const {
+    return is_joint_[idx(node)] ? joint_name_.at(node) : node_of(node).name;
+  }
+
   [[nodiscard]] const tinygltf::Node& node_of(int node) const { return model_.nodes[idx(node)]; }
 
   [[nodiscard]] Affine3d local(int node) const {
@@ -118,16 +160,15 @@ class SceneWriter {
     if (!is_needed(node)) return;
     const bool is_joint = is_joint_[idx(node)];
     const char* kind = is_joint ? "LimbNode" : is_plain_mesh(node) ? "Mesh" : "Null";
-    const std::int64_t number = add_model(node_of(node).name, kind, local(node));
+    const std::int64_t number = add_model(name_of(node), kind, local(node));
     model_of_node_[node] = number;
     const auto parent = model_of_node_.find(scene_.parents[idx(node)]);
     document_.connect(number, parent == model_of_node_.end() ? FbxDocument::root : parent->second);
     if (is_plain_mesh(node)) return;
-    const std::int64_t attribute =
-        document_.add("NodeAttribute", node_of(node).name, "NodeAttribute", kind,
-                      [is_joint](FbxRecords& records) {
-                        records.record("TypeFlags", is_joint ? "Skeleton" : "Null");
-                      });
+    const std::int64_t attribute = document_.add(
+        "NodeAttribute", name_of(node), "NodeAttribute", kind, [is_joint](FbxRecords& records) {
+          records.record("TypeFlags", is_joint ? "Skeleton" : "Null");
+        });
     document_.connect(attribute, number);
   }
 
@@ -217,7 +258,8 @@ class SceneWriter {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const auto joint = model_of_node_.find(joints[k]);
       if (joint == model_of_node_.end()) continue;  // outside the scene
-      const std::int64_t cluster = add_cluster(node_of(joints[k]).name, moved[k], bound[k]);
+      const std::int64_t cluster =
+          add_cluster(name_of(joints[k]), moved[k], bound[k], armature_of(joints[k]));
       document_.connect(cluster, skin);
       document_.connect(joint->second, cluster);
       if (is_bound_.emplace(joint->second, true).second) {
@@ -228,7 +270,7 @@ class SceneWriter {
 
   std::int64_t add_cluster(const std::string& name,
                            const std::vector<std::pair<std::int32_t, double>>& moved,
-                           const Affine3d& bound) {
+                           const Affine3d& bound, const Affine3d& armature) {
     std::vector<std::int32_t> vertices;
     std::vector<double> weights;
     for (const auto& [vertex, weight] : moved) {
@@ -236,7 +278,7 @@ class SceneWriter {
       weights.push_back(weight);
     }
     return document_.add("Deformer", name, "SubDeformer", "Cluster",
-                         [vertices, weights, bound](FbxRecords& records) {
+                         [vertices, weights, bound, armature](FbxRecords& records) {
                            records.record("Version", 100);
                            records.record("UserData", "", "");
                            if (!vertices.empty()) {
@@ -245,6 +287,7 @@ class SceneWriter {
                            }
                            records.record("Transform", fbx_matrix(bound.inverse()));
                            records.record("TransformLink", fbx_matrix(bound));
+                           records.record("TransformAssociateModel", fbx_matrix(armature));
                          });
   }
 
@@ -269,6 +312,7 @@ class SceneWriter {
   GltfScene scene_;
   std::vector<std::vector<std::string>> map_names_;  // by mesh
   std::vector<bool> is_joint_;                       // by node
+  std::map<int, std::string> joint_name_;            // by node
   FbxDocument document_;
   std::vector<std::int64_t> materials_;
   std::int64_t plain_material_ = 0;

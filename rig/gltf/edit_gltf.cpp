@@ -180,7 +180,7 @@ void note_shared_names(const OrderedJson& gltf, std::vector<std::string>& notes)
   if (shared.empty()) return;
   notes.push_back("joints have the names of other nodes (" + shared +
                   "), so a program may put a number behind either; rename those nodes, or give "
-                  "the joints other names with --names");
+                  "the joints other names (--names; beside --joints, in that file)");
 }
 
 EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& options,

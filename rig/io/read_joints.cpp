@@ -83,6 +83,7 @@ Rig rig_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
     rig.names.push_back(joint.name);
     rig.roles.push_back(joint.role);
   }
+  name_nameless(rig.names);
   return rig;
 }
 

@@ -49,6 +49,7 @@ class JointReader {
       rig.parents[joint] = above < 0 ? -1 : joint_of_node_.at(above);
       rig.names.push_back(model_.nodes[static_cast<std::size_t>(node)].name);
     }
+    name_nameless(rig.names);
   }
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <curveskel/monitor.hpp>
@@ -27,5 +28,9 @@ struct GltfRig {
 /// skin does. Throws Error(Fault::input) as `read_rig`.
 [[nodiscard]] GltfRig rig_of_scene(const FileBytes& file, const tinygltf::Model& model,
                                    const GltfScene& scene);
+
+/// Joints without a name are called joint_1 and so on, by their place in `names`; where one has
+/// that name, with a number behind it.
+void name_nameless(std::vector<std::string>& names);
 
 }  // namespace curveskel

@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::RowVector3d;
 
+constexpr const char* six_channels =
+    "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation";
+
 class BvhWriter {
  public:
   explicit BvhWriter(const Rig& rig)
@@ -23,7 +26,12 @@ class BvhWriter {
 
   std::string write() {
     text_ = "HIERARCHY\n";
-    for (const int root : roots_) add(root, "ROOT", rig_.joints.row(root));
+    const bool needs_holder = roots_.size() > 1;
+    if (needs_holder) begin_holder();
+    for (const int root : roots_) {
+      add(root, needs_holder ? "JOINT" : "ROOT", rig_.joints.row(root));
+    }
+    if (needs_holder) close();
     text_ += "MOTION\nFrames: 1\nFrame Time: 0.0333333\n";
     return text_ + still_ + "\n";
   }
@@ -50,6 +58,7 @@ class BvhWriter {
   /// Depth first, as the order of the channels is. A stack of its own: chains may be long.
   void add(int root, const std::string& word, const RowVector3d& by) {
     begin(root, word, by);
+    if (children_[idx(root)].empty()) end_site(RowVector3d::Zero());
     std::vector<std::pair<int, std::size_t>> open_joints{{root, 0}};
     while (!open_joints.empty()) {
       const int joint = open_joints.back().first;
@@ -77,15 +86,23 @@ class BvhWriter {
     open(word + " " + names_[idx(joint)]);
     offset(by);
     const bool is_root = word == "ROOT";
-    line(is_root ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
-                 : "CHANNELS 3 Zrotation Xrotation Yrotation");
+    line(is_root ? six_channels : "CHANNELS 3 Zrotation Xrotation Yrotation");
     if (is_root) {  // readers take its position for an absolute one
       for (const double coordinate : by) {
         still_ += (still_.empty() ? "" : " ") + number_text(coordinate);
       }
     }
     still_ += " 0 0 0";
-    if (is_root && children_[idx(joint)].empty()) end_site(RowVector3d::Zero());
+  }
+
+  /// Most readers take one root alone: others hang from one at the origin then.
+  void begin_holder() {
+    std::string name = "root";
+    while (std::count(names_.begin(), names_.end(), name) > 0) name += "_";
+    open("ROOT " + name);
+    offset(RowVector3d::Zero());
+    line(six_channels);
+    still_ = "0 0 0 0 0 0";
   }
 
   void end_site(const RowVector3d& by) {

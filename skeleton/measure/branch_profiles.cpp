@@ -13,6 +13,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/error.hpp>
+#include "base/decimal.hpp"
 #include "base/parallel.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 #include "skeleton/measure/plane_section.hpp"
@@ -28,9 +29,11 @@ std::vector<double> places_on(const BranchCurve& curve, double spacing) {
   if (spacing == 0) return curve.lengths;
   const double steps = std::max(1.0, std::ceil(curve.length() / spacing - 1e-9));
   if (!(steps < most_sections)) {
-    throw Error(Fault::usage, "a branch of length " + std::to_string(curve.length()) +
-                                  " has too many sections at a spacing of " +
-                                  std::to_string(spacing) + "; needed 10^7 at most");
+    std::string message = "a branch of length ";
+    append_decimal(message, curve.length());
+    message += " has too many sections at a spacing of ";
+    append_decimal(message, spacing);
+    throw Error(Fault::usage, message + "; needed 10^7 at most: give a wider spacing");
   }
   std::vector<double> places;
   for (int k = 0; k <= static_cast<int>(steps); ++k) places.push_back(curve.length() * k / steps);
@@ -141,8 +144,9 @@ void cut(const Cutting& cutting, BranchSection& section) {
 std::vector<BranchSection> branch_profiles(const Surface& surface, const CurveSkeleton& skeleton,
                                            const ProfileOptions& options, const Monitor& monitor) {
   if (!(options.spacing >= 0)) {
-    throw Error(Fault::usage, "the spacing of sections is " + std::to_string(options.spacing) +
-                                  ", needed 0 (at the nodes) or more");
+    std::string message = "the spacing of sections is ";
+    append_decimal(message, options.spacing);
+    throw Error(Fault::usage, message + ", needed 0 (at the nodes) or more");
   }
   const SurfaceTree tree(surface, options.threads);
   const Surface open = without_lids(surface, options.rims);

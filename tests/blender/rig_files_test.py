@@ -275,6 +275,33 @@ class Fbx(unittest.TestCase):
                                 "-q"], check=True, stderr=subprocess.DEVNULL)
                 self.read_by_assimp(f"{name}.fbx", f"{name}.glb")
             found = result_of(FBX, folder)
+        self.assert_alike(found)
+
+    def test_of_a_rig_that_is_kept_below_a_node_that_is_turned(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            for kept in ("upright", "turned"):
+                given = folder / f"{kept}.gltf"
+                subprocess.run([PROGRAM, "rig", SOURCE / "meshes" / "y.off", "-o", given, "-q"],
+                               check=True, stderr=subprocess.DEVNULL)
+                file = json.loads(given.read_text())
+                scene = file["scenes"][0]
+                file["materials"] = [{"name": "skin"}]
+                file["meshes"][0]["primitives"][0]["material"] = 0
+                if kept == "turned":
+                    file["nodes"].append({"name": "z is up", "children": scene["nodes"],
+                                          "rotation": [-0.5 ** 0.5, 0, 0, 0.5 ** 0.5],
+                                          "translation": [1, 2, 3]})
+                    scene["nodes"] = [len(file["nodes"]) - 1]
+                given.write_text(json.dumps(file))
+                subprocess.run([PROGRAM, "rig", given, "--keep-rig", "-q", "-o",
+                                folder / f"{kept}.glb", "-o", folder / f"{kept}.fbx"],
+                               check=True, stderr=subprocess.DEVNULL)
+            found = result_of(FBX, folder)
+        self.assertEqual(set(found), {"upright", "turned"})
+        self.assert_alike(found)
+
+    def assert_alike(self, found):
         self.assertTrue(found)
         for name, result in found.items():
             with self.subTest(name):

@@ -396,6 +396,39 @@ class Rig(CommandLineTest):
         self.refused(2, "rig", Y, "--joints", "far.json", "--keep-rig", "-o", "x.glb",
                      cwd=self.folder, says=["--joints", "--keep-rig"])
 
+    def test_a_rig_is_kept_wherever_its_joints_lie(self):
+        corners = " ".join(f"{x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+        faces = "0 1 3 2 4 6 7 5 0 4 5 1 2 3 7 6 0 2 6 4 1 5 7 3"
+        (self.folder / "crate.dae").write_text(f"""<?xml version="1.0"?>
+            <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+            <asset><up_axis>Y_UP</up_axis></asset>
+            <library_geometries><geometry id="g"><mesh>
+            <source id="p"><float_array id="a" count="24">{corners}</float_array>
+            <technique_common><accessor source="#a" count="8" stride="3"><param name="X"
+            type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
+            </technique_common></source>
+            <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+            <polylist count="6"><input semantic="VERTEX" source="#v" offset="0"/>
+            <vcount>4 4 4 4 4 4</vcount><p>{faces}</p></polylist></mesh></geometry>
+            </library_geometries><library_visual_scenes><visual_scene id="s">
+            <node id="rope" name="rope" type="JOINT"><translate>0 9 0</translate></node>
+            <node id="m"><instance_geometry url="#g"/></node></visual_scene>
+            </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+        self.run_ok("rig", "crate.dae", "--keep-rig", "-o", "kept.json", cwd=self.folder)
+        kept = json.loads((self.folder / "kept.json").read_text())
+        self.assertEqual([(joint["name"], joint["position"]) for joint in kept["joints"]],
+                         [("rope", [0, 9, 0])])
+        self.assertEqual({row[0] for row in kept["weights"]["values"]}, {1})
+        self.refused(3, "rig", Y, "--joints", "crate.dae", "-o", "x.glb", cwd=self.folder,
+                     says=["none of 1 joints"])
+
+    def test_what_would_have_no_effect_on_a_rig_is_refused(self):
+        self.refused(2, "rig", Y, "-o", "y.glb", "--vrm-name", "Y", cwd=self.folder,
+                     says=["--vrm-name", ".vrm"])
+        self.refused(2, "rig", Y, "-o", "y.glb", "--root", "3", "--plan", "humanoid",
+                     cwd=self.folder, says=["--root 3", "--plan humanoid", "leave out"])
+        self.run_ok("rig", Y, "-o", "y.glb", "--root", "3", "--plan", "none", cwd=self.folder)
+
     def test_a_vrm_is_of_a_human_that_somebody_has_made(self):
         self.refused(2, "rig", Y, "-o", "y.vrm", cwd=self.folder,
                      says=["--vrm-name", "--vrm-author", "--vrm-licence"])

@@ -82,6 +82,12 @@ class WrongArguments(CommandLineTest):
             self.refused(USAGE, "extract", TORUS, "-o", "x.obj", option, value,
                          says=[option, word], cwd=self.folder)
 
+    def test_given_twice_or_without_a_value(self):
+        self.refused(USAGE, "extract", Y, "-o", "a.ply", "--detail", "0", "--detail", "1",
+                     cwd=self.folder, says=["--detail: needed once, given 2 times"])
+        self.refused(USAGE, "extract", Y, "-o", "a.ply", "--html", cwd=self.folder,
+                     says=["--html: needs a value, FILE.html"])
+
     def test_that_contradict_each_other(self):
         self.refused(USAGE, "extract", TORUS, says=["--output"])
         self.refused(USAGE, "extract", "-o", "x.obj", says=["MESH"])

@@ -2,8 +2,11 @@
 // weights.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <variant>
@@ -20,6 +23,7 @@
 #include "surface/read/fbx_tree.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/rig_subjects.hpp"
+#include "tests/rig/rigged_bar.hpp"
 
 namespace curveskel::fbx_laws {
 namespace {
@@ -239,6 +243,38 @@ TEST(Fbx, GivesItsJointsBack) {
       }
     }
   }
+}
+
+/// Blender's armature is the node from which the topmost joint hangs.
+TEST(Fbx, SaysWhereTheArmatureOfARigThatIsKeptStands) {
+  const OwnFolder folder;
+  const std::filesystem::path given = folder.path() / "bar.gltf";
+  auto bar = nlohmann::json::parse(gltf_of({.helper_nodes = true}));
+  nlohmann::json& nodes = bar["nodes"];
+  nodes.push_back({{"name", "armature"}, {"children", {1}}, {"translation", {0, 5, 0}}});
+  nodes.push_back({{"name", "z is up"},
+                   {"children", {0, nodes.size() - 1}},
+                   {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
+  bar["scenes"][0]["nodes"] = {nodes.size() - 1};
+  write_file(given, bar.dump());
+  const auto edited =
+      format_rig_into(given, *read_rig(given), {RigFormat::fbx, OldRig::kept, "rig", "test"});
+  const FileBytes file{"kept.fbx", edited->bytes};
+  const FbxRecord root = parse_fbx(file);
+  const FbxScene scene(file, root);
+  Eigen::Affine3d armature = Eigen::Affine3d::Identity();
+  for (const FbxRecord* model : scene.all("Model")) {
+    if (name_of(*model) == "joint 0") armature = scene.frame(*scene.parent(*model));
+  }
+  EXPECT_GT(armature.translation().norm(), 1);
+  int clusters = 0;
+  for (const FbxRecord* cluster : scene.all("Deformer")) {
+    if (cluster->text(2) != "Cluster") continue;
+    ++clusters;
+    const Eigen::Affine3d said = scene.matrix(*cluster->child("TransformAssociateModel"));
+    EXPECT_LT((said.matrix() - armature.matrix()).norm(), 1e-5);
+  }
+  EXPECT_EQ(clusters, 4);
 }
 
 TEST(Fbx, IsTheSameEachTime) {

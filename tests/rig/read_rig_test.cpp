@@ -14,6 +14,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read.hpp>
+#include <curveskel/rig_files.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/real_surfaces.hpp"
 #include "tests/rig/rigged_bar.hpp"
@@ -97,6 +98,24 @@ TEST_F(ReadRig, SameJointsAndWeightsHoweverTheFileSaysThem) {
       }
     }
   }
+}
+
+TEST_F(ReadRig, JointsWithoutANameGetOne) {
+  auto bar = nlohmann::json::parse(gltf_of({.joints = 3}));
+  for (auto& node : bar["nodes"]) {
+    if (node["name"] != "joint 2") node.erase("name");
+  }
+  bar["nodes"][3]["name"] = "joint_2";
+  write_file(file(), bar.dump());
+  const std::vector<std::string> names{"joint_1", "joint_2_2", "joint_2"};
+  EXPECT_EQ(read_rig(file(), {})->names, names);
+  EXPECT_EQ(read_joints(file(), {}).names, names);
+  // Blender finds the bone that moves a vertex by its name.
+  const fs::path kept = file().parent_path() / "kept.fbx";
+  const auto edited =
+      format_rig_into(file(), *read_rig(file()), {RigFormat::fbx, OldRig::kept, "rig", "test"});
+  write_file(kept, edited->bytes);
+  EXPECT_EQ(read_joints(kept, {}).names, names);
 }
 
 TEST_F(ReadRig, VerticesThatNothingMovesHaveEmptyRows) {

@@ -220,6 +220,28 @@ TEST_F(RigFormats, BvhHasEveryJointAtItsPlace) {
   }
 }
 
+/// Assimp and three.js refuse a second one.
+TEST_F(RigFormats, BvhHasOneRoot) {
+  for (const WrittenCase& one : written_cases()) {
+    Rig rig = random_rig_of(one);
+    for (const int roots : {1, 2, 3}) {
+      for (int joint = 0; joint < std::min<int>(roots, static_cast<int>(rig.parents.size()));
+           ++joint) {
+        rig.parents[joint] = -1;
+      }
+      const std::string text = formatted(rig, RigFormat::bvh);
+      const std::size_t first = text.find("ROOT ");
+      EXPECT_EQ(text.find("ROOT ", first + 1), std::string::npos);
+      int depth = 0;
+      for (std::size_t at = first; at < text.find("MOTION"); ++at) {
+        depth += text[at] == '{' ? 1 : text[at] == '}' ? -1 : 0;
+        const bool ends_early = text[at] == '}' && depth == 0 && text[at + 2] != 'M';
+        EXPECT_FALSE(ends_early);
+      }
+    }
+  }
+}
+
 /// What stands between the brackets behind `key`.
 std::string list_after(const std::string& text, const std::string& key) {
   const std::size_t begin = text.find(key + " = [");
