@@ -139,7 +139,7 @@ TEST(FairRings, DeviceAgreesWithTheReferenceAfterTenIterations) {
   }
 }
 
-TEST(FairRings, PatchesOfAnySizeWillDo) {
+TEST(ThoroughFairRings, PatchesOfAnySizeWillDo) {
   SKIP_WITHOUT_DEVICE();
   for (const int sides : {30, 100, 520}) {  // in private memory, in the workspace, on the host
     const Shape cone = shapes::cone(1, 2, sides);
@@ -391,7 +391,7 @@ TEST(LocalAgainstGlobal, OnlyTheGlobalFlowContractsAShape) {
   expect_only_the_global_flow_contracts(tube.name, tube.surface);
 }
 
-TEST(LocalAgainstGlobal, OnlyTheGlobalFlowContractsARealSurface) {
+TEST(ThoroughLocalAgainstGlobal, OnlyTheGlobalFlowContractsARealSurface) {
   const auto path = real_surface("spot-3k.obj");
   ASSERT_TRUE(path);
   expect_only_the_global_flow_contracts("spot", clean(read_polygons(*path, {}), {}).surface);

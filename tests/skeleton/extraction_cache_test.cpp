@@ -221,9 +221,8 @@ TEST_P(Cached, IsUnharmedByARunThatWasCancelledAnywhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Extraction, Cached, testing::Bool(), [](const auto& each) {
-  return std::string(each.param ? "Faired" : "AsItIs");
-});
+INSTANTIATE_TEST_SUITE_P(Faired, Cached, testing::Values(true));
+INSTANTIATE_TEST_SUITE_P(ThoroughAsItIs, Cached, testing::Values(false));
 
 TEST(CachedSurface, IsFreshThroughSecondContractionsAndLevelSets) {
   const Surface sieve = shapes::sieve(2).surface;

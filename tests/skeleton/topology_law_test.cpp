@@ -241,6 +241,9 @@ TEST(TopologyLaw, ManyAndThinHandles) {
   expect_law(ball_with_thin_handles());
   expect_law(dwindling_rings(8, 100));
   EXPECT_TRUE(is_kept(expect_law(dwindling_rings(8, 1e4)).history, try_level_sets));
+}
+
+TEST(ThoroughTopologyLaw, MoreHandlesThanTheUsualWorkingVerticesHold) {
   // Its handles need more than the 8,000 working vertices that are usual.
   const Extraction found = expect_law(shapes::subdivided(shapes::sieve(20)));
   EXPECT_GE(found.components.front().working_vertices, 32 * 400);

@@ -197,7 +197,7 @@ TEST(History, TellsWhySecondContractionsAndLevelSetsWereMade) {
 }
 
 // A second try's frames were those of the first, on top of them.
-TEST(History, TellsTheTriesApartInFramesAndCurves) {
+TEST(ThoroughHistory, TellsTheTriesApartInFramesAndCurves) {
   const RepairedSurface repaired = repair(soup_of(ragged().surface), {}, {});
   ShownWatch watch;
   const RepairedExtraction found = extract_repaired(repaired, {}, {}, watch.monitor());

@@ -59,7 +59,7 @@ TEST(Tunnels, OfEveryWidthHaveCyclesRoundThem) {
   }
 }
 
-TEST(Tunnels, SideBySideHaveACycleEach) {
+TEST(ThoroughTunnels, SideBySideHaveACycleEach) {
   std::vector<Tunnel> tunnels;
   for (const double x : {-0.5, 0.0, 0.5}) {
     for (const double y : {-0.4, 0.1, 0.6}) tunnels.push_back({{x, y, 0}, {0.1, 0, 1}, 0.08});

@@ -204,12 +204,10 @@ TEST(Wrapping, AWrapThatWouldNotEndWithItsBudgetIsNotBegun) {
 
 // The narrowest gap would take 136,000 vertices, and minutes.
 TEST(Wrapping, ASoupIsWrappedWithinTheBudgetAndSaysWhatTheWrapFollows) {
-  for (const int count : {50, 100}) {
-    const RepairedSurface result = repair(loose_triangles(count), {}, {});
-    expect_closed_outward_manifold(result.surface);
-    EXPECT_LT(result.surface.positions.rows(), budget_of_needed_wraps.vertices);
-    EXPECT_LT(result.repairs.wrap_followed, wrap_followed_needed);
-  }
+  const RepairedSurface result = repair(loose_triangles(50), {}, {});
+  expect_closed_outward_manifold(result.surface);
+  EXPECT_LT(result.surface.positions.rows(), budget_of_needed_wraps.vertices);
+  EXPECT_LT(result.repairs.wrap_followed, wrap_followed_needed);
   const RepairedSurface close = repair(shrunk_apart(shapes::torus(3, 1, 24).surface, 0.05), {}, {});
   EXPECT_GT(close.repairs.wrap_followed, 0.95);
 }
@@ -220,7 +218,7 @@ TEST(Wrapping, AWrapSaysHowFarItIs) {
   Monitor monitor;
   monitor.progress = [&](std::string_view, double fraction) { fractions.push_back(fraction); };
   WrapBudget budget;
-  (void)wrap(torus, {0.1, 0.01}, budget, monitor);
+  (void)wrap(torus, {0.25, 0.01}, budget, monitor);
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_EQ(fractions.back(), 1);
   const auto is_between = [](double fraction) { return fraction > 0.1 && fraction < 0.9; };

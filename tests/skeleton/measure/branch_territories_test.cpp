@@ -45,7 +45,7 @@ Surface moved_beside_a_ball(const Surface& surface, const Eigen::Vector3d& way) 
   return both;
 }
 
-TEST(BranchTerritories, AreTheSameElsewhereAndBesideOthers) {
+TEST(ThoroughBranchTerritories, AreTheSameElsewhereAndBesideOthers) {
   for (const NamedSurface& one : families()) {
     SCOPED_TRACE(one.name);
     CurveSkeleton skeleton = extract(one.surface).skeleton;
