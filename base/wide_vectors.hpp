@@ -11,3 +11,8 @@
 #else
 #define CURVESKEL_WIDE_VECTORS
 #endif
+
+// GCC warns that vectors of 32 bytes are passed otherwise where there is AVX: none leaves its unit.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif

@@ -18,8 +18,6 @@ function(curveskel_compile_settings target)
     EIGEN_MALLOC_ALREADY_ALIGNED=1 EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
   # Same bytes on every machine of the same kind: no contraction of a*b+c into one rounding.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
-  # GCC notes that vectors of 32 bytes are passed otherwise where there is AVX: none leaves its unit.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
   if(CURVESKEL_SANITIZE)
     # With AddressSanitizer GCC believes that what the standard library allocates may be null.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference>)

@@ -12,15 +12,16 @@ namespace {
 using Eigen::Vector3d;
 
 // Standard deviation over mean of the ray lengths in the plane normal to the curve.
-double ray_variation(const SurfaceTree& tree, const CurveSample& sample, int rays) {
+// `circle`: the rays' places on the unit circle.
+double ray_variation(const SurfaceTree& tree, const CurveSample& sample,
+                     const std::vector<std::pair<double, double>>& circle) {
+  const auto rays = static_cast<double>(circle.size());
   const Vector3d u = sample.tangent.unitOrthogonal();
   const Vector3d w = sample.tangent.cross(u);
   double sum = 0;
   double squares = 0;
-  for (int k = 0; k < rays; ++k) {
-    const double angle = 2 * std::numbers::pi * k / rays;
-    const double length =
-        tree.ray(sample.position, std::cos(angle) * u + std::sin(angle) * w).distance;
+  for (const auto& [along_u, along_w] : circle) {
+    const double length = tree.ray(sample.position, along_u * u + along_w * w).distance;
     if (!std::isfinite(length)) return 0;  // the surface is not closed
     sum += length;
     squares += length * length;
@@ -45,6 +46,11 @@ bool at_junction(const MeasuredCurve& subject, const CurveSample& sample) {
 
 std::vector<double> ray_variations(const MeasuredCurve& curve, int rays, const Monitor& monitor) {
   constexpr double left_out = -1;
+  std::vector<std::pair<double, double>> circle;
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2 * std::numbers::pi * k / rays;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
   std::vector<double> variation(curve.samples.size(), left_out);
   const auto measure = [&](bool at_junctions_too) {
     for_samples(curve, 0.2, 0.7, monitor, [&](std::size_t i) {
@@ -52,7 +58,7 @@ std::vector<double> ray_variations(const MeasuredCurve& curve, int rays, const M
       if (curve.radius[i] <= 0) {
         variation[i] = std::numeric_limits<double>::infinity();
       } else if (at_junctions_too || !at_junction(curve, sample)) {
-        variation[i] = ray_variation(curve.tree, sample, rays);
+        variation[i] = ray_variation(curve.tree, sample, circle);
       }
     });
   };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/wide_vectors.hpp"
 #include "surface/spatial/wide_tree.hpp"
 
 namespace curveskel {
