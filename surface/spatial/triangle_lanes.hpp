@@ -56,9 +56,8 @@ template <typename Double>
 }
 
 /// Corner k of places 2 * pair and 2 * pair + 1.
-[[nodiscard]] inline Lanes3<Double2> corners_of_pair(const WideTree& tree,
-                                                     const TriangleLeaf& leaf, std::size_t k,
-                                                     std::size_t pair) {
+[[nodiscard]] inline Lanes3<Double2> corners_of_pair(const WideTree& tree, const TriangleLeaf& leaf,
+                                                     std::size_t k, std::size_t pair) {
   const Eigen::Vector3d& p = tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair])];
   const Eigen::Vector3d& q = tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair + 1])];
   return {Double2{p.x(), q.x()}, Double2{p.y(), q.y()}, Double2{p.z(), q.z()}};
@@ -67,14 +66,14 @@ template <typename Double>
 [[nodiscard]] inline Double4 coordinates(const WideTree& tree, const TriangleLeaf& leaf,
                                          std::size_t k, std::size_t axis) {
   const auto at = [&](std::size_t place) {
-    return tree.vertices[static_cast<std::size_t>(leaf.vertex[k][place])]
-                        [static_cast<Eigen::Index>(axis)];
+    return tree
+        .vertices[static_cast<std::size_t>(leaf.vertex[k][place])][static_cast<Eigen::Index>(axis)];
   };
   return Double4{at(0), at(1), at(2), at(3)};
 }
 /// Corner k of all places.
-[[nodiscard]] inline Lanes3<Double4> corners_of_leaf(const WideTree& tree,
-                                                     const TriangleLeaf& leaf, std::size_t k) {
+[[nodiscard]] inline Lanes3<Double4> corners_of_leaf(const WideTree& tree, const TriangleLeaf& leaf,
+                                                     std::size_t k) {
   return {coordinates(tree, leaf, k, 0), coordinates(tree, leaf, k, 1),
           coordinates(tree, leaf, k, 2)};
 }
@@ -85,8 +84,8 @@ template <typename Double>
                                                         const Lanes3<Double>& segment) {
   const auto tiny = spread<Double>(1e-300);
   const Double t = lesser(
-      spread<Double>(1), greater(spread<Double>(0), dot(from_start, segment) /
-                                                        greater(dot(segment, segment), tiny)));
+      spread<Double>(1),
+      greater(spread<Double>(0), dot(from_start, segment) / greater(dot(segment, segment), tiny)));
   const Lanes3<Double> offset{from_start.x - t * segment.x, from_start.y - t * segment.y,
                               from_start.z - t * segment.z};
   return dot(offset, offset);
@@ -108,9 +107,9 @@ template <typename Double>
   const auto above = (u >= zero) & (v >= zero) & (u + v <= normal2) & (normal2 > sliver);
   const Double height = dot(ap, normal);
   const Double to_plane = height * height / greater(normal2, spread<Double>(1e-300));
-  const Double to_edges =
-      lesser(squared_distance_to_segment(ap, ab),
-             lesser(squared_distance_to_segment(ap, ac), squared_distance_to_segment(p - b, c - b)));
+  const Double to_edges = lesser(
+      squared_distance_to_segment(ap, ab),
+      lesser(squared_distance_to_segment(ap, ac), squared_distance_to_segment(p - b, c - b)));
   return above ? to_plane : to_edges;
 }
 
