@@ -13,16 +13,16 @@ using Eigen::Vector3d;
 
 // Standard deviation over mean of the ray lengths in the plane normal to the curve. Rays that are
 // no longer than a few times the distance to the surface, most of them in a tube, go together.
-double ray_variation(const SurfaceTree& tree, const CurveSample& sample, double radius, int rays) {
+// `circle`: the rays' places on the unit circle.
+double ray_variation(const SurfaceTree& tree, const CurveSample& sample, double radius,
+                     const std::vector<std::pair<double, double>>& circle) {
   constexpr double together = 4;  // radii
+  const auto rays = static_cast<double>(circle.size());
   const Vector3d u = sample.tangent.unitOrthogonal();
   const Vector3d w = sample.tangent.cross(u);
   std::vector<Vector3d> directions;
-  directions.reserve(static_cast<std::size_t>(rays));
-  for (int k = 0; k < rays; ++k) {
-    const double angle = 2 * std::numbers::pi * k / rays;
-    directions.emplace_back(std::cos(angle) * u + std::sin(angle) * w);
-  }
+  directions.reserve(circle.size());
+  for (const auto& [along_u, along_w] : circle) directions.emplace_back(along_u * u + along_w * w);
   std::vector<double> lengths(directions.size());
   tree.rays_in_plane(sample.position, sample.tangent, directions, together * radius, lengths);
   double sum = 0;
@@ -54,6 +54,11 @@ bool at_junction(const MeasuredCurve& subject, const CurveSample& sample) {
 
 std::vector<double> ray_variations(const MeasuredCurve& curve, int rays, const Monitor& monitor) {
   constexpr double left_out = -1;
+  std::vector<std::pair<double, double>> circle;
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2 * std::numbers::pi * k / rays;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
   std::vector<double> variation(curve.samples.size(), left_out);
   const auto measure = [&](bool at_junctions_too) {
     for_samples(curve, 0.2, 0.7, monitor, [&](std::size_t i) {
@@ -61,7 +66,7 @@ std::vector<double> ray_variations(const MeasuredCurve& curve, int rays, const M
       if (curve.radius[i] <= 0) {
         variation[i] = std::numeric_limits<double>::infinity();
       } else if (at_junctions_too || !at_junction(curve, sample)) {
-        variation[i] = ray_variation(curve.tree, sample, curve.radius[i], rays);
+        variation[i] = ray_variation(curve.tree, sample, curve.radius[i], circle);
       }
     });
   };

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/parallel.hpp"
 
 namespace curveskel {
 namespace {
@@ -37,14 +38,14 @@ std::vector<std::vector<int>> arcs_of_groups(const SkeletonGraph& graph, int gro
 
 std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph,
                                            const WorkingSurface& working,
-                                           const PartitionGraph& partition) {
+                                           const PartitionGraph& partition, int threads) {
   const auto arcs = arcs_of_groups(graph, partition.groups);
   std::vector<std::vector<Point>> lines;
   for (const Arc& arc : graph.arcs) {
     lines.push_back(arc.alive ? graph.polyline(arc) : std::vector<Point>{});
   }
   std::vector<ArcProjection> projections(idx(working.vertices()));
-  for (int v = 0; v < static_cast<int>(projections.size()); ++v) {
+  const auto project = [&](int v) {
     const Point from = starting_place(v, working);
     double nearest = std::numeric_limits<double>::infinity();
     for (const int s : arcs[idx(partition.group_of_vertex[v])]) {
@@ -61,7 +62,11 @@ std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph,
         projections[idx(v)] = {s, i, here};
       }
     }
-  }
+  };
+  constexpr std::size_t grain = 512;
+  parallel_for(projections.size(), grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) project(static_cast<int>(v));
+  });
   return projections;
 }
 

@@ -22,7 +22,8 @@ struct ArcProjection {
 /// partition is the surface's. O(#V x points of these arcs).
 [[nodiscard]] std::vector<ArcProjection> project_on_arcs(const SkeletonGraph& graph,
                                                          const WorkingSurface& working,
-                                                         const PartitionGraph& partition);
+                                                         const PartitionGraph& partition,
+                                                         int threads);
 
 /// The groups whose vertices are projected onto one of the arcs, ascending.
 [[nodiscard]] std::vector<int> groups_on(const std::vector<int>& arcs,

@@ -63,8 +63,8 @@ CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree, const
   HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop); });
   const WorkingSurface working(surface, balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
-  const std::vector<MirrorPlane> planes =
-      clock("mirror planes", [&] { return mirror_planes(surface, tree, tuning.spacing.least); });
+  const std::vector<MirrorPlane> planes = clock(
+      "mirror planes", [&] { return mirror_planes(surface, tree, tuning.spacing.least, threads); });
   SkeletonGraph graph;
   embed_in_working_surface(graph,
                            {working, tree, tree, partition, options, tuning, spacing, threads,

@@ -107,7 +107,7 @@ bool widen_bottlenecks(SkeletonGraph& graph, const Setting& in) {
 bool grow(SkeletonGraph& graph, const Setting& in) {
   return change_inside(graph, in, [&in](SkeletonGraph& changed) {
     return grow_branches(changed, in.working, in.tree, in.partition, in.tuning.prominence,
-                         in.tuning.growth, in.stop);
+                         in.tuning.growth, in.stop, in.threads);
   });
 }
 
@@ -153,7 +153,7 @@ bool centre_at_last(SkeletonGraph& graph, const Setting& in) {
   settling.tuning = in.tuning.relax;
   settling.section = in.tuning.section;
   settling.stop = in.stop;
-  const auto projections = project_on_arcs(graph, in.working, in.partition);
+  const auto projections = project_on_arcs(graph, in.working, in.partition, in.threads);
   settling.is_own = [&](int triangle, int arc) {
     const auto corners = in.working.surface().triangles.row(triangle);
     return std::any_of(corners.begin(), corners.end(),

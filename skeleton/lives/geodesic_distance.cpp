@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -83,19 +84,20 @@ GeodesicDistance::GeodesicDistance(const Surface& surface) {
   const double step = std::max({mean / steps_per_edge, longest / most_steps,
                                 static_cast<double>(std::numeric_limits<float>::min())});
   step_ = static_cast<float>(step);
-  steps_ = static_cast<std::size_t>(longest / step) + 3;
+  steps_ = std::bit_ceil(static_cast<std::size_t>(longest / step) + 3);
 }
 
 /// Vertices by distance, in steps so short that the order within one hardly matters: no heap.
 class GeodesicDistance::Front {
  public:
+  /// Precondition: `steps` is a power of two.
   Front(float step, std::size_t steps, std::size_t vertices) : step_(step), first_(steps, none) {
     entries_.reserve(2 * vertices);
   }
 
   void push(float distance, std::int32_t vertex) {
     // Across an edge of an obtuse triangle a wave may come to a step that is over.
-    std::int32_t& first = first_[idx(std::max(at_, number(distance))) % first_.size()];
+    std::int32_t& first = first_[idx(std::max(at_, number(distance))) & (first_.size() - 1)];
     entries_.push_back({vertex, first});
     first = static_cast<std::int32_t>(entries_.size()) - 1;
     ++count_;
@@ -103,7 +105,7 @@ class GeodesicDistance::Front {
   /// The next vertex that is reached by `distance`, maybe one that was there before; -1 at the end.
   [[nodiscard]] std::int32_t pop(const Eigen::VectorXf& distance) {
     while (count_ > 0) {
-      std::int32_t& first = first_[idx(at_) % first_.size()];
+      std::int32_t& first = first_[idx(at_) & (first_.size() - 1)];
       if (first == none) {
         ++at_;
         continue;

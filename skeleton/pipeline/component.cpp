@@ -300,7 +300,7 @@ class Pipeline {
     if (std::none_of(lives.begin(), lives.end(), is_clear)) return;
     const double tolerance = SpacingTuning().of_part(extent_).least;
     std::vector<int> mirror_axes;
-    for (const MirrorPlane& plane : mirror_planes(surface, rough, tolerance)) {
+    for (const MirrorPlane& plane : mirror_planes(surface, rough, tolerance, options_.threads)) {
       mirror_axes.push_back(plane.axis);
     }
     add_finer_branches(skeleton, surface, *fine_.get(), lives, mirror_axes, least, tolerance);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/wide_vectors.hpp"
 #include "surface/spatial/traversal.hpp"
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/triangle_lanes.hpp"
@@ -29,22 +30,29 @@ class GrowingBall {
   [[nodiscard]] double radius() const { return radius_; }
   [[nodiscard]] bool bounded() const { return bounded_; }
 
-  void meet(const WideTree& tree, const TriangleLeaf& leaf, std::size_t pair) {
-    const Lanes3 p = both(p_);
-    const std::array<Lanes3, 3> corner{corner_lanes(tree, leaf, 0, pair) - p,
-                                       corner_lanes(tree, leaf, 1, pair) - p,
-                                       corner_lanes(tree, leaf, 2, pair) - p};
-    meet_corners(corner);
-    const Mask2 on_chord = chords_in_question(corner);
-    if (on_chord[0] == 0 && on_chord[1] == 0) return;
-    const double reach = radius_ * worthwhile;
-    const Double2 distance2 = squared_distance(tree, leaf, pair, both(p_ + reach * n_));
-    for (int lane = 0; lane < 2; ++lane) {
-      if (on_chord[lane] == 0 || distance2[lane] >= reach * reach) continue;
-      const auto at = [&](std::size_t k) {
-        return Eigen::Vector3d(corner[k].x[lane], corner[k].y[lane], corner[k].z[lane]);
-      };
-      meet_chords(at(0), at(1), at(2));
+  void meet(const WideTree& tree, const TriangleLeaf& leaf) {
+    const auto p = spread<Double4>(p_);
+    const std::array<Lanes3<Double4>, 3> corner{corners_of_leaf(tree, leaf, 0) - p,
+                                                corners_of_leaf(tree, leaf, 1) - p,
+                                                corners_of_leaf(tree, leaf, 2) - p};
+    const Double4 at_corners = radii_at(corner);
+    const Mask4 on_chord = chords_in_question(corner);
+    for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
+      const int first = 2 * static_cast<int>(pair);
+      bound(std::min(at_corners[first], at_corners[first + 1]));
+      if ((on_chord[first] | on_chord[first + 1]) == 0) continue;
+      const double reach = radius_ * worthwhile;
+      const Double2 distance2 = squared_distance(
+          corners_of_pair(tree, leaf, 0, pair), corners_of_pair(tree, leaf, 1, pair),
+          corners_of_pair(tree, leaf, 2, pair), spread<Double2>(p_ + reach * n_));
+      for (int lane = 0; lane < 2; ++lane) {
+        if (on_chord[first + lane] == 0 || distance2[lane] >= reach * reach) continue;
+        const auto at = [&](std::size_t k) {
+          return Eigen::Vector3d(corner[k].x[first + lane], corner[k].y[first + lane],
+                                 corner[k].z[first + lane]);
+        };
+        meet_chords(at(0), at(1), at(2));
+      }
     }
   }
 
@@ -55,31 +63,37 @@ class GrowingBall {
     bounded_ = true;
   }
 
-  void meet_corners(const std::array<Lanes3, 3>& corner) {
-    const Lanes3 n = both(n_);
-    const double sine2 = min_sine_ * min_sine_;
-    for (const Lanes3& e : corner) {
-      const Double2 height = dot(n, e);
-      const Double2 length2 = dot(e, e);
-      for (int lane = 0; lane < 2; ++lane) {
-        if (height[lane] <= 0 || height[lane] * height[lane] < sine2 * length2[lane]) continue;
-        bound(length2[lane] / (2 * height[lane]));
-      }
+  // Of the triangles the least radii at which the ball meets corners; infinity for those too low.
+  [[nodiscard]] Double4 radii_at(const std::array<Lanes3<Double4>, 3>& corner) const {
+    const auto n = spread<Double4>(n_);
+    const auto zero = spread<Double4>(0);
+    const auto sine2 = spread<Double4>(min_sine_ * min_sine_);
+    auto least = spread<Double4>(infinity);
+    for (const Lanes3<Double4>& e : corner) {
+      const Double4 height = dot(n, e);
+      const Double4 length2 = dot(e, e);
+      const Mask4 is_high = (height > zero) & (height * height >= sine2 * length2);
+      const Double4 radius = length2 / (height + height);
+      least = lesser(is_high ? radius : spread<Double4>(infinity), least);
     }
+    return least;
   }
 
   // True if a triangle may hold a point seen under chord_sine_. n.q - sine |q| is a concave
   // function of q, so its tangent at corner 0 bounds it from above.
-  [[nodiscard]] Mask2 chords_in_question(const std::array<Lanes3, 3>& corner) const {
-    const Lanes3 n = both(n_);
-    const Double2 length2 = dot(corner[0], corner[0]);
-    const Double2 factor{chord_sine_ / std::sqrt(length2[0]), chord_sine_ / std::sqrt(length2[1])};
-    Double2 highest = dot(n, corner[0]) - factor * length2;
+  [[nodiscard]] Mask4 chords_in_question(const std::array<Lanes3<Double4>, 3>& corner) const {
+    const auto n = spread<Double4>(n_);
+    const Double4 length2 = dot(corner[0], corner[0]);
+    const Double4 length{std::sqrt(length2[0]), std::sqrt(length2[1]), std::sqrt(length2[2]),
+                         std::sqrt(length2[3])};
+    const Double4 factor = spread<Double4>(chord_sine_) / length;
+    Double4 highest = dot(n, corner[0]) - factor * length2;
     for (const std::size_t k : {1UL, 2UL}) {
-      highest = maximum(highest, dot(n, corner[k]) - factor * dot(corner[0], corner[k]));
+      const Double4 height = dot(n, corner[k]) - factor * dot(corner[0], corner[k]);
+      highest = greater(highest, height);
     }
     // A corner at p itself has no tangent: let the triangle through.
-    return (highest >= Double2{0, 0}) | (length2 == Double2{0, 0});
+    return (highest >= spread<Double4>(0)) | (length2 == spread<Double4>(0));
   }
 
   void meet_chords(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -164,6 +178,7 @@ class RadiusBounds {
 
 }  // namespace
 
+CURVESKEL_WIDE_VECTORS
 double find_ball_radius(const WideTree& tree, const Eigen::Vector3d& p, const Eigen::Vector3d& n,
                         double min_sine) {
   GrowingBall ball(p, n, min_sine);
@@ -176,8 +191,7 @@ double find_ball_radius(const WideTree& tree, const Eigen::Vector3d& p, const Ei
     const float open = static_cast<float>(reach) * slack;
     if (!(bound < open)) continue;
     if (child < 0) {
-      const TriangleLeaf& leaf = tree.leaf(child);
-      for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) ball.meet(tree, leaf, pair);
+      ball.meet(tree, tree.leaf(child));
       continue;
     }
     // Growing balls are nested: a child that the ball so far misses cannot bound it further.

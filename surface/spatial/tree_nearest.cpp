@@ -2,14 +2,16 @@
 #include <algorithm>
 #include <array>
 
+#include "base/wide_vectors.hpp"
 #include "surface/spatial/traversal.hpp"
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/triangle_lanes.hpp"
 
 namespace curveskel {
 
+CURVESKEL_WIDE_VECTORS
 LocalNearest find_nearest(const WideTree& tree, const Eigen::Vector3d& p, double limit) {
-  const Lanes3 p_lanes = both(p);
+  const auto p_lanes = spread<Double4>(p);
   const std::array<Float4, 3> p_boxes = four(p);
   double best = limit * limit;
   std::int32_t best_child = 0;
@@ -26,14 +28,15 @@ LocalNearest find_nearest(const WideTree& tree, const Eigen::Vector3d& p, double
       continue;
     }
     const TriangleLeaf& leaf = tree.leaf(child);
-    for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
-      const Double2 distance2 = squared_distance(tree, leaf, pair, p_lanes);
-      for (int lane = 0; lane < 2; ++lane) {
-        if (distance2[lane] < best || (best_child >= 0 && distance2[lane] == best)) {
-          best = distance2[lane];
-          best_child = child;
-          best_slot = pair * 2 + static_cast<std::size_t>(lane);
-        }
+    const Double4 distance2 =
+        squared_distance(corners_of_leaf(tree, leaf, 0), corners_of_leaf(tree, leaf, 1),
+                         corners_of_leaf(tree, leaf, 2), p_lanes);
+    if (!(least_of(distance2) <= best)) continue;
+    for (int place = 0; place < 4; ++place) {
+      if (distance2[place] < best || (best_child >= 0 && distance2[place] == best)) {
+        best = distance2[place];
+        best_child = child;
+        best_slot = static_cast<std::size_t>(place);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/wide_vectors.hpp"
 #include "surface/spatial/traversal.hpp"
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/triangle_lanes.hpp"
@@ -132,26 +133,23 @@ Winding winding_along(const WideTree& tree, const Eigen::Vector3d& origin,
   const ShearedRay sheared(origin, direction);
   Winding winding;
   along_ray(tree, origin, direction, infinity, [&](const TriangleLeaf& leaf) {
-    for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
-      const Crossings crossing = crossings(tree, leaf, pair, sheared);
-      for (int lane = 0; lane < 2; ++lane) {
-        if (leaf.repeated(pair * 2 + static_cast<std::size_t>(lane))) continue;
-        const double u = crossing.u[lane];
-        const double v = crossing.v[lane];
-        const double w = crossing.w[lane];
-        const double doubtful = doubt * crossing.size[lane];
-        const double lowest = std::min({u, v, w});
-        const double highest = std::max({u, v, w});
-        if (lowest < -doubtful && highest > doubtful) continue;
-        const double determinant = crossing.determinant[lane];
-        const double depth = crossing.scaled_depth[lane];
-        if (std::abs(lowest) <= doubtful || std::abs(highest) <= doubtful) {
-          const bool behind = std::abs(determinant) > 3 * doubtful && depth * determinant < 0;
-          if (!behind) winding.clear = false;
-        }
-        if (determinant > 0 && depth > 0) ++winding.turns;
-        if (determinant < 0 && depth < 0) --winding.turns;
+    const Crossings crossing = crossings(tree, leaf, sheared);
+    const Double4 lowest = lesser(crossing.u, lesser(crossing.v, crossing.w));
+    const Double4 highest = greater(crossing.u, greater(crossing.v, crossing.w));
+    const Double4 doubtful = spread<Double4>(doubt) * crossing.size;
+    const Mask4 misses = (lowest < -doubtful) & (highest > doubtful);
+    if (!any_of(~misses)) return infinity;
+    for (int place = 0; place < 4; ++place) {
+      if (misses[place] != 0 || leaf.repeated(static_cast<std::size_t>(place))) continue;
+      const double determinant = crossing.determinant[place];
+      const double depth = crossing.scaled_depth[place];
+      const double doubtful_here = doubtful[place];
+      if (std::abs(lowest[place]) <= doubtful_here || std::abs(highest[place]) <= doubtful_here) {
+        const bool behind = std::abs(determinant) > 3 * doubtful_here && depth * determinant < 0;
+        if (!behind) winding.clear = false;
       }
+      if (determinant > 0 && depth > 0) ++winding.turns;
+      if (determinant < 0 && depth < 0) --winding.turns;
     }
     return infinity;
   });
@@ -165,21 +163,18 @@ bool outside_box(const WideTree& tree, const Eigen::Vector3d& p) {
 // Takes the leaf's first triangle on the ray if it is nearer than the hit so far.
 void meet(const WideTree& tree, const TriangleLeaf& leaf, const ShearedRay& sheared,
           LocalHit& hit) {
-  for (std::size_t pair = 0; pair < leaf.pairs(); ++pair) {
-    const Crossings crossing = crossings(tree, leaf, pair, sheared);
-    const Double2 zero{0, 0};
-    const auto misses = ((crossing.u < zero) | (crossing.v < zero) | (crossing.w < zero)) &
-                        ((crossing.u > zero) | (crossing.v > zero) | (crossing.w > zero));
-    if ((misses[0] & misses[1]) != 0) continue;  // most
-    for (int lane = 0; lane < 2; ++lane) {
-      if (misses[lane] != 0) continue;
-      const double determinant = crossing.determinant[lane];
-      if (determinant == 0) continue;
-      const double depth = crossing.scaled_depth[lane] / determinant;
-      if (depth > 0 && depth <= hit.distance && (hit.triangle < 0 || depth < hit.distance)) {
-        hit.distance = depth;
-        hit.triangle = leaf.triangle(pair * 2 + static_cast<std::size_t>(lane));
-      }
+  const Crossings crossing = crossings(tree, leaf, sheared);
+  const auto zero = spread<Double4>(0);
+  const Double4 lowest = lesser(crossing.u, lesser(crossing.v, crossing.w));
+  const Double4 highest = greater(crossing.u, greater(crossing.v, crossing.w));
+  const Mask4 misses = ((lowest < zero) & (highest > zero)) | (crossing.determinant == zero);
+  if (!any_of(~misses)) return;
+  for (int place = 0; place < 4; ++place) {
+    if (misses[place] != 0) continue;
+    const double depth = crossing.scaled_depth[place] / crossing.determinant[place];
+    if (depth > 0 && depth <= hit.distance && (hit.triangle < 0 || depth < hit.distance)) {
+      hit.distance = depth;
+      hit.triangle = leaf.triangle(static_cast<std::size_t>(place));
     }
   }
 }
@@ -268,6 +263,7 @@ class LeavesInPlane {
 
 }  // namespace
 
+CURVESKEL_WIDE_VECTORS
 LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
                   const Eigen::Vector3d& direction, double limit) {
   const ShearedRay sheared(origin, direction);
@@ -279,6 +275,7 @@ LocalHit find_hit(const WideTree& tree, const Eigen::Vector3d& origin,
   return hit;
 }
 
+CURVESKEL_WIDE_VECTORS
 void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin,
                              const Eigen::Vector3d& normal,
                              std::span<const Eigen::Vector3d> directions,
@@ -294,6 +291,7 @@ void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin
   }
 }
 
+CURVESKEL_WIDE_VECTORS
 bool winds_around(const WideTree& tree, const Eigen::Vector3d& p) {
   if (outside_box(tree, p)) return false;
   static const ScatteredDirections directions;

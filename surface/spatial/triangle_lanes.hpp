@@ -1,74 +1,115 @@
-// Distances and ray crossings, two triangles at a time. Internal to surface/.
+// Distances and ray crossings of several triangles at a time. Internal to surface/.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
+#include "base/wide_vectors.hpp"
 #include "surface/spatial/wide_tree.hpp"
 
 namespace curveskel {
 
+/// Points or vectors side by side: of two triangles (Double2), or of a leaf's four.
+template <typename Double>
 struct Lanes3 {
-  Double2 x, y, z;
+  Double x, y, z;
 };
-[[nodiscard]] inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+template <typename Double>
+[[nodiscard]] inline Lanes3<Double> operator-(const Lanes3<Double>& a, const Lanes3<Double>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-[[nodiscard]] inline Double2 dot(const Lanes3& a, const Lanes3& b) {
+template <typename Double>
+[[nodiscard]] inline Double dot(const Lanes3<Double>& a, const Lanes3<Double>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-[[nodiscard]] inline Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+template <typename Double>
+[[nodiscard]] inline Lanes3<Double> cross(const Lanes3<Double>& a, const Lanes3<Double>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] inline Lanes3 both(const Eigen::Vector3d& v) {
-  return {Double2{v.x(), v.x()}, Double2{v.y(), v.y()}, Double2{v.z(), v.z()}};
+/// The number in each lane.
+template <typename Double>
+[[nodiscard]] inline Double spread(double value) {
+  if constexpr (sizeof(Double) == sizeof(Double2)) {
+    return Double{value, value};
+  } else {
+    return Double{value, value, value, value};
+  }
 }
-[[nodiscard]] inline Double2 minimum(Double2 a, Double2 b) { return a < b ? a : b; }
-[[nodiscard]] inline Double2 maximum(Double2 a, Double2 b) { return a > b ? a : b; }
+template <typename Double>
+[[nodiscard]] inline Lanes3<Double> spread(const Eigen::Vector3d& v) {
+  return {spread<Double>(v.x()), spread<Double>(v.y()), spread<Double>(v.z())};
+}
+template <typename Double>
+[[nodiscard]] inline Double lesser(const Double& a, const Double& b) {
+  return a < b ? a : b;
+}
+template <typename Double>
+[[nodiscard]] inline Double greater(const Double& a, const Double& b) {
+  return a > b ? a : b;
+}
+[[nodiscard]] inline double least_of(const Double4& v) {
+  return std::min(std::min(v[0], v[2]), std::min(v[1], v[3]));
+}
+[[nodiscard]] inline bool any_of(const Mask4& mask) {
+  return ((mask[0] | mask[2]) | (mask[1] | mask[3])) != 0;
+}
 
 /// Corner k of places 2 * pair and 2 * pair + 1.
-[[nodiscard]] inline Lanes3 corner_lanes(const WideTree& tree, const TriangleLeaf& leaf,
-                                         std::size_t k, std::size_t pair) {
+[[nodiscard]] inline Lanes3<Double2> corners_of_pair(const WideTree& tree, const TriangleLeaf& leaf,
+                                                     std::size_t k, std::size_t pair) {
   const Eigen::Vector3d& p = tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair])];
   const Eigen::Vector3d& q = tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair + 1])];
   return {Double2{p.x(), q.x()}, Double2{p.y(), q.y()}, Double2{p.z(), q.z()}};
 }
+/// Along the axis, of corner k of all places.
+[[nodiscard]] inline Double4 coordinates(const WideTree& tree, const TriangleLeaf& leaf,
+                                         std::size_t k, std::size_t axis) {
+  const auto at = [&](std::size_t place) {
+    return tree
+        .vertices[static_cast<std::size_t>(leaf.vertex[k][place])][static_cast<Eigen::Index>(axis)];
+  };
+  return Double4{at(0), at(1), at(2), at(3)};
+}
+/// Corner k of all places.
+[[nodiscard]] inline Lanes3<Double4> corners_of_leaf(const WideTree& tree, const TriangleLeaf& leaf,
+                                                     std::size_t k) {
+  return {coordinates(tree, leaf, k, 0), coordinates(tree, leaf, k, 1),
+          coordinates(tree, leaf, k, 2)};
+}
 
 /// Squared distance from the segment's start + along the offset `from_start` to the segment.
-[[nodiscard]] inline Double2 squared_distance_to_segment(const Lanes3& from_start,
-                                                         const Lanes3& segment) {
-  const Double2 zero{0, 0};
-  const Double2 one{1, 1};
-  const Double2 tiny{1e-300, 1e-300};
-  const Double2 t =
-      minimum(one, maximum(zero, dot(from_start, segment) / maximum(dot(segment, segment), tiny)));
-  const Lanes3 offset{from_start.x - t * segment.x, from_start.y - t * segment.y,
-                      from_start.z - t * segment.z};
+template <typename Double>
+[[nodiscard]] inline Double squared_distance_to_segment(const Lanes3<Double>& from_start,
+                                                        const Lanes3<Double>& segment) {
+  const auto tiny = spread<Double>(1e-300);
+  const Double t = lesser(
+      spread<Double>(1),
+      greater(spread<Double>(0), dot(from_start, segment) / greater(dot(segment, segment), tiny)));
+  const Lanes3<Double> offset{from_start.x - t * segment.x, from_start.y - t * segment.y,
+                              from_start.z - t * segment.z};
   return dot(offset, offset);
 }
 
-/// Squared distances from p to the two triangles of the pair. A sliver counts as its edges.
-[[nodiscard]] inline Double2 squared_distance(const WideTree& tree, const TriangleLeaf& leaf,
-                                              std::size_t pair, const Lanes3& p) {
-  const Lanes3 a = corner_lanes(tree, leaf, 0, pair);
-  const Lanes3 b = corner_lanes(tree, leaf, 1, pair);
-  const Lanes3 c = corner_lanes(tree, leaf, 2, pair);
-  const Lanes3 ab = b - a;
-  const Lanes3 ac = c - a;
-  const Lanes3 ap = p - a;
-  const Lanes3 normal = cross(ab, ac);
-  const Double2 normal2 = dot(normal, normal);
-  const Double2 zero{0, 0};
-  const Double2 u = dot(cross(ab, ap), normal);
-  const Double2 v = dot(cross(ap, ac), normal);
-  const Double2 sliver = Double2{1e-20, 1e-20} * dot(ab, ab) * dot(ac, ac);
+/// Squared distances from p to triangles with these corners. A sliver counts as its edges.
+template <typename Double>
+[[nodiscard]] inline Double squared_distance(const Lanes3<Double>& a, const Lanes3<Double>& b,
+                                             const Lanes3<Double>& c, const Lanes3<Double>& p) {
+  const Lanes3<Double> ab = b - a;
+  const Lanes3<Double> ac = c - a;
+  const Lanes3<Double> ap = p - a;
+  const Lanes3<Double> normal = cross(ab, ac);
+  const Double normal2 = dot(normal, normal);
+  const auto zero = spread<Double>(0);
+  const Double u = dot(cross(ab, ap), normal);
+  const Double v = dot(cross(ap, ac), normal);
+  const Double sliver = spread<Double>(1e-20) * dot(ab, ab) * dot(ac, ac);
   const auto above = (u >= zero) & (v >= zero) & (u + v <= normal2) & (normal2 > sliver);
-  const Double2 height = dot(ap, normal);
-  const Double2 to_plane = height * height / maximum(normal2, Double2{1e-300, 1e-300});
-  const Double2 to_edges = minimum(
+  const Double height = dot(ap, normal);
+  const Double to_plane = height * height / greater(normal2, spread<Double>(1e-300));
+  const Double to_edges = lesser(
       squared_distance_to_segment(ap, ab),
-      minimum(squared_distance_to_segment(ap, ac), squared_distance_to_segment(p - b, c - b)));
+      lesser(squared_distance_to_segment(ap, ac), squared_distance_to_segment(p - b, c - b)));
   return above ? to_plane : to_edges;
 }
 
@@ -126,40 +167,35 @@ struct ShearedRay {
   double shear_z;
 };
 
-/// Edge functions of two triangles: the ray's line crosses a triangle where all three have one
-/// sign. They are equal and opposite, to the last bit, on the two sides of a shared edge.
+/// Edge functions of a leaf's triangles: the ray's line crosses one where all three have one sign.
+/// They are equal and opposite, to the last bit, on the two sides of a shared edge.
 struct Crossings {
-  Double2 u, v, w;       ///< opposite to corners 0, 1, 2
-  Double2 determinant;   ///< u + v + w; > 0: the line enters through the front (Woop's sign)
-  Double2 scaled_depth;  ///< distance along the direction times the determinant
-  Double2 size;          ///< of the corners in the sheared plane: rounding of u, v, w is at most a
+  Double4 u, v, w;       ///< opposite to corners 0, 1, 2
+  Double4 determinant;   ///< u + v + w; > 0: the line enters through the front (Woop's sign)
+  Double4 scaled_depth;  ///< distance along the direction times the determinant
+  Double4 size;          ///< of the corners in the sheared plane: rounding of u, v, w is at most a
                          ///< few epsilons of it
 };
 
 [[nodiscard]] inline Crossings crossings(const WideTree& tree, const TriangleLeaf& leaf,
-                                         std::size_t pair, const ShearedRay& ray) {
-  std::array<Double2, 3> x;
-  std::array<Double2, 3> y;
-  std::array<Double2, 3> z;
+                                         const ShearedRay& ray) {
+  std::array<Double4, 3> x;
+  std::array<Double4, 3> y;
+  std::array<Double4, 3> z;
   const auto origin = [&](std::size_t k) {
-    const double value = ray.origin[static_cast<Eigen::Index>(ray.axis[k])];
-    return Double2{value, value};
+    return ray.origin[static_cast<Eigen::Index>(ray.axis[k])];
   };
-  const Double2 origin_x = origin(0);
-  const Double2 origin_y = origin(1);
-  const Double2 origin_z = origin(2);
+  const auto origin_x = spread<Double4>(origin(0));
+  const auto origin_y = spread<Double4>(origin(1));
+  const auto origin_z = spread<Double4>(origin(2));
+  const auto shear_x = spread<Double4>(ray.shear_x);
+  const auto shear_y = spread<Double4>(ray.shear_y);
+  const auto shear_z = spread<Double4>(ray.shear_z);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d& p = tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair])];
-    const Eigen::Vector3d& q =
-        tree.vertices[static_cast<std::size_t>(leaf.vertex[k][2 * pair + 1])];
-    const auto along = [&](std::size_t axis) {
-      const auto index = static_cast<Eigen::Index>(ray.axis[axis]);
-      return Double2{p[index], q[index]};
-    };
-    const Double2 depth = along(2) - origin_z;
-    x[k] = along(0) - origin_x - ray.shear_x * depth;
-    y[k] = along(1) - origin_y - ray.shear_y * depth;
-    z[k] = ray.shear_z * depth;
+    const Double4 depth = coordinates(tree, leaf, k, ray.axis[2]) - origin_z;
+    x[k] = coordinates(tree, leaf, k, ray.axis[0]) - origin_x - shear_x * depth;
+    y[k] = coordinates(tree, leaf, k, ray.axis[1]) - origin_y - shear_y * depth;
+    z[k] = shear_z * depth;
   }
   Crossings result;
   result.u = x[2] * y[1] - y[2] * x[1];
@@ -167,7 +203,9 @@ struct Crossings {
   result.w = x[1] * y[0] - y[1] * x[0];
   result.determinant = result.u + result.v + result.w;
   result.scaled_depth = result.u * z[0] + result.v * z[1] + result.w * z[2];
-  const auto size = [](Double2 a, Double2 b) { return maximum(maximum(a, -a), maximum(b, -b)); };
+  const auto size = [](const Double4& a, const Double4& b) {
+    return greater(greater<Double4>(a, -a), greater<Double4>(b, -b));
+  };
   result.size = size(x[0], y[0]) + size(x[1], y[1]) + size(x[2], y[2]);
   return result;
 }

@@ -13,7 +13,8 @@ namespace curveskel {
 
 using Float4 __attribute__((vector_size(16))) = float;
 using Double2 __attribute__((vector_size(16))) = double;
-using Mask2 __attribute__((vector_size(16))) = long long;  ///< of a comparison: 0 or -1
+using Double4 __attribute__((vector_size(32))) = double;
+using Mask4 __attribute__((vector_size(32))) = long long;  ///< of a comparison: 0 or -1
 
 /// Four children. A child >= 0 is a node, a child < 0 the leaf ~child. Each lies in an axis-aligned
 /// box and in a slab between two planes across its mean normal: a patch of surface fills its box

@@ -26,13 +26,15 @@ struct Apex {
 class Growth {
  public:
   Growth(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
-         const PartitionGraph& partition, const GrowthTuning& tuning, const std::stop_token& stop)
+         const PartitionGraph& partition, const GrowthTuning& tuning, const std::stop_token& stop,
+         int threads)
       : graph_(graph),
         working_(working),
         tree_(tree),
         partition_(partition),
         tuning_(tuning),
         stop_(stop),
+        threads_(threads),
         sweep_(working),
         projections_(idx(working.vertices())),
         grown_(projections_.size(), 0) {}
@@ -40,7 +42,7 @@ class Growth {
   int run(double limit) {
     int count = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
-      projections_ = project_on_arcs(graph_, working_, partition_);
+      projections_ = project_on_arcs(graph_, working_, partition_, threads_);
       const int before = count;
       touched_.clear();
       for (const Apex& apex : apices(limit)) count += grow(apex) ? 1 : 0;
@@ -200,6 +202,7 @@ class Growth {
   const PartitionGraph& partition_;
   const GrowthTuning& tuning_;
   const std::stop_token& stop_;
+  int threads_;
   ProminenceSweep sweep_;
   std::vector<ArcProjection> projections_;  // per vertex
   std::vector<char> grown_;                 // per vertex: it has had its branch
@@ -210,8 +213,8 @@ class Growth {
 
 int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
                   const PartitionGraph& partition, double limit, const GrowthTuning& tuning,
-                  const std::stop_token& stop) {
-  return Growth(graph, working, tree, partition, tuning, stop).run(limit);
+                  const std::stop_token& stop, int threads) {
+  return Growth(graph, working, tree, partition, tuning, stop, threads).run(limit);
 }
 
 }  // namespace curveskel

@@ -22,6 +22,6 @@ namespace curveskel {
 /// `partition` is the source of the SkeletonGraph, `tree` the surface's. Returns their number.
 int grow_branches(SkeletonGraph& graph, const WorkingSurface& working, const SurfaceTree& tree,
                   const PartitionGraph& partition, double limit, const GrowthTuning& tuning = {},
-                  const std::stop_token& stop = {});
+                  const std::stop_token& stop = {}, int threads = 1);
 
 }  // namespace curveskel

@@ -165,7 +165,7 @@ class MirroredBranches {
     const int from =
         image_node(reflected(graph_.place(base)), graph_.nodes[idx(base)].point.radius(tree_));
     if (from < 0) return false;
-    const auto projections = project_on_arcs(graph_, working_, partition_);
+    const auto projections = project_on_arcs(graph_, working_, partition_, 1);
     const int end =
         graph_.add_leaf(from, reflected(graph_.place(tip)),
                         groups_on(graph_.nodes[idx(from)].arcs, projections, partition_));

@@ -20,6 +20,19 @@ struct Section {
   std::array<double, ray_count> distances{};
 };
 
+/// Cosines and sines of the rays' angles.
+const std::array<std::array<double, 2>, ray_count>& circle() {
+  static const auto made = [] {
+    std::array<std::array<double, 2>, ray_count> places{};
+    for (std::size_t k = 0; k < ray_count; ++k) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / ray_count;
+      places[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return places;
+  }();
+  return made;
+}
+
 /// The rays from `point` to the surface in the plane normal to `direction`, which is not zero.
 Section section_at(const SurfaceTree& tree, const Point& point, const Point& direction,
                    double limit) {
@@ -28,8 +41,7 @@ Section section_at(const SurfaceTree& tree, const Point& point, const Point& dir
   const Point w = n.cross(u);
   Section section;
   for (std::size_t k = 0; k < ray_count; ++k) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / ray_count;
-    section.directions[k] = std::cos(angle) * u + std::sin(angle) * w;
+    section.directions[k] = circle()[k][0] * u + circle()[k][1] * w;
   }
   tree.rays_in_plane(point, n, section.directions, limit, section.distances);
   return section;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/parallel.hpp"
 
 namespace curveskel {
 namespace {
@@ -227,17 +229,20 @@ class Mirroring {
 }  // namespace
 
 std::vector<MirrorPlane> mirror_planes(const Surface& surface, const SurfaceTree& tree,
-                                       double tolerance) {
+                                       double tolerance, int threads) {
   constexpr Eigen::Index fewest = 10;  // one in so many vertices may have its image elsewhere
   const Eigen::Index count = surface.positions.rows();
   std::vector<MirrorPlane> planes;
   for (int axis = 0; axis < 3; ++axis) {
-    Eigen::Index elsewhere = 0;
-    for (Eigen::Index v = 0; v < count && elsewhere * fewest <= count; ++v) {
-      Point image = surface.positions.row(v).transpose();
-      image[axis] = -image[axis];
-      elsewhere += tree.nearest(image, tolerance).triangle < 0 ? 1 : 0;
-    }
+    std::atomic<Eigen::Index> elsewhere{0};
+    constexpr std::size_t grain = 256;
+    parallel_for(idx(count), grain, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end && elsewhere * fewest <= count; ++v) {
+        Point image = surface.positions.row(static_cast<Eigen::Index>(v)).transpose();
+        image[axis] = -image[axis];
+        if (tree.nearest(image, tolerance).triangle < 0) ++elsewhere;
+      }
+    });
     if (elsewhere * fewest <= count) planes.push_back({axis, elsewhere == 0});
   }
   return planes;

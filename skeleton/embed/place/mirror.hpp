@@ -21,7 +21,8 @@ struct MirrorPlane {
 /// Precondition: `tree` is over the surface. #V queries for each plane that is found, fewer for the
 /// others.
 [[nodiscard]] std::vector<MirrorPlane> mirror_planes(const Surface& surface,
-                                                     const SurfaceTree& tree, double tolerance);
+                                                     const SurfaceTree& tree, double tolerance,
+                                                     int threads = 0);
 
 /// Moves arcs that are each other's mirror images across the plane normal to `axis` to the mean of
 /// the one and the other's image, and onto the plane those that are their own. Arcs are images if
