@@ -1,4 +1,5 @@
 // The input's own file with a rig in it.
+#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
@@ -105,6 +107,26 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
     joints.push_back(joints_in_skin(own, model.skins[idx(skin)].joints, skin));
   }
   write_gltf_weights(document, parts, weights, joints);
+}
+
+/// Joints that rest apart from their bind pose bend the surface at rest, and new weights bend it in
+/// another way. `document` has them.
+void note_changed_rest(const GltfDocument& document, const FileBytes& file, const GltfScene& scene,
+                       std::vector<std::string>& notes, const Monitor& monitor) {
+  constexpr double visible = 1e-3;
+  const FileBytes written{file.path, format_gltf(document, RigFormat::glb)};
+  const tinygltf::Model model = parse_gltf(written, monitor);
+  const Positions now = read_gltf_scene(written, model, monitor).soup.positions;
+  const Positions& before = scene.soup.positions;
+  const double farthest = (now - before).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
+  const double share = farthest / bounding_box_diagonal(before);
+  if (!(share >= visible)) return;
+  notes.push_back(fmt::format(
+      "the joints rest in another pose than they were bound in, and the new weights bend the "
+      "surface there in another way than the old ones, by up to {:.2g} % of the size; --joints "
+      "with this file itself binds the same joints to the surface as it is shown, without their "
+      "animations",
+      100 * share));
 }
 
 /// By node.
@@ -204,6 +226,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
       note_shared_names(document.json, edited.notes);
     } else {
       keep_gltf_rig(document, file, model, scene, weights);
+      if (scene.soup.posed) note_changed_rest(document, file, scene, edited.notes, monitor);
     }
     sign(document, options.provenance);
   } catch (const std::exception&) {
