@@ -6,6 +6,7 @@ import numpy
 
 from . import _core
 from .errors import Error, UsageError
+from .inputs import path_of
 
 
 def to_networkx(skeleton):

@@ -72,7 +72,7 @@ def path_of(path, name):
 def warn_of(findings, stacklevel):
     """Warns of what the program warns of, options named as Python has them."""
     for finding in findings:
-        finding = re.sub(r"--([a-z-]+) ?", lambda name: name[1].replace("-", "_") + " ", finding)
+        finding = re.sub(r"--([a-z-]+)", lambda name: name[1].replace("-", "_"), finding)
         warnings.warn(finding, UserWarning, stacklevel=stacklevel + 1)
 
 
