@@ -215,8 +215,8 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   }
   const auto count = static_cast<int>(levels.size());
   if (count < arguments.levels) {
-    session.terminal.warn(fmt::format("the skeleton has {} levels, fewer than the {} of --levels",
-                                      count, arguments.levels));
+    session.terminal.warn(fmt::format("the skeleton has {}, fewer than the {} of --levels",
+                                      count_of(count, "level"), arguments.levels));
   }
   return files;
 }

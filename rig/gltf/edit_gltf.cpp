@@ -1,5 +1,4 @@
 // The input's own file with a rig in it.
-#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -121,12 +121,14 @@ void note_changed_rest(const GltfDocument& document, const FileBytes& file, cons
   const double farthest = (now - before).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
   const double share = farthest / bounding_box_diagonal(before);
   if (!(share >= visible)) return;
-  notes.push_back(fmt::format(
-      "the joints rest in another pose than they were bound in, and the new weights bend the "
-      "surface there in another way than the old ones, by up to {:.2g} % of the size; --joints "
-      "with this file itself binds the same joints to the surface as it is shown, without their "
-      "animations",
-      100 * share));
+  std::ostringstream note;
+  note.precision(2);
+  note << "the joints rest in another pose than they were bound in, and the new weights bend the "
+          "surface there in another way than the old ones, by up to "
+       << 100 * share
+       << " % of the size; --joints with this file itself binds the same joints to the surface as "
+          "it is shown, without their animations";
+  notes.push_back(note.str());
 }
 
 /// By node.

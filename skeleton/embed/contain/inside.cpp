@@ -99,7 +99,6 @@ class Keeper {
     if (is_whole && (!on_cycle || keeps_handle(line, i, straight))) return straight;
     straight.between.clear();
     straight.uncovered = crosses(tree_, line[i].place(), line[i + 1].place()) ? 1 : 0;
-    if (more_fruitless_detours_ == 0) return straight;
     std::size_t next = i + 1;
     // From the last point that is inside to the next one.
     while (next + 1 < line.size() && line[next].radius(tree_) < least_radius) ++next;
@@ -113,7 +112,6 @@ class Keeper {
       if (!best || stretch.uncovered < best->uncovered) best = std::move(stretch);
       if (best->uncovered == 0) break;
     }
-    if (!best || best->uncovered > 0) --more_fruitless_detours_;
     if (!best) best = std::move(straight);
     // So close to the surface a line says nothing about handles.
     if (best->uncovered == 0 || on_cycle || !ways_below_) return std::move(*best);
@@ -429,7 +427,6 @@ class Keeper {
   // For all detours, as a surface may meet itself everywhere.
   int more_tries_ = 300;
   int more_fruitless_ways_ = 300;  ///< below the surface, from ball to ball
-  int more_fruitless_detours_ = 300;
 };
 
 }  // namespace
