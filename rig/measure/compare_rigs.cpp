@@ -89,7 +89,8 @@ std::string why_not_posed(const RiggedSurface& rig, const RiggedSurface& truth, 
   if (ours != theirs) {
     return std::to_string(ours) + " vertices, the truth has " + std::to_string(theirs);
   }
-  const double apart = (rig.surface.positions - truth.surface.positions).rowwise().norm().maxCoeff();
+  const double apart =
+      (rig.surface.positions - truth.surface.positions).rowwise().norm().maxCoeff();
   if (apart <= alike * size) return "";
   return "the surfaces rest in different places or poses, or their vertices in another order";
 }
