@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <curveskel/skeleton_files.hpp>
@@ -17,11 +18,13 @@ struct OutputFile {
   std::string bytes;
 };
 
+/// With its dot, in lower case.
+[[nodiscard]] std::string extension_of(const std::string& name);
+
 /// The format that a file name's extension stands for. Throws UsageError listing the right ones.
 template <typename Format, std::size_t Count>
 [[nodiscard]] Format format_of(const std::string& name, const NameTable<Format, Count>& table) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = extension_of(name);
   const auto found = choice_of(table, extension.empty() ? extension : extension.substr(1));
   if (found) return *found;
   throw UsageError(name + ": " +
@@ -33,6 +36,13 @@ template <typename Format, std::size_t Count>
 /// The format of each output; `format` is that of "-". Throws UsageError where one is missing.
 [[nodiscard]] std::vector<SkeletonFormat> formats_of(const std::vector<std::string>& names,
                                                      const std::optional<SkeletonFormat>& format);
+
+/// Of a file that is written in one format alone: throws UsageError where its name does not end in
+/// `extension` (with its dot, in lower case), as a slip would overwrite another file. Nothing, "-"
+/// and what is there but no regular file, such as a pipe, are let through. `option` is for the
+/// message.
+void require_extension(const std::string& name, std::string_view option,
+                       std::string_view extension);
 
 /// Before hours of work: throws UsageError where an output is named twice or is the input, and
 /// Error(Fault::output) where its folder does not exist.

@@ -30,9 +30,9 @@ void require_nodes_nearby(const CurveSkeleton& skeleton, const PolygonSoup& soup
 }
 
 /// Of the joints, times a factor, those within the surface's box.
-Eigen::Index joints_within(const Rig& rig, const PolygonSoup& soup, double factor) {
-  const Eigen::Array3d low = soup.positions.colwise().minCoeff().transpose();
-  const Eigen::Array3d high = soup.positions.colwise().maxCoeff().transpose();
+Eigen::Index joints_within(const Rig& rig, const Positions& positions, double factor) {
+  const Eigen::Array3d low = positions.colwise().minCoeff().transpose();
+  const Eigen::Array3d high = positions.colwise().maxCoeff().transpose();
   Eigen::Index within = 0;
   for (const auto& joint : rig.joints.rowwise()) {
     const Eigen::Array3d place = factor * joint.transpose();
@@ -67,26 +67,31 @@ bool keeps_joints_alone(SurfaceFormat format) {
   return format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
 }
 
-GivenJoints joints_for(const std::filesystem::path& file, const PolygonSoup& soup,
-                       const Monitor& monitor) {
-  Rig rig = read_joints(file, monitor);
+JointPlaces places_of(const Rig& rig, const Positions& positions,
+                      const std::filesystem::path& file) {
   const Eigen::Index count = rig.joints.rows();
-  const Eigen::Index within = joints_within(rig, soup, 1);
-  if (2 * within >= count) return {std::move(rig), ""};
+  const Eigen::Index within = joints_within(rig, positions, 1);
+  if (2 * within >= count) return {};
   std::string remedy =
       "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
-  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(soup.positions);
+  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(positions);
   for (const double factor : {0.01, 100.0}) {
     constexpr double alike = 3;  // a skeleton is about as large as its body
     const bool fits = factor * sizes < alike && factor * sizes > 1 / alike;
-    if (!fits || 2 * joints_within(rig, soup, factor) < count) continue;
+    if (!fits || 2 * joints_within(rig, positions, factor) < count) continue;
     remedy = fmt::format("times {} they would: export both in one unit", factor);
   }
-  const std::string found =
-      fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
-                  within == 0 ? "none" : std::to_string(within), count, remedy);
-  if (within == 0) throw Error(Fault::input, found);
-  return {std::move(rig), found};
+  return {within > 0,
+          fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
+                      within == 0 ? "none" : std::to_string(within), count, remedy)};
+}
+
+GivenJoints joints_for(const std::filesystem::path& file, const PolygonSoup& soup,
+                       const Monitor& monitor) {
+  Rig rig = read_joints(file, monitor);
+  JointPlaces places = places_of(rig, soup.positions, file);
+  if (!places.any_within) throw Error(Fault::input, places.finding);
+  return {std::move(rig), std::move(places.finding)};
 }
 
 }  // namespace curveskel

@@ -32,6 +32,15 @@ void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
 [[nodiscard]] Rig rig_in(const std::filesystem::path& mesh, SurfaceFormat format,
                          const Monitor& monitor);
 
+struct JointPlaces {
+  bool any_within = true;  ///< of the surface's box
+  std::string finding;     ///< where most lie outside, and by which unit not
+};
+
+/// `positions` are the surface's vertices, `file` the joints', for the message.
+[[nodiscard]] JointPlaces places_of(const Rig& rig, const Positions& positions,
+                                    const std::filesystem::path& file);
+
 struct GivenJoints {
   Rig rig;
   std::string finding;  ///< where most lie outside of the surface's box, and by which unit not

@@ -17,6 +17,11 @@ Extraction at_level(const RepairedSurface& repaired, const Extraction& extractio
 
 }  // namespace
 
+std::optional<std::string> detail_finding(const EmbedOptions& embed) {
+  if (embed.method != EmbedMethod::none || embed.detail == EmbedOptions().detail) return {};
+  return "--detail has no effect without embedding, as branches have no lives";
+}
+
 std::vector<ExtractionLevel> levels_of(const RepairedSurface& repaired,
                                        const Extraction& extraction,
                                        const CertificateOptions& options, int most,

@@ -1,14 +1,20 @@
 // One extraction at several levels, as `extract --levels` writes it.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
+#include <curveskel/advanced/embed.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/monitor.hpp>
 #include <curveskel/repair.hpp>
 #include "app/report.hpp"
 
 namespace curveskel {
+
+/// A detail that was chosen and has no effect.
+[[nodiscard]] std::optional<std::string> detail_finding(const EmbedOptions& embed);
 
 struct ExtractionLevel {
   SkeletonLevel level;

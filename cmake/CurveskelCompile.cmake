@@ -112,3 +112,16 @@ function(curveskel_embed library header)
   set_target_properties(${library} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()
+
+# The manual page NAME.1 of a program, made with it of its --help, and installed. SEE is another
+# page; verbs that have that page are left out.
+function(curveskel_manual target name title see component)
+  set(page ${CMAKE_CURRENT_BINARY_DIR}/${name}.1)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/ManPage.cmake)
+  add_custom_command(TARGET ${target} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DNAME=${name} -DTITLE=${title}
+            -DVERSION=${PROJECT_VERSION} -DSEE=${see} -DOUTPUT=${page} -P ${script}
+    VERBATIM)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+endfunction()

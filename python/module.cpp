@@ -6,8 +6,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "app/compare_skeletons.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
+#include "app/skeleton_levels.hpp"
 #include "python/background_work.hpp"
 #include "python/extraction.hpp"
 #include "python/options.hpp"
@@ -52,8 +55,15 @@ const char* class_of(Fault fault) {
   return "Error";
 }
 
-/// "detail is 2, ..." of "EmbedOptions::detail is 2, ...".
+/// "detail is 2, ..." of "EmbedOptions::detail is 2, ..."; keywords that are called as members are
+/// but for these.
 std::string in_python(const std::string& message) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> keywords{
+      {{"RepairOptions::least_area", "min_size"},
+       {"ContractionOptions::max_iterations", "iterations"}}};
+  for (const auto& [member, keyword] : keywords) {
+    if (message.starts_with(member)) return std::string(keyword) + message.substr(member.size());
+  }
   const std::size_t colons = message.find("Options::");
   const bool is_first = colons != std::string::npos && message.find(' ') > colons;
   return is_first ? message.substr(colons + std::string_view("Options::").size()) : message;
@@ -147,7 +157,7 @@ ExtractSettings settings_of(const py::dict& options) {
   setters["preset"] = [](const py::handle&) {};  // is set already, as others change what it sets
   set_options(options, setters);
   extract.fairing = extract.fair.iterations > 0;
-  require_valid(extract);
+  require_valid_keywords(extract);
   require_together(settings.repair);
   return settings;
 }
@@ -362,6 +372,14 @@ void bind_extraction(py::module_& module) {
                              })
       .def_property_readonly("notes", [](const Owner& one) { return one.notes; })
       .def_property_readonly("shortcomings", &shortcomings)
+      .def_property_readonly("findings",
+                             [](const Owner& one) {
+                               std::vector<std::string> findings;
+                               if (auto idle = detail_finding(one.settings.extract.embed)) {
+                                 findings.push_back(std::move(*idle));
+                               }
+                               return findings;
+                             })
       .def_property_readonly(
           "certificate", [](const Owner& one) { return dictionary_of(one.extraction.certificate); })
       .def_property_readonly("correct",

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <string>
+#include <string_view>
+
 namespace curveskel {
 
 namespace py = pybind11;
@@ -59,6 +62,17 @@ OptionSetters extract_setters(ExtractOptions& options) {
           {"resolution", set_resolution},
           {"solver", sets(options.contraction.solver, "solver", solvers)},
           {"surgery", sets(options.surgery.method, "surgery", surgery_methods)}};
+}
+
+void require_valid_keywords(const ExtractOptions& options) {
+  try {
+    require_valid(options);
+  } catch (const Error& error) {
+    const std::string_view member = "FairOptions::iterations";
+    const std::string message = error.what();
+    if (!message.starts_with(member)) throw;
+    throw Error(error.fault(), "fair" + message.substr(member.size()));
+  }
 }
 
 void require_together(const RepairOptions& options) {

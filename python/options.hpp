@@ -46,6 +46,9 @@ auto sets(Choice& value, const char* option, const NameTable<Choice, Count>& tab
 [[nodiscard]] OptionSetters repair_setters(RepairOptions& options);
 [[nodiscard]] OptionSetters extract_setters(ExtractOptions& options);
 
+/// `require_valid`, whose messages have the keyword for the member: "fair" for the iterations.
+void require_valid_keywords(const ExtractOptions& options);
+
 /// `require_valid`, and Error(Fault::usage) for a wrap gap where nothing is wrapped.
 void require_together(const RepairOptions& options);
 

@@ -79,7 +79,7 @@ RigSettings rig_settings_of(const py::dict& options) {
   setters["up"] = sets(character.plan.up, "up", directions);
   set_options(options, setters);
   make.extract.fairing = make.extract.fair.iterations > 0;
-  require_valid(make.extract);
+  require_valid_keywords(make.extract);
   require_valid(character.rig);
   require_valid(character.parts);
   require_together(make.repair);

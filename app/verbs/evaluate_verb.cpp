@@ -1,8 +1,7 @@
 // curveskel evaluate: the certificate of any skeleton file, or a rig beside somebody's.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/rig_comparison_table.hpp"
+#include "app/rig_sources.hpp"
 #include "app/surface_input.hpp"
 #include "app/verbs/verbs.hpp"
 
@@ -55,36 +55,58 @@ std::string evaluation_table(const Evaluation& evaluation) {
   return text;
 }
 
-/// Formats that `rig` writes beside glTF have no surface in them, or are not read with weights.
+/// Of what `rig` writes.
 void require_readable_rig(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return std::tolower(letter); });
-  for (const char* const other : {".fbx", ".dae", ".usda", ".json", ".npz", ".txt", ".bvh"}) {
+  const std::string extension = extension_of(path.string());
+  for (const char* const other : {".usda", ".npz", ".bvh"}) {
     if (extension != other) continue;
     throw Error(Fault::input, path.string() + ": found a " + other +
-                                  " file, of which --rig-truth reads no rig, needed .glb, .gltf or "
-                                  ".vrm; write one with curveskel rig, or with Blender");
+                                  " file, of which --rig-truth reads no rig, needed .glb, .gltf, "
+                                  ".vrm, .fbx, .dae, .json or .txt; write one with curveskel rig, "
+                                  "or with Blender");
   }
 }
 
+/// Joints without weights of all but glTF; without a surface where the format has none.
 RiggedSurface rigged_surface(const std::filesystem::path& path, const Monitor& monitor) {
   require_readable_rig(path);
+  const std::string extension = extension_of(path.string());
+  if (extension == ".json" || extension == ".txt") return {{}, read_joints(path, monitor)};
   const PolygonSoup soup = read_polygons(path, monitor);
+  const Surface surface{soup.positions, triangulate(soup)};
+  if (keeps_joints_alone(soup.format)) return {surface, read_joints(path, monitor)};
   std::optional<Rig> rig = read_rig(path, monitor);
-  if (rig && rig->joints.rows() > 0) {
-    return {{soup.positions, triangulate(soup)}, std::move(*rig)};
-  }
+  if (rig && rig->joints.rows() > 0) return {surface, std::move(*rig)};
   throw Error(Fault::input, path.string() +
-                                ": found no rig, needed joints with weights, in a glTF file; "
-                                "make one with curveskel rig");
+                                ": found no rig, needed joints with weights, in a glTF file, "
+                                "or joints in .fbx, .dae, .json or .txt; make one with curveskel "
+                                "rig");
+}
+
+/// Lengths are over the truth's surface: of one without that of the rig, which is the same.
+void give_surface(const EvaluateArguments& arguments, const RiggedSurface& rig,
+                  RiggedSurface& truth) {
+  if (truth.surface.positions.rows() > 0) return;
+  if (rig.surface.positions.rows() == 0) {
+    throw Error(Fault::input, arguments.rig_truth.string() + " and " + arguments.mesh.string() +
+                                  ": found joints alone, needed a surface in one of the two, to "
+                                  "measure lengths by; give one as .glb, .gltf, .fbx or .dae");
+  }
+  truth.surface = rig.surface;
 }
 
 int run_rig_truth(const EvaluateArguments& arguments, Session& session) {
   if (!arguments.json.empty()) check_outputs({arguments.json}, arguments.rig_truth);
   const Monitor monitor = session.monitor();
   const RiggedSurface rig = rigged_surface(arguments.mesh, monitor);
-  const RiggedSurface truth = rigged_surface(arguments.rig_truth, monitor);
+  RiggedSurface truth = rigged_surface(arguments.rig_truth, monitor);
+  give_surface(arguments, rig, truth);
+  const std::array<std::pair<const Rig*, std::filesystem::path>, 2> both{
+      {{&rig.rig, arguments.mesh}, {&truth.rig, arguments.rig_truth}}};
+  for (const auto& [one, file] : both) {
+    const std::string finding = places_of(*one, truth.surface.positions, file).finding;
+    if (!finding.empty()) session.terminal.warn(finding);
+  }
   const RigComparison comparison = compare_rigs(rig, truth, monitor);
   session.terminal.end_progress();
   if (!arguments.json.empty()) {
@@ -107,6 +129,7 @@ void require_one_task(const EvaluateArguments& arguments) {
 int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   require_one_task(arguments);
+  require_extension(arguments.json, "--json", ".json");
   if (!arguments.json.empty()) {
     check_outputs({arguments.json}, arguments.mesh);
     check_outputs({arguments.json}, arguments.skeleton);
@@ -170,8 +193,9 @@ Verb add_evaluate(CLI::App& program) {
   parser
       ->add_option("--rig-truth", arguments->rig_truth,
                    "the rig that somebody has made of the same surface: how near the joints of "
-                   "MESH come to it, its weights and how it bends")
-      ->type_name("RIG.glb");
+                   "MESH come to it, and of two glTF files its weights and how it bends; both are "
+                   "glTF, FBX, DAE, .json of this program or RigNet's .txt")
+      ->type_name("RIG");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("--strict", arguments->strict,

@@ -215,8 +215,8 @@ std::vector<OutputFile> format_outputs(const ExtractArguments& arguments,
   }
   const auto count = static_cast<int>(levels.size());
   if (count < arguments.levels) {
-    session.terminal.warn(fmt::format("the skeleton has {} levels, fewer than the {} of --levels",
-                                      count, arguments.levels));
+    session.terminal.warn(fmt::format("the skeleton has {}, fewer than the {} of --levels",
+                                      count_of(count, "level"), arguments.levels));
   }
   return files;
 }
@@ -236,6 +236,10 @@ void take_labelled(ExtractArguments& arguments) {
 
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
+  require_extension(arguments.report, "--report", ".json");
+  require_extension(arguments.profiles, "--profiles", ".csv");
+  require_extension(arguments.junctions, "--junctions", ".csv");
+  require_extension(arguments.html, "--html", ".html");
   std::vector<std::string> names = skeleton_names(arguments);
   for (const std::string& table :
        {arguments.report, arguments.profiles, arguments.junctions, arguments.html}) {
@@ -256,10 +260,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   take_labelled(arguments);
   const auto formats = formats_of(arguments.outputs, arguments.format);
   check_names(arguments, session);
-  const EmbedOptions& embed = arguments.options.embed;
-  if (embed.method == EmbedMethod::none && embed.detail != EmbedOptions().detail) {
-    session.terminal.warn("--detail has no effect without embedding, as branches have no lives");
-  }
+  if (const auto idle = detail_finding(arguments.options.embed)) session.terminal.warn(*idle);
   arguments.options.fairing = arguments.options.fair.iterations > 0;
   session.interruption.limit(arguments.time_limit_seconds);
 

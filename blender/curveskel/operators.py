@@ -6,7 +6,7 @@ import bpy
 
 from . import armatures, curves, groups, meshes, parents
 from .preferences import wanted_program
-from .program import Job, ProgramError
+from .program import SURFACE, Job, ProgramError
 
 SAME_PLACE = 1e-6  # of the numbers in a matrix
 
@@ -140,7 +140,10 @@ class RunsProgram:
 
     def write_meshes(self, context, for_weights=True):
         things = selected_meshes(context)
-        rows = meshes.write_obj(context, things, self.job.folder / "in.obj", for_weights)
+        rows = meshes.write_obj(context, things, self.job.folder / SURFACE, for_weights)
+        if not any(thing.data.polygons for thing in things):
+            raise ProgramError("the selected meshes have no faces; select one that has, or apply "
+                               "the modifiers that make them")
         self.taken = [Taken(thing, own) for thing, own in zip(things, rows)]
 
     def unchanged(self, context):
@@ -237,7 +240,7 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
         with armatures.at_rest(context, old):
             self.write_meshes(context)
         settings = context.scene.curveskel
-        self.job.start("rig", "in.obj", "-o", "out.json", "--bare", "--up", settings.up,
+        self.job.start("rig", SURFACE, "-o", "out.json", "--bare", "--up", settings.up,
                        "--front", settings.front, "--plan", settings.plan,
                        "--names", settings.names, "--follow", f"{settings.follow:.6g}",
                        "--softness", f"{settings.softness:.6g}",
@@ -332,7 +335,7 @@ class CURVESKEL_OT_weights(RunsProgram, bpy.types.Operator):
             self.write_meshes(context)
             self.taken_armature = Taken(armature)
         (self.job.folder / "joints.json").write_text(json.dumps({"joints": joints}))
-        self.job.start("rig", "in.obj", "-o", "out.json", "--bare", "--joints", "joints.json",
+        self.job.start("rig", SURFACE, "-o", "out.json", "--bare", "--joints", "joints.json",
                        "--softness", f"{context.scene.curveskel.softness:.6g}")
 
     def finish(self, context):
@@ -357,7 +360,7 @@ class CURVESKEL_OT_skeleton(RunsProgram, bpy.types.Operator):
 
     def prepare(self, context):
         self.write_meshes(context, for_weights=False)
-        self.job.start("extract", "in.obj", "-o", "out.json",
+        self.job.start("extract", SURFACE, "-o", "out.json",
                        "--detail", f"{context.scene.curveskel.detail:.6g}")
 
     def finish(self, context):

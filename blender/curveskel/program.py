@@ -9,6 +9,9 @@ NOT_FOUND = ("the program curveskel is not found: install it, or give its path i
              "Preferences > Add-ons > Curveskel")
 
 
+SURFACE = "in.obj"  # the file of the selected meshes, of which the user knows nothing
+
+
 class ProgramError(Exception):
     """Its words are for the user."""
 
@@ -75,7 +78,7 @@ class Job:
             lines = self.messages()
             said = [line for line in lines if line.startswith("curveskel: ")]
             raise ProgramError((said or lines or [f"the program ended with {code}"])[-1]
-                               .removeprefix("curveskel: "))
+                               .removeprefix("curveskel: ").removeprefix(f"{SURFACE}: "))
         return True
 
     def wait(self):

@@ -13,7 +13,7 @@ namespace curveskel {
 
 struct RiggedSurface {
   Surface surface;  ///< at rest, as polygons in triangles; it need not be closed
-  Rig rig;          ///< weights have a row for each of its vertices
+  Rig rig;          ///< weights have a row for each of its vertices, or none if nothing is known
 };
 
 /// Pairs of joints, one of each rig, the sum of whose distances is least; those are hits that are
@@ -57,10 +57,11 @@ struct RigComparison {
   std::optional<WeightDifference> weights;
 };
 
-/// Poses are compared where the surfaces have the same vertices, to 1e-4 L and in one order;
-/// weights where, moreover, the joints that move something are in the same places, to 1e-3 L.
-/// Precondition: both rigs have joints. Throws Error(Fault::input) where the truth has no extent,
-/// Cancelled on a stop. O(#F log #F + #V d^2 + J^3), d the depth of the hierarchies, J joints.
+/// Places need the truth's surface and no weights. Poses are compared where the surfaces have the
+/// same vertices, to 1e-4 L and in one order; weights where, moreover, the joints that move
+/// something are in the same places, to 1e-3 L. Precondition: both rigs have joints. Throws
+/// Error(Fault::input) where the truth has no extent, Cancelled on a stop. O(#F log #F + #V d^2 +
+/// J^3), d the depth of the hierarchies, J joints.
 [[nodiscard]] RigComparison compare_rigs(const RiggedSurface& rig, const RiggedSurface& truth,
                                          const Monitor& monitor = {});
 

@@ -6,6 +6,7 @@ import numpy
 
 from . import _core
 from .errors import Error, UsageError
+from .inputs import path_of
 
 
 def to_networkx(skeleton):
@@ -86,7 +87,7 @@ def graph_of(skeleton, name):
     Raises UsageError or InputError.
     """
     if isinstance(skeleton, (str, os.PathLike)):
-        return _core.read_skeleton(os.fspath(skeleton))
+        return _core.read_skeleton(path_of(skeleton, name))
     if hasattr(skeleton, "_graph"):
         return skeleton._graph
     try:

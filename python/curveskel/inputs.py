@@ -3,7 +3,9 @@
 import contextlib
 import math
 import os
+import re
 import time
+import warnings
 
 import numpy
 
@@ -56,6 +58,24 @@ def listening(progress, time_limit=0):
         yield _Listener(show, seconds)
 
 
+def path_of(path, name):
+    """A path as text, as the core takes it; raises UsageError for what is none."""
+    try:
+        text = os.fsdecode(path)
+    except TypeError as error:
+        raise UsageError(f"{name}: needs a path, not {type(path).__name__}") from error
+    if "\0" in text:
+        raise UsageError(f"{name}: needs a path, which has no NUL in it, not {text!r}")
+    return text
+
+
+def warn_of(findings, stacklevel):
+    """Warns of what the program warns of, options named as Python has them."""
+    for finding in findings:
+        finding = re.sub(r"--([a-z-]+)", lambda name: name[1].replace("-", "_"), finding)
+        warnings.warn(finding, UserWarning, stacklevel=stacklevel + 1)
+
+
 def _corners_of(faces):
     """Corners one face after the other, and where each face begins: an array, or a list of faces."""
     try:
@@ -83,7 +103,7 @@ def _corners_of(faces):
 def soup_of(mesh, listener, as_bound=False):
     """A path, a pair (vertices, faces), or an object that has both, as the core takes it."""
     if isinstance(mesh, (str, os.PathLike)):
-        return _core.read_surface(os.fspath(mesh), as_bound, listener)
+        return _core.read_surface(path_of(mesh, "mesh"), as_bound, listener)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         mesh = (mesh.vertices, mesh.faces)
     try:

@@ -3,14 +3,13 @@
 import json
 import os
 import pathlib
-import re
 import warnings
 
 import numpy
 
 from . import _core
 from .errors import CertificateWarning, UsageError
-from .inputs import listening, soup_of
+from .inputs import listening, path_of, soup_of, warn_of
 from .skeleton import Skeleton, read
 
 
@@ -66,18 +65,12 @@ class Rig:
         the rig in it. VRM needs the three texts. Warns of what is lost. Raises UsageError,
         InputError or OutputError.
         """
-        _warn_of(self._made.save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."),
-                                 vrm_name, vrm_author, vrm_licence))
+        path = pathlib.Path(path_of(path, "path"))
+        warn_of(self._made.save(path, path.suffix.lower().lstrip("."), vrm_name, vrm_author,
+                                vrm_licence), 2)
 
     def __repr__(self):
         return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
-
-
-def _warn_of(findings):
-    """Warns the caller's caller, options named as Python has them."""
-    for finding in findings:
-        finding = re.sub(r"--([a-z-]+) ?", lambda name: name[1].replace("-", "_") + " ", finding)
-        warnings.warn(finding, UserWarning, stacklevel=3)
 
 
 def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, threads=0,
@@ -107,6 +100,8 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
         skeleton = read(skeleton)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
+    if joints is not None:
+        joints = path_of(joints, "joints")
     is_path = isinstance(mesh, (str, os.PathLike))
     if is_path and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
         as_shown = as_shown or os.path.samefile(mesh, joints)
@@ -114,10 +109,9 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
         as_bound = not (as_shown or keep_rig)
         soup = soup_of(mesh, listener, as_bound=as_bound)
         made = _core.rig(soup, as_bound, bool(keep_rig), None if skeleton is None else skeleton._graph,
-                         None if joints is None else os.fspath(joints),
-                         dict(options, threads=threads), listener)
+                         joints, dict(options, threads=threads), listener)
     if made.shortcomings:
         warnings.warn("the certificate failed: " + made.shortcomings, CertificateWarning,
                       stacklevel=2)
-    _warn_of(made.findings)
+    warn_of(made.findings, 2)
     return Rig(made)

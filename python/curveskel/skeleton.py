@@ -1,7 +1,6 @@
 """Skeletons as arrays and tables."""
 
 import operator
-import os
 import pathlib
 import warnings
 
@@ -9,7 +8,7 @@ import numpy
 
 from . import _core, graphs
 from .errors import CertificateWarning, SolverError, UsageError
-from .inputs import listening, soup_of
+from .inputs import listening, path_of, soup_of, warn_of
 
 
 class _Kept:
@@ -241,13 +240,13 @@ class Skeleton:
     def save_labelled(self, path):
         """Writes the surface given with its branches as labels and colours: PLY, VTP or GLB."""
         self._need_surface("labelled surfaces")
-        self._extraction.save_labelled(pathlib.Path(path),
-                                       pathlib.Path(path).suffix.lower().lstrip("."))
+        path = pathlib.Path(path_of(path, "path"))
+        self._extraction.save_labelled(path, path.suffix.lower().lstrip("."))
 
     def save_html(self, path):
         """Writes the page of `curveskel extract --html`: the shape to turn, tables, plots."""
         self._need_surface("pages")
-        self._extraction.save_page(pathlib.Path(path))
+        self._extraction.save_page(_named(path, ".html", "a page"))
 
     def __copy__(self):
         return self  # as nothing of it changes
@@ -288,7 +287,7 @@ class Skeleton:
 
     def to_swc(self, path):
         """Writes an SWC file; loops are cut, and the cuts are comments in it."""
-        self._save(pathlib.Path(path), "swc")
+        self._save(_named(path, ".swc", "SWC"), "swc")
 
     def save(self, path):
         """Writes a file in the format of its extension, any of the program's.
@@ -297,11 +296,12 @@ class Skeleton:
         see `save_labelled`. Of a skeleton that was extracted from a file, the bytes are those that
         the program writes. Raises UsageError or OutputError.
         """
-        stem = pathlib.PurePath(pathlib.Path(path).stem)
+        path = pathlib.Path(path_of(path, "path"))
+        stem = pathlib.PurePath(path.stem)
         if str(stem) == "labelled" or stem.suffix == ".labelled":
             self.save_labelled(path)
         else:
-            self._save(pathlib.Path(path), pathlib.Path(path).suffix.lower().lstrip("."))
+            self._save(path, path.suffix.lower().lstrip("."))
 
     def _save(self, path, format):
         if hasattr(self._extraction, "save"):
@@ -327,6 +327,14 @@ class Skeleton:
         return f"<div style='max-width:480px'>{picture[picture.index('<svg'):]}{words}</div>"
 
 
+def _named(path, extension, content):
+    """The path; raises UsageError where it ends otherwise, as a slip would overwrite another file."""
+    path = pathlib.Path(path_of(path, "path"))
+    if path.suffix.lower() == extension:
+        return path
+    raise UsageError(f"{path}: {content} is written here, needed a name that ends in {extension}")
+
+
 def _index(value, name, least, most):
     """A whole number in its range; raises UsageError for anything else."""
     try:
@@ -345,7 +353,8 @@ def extracted(mesh, listener, options):
 
 
 def warn_or_fail(skeleton, strict, stacklevel):
-    """Says how the certificate fails, if it does."""
+    """Says what the program warns of, and how the certificate fails, if it does."""
+    warn_of(skeleton._extraction.findings, stacklevel + 1)
     if skeleton.ok:
         return
     message = "the certificate failed: " + skeleton.shortcomings
@@ -384,4 +393,4 @@ def read(path):
 
     Raises InputError.
     """
-    return Skeleton(_core.read_skeleton(os.fspath(path)))
+    return Skeleton(_core.read_skeleton(path_of(path, "path")))

@@ -40,7 +40,7 @@ class Pictures {
     const bool is_within = !picture.bytes.empty();
     const bool is_there = is_within || fs::is_regular_file(picture.path, ignored);
     std::string bytes = is_within  ? picture.bytes
-                        : is_there ? read_file(picture.path, monitor_).content
+                        : is_there ? read_file(picture.path, monitor_, "a picture").content
                                    : "";
     auto type = picture_type(bytes);
     if (!type && is_there) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
@@ -105,6 +107,28 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
     joints.push_back(joints_in_skin(own, model.skins[idx(skin)].joints, skin));
   }
   write_gltf_weights(document, parts, weights, joints);
+}
+
+/// Joints that rest apart from their bind pose bend the surface at rest, and new weights bend it in
+/// another way. `document` has them.
+void note_changed_rest(const GltfDocument& document, const FileBytes& file, const GltfScene& scene,
+                       std::vector<std::string>& notes, const Monitor& monitor) {
+  constexpr double visible = 1e-3;
+  const FileBytes written{file.path, format_gltf(document, RigFormat::glb)};
+  const tinygltf::Model model = parse_gltf(written, monitor);
+  const Positions now = read_gltf_scene(written, model, monitor).soup.positions;
+  const Positions& before = scene.soup.positions;
+  const double farthest = (now - before).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
+  const double share = farthest / bounding_box_diagonal(before);
+  if (!(share >= visible)) return;
+  std::ostringstream note;
+  note.precision(2);
+  note << "the joints rest in another pose than they were bound in, and the new weights bend the "
+          "surface there in another way than the old ones, by up to "
+       << 100 * share
+       << " % of the size; --joints with this file itself binds the same joints to the surface as "
+          "it is shown, without their animations";
+  notes.push_back(note.str());
 }
 
 /// By node.
@@ -204,6 +228,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
       note_shared_names(document.json, edited.notes);
     } else {
       keep_gltf_rig(document, file, model, scene, weights);
+      if (scene.soup.posed) note_changed_rest(document, file, scene, edited.notes, monitor);
     }
     sign(document, options.provenance);
   } catch (const std::exception&) {

@@ -52,7 +52,7 @@ void take_in_pictures(GltfDocument& document, const FileBytes& file,
     const std::string uri = image.value("uri", "");
     if (uri.empty() || uri.starts_with("data:")) continue;
     const auto path = picture_file(file, uri);
-    const std::string bytes = path ? read_file(*path, monitor).content : "";
+    const std::string bytes = path ? read_file(*path, monitor, "a picture").content : "";
     const auto type = picture_type(bytes);
     if (!type) {
       notes.push_back("the picture " + in_quotes(uri) + " is " +

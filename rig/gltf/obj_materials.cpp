@@ -90,7 +90,7 @@ void read_line(const std::string& key, const std::string& rest, const fs::path& 
 }
 
 void read_library(const fs::path& path, MtlLibrary& library, const Monitor& monitor) {
-  std::istringstream lines(read_file(path, monitor).content);
+  std::istringstream lines(read_file(path, monitor, "materials").content);
   MtlMaterial* material = nullptr;
   for (std::string line; std::getline(lines, line);) {
     line = trimmed(line);

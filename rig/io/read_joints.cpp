@@ -207,7 +207,7 @@ Rig joints_of_dae(const FileBytes& file, const Monitor& monitor) {
 }  // namespace
 
 Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
-  const FileBytes file = read_file(path, monitor);
+  const FileBytes file = read_file(path, monitor, "joints");
   const std::size_t first = file.content.find_first_not_of(" \t\r\n");
   const bool is_text = first != std::string::npos && file.content[first] == '{';
   if (is_text && !says_gltf(file.content)) return joints_of_json(file);

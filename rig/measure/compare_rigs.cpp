@@ -80,14 +80,17 @@ JointHits joint_hits(const Eigen::MatrixXd& distances, const std::vector<int>& p
   return result;
 }
 
-std::string why_not_posed(const Surface& surface, const Surface& truth, double size) {
+std::string why_not_posed(const RiggedSurface& rig, const RiggedSurface& truth, double size) {
   constexpr double alike = 1e-4;
-  const auto ours = surface.positions.rows();
-  const auto theirs = truth.positions.rows();
+  if (rig.rig.weights.rows() == 0) return "no weights are known of the rig";
+  if (truth.rig.weights.rows() == 0) return "no weights are known of the truth";
+  const auto ours = rig.surface.positions.rows();
+  const auto theirs = truth.surface.positions.rows();
   if (ours != theirs) {
     return std::to_string(ours) + " vertices, the truth has " + std::to_string(theirs);
   }
-  const double apart = (surface.positions - truth.positions).rowwise().norm().maxCoeff();
+  const double apart =
+      (rig.surface.positions - truth.surface.positions).rowwise().norm().maxCoeff();
   if (apart <= alike * size) return "";
   return "the surfaces rest in different places or poses, or their vertices in another order";
 }
@@ -184,7 +187,7 @@ RigComparison compare_rigs(const RiggedSurface& rig, const RiggedSurface& truth,
   RigComparison result;
   compare_places(rig.rig, truth, size, result);
   monitor.report("compare", 0.5);
-  result.not_posed = why_not_posed(rig.surface, truth.surface, size);
+  result.not_posed = why_not_posed(rig, truth, size);
   result.not_weighed = result.not_posed;
   if (!result.not_posed.empty()) return result;
   result.poses = compare_poses(rig.rig, truth, size, monitor);

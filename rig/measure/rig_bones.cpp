@@ -32,8 +32,9 @@ std::vector<bool> leading_joints(const Rig& rig) {
   return leads;
 }
 
-/// Parents come before their children.
+/// Parents come before their children. None where nothing is known of the weights.
 std::vector<bool> handles_of(const Rig& rig) {
+  if (rig.weights.rows() == 0) return std::vector<bool>(idx(rig.parents.size()), false);
   const std::vector<int> children = child_counts(rig);
   const std::vector<bool> leads = leading_joints(rig);
   std::vector<bool> handles(children.size(), false);

@@ -74,7 +74,7 @@ RootedSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
 }  // namespace
 
 RootedSkeleton read_rooted_skeleton(const std::filesystem::path& path) {
-  const FileBytes file = read_file(path, Monitor{});
+  const FileBytes file = read_file(path, Monitor{}, "a skeleton");
   std::optional<SkeletonFormat> format = skeleton_format_by_content(file);
   if (!format) format = skeleton_format_by_extension(path);
   if (!format) {

@@ -43,7 +43,8 @@ void FileBytes::fail(std::string_view found, std::string_view needed,
   throw Error(Fault::input, message);
 }
 
-FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
+FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor,
+                    std::string_view needed) {
   FileBytes file{path, {}};
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
@@ -54,7 +55,7 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
   struct stat status = {};
   const bool known = ::fstat(descriptor, &status) == 0;
   if (known && S_ISDIR(status.st_mode)) {
-    file.fail("a directory", "a surface file", "name a file in it");
+    file.fail("a directory", "a file with " + std::string(needed), "name a file in it");
   }
   const auto size = known && S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   std::size_t used = 0;
@@ -76,13 +77,13 @@ FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor) {
     monitor.report("read", 0);
   }
   file.content.resize(used);
-  return unpacked(std::move(file), monitor);
+  return unpacked(std::move(file), monitor, needed);
 }
 
-FileBytes unpacked(FileBytes file, const Monitor& monitor) {
+FileBytes unpacked(FileBytes file, const Monitor& monitor, std::string_view needed) {
   if (is_gzipped(file.content)) gunzip(file, monitor);
   if (is_utf16(file.content)) utf16_to_utf8(file);
-  if (file.content.empty()) file.fail("0 bytes", "a surface", "export or fetch the file again");
+  if (file.content.empty()) file.fail("0 bytes", needed, "export or fetch the file again");
   return file;
 }
 

@@ -20,10 +20,13 @@ struct FileBytes {
 
 /// Reads in one go and unzips gzipped content (several gzip members in a row count as one file).
 /// Throws Error(Fault::input) for a file that is missing, unreadable, a directory, empty or broken.
-[[nodiscard]] FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor);
+/// `needed` is for messages.
+[[nodiscard]] FileBytes read_file(const std::filesystem::path& path, const Monitor& monitor,
+                                  std::string_view needed = "a surface");
 
 /// The same of content that is in memory.
-[[nodiscard]] FileBytes unpacked(FileBytes file, const Monitor& monitor);
+[[nodiscard]] FileBytes unpacked(FileBytes file, const Monitor& monitor,
+                                 std::string_view needed = "a surface");
 
 /// At most 40 characters of the text in double quotes, unprintable ones escaped: for messages.
 [[nodiscard]] std::string in_quotes(std::string_view text);

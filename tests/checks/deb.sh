@@ -19,6 +19,7 @@ lacks() { if grep -E "$2" "$work/$1"; then echo "the $1 of $package have $2"; fa
 
 open_package curveskel
 needs contents ' \./usr/bin/curveskel$'
+needs contents ' \./usr/share/man/man1/curveskel\.1$'
 needs contents ' \./usr/lib/.*/libcurveskel\.so'
 needs contents ' \./usr/lib/.*/cmake/curveskel/curveskelConfig\.cmake$'
 needs contents ' \./usr/include/curveskel\.hpp$'
@@ -32,6 +33,7 @@ lacks depends 'libglfw|libimgui|libgl1'
 
 open_package curveskel-view
 needs contents ' \./usr/bin/curveskel-view$'
+needs contents ' \./usr/share/man/man1/curveskel-view\.1$'
 needs depends 'curveskel \(= '
 needs depends 'libglfw3 '
 lacks contents ' \./usr/bin/curveskel$|libcurveskel'

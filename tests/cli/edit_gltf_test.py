@@ -2,6 +2,7 @@
 there with CURVESKEL_COLLECTION."""
 
 import json
+import math
 import os
 import pathlib
 import struct
@@ -20,6 +21,21 @@ def chunks(path):
     assert data[:4] == b"glTF" and struct.unpack_from("<I", data, 8)[0] == len(data)
     (length,) = struct.unpack_from("<I", data, 12)
     return json.loads(data[20:20 + length]), data[28 + length:]
+
+
+def write_glb(path, text, numbers):
+    body = json.dumps(text).encode()
+    body += b" " * (-len(body) % 4)
+    path.write_bytes(b"glTF" + struct.pack("<III", 2, 28 + len(body) + len(numbers), len(body))
+                     + b"JSON" + body + struct.pack("<I", len(numbers)) + b"BIN\0" + numbers)
+
+
+def farthest(a, b):
+    """The largest distance of a vertex of one OBJ file from that of the same number in another."""
+    places = [[tuple(map(float, line.split()[1:4])) for line in path.read_text().splitlines()
+               if line.startswith("v ")] for path in (a, b)]
+    assert len(places[0]) == len(places[1])
+    return max(map(math.dist, *places))
 
 
 def characters():
@@ -107,15 +123,34 @@ class EditGltf(CommandLineTest):
         source = self.folder / "first.glb"
         text, numbers = chunks(source)
         text["extras"] = {"mine": 1}
-        body = json.dumps(text).encode()
-        body += b" " * (-len(body) % 4)
-        source.write_bytes(b"glTF" + struct.pack("<III", 2, 28 + len(body) + len(numbers),
-                                                 len(body)) + b"JSON" + body
-                           + struct.pack("<I", len(numbers)) + b"BIN\0" + numbers)
+        write_glb(source, text, numbers)
         self.run_ok("rig", source, "-o", "bare.glb", "--bare", cwd=self.folder)
         self.assertNotIn("extras", chunks(self.folder / "bare.glb")[0])
         self.check(source)
         self.assertEqual(chunks(self.folder / "out.glb")[0]["extras"], {"mine": 1})
+
+    def test_a_rig_that_is_kept_says_how_far_it_moves_the_shape_at_rest(self):
+        self.run_ok("rig", Y, "-o", "y.glb", cwd=self.folder)
+        text, numbers = chunks(self.folder / "y.glb")
+        result = self.run_ok("rig", "y.glb", "--keep-rig", "-o", "kept.glb", cwd=self.folder)
+        self.assertNotIn("of the size", result.err)
+        nodes = text["nodes"]
+        joints = text["skins"][0]["joints"]
+        middle = next(joint for joint in joints if nodes[joint].get("children")
+                      and any(joint in nodes[other].get("children", []) for other in joints))
+        x, y, z, w = nodes[middle].get("rotation", [0, 0, 0, 1])
+        half = math.sqrt(0.5)  # a quarter of a turn about its x axis
+        nodes[middle]["rotation"] = [half * (x + w), half * (y + z), half * (z - y), half * (w - x)]
+        write_glb(self.folder / "bent.glb", text, numbers)
+        result = self.run_ok("rig", "bent.glb", "--keep-rig", "-o", "kept.glb", cwd=self.folder)
+        self.assertIn("% of the size; --joints", result.err)
+        # The remedy.
+        self.run_ok("rig", "bent.glb", "--joints", "bent.glb", "-o", "shown.glb", cwd=self.folder)
+        for name in ("bent", "kept", "shown"):
+            self.run_ok("fair", name + ".glb", "-o", name + ".obj", "--iterations", "0",
+                        cwd=self.folder)
+        self.assertLess(farthest(self.folder / "bent.obj", self.folder / "shown.obj"), 1e-5)
+        self.assertGreater(farthest(self.folder / "bent.obj", self.folder / "kept.obj"), 1e-3)
 
     def test_keep_rig_needs_a_rig(self):
         self.refused(3, "rig", Y, "-o", "out.glb", "--keep-rig", cwd=self.folder,

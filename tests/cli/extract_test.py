@@ -66,9 +66,9 @@ class Levels(CommandLineTest):
 
     # Each had the certificate and the counts of the finest, and the report names of no file.
     def test_have_their_own_certificates(self):
-        self.run_ok("extract", self.SPOT, "-o", "cow.json", "--levels", "3", "--report", "report",
-                    cwd=self.folder)
-        written = json.loads((self.folder / "report").read_text())["outputs"]
+        self.run_ok("extract", self.SPOT, "-o", "cow.json", "--levels", "3", "--report",
+                    "report.json", cwd=self.folder)
+        written = json.loads((self.folder / "report.json").read_text())["outputs"]
         self.assertEqual(written, ["cow.1.json", "cow.2.json", "cow.3.json"])
         for number, name in enumerate(written, 1):
             level = json.loads((self.folder / name).read_text())

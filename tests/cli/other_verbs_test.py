@@ -243,8 +243,34 @@ class Evaluate(CommandLineTest):
             self.refused(INPUT, "evaluate", rig, "--rig-truth", truth, cwd=self.folder,
                          says=[Y.name, "no rig", "curveskel rig"])
 
-    def test_rigs_that_are_not_read_with_their_weights_are_refused_by_name(self):
-        for name in ("y.fbx", "y.json", "y.npz", "y.txt", "y.usda", "y.bvh"):
+    def test_joints_of_any_file_that_has_them_are_compared(self):
+        self.run_ok("rig", Y, "-o", "y.glb", "-o", "y.fbx", "-o", "y.json", "-o", "y.txt",
+                    cwd=self.folder)
+        for rig, truth in (("y.glb", "y.fbx"), ("y.fbx", "y.glb"), ("y.fbx", "y.fbx"),
+                           ("y.glb", "y.json"), ("y.json", "y.glb"), ("y.glb", "y.txt"),
+                           ("y.txt", "y.fbx")):
+            result = self.run_ok("evaluate", rig, "--rig-truth", truth, "--json", "-",
+                                 cwd=self.folder)
+            found = json.loads(result.out)
+            self.assertLess(found["joints_to_joints"], 1e-5, (rig, truth))
+            self.assertEqual(found["by_size"]["overlap"], 1, (rig, truth))
+            self.assertIn("no weights", found["weights"]["missing"])
+            self.assertNotIn("within the box", result.err)
+        self.refused(INPUT, "evaluate", "y.json", "--rig-truth", "y.txt", cwd=self.folder,
+                     says=["joints alone", "a surface"])
+
+    def test_joints_in_another_unit_are_warned_of(self):
+        self.run_ok("rig", Y, "-o", "y.glb", "-o", "y.json", cwd=self.folder)
+        rig = json.loads((self.folder / "y.json").read_text())
+        for joint in rig["joints"]:
+            joint["position"] = [100 * number for number in joint["position"]]
+        (self.folder / "cm.json").write_text(json.dumps(rig))
+        result = self.run_ok("evaluate", "y.glb", "--rig-truth", "cm.json", cwd=self.folder)
+        self.assertIn("cm.json", result.err)
+        self.assertIn("times 0.01", result.err)
+
+    def test_rigs_that_are_not_read_are_refused_by_name(self):
+        for name in ("y.npz", "y.usda", "y.bvh"):
             self.run_ok("rig", Y, "-o", name, cwd=self.folder)
             self.refused(INPUT, "evaluate", name, "--rig-truth", name, cwd=self.folder,
                          says=[name[1:] + " file", "--rig-truth", ".glb"])

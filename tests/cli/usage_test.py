@@ -104,6 +104,25 @@ class WrongArguments(CommandLineTest):
         self.run_ok("extract", TORUS, "-o", "x.obj", "--wrap", "never", "--wrap-gap", "0",
                     cwd=self.folder)
 
+    def test_a_file_of_one_format_has_its_extension(self):
+        (self.folder / "theirs.obj").write_bytes(Y.read_bytes())
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        self.run_ok("rig", Y, "-o", "y.glb", cwd=self.folder)
+        for option, extension in (("--report", ".json"), ("--html", ".html"),
+                                  ("--profiles", ".csv"), ("--junctions", ".csv")):
+            for name in ("theirs.obj", "x.ply", "x", extension[1:]):
+                self.refused(USAGE, "extract", Y, "-o", "x.obj", option, name, cwd=self.folder,
+                             says=[name, option, "ends in " + extension])
+            self.run_ok("extract", Y, "-o", "x.obj", option, "x" + extension.upper(),
+                        cwd=self.folder)
+            self.run_ok("extract", Y, "-o", "x.obj", option, "/dev/null", cwd=self.folder)
+        for arguments in (("rig", Y, "-o", "x.glb", "--report"), ("evaluate", Y, "y.obj", "--json"),
+                          ("evaluate", "y.glb", "--rig-truth", "y.glb", "--json"),
+                          ("match", Y, Y, "-o")):
+            self.refused(USAGE, *arguments, "theirs.obj", cwd=self.folder,
+                         says=["theirs.obj", "ends in .json"])
+        self.assertEqual((self.folder / "theirs.obj").read_bytes(), Y.read_bytes())
+
     def test_never_overwrite_the_input(self):
         mesh = self.folder / "mesh.ply"
         mesh.write_bytes(TORUS.read_bytes())
@@ -118,6 +137,15 @@ class WrongFiles(CommandLineTest):
         for arguments in (("extract", "no.off", "-o", "x.obj"), ("contract", "no.off", "-o", "x.ply"),
                           ("evaluate", "no.off", "skeleton.obj"), ("evaluate", TORUS, "no.off")):
             self.refused(INPUT, *arguments, says=["no.off"], cwd=self.folder)
+
+    def test_an_empty_file_is_told_of_what_it_lacks(self):
+        (self.folder / "empty.obj").write_bytes(b"")
+        self.refused(INPUT, "extract", "empty.obj", "-o", "x.ply", cwd=self.folder,
+                     says=["0 bytes, needed a surface"])
+        self.refused(INPUT, "evaluate", TORUS, "empty.obj", cwd=self.folder,
+                     says=["0 bytes, needed a skeleton"])
+        self.refused(INPUT, "rig", TORUS, "--joints", "empty.obj", "-o", "x.glb", cwd=self.folder,
+                     says=["0 bytes, needed joints"])
 
     def test_a_directory_and_an_unreadable_file_are_input_faults(self):
         (self.folder / "folder.off").mkdir()

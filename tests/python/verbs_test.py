@@ -136,6 +136,60 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(curveskel.InputError):
             curveskel.rig(Y, skeleton=curveskel.extract(TORUS))
 
+    def test_messages_name_the_keyword(self):
+        for keyword, call in (("min_size", lambda: curveskel.extract(Y, min_size=2)),
+                              ("fair", lambda: curveskel.extract(Y, fair=-1)),
+                              ("fair", lambda: curveskel.rig(Y, fair=-1)),
+                              ("min_size", lambda: curveskel.rig(Y, min_size=2)),
+                              ("min_size", lambda: curveskel.contract(Y, min_size=2)),
+                              ("iterations", lambda: curveskel.contract(Y, iterations=-1)),
+                              ("iterations", lambda: curveskel.fair(Y, iterations=-1)),
+                              ("rings", lambda: curveskel.fair(Y, rings=0)),
+                              ("least_sheet", lambda: curveskel.extract(Y, least_sheet=2)),
+                              ("bone_length", lambda: curveskel.rig(Y, bone_length=-1)),
+                              ("follow", lambda: curveskel.rig(Y, follow=-1)),
+                              ("softness", lambda: curveskel.rig(Y, softness=-1)),
+                              ("joint_budget", lambda: curveskel.rig(Y, joint_budget=-1))):
+            with self.assertRaisesRegex(curveskel.UsageError, f"^{keyword} is -?[0-9]", msg=keyword):
+                call()
+
+    def test_what_is_no_path_is_told_so(self):
+        rig = curveskel.rig(Y)
+        skeleton = curveskel.extract(Y)
+        for name, call in (("joints", lambda: curveskel.rig(Y, joints=([[0, 0, 0]], [-1]))),
+                           ("joints", lambda: curveskel.rig(Y, joints="a\0b")),
+                           ("mesh", lambda: curveskel.extract("a\0b.obj")),
+                           ("skeleton", lambda: curveskel.evaluate(Y, "a\0b.obj")),
+                           ("path", lambda: curveskel.read("a\0b.obj")),
+                           ("path", lambda: curveskel.read(3)),
+                           ("path", lambda: skeleton.save("a\0b.obj")),
+                           ("path", lambda: skeleton.save(3)),
+                           ("path", lambda: skeleton.save_html(3)),
+                           ("path", lambda: rig.save("a\0b.glb"))):
+            with self.assertRaisesRegex(curveskel.UsageError, f"^{name}: needs a path", msg=name):
+                call()
+
+    def test_a_slip_does_not_overwrite_another_file(self):
+        skeleton = curveskel.extract(Y)
+        mesh = self.folder / "mesh.obj"
+        mesh.write_text("v 0 0 0\n")
+        for save, extension in ((skeleton.save_html, ".html"), (skeleton.to_swc, ".swc")):
+            with self.assertRaisesRegex(curveskel.UsageError, "mesh.obj: .* ends in " + extension):
+                save(mesh)
+            save(self.folder / ("x" + extension.upper()))
+        self.assertEqual(mesh.read_text(), "v 0 0 0\n")
+
+    def test_a_detail_without_effect_is_warned_of(self):
+        for options, count in (({"embed": "none", "detail": 0.3}, 1), ({"embed": "none"}, 0),
+                               ({"detail": 0.3}, 0), ({"preset": "paper", "detail": 0.3}, 1)):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                curveskel.extract(TORUS, **options)
+            idle = [one for one in caught if "detail has no effect" in str(one.message)]
+            self.assertEqual(len(idle), count, options)
+            for one in idle:
+                self.assertEqual(one.filename, __file__)
+
     def test_rig_warns_as_the_program_does(self):
         human = MESHES / "free" / "humanoid-10k.ply.gz"
         (self.folder / "far.json").write_text(json.dumps({"joints": [

@@ -13,6 +13,7 @@
 #include <random>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -244,6 +245,26 @@ TEST(CompareRigs, SaysWhyItDoesNotPose) {
   const RigComparison other = compare_rigs(torus, truth);
   EXPECT_FALSE(other.poses || other.weights);
   EXPECT_NE(other.not_posed.find("vertices"), std::string::npos);
+}
+
+TEST(CompareRigs, PlacesNeedNoWeights) {
+  const RiggedSurface truth = rigged_bar({-5, -2, 1, 4});
+  const RiggedSurface rig = rigged_bar({-5.2, -1, 1.3, 2, 4.9});
+  const RigComparison whole = compare_rigs(rig, truth);
+  const auto without_weights = [](RiggedSurface subject) {
+    subject.rig.weights.resize(0, subject.rig.joints.rows());
+    return subject;
+  };
+  RiggedSurface joints_alone = without_weights(rig);
+  joints_alone.surface = {};
+  for (const auto& [one, other] :
+       {std::pair{joints_alone, truth}, std::pair{rig, without_weights(truth)}}) {
+    const RigComparison found = compare_rigs(one, other);
+    EXPECT_EQ(found.joints_to_joints, whole.joints_to_joints);
+    EXPECT_EQ(found.by_size.hits, whole.by_size.hits);
+    EXPECT_FALSE(found.poses || found.weights);
+    EXPECT_NE(found.not_posed.find("weights"), std::string::npos);
+  }
 }
 
 TEST(CompareRigs, RefusesATruthWithoutExtent) {

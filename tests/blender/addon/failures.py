@@ -4,13 +4,16 @@ import bpy
 from scene import armatures, far, folder, leftovers, mesh_object, rig, select, world_places, y_shape
 from curveskel import program
 
-select(mesh_object("line", [(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
-try:
-    bpy.ops.curveskel.rig()
-except RuntimeError as error:
-    assert "in.obj" in str(error) or "encloses nothing" in str(error), error
-else:
-    assert False, "a line has no rig"
+for places, faces, words in (([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)], "encloses nothing"),
+                             ([], [], "no faces"), ([(0, 0, 0), (1, 0, 0)], [], "no faces")):
+    select(mesh_object("line", places, faces))
+    for verb in (bpy.ops.curveskel.rig, bpy.ops.curveskel.skeleton):
+        try:
+            verb()
+        except RuntimeError as error:
+            assert words in str(error) and "in.obj" not in str(error), error
+        else:
+            assert False, "a line has no rig"
 assert not [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
 preferences = bpy.context.preferences.addons["curveskel"].preferences
 for path, words in (("/nowhere/curveskel", "not found"), ("/bin/true", "no curveskel")):
