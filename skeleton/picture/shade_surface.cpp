@@ -181,9 +181,8 @@ void shade_surface(const Surface& surface, const Positions& normals, const View&
                   colour_of(fragment.normal, fragment.thickness / side), fragment.coverage);
     }
   };
-  rasterise(
-      surface, normals, view, image.width(), image.height(), threads,
-      [&](const PictureWindow& window) { buffer = DepthBuffer(window); }, draw_row);
+  rasterise(surface, normals, view, {image.width(), image.height()}, threads,
+            {[&](const PictureWindow& window) { buffer = DepthBuffer(window); }, draw_row});
   draw_ink(buffer, std::max(1, static_cast<int>(side) / 90), threads, image);
 }
 
