@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/verbs/verbs.hpp"
 
@@ -20,13 +21,12 @@ struct OutputFile {
 /// The format that a file name's extension stands for. Throws UsageError listing the right ones.
 template <typename Format, std::size_t Count>
 [[nodiscard]] Format format_of(const std::string& name, const NameTable<Format, Count>& table) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const auto found = choice_of(table, extension.empty() ? extension : extension.substr(1));
+  const std::string extension = lower_extension(name);
+  const auto found = choice_of(table, extension);
   if (found) return *found;
   throw UsageError(name + ": " +
                    (extension.empty() ? "has no extension, needed one of: "
-                                      : "the extension " + extension + " is none of: ") +
+                                      : "the extension ." + extension + " is none of: ") +
                    names_in(table));
 }
 

@@ -147,4 +147,12 @@ void fail_at(const FileBytes& file, std::size_t position, std::string_view found
                                 "; correct it or export the file again");
 }
 
+bool begins_as_xml(const FileBytes& file, std::string_view mark) {
+  constexpr std::size_t first_lines = 2000;
+  const std::string_view text = std::string_view(file.content).substr(0, first_lines);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string_view::npos && text[begin] == '<' &&
+         text.find(mark) != std::string_view::npos;
+}
+
 }  // namespace curveskel
