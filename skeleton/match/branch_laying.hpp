@@ -1,4 +1,4 @@
-// How a branch lies along its partner.
+// The place of a branch along its partner.
 #pragma once
 
 #include "skeleton/match/motions.hpp"

@@ -1,4 +1,4 @@
-// How small parts move: with the surface that they sit on.
+// The motion of small parts: with the surface that they sit on.
 #pragma once
 
 #include <Eigen/Core>

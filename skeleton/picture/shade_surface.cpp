@@ -66,7 +66,7 @@ unsigned char as_byte(float share) {
   return static_cast<unsigned char>(std::clamp(share, 0.0F, 1.0F) * 255.0F + to_nearest);
 }
 
-/// What the shading needs of the window's pixels once all are drawn.
+/// All that the shading needs of the window's pixels once they are drawn.
 struct DepthBuffer {
   DepthBuffer() = default;
   explicit DepthBuffer(const PictureWindow& touched)

@@ -14,7 +14,7 @@ std::string without_prefix(std::string_view name) {
   return std::string(colon == std::string_view::npos ? name : name.substr(colon + 1));
 }
 
-/// Where in the file VTK's raw data stands, which is no XML and is left out of what is parsed.
+/// The place in the file of VTK's raw data, which is no XML and is left out of what is parsed.
 struct RawData {
   std::size_t begin = 0;
   std::size_t end = 0;  ///< begin = none
