@@ -7,7 +7,6 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -94,7 +93,7 @@ class Crew {
   std::size_t grow(std::size_t wanted) {
     try {
       while (threads_.size() < wanted) threads_.emplace_back([this] { help(); });
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {  // of the system, or out of memory
     }
     return threads_.size();
   }
