@@ -45,7 +45,7 @@ class TerritorySurface {
 
 namespace {
 
-/// The length on a branch of the point nearest to a place, from two nodes before `node` to two after.
+/// The length on a branch of the point nearest to a place, from two nodes before `node` to two on.
 double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::Vector3d& place) {
   constexpr Eigen::Index around = 2;
   double best = curve.lengths[idx(node)];

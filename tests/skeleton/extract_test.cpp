@@ -339,10 +339,10 @@ std::string plain(const testing::TestParamInfo<const char*>& entry) {
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, Unchanged,
-                         testing::Values("s", "torus", "linked-rings", "y"), plain);
-INSTANTIATE_TEST_SUITE_P(ThoroughShapes, Unchanged,
-                         testing::Values("double-torus", "h", "random"), plain);
+INSTANTIATE_TEST_SUITE_P(Shapes, Unchanged, testing::Values("s", "torus", "linked-rings", "y"),
+                         plain);
+INSTANTIATE_TEST_SUITE_P(ThoroughShapes, Unchanged, testing::Values("double-torus", "h", "random"),
+                         plain);
 
 // ---- Frames -------------------------------------------------------------------------------------
 
