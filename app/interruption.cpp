@@ -81,7 +81,9 @@ std::unique_lock<std::mutex> Interruption::hold() {
   return lock;
 }
 
-void Interruption::check() const { throw_if_stopped(stop_); }
+void Interruption::check() const {
+  if (stop_.stop_requested()) throw Cancelled();
+}
 
 void Interruption::watch(const std::stop_token& finished) {
   while (sem_wait(&arrived) != 0 && errno == EINTR) {
