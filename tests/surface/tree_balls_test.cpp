@@ -38,7 +38,7 @@ TEST(SurfaceTree, BallsOfRoundShapesHaveTheirRadius) {
 }
 
 TEST(SurfaceTree, BallsFromTheFacesOfACubeTouchWhatTheyShould) {
-  const SurfaceTree tree(cube());
+  const SurfaceTree tree(unit_cube());
   std::mt19937 generator(3);
   std::uniform_real_distribution<> uniform(0.01, 0.99);
   for (int i = 0; i < 200; ++i) {

@@ -38,7 +38,7 @@ inline Surface surface_of(const std::vector<Vector3d>& points,
   return surface;
 }
 
-inline Surface cube() {
+inline Surface unit_cube() {
   return surface_of(
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
       {{0, 2, 1},
@@ -114,7 +114,7 @@ inline Surface placed(Surface surface, double scale, const Vector3d& offset) {
 }
 
 inline std::vector<Shape> all_shapes() {
-  return {{"cube", cube()},
+  return {{"cube", unit_cube()},
           {"sphere", sphere(12)},
           {"bumpy sphere", sphere(24, 0.3)},
           {"torus", torus(0.3, 24, 12)},

@@ -88,7 +88,7 @@ TEST(SurfaceTree, RaysHitWhereTheWindingNumberChanges) {
 
 TEST(SurfaceTree, NoRaySlipsThroughSharedEdgesAndVertices) {
   for (const Vector3d& offset : {Vector3d(0, 0, 0), Vector3d(1e3, -7e3, 3e3)}) {
-    for (const Surface& shape : {sphere(16), sphere(12, 0.1), cube()}) {
+    for (const Surface& shape : {sphere(16), sphere(12, 0.1), unit_cube()}) {
       const Surface surface = placed(shape, 1, offset);
       const SurfaceTree tree(surface);
       const Vector3d centre = surface.positions.colwise().mean();
@@ -187,7 +187,7 @@ TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
 }
 
 TEST(SurfaceTree, InsideHoldsOnGridPointsThatAreAlignedWithEdges) {
-  const SurfaceTree tree(cube());
+  const SurfaceTree tree(unit_cube());
   for (int i = -4; i <= 12; ++i) {
     for (int j = -4; j <= 12; ++j) {
       for (int k = -4; k <= 12; ++k) {
