@@ -11,12 +11,6 @@ namespace curveskel {
 
 namespace fs = std::filesystem;
 
-std::string extension_of(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
-}
-
 std::vector<SkeletonFormat> formats_of(const std::vector<std::string>& names,
                                        const std::optional<SkeletonFormat>& format) {
   std::vector<SkeletonFormat> formats;
@@ -40,12 +34,12 @@ std::vector<SkeletonFormat> formats_of(const std::vector<std::string>& names,
 
 void require_extension(const std::string& name, std::string_view option,
                        std::string_view extension) {
-  if (name.empty() || name == "-" || extension_of(name) == extension) return;
+  if (name.empty() || name == "-" || lower_extension(name) == extension) return;
   std::error_code none;
   const fs::file_status status = fs::status(name, none);
   if (fs::exists(status) && !fs::is_regular_file(status)) return;
-  throw UsageError(fmt::format("{}: {} writes {}, needed a name that ends in {}", name, option,
-                               extension.substr(1), extension));
+  throw UsageError(fmt::format("{}: {} writes {}, needed a name that ends in .{}", name, option,
+                               extension, extension));
 }
 
 void check_outputs(const std::vector<std::string>& names, const fs::path& input) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/verbs/verbs.hpp"
 
@@ -18,18 +19,15 @@ struct OutputFile {
   std::string bytes;
 };
 
-/// With its dot, in lower case.
-[[nodiscard]] std::string extension_of(const std::string& name);
-
 /// The format that a file name's extension stands for. Throws UsageError listing the right ones.
 template <typename Format, std::size_t Count>
 [[nodiscard]] Format format_of(const std::string& name, const NameTable<Format, Count>& table) {
-  const std::string extension = extension_of(name);
-  const auto found = choice_of(table, extension.empty() ? extension : extension.substr(1));
+  const std::string extension = lower_extension(name);
+  const auto found = choice_of(table, extension);
   if (found) return *found;
   throw UsageError(name + ": " +
                    (extension.empty() ? "has no extension, needed one of: "
-                                      : "the extension " + extension + " is none of: ") +
+                                      : "the extension ." + extension + " is none of: ") +
                    names_in(table));
 }
 
@@ -38,7 +36,7 @@ template <typename Format, std::size_t Count>
                                                      const std::optional<SkeletonFormat>& format);
 
 /// Of a file that is written in one format alone: throws UsageError where its name does not end in
-/// `extension` (with its dot, in lower case), as a slip would overwrite another file. Nothing, "-"
+/// `extension` (without dot, in lower case), as a slip would overwrite another file. Nothing, "-"
 /// and what is there but no regular file, such as a pipe, are let through. `option` is for the
 /// message.
 void require_extension(const std::string& name, std::string_view option,

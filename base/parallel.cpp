@@ -76,9 +76,9 @@ class Crew {
   void run(RangeJob& job, std::size_t helpers) {
     {
       const std::lock_guard lock(mutex_);
-      while (threads_.size() < helpers) threads_.emplace_back([this] { help(); });
+      helpers = std::min(helpers, grow(helpers));
       job.places = helpers;
-      open_.push_back(&job);
+      if (helpers > 0) open_.push_back(&job);
     }
     for (std::size_t i = 0; i < helpers; ++i) wanted_.notify_one();
     job.work();
@@ -88,6 +88,16 @@ class Crew {
   }
 
  private:
+  /// Returns how many there are then: fewer than wanted where the system has no room for more, as
+  /// in a container with few processes; the job's owner can do without.
+  std::size_t grow(std::size_t wanted) {
+    try {
+      while (threads_.size() < wanted) threads_.emplace_back([this] { help(); });
+    } catch (const std::exception&) {  // of the system, or out of memory
+    }
+    return threads_.size();
+  }
+
   void help() {
     std::unique_lock lock(mutex_);
     while (true) {

@@ -15,6 +15,7 @@
 
 #include <curveskel/clean.hpp>
 #include <curveskel/read.hpp>
+#include "surface/mesh/cgal_mesh.hpp"
 
 namespace curveskel::bench {
 namespace {
@@ -24,16 +25,6 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 namespace processing = CGAL::Polygon_mesh_processing;
 
-Mesh mesh_of(const Surface& surface) {
-  Mesh mesh;
-  for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
-  for (const auto& t : surface.triangles.rowwise()) {
-    const auto vertex = [&](int k) { return Mesh::Vertex_index(static_cast<unsigned>(t[k])); };
-    mesh.add_face(vertex(0), vertex(1), vertex(2));
-  }
-  return mesh;
-}
-
 Mesh read_mesh(const std::filesystem::path& file) {
   constexpr std::array own_formats{".off", ".obj", ".ply"};
   Mesh mesh;
@@ -42,7 +33,7 @@ Mesh read_mesh(const std::filesystem::path& file) {
     processing::triangulate_faces(mesh);
     return mesh;
   }
-  return mesh_of(clean(read_polygons(file, {}), {}).surface);
+  return cgal_mesh<Mesh>(clean(read_polygons(file, {}), {}).surface);
 }
 
 void append(const Skeletonization::Skeleton& part, CurveSkeleton& whole,
@@ -89,6 +80,8 @@ CurveSkeleton cgal_skeleton(const std::filesystem::path& file) {
   return skeleton_of(read_mesh(file));
 }
 
-CurveSkeleton cgal_skeleton(const Surface& surface) { return skeleton_of(mesh_of(surface)); }
+CurveSkeleton cgal_skeleton(const Surface& surface) {
+  return skeleton_of(cgal_mesh<Mesh>(surface));
+}
 
 }  // namespace curveskel::bench

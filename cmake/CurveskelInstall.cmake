@@ -1,6 +1,7 @@
 # What a user of the library gets: public headers, the CMake package, the program and a .deb of all.
 # Third-party headers never appear in these (std and Eigen only); tests/checks holds them to it.
 set(CURVESKEL_PUBLIC_BASE
+  include/curveskel/advanced/file_names.hpp
   include/curveskel/advanced/graph.hpp
   include/curveskel/advanced/indices.hpp
   include/curveskel/advanced/names.hpp

@@ -11,6 +11,7 @@
 #include <curveskel/advanced/device.hpp>
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/extraction_cache.hpp>
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/inscribed_balls.hpp>

@@ -139,44 +139,36 @@ int run_view(ViewOptions options, Session& session) {
   return ExitCode::done;
 }
 
-}  // namespace
-
-Verb add_view(CLI::App& program) {
-  const auto options = std::make_shared<ViewOptions>();
-  CLI::App* parser =
-      program.add_subcommand("view", "Watch a surface become its skeleton, or look at one");
-  ExtractOptions& extract_options = options->pipeline.extract;
-  extract_options.fair.iterations = 0;
-  add_preset(*parser, options->preset, options->pipeline.repair, extract_options);
-  parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each; a rig (glTF)")
-      ->type_name("");
-  parser->add_option("--screenshot", options->screenshot, "write a picture and open no window")
+void add_pictures(CLI::App& parser, ViewOptions& options) {
+  parser.add_option("--screenshot", options.screenshot, "write a picture and open no window")
       ->type_name("OUT.png");
-  parser->add_flag(
-      "--two-sides", options->two_sides,
-      "the screenshot shows the surface from its best side and at a right angle to it");
-  parser->add_option("--turntable", options->turntable, "folder for pictures from all around")
+  parser.add_flag("--two-sides", options.two_sides,
+                  "the screenshot shows the surface from its best side and at a right angle to it");
+  parser.add_option("--turntable", options.turntable, "folder for pictures from all around")
       ->type_name("DIR");
-  add_number(*parser, "--frames", options->frames, 1, 10000, "of the turntable");
-  add_text(*parser, *options, "--size", "WxH", "of the window or the picture, in pixels", set_size)
+  add_number(parser, "--frames", options.frames, 1, 10000, "of the turntable");
+  add_text(parser, options, "--size", "WxH", "of the window or the picture, in pixels", set_size)
       ->default_str("1600x1000");
-  add_text(*parser, *options, "--camera", "VIEW",
+  add_text(parser, options, "--camera", "VIEW",
            names_in(sides) + ", or AZIMUTH,ELEVATION[,ZOOM] in degrees from best", set_camera);
-  add_text(*parser, *options, "--stage", "STAGE",
+  add_text(parser, options, "--stage", "STAGE",
            "the moment to show: input, fairing[:K], contraction[:K], surgery, skeleton, rig",
            set_stage);
-  parser->add_flag_callback(
+}
+
+void add_appearance(CLI::App& parser, const std::shared_ptr<ViewOptions>& options) {
+  parser.add_flag_callback(
       "--orthographic", [options] { options->perspective = false; }, "no perspective");
-  parser->add_flag_callback(
+  parser.add_flag_callback(
       "--no-run", [options] { options->run = false; }, "do not extract the skeleton at once");
-  parser->add_flag_callback(
+  parser.add_flag_callback(
       "--never-coarse", [options] { options->may_be_coarse = false; },
       "draw all of the surface while it moves, too, however long that takes");
-  add_look(*parser, options->look);
-  parser->add_option("--joint", options->joint, "of a rig: the one whose weights are shown")
+  add_look(parser, options->look);
+  parser.add_option("--joint", options->joint, "of a rig: the one whose weights are shown")
       ->type_name("NAME");
   parser
-      ->add_option_function<std::vector<std::string>>(
+      .add_option_function<std::vector<std::string>>(
           "--turn",
           [options](const std::vector<std::string>& all) {
             for (const std::string& text : all) {
@@ -188,19 +180,39 @@ Verb add_view(CLI::App& program) {
           "repeated")
       ->type_name("JOINT:X,Y,Z");
   parser
-      ->add_option("--frame-times", options->frame_times,
-                   "milliseconds of each picture in the window, written when it is closed")
+      .add_option("--frame-times", options->frame_times,
+                  "milliseconds of each picture in the window, written when it is closed")
       ->type_name("FILE.csv");
-  add_surgery(*parser, extract_options);
+}
+
+void add_extraction(CLI::App& parser, ViewOptions& options) {
+  ExtractOptions& extract_options = options.pipeline.extract;
+  add_surgery(parser, extract_options);
   extract_options.contraction.program_cache = kernel_cache();
   extract_options.fair.program_cache = kernel_cache();
-  add_number(*parser, "--detail", extract_options.embed.detail, 0.0, 1.0,
+  add_number(parser, "--detail", extract_options.embed.detail, 0.0, 1.0,
              "0..1: how small a branch may be");
-  add_number(*parser, "--fair", extract_options.fair.iterations, 0, 1000000,
+  add_number(parser, "--fair", extract_options.fair.iterations, 0, 1000000,
              "iterations of fairing before the contraction, for noisy surfaces");
-  add_number(*parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");
-  add_repair(*parser, options->pipeline.repair);
-  add_time_limit(*parser, options->time_limit_seconds);
+  add_number(parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");
+  add_repair(parser, options.pipeline.repair);
+  add_time_limit(parser, options.time_limit_seconds);
+}
+
+}  // namespace
+
+Verb add_view(CLI::App& program) {
+  const auto options = std::make_shared<ViewOptions>();
+  CLI::App* parser =
+      program.add_subcommand("view", "Watch a surface become its skeleton, or look at one");
+  ExtractOptions& extract_options = options->pipeline.extract;
+  extract_options.fair.iterations = 0;
+  add_preset(*parser, options->preset, options->pipeline.repair, extract_options);
+  parser->add_option("FILE", options->files, "a surface, a skeleton, or one of each; a rig (glTF)")
+      ->type_name("");
+  add_pictures(*parser, *options);
+  add_appearance(*parser, options);
+  add_extraction(*parser, *options);
   parser->footer(meanings("Presets", presets) + meanings("Surgeries", surgery_methods) +
                  meanings("Embeddings", embed_methods) + meanings("Surface", surface_styles) +
                  meanings("Skeleton", skeleton_styles) + meanings("Colours", colourings) +

@@ -57,10 +57,10 @@ std::string evaluation_table(const Evaluation& evaluation) {
 
 /// Of what `rig` writes.
 void require_readable_rig(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path.string());
-  for (const char* const other : {".usda", ".npz", ".bvh"}) {
+  const std::string extension = lower_extension(path);
+  for (const char* const other : {"usda", "npz", "bvh"}) {
     if (extension != other) continue;
-    throw Error(Fault::input, path.string() + ": found a " + other +
+    throw Error(Fault::input, path.string() + ": found a ." + other +
                                   " file, of which --rig-truth reads no rig, needed .glb, .gltf, "
                                   ".vrm, .fbx, .dae, .json or .txt; write one with curveskel rig, "
                                   "or with Blender");
@@ -70,8 +70,8 @@ void require_readable_rig(const std::filesystem::path& path) {
 /// Joints without weights of all but glTF; without a surface where the format has none.
 RiggedSurface rigged_surface(const std::filesystem::path& path, const Monitor& monitor) {
   require_readable_rig(path);
-  const std::string extension = extension_of(path.string());
-  if (extension == ".json" || extension == ".txt") return {{}, read_joints(path, monitor)};
+  const std::string extension = lower_extension(path);
+  if (extension == "json" || extension == "txt") return {{}, read_joints(path, monitor)};
   const PolygonSoup soup = read_polygons(path, monitor);
   const Surface surface{soup.positions, triangulate(soup)};
   if (keeps_joints_alone(soup.format)) return {surface, read_joints(path, monitor)};
@@ -129,7 +129,7 @@ void require_one_task(const EvaluateArguments& arguments) {
 int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   require_one_task(arguments);
-  require_extension(arguments.json, "--json", ".json");
+  require_extension(arguments.json, "--json", "json");
   if (!arguments.json.empty()) {
     check_outputs({arguments.json}, arguments.mesh);
     check_outputs({arguments.json}, arguments.skeleton);

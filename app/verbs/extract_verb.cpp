@@ -236,10 +236,10 @@ void take_labelled(ExtractArguments& arguments) {
 
 /// Fails before hours of work rather than after; a result on standard output is alone there.
 void check_names(const ExtractArguments& arguments, Session& session) {
-  require_extension(arguments.report, "--report", ".json");
-  require_extension(arguments.profiles, "--profiles", ".csv");
-  require_extension(arguments.junctions, "--junctions", ".csv");
-  require_extension(arguments.html, "--html", ".html");
+  require_extension(arguments.report, "--report", "json");
+  require_extension(arguments.profiles, "--profiles", "csv");
+  require_extension(arguments.junctions, "--junctions", "csv");
+  require_extension(arguments.html, "--html", "html");
   std::vector<std::string> names = skeleton_names(arguments);
   for (const std::string& table :
        {arguments.report, arguments.profiles, arguments.junctions, arguments.html}) {

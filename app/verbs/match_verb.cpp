@@ -89,7 +89,7 @@ std::string summary(const MatchRecord& record) {
 
 int run_match(MatchArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
-  require_extension(arguments.output, "match", ".json");
+  require_extension(arguments.output, "match", "json");
   if (is_standard_input(arguments.a) && is_standard_input(arguments.b)) {
     throw UsageError("- is standard input, which gives one surface; name a file for the other");
   }

@@ -134,7 +134,7 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
     arguments.bare = true;
   }
   std::vector<std::string> names = arguments.outputs;
-  require_extension(arguments.report, "--report", ".json");
+  require_extension(arguments.report, "--report", "json");
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, arguments.mesh);
   return formats;

@@ -38,7 +38,7 @@ class PatchFlow final : public LocalFlow {
     parallel_for(end - first, grain, options_.threads, [&](std::size_t from, std::size_t to) {
       PatchFinder patches(triangles_, corners_, options_.rings);
       for (std::size_t v = first + from; v < first + to; ++v) {
-        if (monitor.stop.stop_requested()) throw Cancelled();
+        throw_if_stopped(monitor.stop);
         if (rings_.of(v).empty()) continue;
         const auto row = static_cast<Eigen::Index>(v);
         next_.row(row) = now_.row(row) + centre_step(patches.of(static_cast<std::int32_t>(v)), now_,

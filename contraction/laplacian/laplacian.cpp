@@ -7,6 +7,7 @@
 #include <curveskel/advanced/closed_manifold.hpp>
 #include "contraction/laplacian/assemble.hpp"
 #include "contraction/laplacian/intrinsic_delaunay.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 
@@ -47,12 +48,8 @@ Eigen::VectorXd vertex_areas(const Surface& surface) {
   require_sound(surface, "vertex_areas");
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.positions.rows());
   for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-    const auto corner = surface.triangles.row(f);
-    const Eigen::Vector3d origin = surface.positions.row(corner[0]);
-    const Eigen::Vector3d u = surface.positions.row(corner[1]).transpose() - origin;
-    const Eigen::Vector3d v = surface.positions.row(corner[2]).transpose() - origin;
-    const double third = u.cross(v).norm() / 6;
-    for (int k = 0; k < 3; ++k) areas[corner[k]] += third;
+    const double third = twice_area(surface, f) / 6;
+    for (const int vertex : surface.triangles.row(f)) areas[vertex] += third;
   }
   return areas;
 }

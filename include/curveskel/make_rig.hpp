@@ -25,9 +25,12 @@ void require_valid(const RigOptions& options);
 
 /// The skeleton with more nodes, after those given, half a radius apart or less, for joints and
 /// skin on straight stretches; vertices go to the nearest about theirs. With the places at which
-/// its components meet (`contacts`). Precondition: node_of_vertex, if there is one, is
-/// the surface's. O(#V + nodes made), and a million nearest points for contacts.
-[[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton);
+/// its components meet (`contacts`). Edges follow the curve: they are not sorted as `Edges` says.
+/// Throws Error(Fault::input) for a skeleton whose numbers are none of its nodes, or whose
+/// node_of_vertex is of another surface; Cancelled on a stop. O(#V + nodes made), and a million
+/// nearest points for contacts.
+[[nodiscard]] CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton,
+                                           const Monitor& monitor = {});
 
 /// `place_joints`, `skin_weights`, then the sides: limbs that mirror each other end in .L and .R.
 /// A vertex that has no node (or none has) goes to the one whose ball is nearest. Precondition: a

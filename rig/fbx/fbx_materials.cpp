@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_set_names.hpp"
 #include "rig/gltf/texture_transform.hpp"
@@ -108,14 +109,6 @@ std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\xff\xd8")) return ".jpg";
   if (bytes.size() > 12 && bytes.substr(8, 4) == "WEBP") return ".webp";
   return "";
-}
-
-/// Of the letters of ASCII.
-std::string in_lower_case(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
 }
 
 class MaterialWriter {

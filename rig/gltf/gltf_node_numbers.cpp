@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
@@ -84,10 +84,10 @@ int renumber_animations(OrderedJson& file, const std::vector<int>& new_node) {
   return gone;
 }
 
-bool names_nodes(std::string key) {
+bool names_nodes(const std::string& name) {
   constexpr std::array<std::string_view, 3> parts{"node", "bone", "joint"};
   constexpr std::array<std::string_view, 3> whole{"source", "center", "ids"};
-  for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string key = in_lower_case(name);
   return std::find(whole.begin(), whole.end(), key) != whole.end() ||
          std::any_of(parts.begin(), parts.end(),
                      [&](std::string_view part) { return key.find(part) != key.npos; });

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "rig/gltf/gltf_pictures.hpp"
 #include "rig/gltf/picture_places.hpp"
 
@@ -39,11 +40,6 @@ std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r");
   if (begin == std::string::npos) return "";
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 /// The name behind options such as "-s 1 1 1", with the separators of this system.
@@ -95,7 +91,7 @@ void read_library(const fs::path& path, MtlLibrary& library, const Monitor& moni
   for (std::string line; std::getline(lines, line);) {
     line = trimmed(line);
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    const std::string key = lower(line.substr(0, end));
+    const std::string key = in_lower_case(line.substr(0, end));
     const std::string rest = trimmed(line.substr(end));
     if (key == "newmtl") {
       material = &library[rest];

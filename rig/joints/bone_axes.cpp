@@ -12,12 +12,6 @@
 namespace curveskel {
 namespace {
 
-/// Of a name with ".L" or ".R" behind it, else 0.
-char side_of(std::string_view name) {
-  if (name.ends_with(".L")) return 'L';
-  return name.ends_with(".R") ? 'R' : '\0';
-}
-
 class BoneWays {
  public:
   explicit BoneWays(const Rig& rig)
@@ -74,9 +68,9 @@ class BoneWays {
     std::vector<Target> middle;
     for (const int child : children_[idx(joint)]) {
       all.push_back({way(joint, child), lengths_[idx(child)]});
-      if (side_of(names_[idx(child)]) == 0) middle.push_back(all.back());
+      if (side_in(names_[idx(child)]) == 0) middle.push_back(all.back());
     }
-    if (all.size() < 2 || side_of(names_[idx(joint)]) != 0) return all;
+    if (all.size() < 2 || side_in(names_[idx(joint)]) != 0) return all;
     if (middle.empty()) middle = pairs_of(joint);
     return middle.empty() ? all : middle;
   }
@@ -86,7 +80,7 @@ class BoneWays {
     constexpr double apart = 0.1;
     std::vector<Target> pairs;
     for (const int left : children_[idx(joint)]) {
-      if (side_of(names_[idx(left)]) != 'L') continue;
+      if (side_in(names_[idx(left)]) != 'L') continue;
       for (const int right : children_[idx(joint)]) {
         if (!are_pair(names_[idx(left)], names_[idx(right)])) continue;
         const Eigen::Vector3d a = way(joint, left);
@@ -100,8 +94,7 @@ class BoneWays {
   }
 
   [[nodiscard]] static bool are_pair(std::string_view left, std::string_view right) {
-    return side_of(right) == 'R' &&
-           left.substr(0, left.size() - 2) == right.substr(0, right.size() - 2);
+    return side_in(right) == 'R' && without_side(left) == without_side(right);
   }
 
   const Rig& rig_;

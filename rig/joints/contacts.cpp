@@ -10,6 +10,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/monitor.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/joints/rooted_tree.hpp"
 
@@ -117,8 +118,8 @@ std::vector<Facing> widest(const std::vector<Facing>& found, double apart) {
 
 class ContactFinder {
  public:
-  ContactFinder(const Surface& surface, const CurveSkeleton& skeleton)
-      : skeleton_(skeleton), radii_(usable_radii(skeleton)) {
+  ContactFinder(const Surface& surface, const CurveSkeleton& skeleton, const std::stop_token& stop)
+      : skeleton_(skeleton), stop_(stop), radii_(usable_radii(skeleton)) {
     const std::vector<int> curve_of_node = component_of_node(skeleton);
     const int curves = 1 + *std::max_element(curve_of_node.begin(), curve_of_node.end());
     pieces_.resize(idx(curves));
@@ -142,6 +143,7 @@ class ContactFinder {
         static_cast<int>(std::clamp<std::size_t>(queries / near.size(), 20, most_places));
     std::vector<Contact> contacts;
     for (const auto& [one, other] : near) {
+      throw_if_stopped(stop_);
       for (const int piece : {one, other}) prepare(pieces_[idx(piece)], places);
       Contact contact;
       if (meet(pieces_[idx(one)], pieces_[idx(other)], contact)) contacts.push_back(contact);
@@ -190,6 +192,7 @@ class ContactFinder {
   [[nodiscard]] std::vector<std::pair<int, int>> near_pairs() const {
     std::vector<std::pair<int, int>> near;
     for (std::size_t a = 0; a < pieces_.size(); ++a) {
+      throw_if_stopped(stop_);
       for (std::size_t b = a + 1; b < pieces_.size(); ++b) {
         const Piece& one = pieces_[a];
         const Piece& other = pieces_[b];
@@ -305,17 +308,19 @@ class ContactFinder {
   }
 
   const CurveSkeleton& skeleton_;
+  const std::stop_token& stop_;
   Eigen::VectorXd radii_;
   std::vector<Piece> pieces_;
 };
 
 }  // namespace
 
-std::vector<Contact> contacts_of(const Surface& surface, const CurveSkeleton& skeleton) {
+std::vector<Contact> contacts_of(const Surface& surface, const CurveSkeleton& skeleton,
+                                 const std::stop_token& stop) {
   const bool says_of = skeleton.node_of_vertex.size() == surface.positions.rows();
   if (!says_of || skeleton.nodes.rows() == 0 || skeleton.node_of_vertex.maxCoeff() < 0) return {};
   if (graph_topology(skeleton).components < 2) return {};
-  return ContactFinder(surface, skeleton).find();
+  return ContactFinder(surface, skeleton, stop).find();
 }
 
 }  // namespace curveskel

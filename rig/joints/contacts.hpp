@@ -1,6 +1,7 @@
 // The places where components touch.
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -12,9 +13,11 @@ namespace curveskel {
 /// inside the other one or faces it from no farther than their gap and half of the thinner one's
 /// thickness: its section is the sum of its area as vectors, so that of a limb that ends inside
 /// another it is the limb's, however deep it goes, and of a rivet inside it is nothing. None where
-/// node_of_vertex is empty. About a million nearest points at most, whatever the components.
+/// node_of_vertex is empty. About a million nearest points at most, whatever the components. Throws
+/// Cancelled on a stop.
 [[nodiscard]] std::vector<Contact> contacts_of(const Surface& surface,
-                                               const CurveSkeleton& skeleton);
+                                               const CurveSkeleton& skeleton,
+                                               const std::stop_token& stop = {});
 
 /// A component that is no longer along its curve than across has no axis of its own, as a cube: a
 /// chain of it turns about its middle, to lead on from the contact by which the component hangs,

@@ -6,6 +6,7 @@
 #include <curveskel/make_rig.hpp>
 #include "rig/joints/contacts.hpp"
 #include "rig/joints/rooted_tree.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -79,7 +80,10 @@ void hand_vertices_on(CurveSkeleton& dense, const Surface& surface, const CurveS
 
 }  // namespace
 
-CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton) {
+CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton,
+                             const Monitor& monitor) {
+  require_sound(skeleton, "dense_skeleton");
+  require_vertices_of(skeleton, surface, "dense_skeleton");
   const Eigen::Index nodes = skeleton.nodes.rows();
   if (nodes < 2) return skeleton;
   const Eigen::VectorXd radii = usable_radii(skeleton);
@@ -99,7 +103,7 @@ CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skelet
     dense.edges.row(static_cast<Eigen::Index>(k)) = made.edges[k];
   }
   hand_vertices_on(dense, surface, skeleton, made.pieces);
-  dense.contacts = contacts_of(surface, dense);
+  dense.contacts = contacts_of(surface, dense, monitor.stop);
   return dense;
 }
 

@@ -9,8 +9,15 @@
 
 namespace curveskel {
 
-[[nodiscard]] inline bool ends_with_side(std::string_view name) {
-  return name.ends_with(".L") || name.ends_with(".R");
+/// 'L' or 'R' of a name that ends in ".L" or ".R", else 0.
+[[nodiscard]] inline char side_in(std::string_view name) {
+  if (name.ends_with(".L")) return 'L';
+  return name.ends_with(".R") ? 'R' : '\0';
+}
+
+/// "hand" of "hand.L"; others as they are.
+[[nodiscard]] inline std::string_view without_side(std::string_view name) {
+  return side_in(name) == 0 ? name : name.substr(0, name.size() - 2);
 }
 
 /// The names that tell the sides, whatever program the others are for.
@@ -27,10 +34,8 @@ struct LimbName {
 
 [[nodiscard]] inline LimbName taken_apart(std::string name) {
   LimbName parts;
-  if (ends_with_side(name)) {
-    parts.side = name.substr(name.size() - 2);
-    name.resize(name.size() - 2);
-  }
+  parts.side = name.substr(without_side(name).size());
+  name.resize(name.size() - parts.side.size());
   const std::size_t at = name.rfind('_');
   const bool counts = at != std::string::npos && name.find("limb") < at;
   parts.limb = name.substr(0, counts ? at : std::string::npos);

@@ -42,15 +42,6 @@ CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton
   return mapped;
 }
 
-void require_nodes_for(const Surface& surface, const CurveSkeleton& skeleton,
-                       const std::string& caller) {
-  const Eigen::Index mapped = skeleton.node_of_vertex.size();
-  if (mapped == 0 || mapped == surface.positions.rows()) return;
-  throw Error(Fault::input, caller + ": the skeleton has nodes for " + std::to_string(mapped) +
-                                " vertices, needed one for each of the surface's " +
-                                std::to_string(surface.positions.rows()) + ", or none");
-}
-
 }  // namespace
 
 void require_valid(const RigOptions& options) {
@@ -70,7 +61,7 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   require_valid(options);
   require_closed_manifold(surface, "make_rig", options.skin.threads);
   require_sound(skeleton, "make_rig");
-  require_nodes_for(surface, skeleton, "make_rig");
+  require_vertices_of(skeleton, surface, "make_rig");
   monitor.report("joints", 0);
   Joints joints =
       place_planned_joints(skeleton, plan.joints, options.joints,
@@ -97,7 +88,7 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
   require_valid(options);
   require_closed_manifold(surface, "weights_on_joints", options.threads);
   require_sound(skeleton, "weights_on_joints");
-  require_nodes_for(surface, skeleton, "weights_on_joints");
+  require_vertices_of(skeleton, surface, "weights_on_joints");
   if (given.joints.rows() == 0 || given.joints.rows() != given.parents.size()) {
     throw Error(Fault::input, "weights_on_joints: " + std::to_string(given.joints.rows()) +
                                   " joints and " + std::to_string(given.parents.size()) +

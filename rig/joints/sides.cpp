@@ -71,8 +71,8 @@ std::vector<int> twins_of(const Rig& rig) {
   }
   std::vector<int> twins(names.size(), -1);
   for (const auto& [name, joint] : number) {
-    if (!name.ends_with(".L")) continue;
-    const auto found = number.find(std::string(name.substr(0, name.size() - 2)) + ".R");
+    if (side_in(name) != 'L') continue;
+    const auto found = number.find(std::string(without_side(name)) + ".R");
     if (found == number.end()) continue;
     twins[idx(joint)] = found->second;
     twins[idx(found->second)] = joint;

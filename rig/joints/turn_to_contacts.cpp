@@ -5,6 +5,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "rig/joints/contacts.hpp"
 #include "rig/joints/rooted_tree.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -46,9 +47,7 @@ std::vector<Eigen::Matrix3d> spreads_by_curve(const CurveSkeleton& skeleton, con
     const std::size_t curve = idx(curve_of_node[idx(node)]);
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = surface.positions.row(t[k]).transpose() - origin;
-    const Vector3d a = corners.col(1) - corners.col(0);
-    const Vector3d b = corners.col(2) - corners.col(0);
-    const double size = 0.5 * a.cross(b).norm();
+    const double size = 0.5 * twice_area(corners.col(0), corners.col(1), corners.col(2));
     const Vector3d sum = corners.rowwise().sum();
     squares[curve] += size / 12 * (corners * corners.transpose() + sum * sum.transpose());
     sums[curve] += size / 3 * sum;

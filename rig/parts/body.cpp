@@ -81,10 +81,10 @@ void BodySoFar::add(int number, const Component& component, int threads) {
   pieces_.push_back(std::move(piece));
 }
 
-std::vector<BodySoFar::Contact> BodySoFar::contacts(const ProbedPart& part) const {
+std::vector<BodySoFar::NearestPlace> BodySoFar::contacts(const ProbedPart& part) const {
   std::vector<const Piece*> near(pieces_.size());
   std::transform(pieces_.begin(), pieces_.end(), near.begin(), [](const Piece& p) { return &p; });
-  std::vector<Contact> found;
+  std::vector<NearestPlace> found;
   found.reserve(part.places.size());
   const Piece* last = nullptr;  // the nearest of the place before
   for (const Vector3d& place : part.places) {
@@ -101,12 +101,12 @@ std::vector<BodySoFar::Contact> BodySoFar::contacts(const ProbedPart& part) cons
   return found;
 }
 
-BodySoFar::Contact BodySoFar::nearest_of(const std::vector<const Piece*>& pieces,
-                                         const Vector3d& place, const Piece*& guess) {
+BodySoFar::NearestPlace BodySoFar::nearest_of(const std::vector<const Piece*>& pieces,
+                                              const Vector3d& place, const Piece*& guess) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double rounding = 1e-12;  // of two queries, so that the guess itself is found again
   const auto within = [&](double limit) {
-    Contact contact{limit, -1, place};
+    NearestPlace contact{limit, -1, place};
     for (const Piece* piece : pieces) {
       if (piece->box.exteriorDistance(place) >= contact.distance) continue;
       const SurfaceTree::Nearest nearest = piece->tree.nearest(place, contact.distance);
@@ -118,13 +118,13 @@ BodySoFar::Contact BodySoFar::nearest_of(const std::vector<const Piece*>& pieces
   };
   if (guess != nullptr) {  // others are asked only if they may be nearer
     const double limit = (1 + rounding) * guess->tree.nearest(place).distance;
-    const Contact contact = within(limit);
+    const NearestPlace contact = within(limit);
     if (contact.component >= 0) return contact;
   }
   return within(infinity);
 }
 
-double BodySoFar::thickness_at(const Contact& contact) const {
+double BodySoFar::thickness_at(const NearestPlace& contact) const {
   const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece& one) {
     return one.number == contact.component;
   });

@@ -23,17 +23,17 @@ class BodySoFar {
  public:
   void add(int number, const Component& component, int threads);
 
-  struct Contact {
+  struct NearestPlace {
     double distance;
     int component;
     Eigen::Vector3d point;
   };
   /// For each place of the part the nearest place of the body. Precondition: the body has a
   /// component.
-  [[nodiscard]] std::vector<Contact> contacts(const ProbedPart& part) const;
+  [[nodiscard]] std::vector<NearestPlace> contacts(const ProbedPart& part) const;
 
   /// The radius of the largest inscribed ball of the component about the place.
-  [[nodiscard]] double thickness_at(const Contact& contact) const;
+  [[nodiscard]] double thickness_at(const NearestPlace& contact) const;
   /// The upper quartile of the thickness of what lies within a distance of one of the places; 0
   /// where nothing does.
   [[nodiscard]] double thickness_within(const ProbedPart& part, double distance) const;
@@ -50,8 +50,8 @@ class BodySoFar {
     std::vector<SurfaceTree::Ball> balls;  // that touch it there
   };
   /// `guess` is one of the pieces or null, and becomes the nearest.
-  [[nodiscard]] static Contact nearest_of(const std::vector<const Piece*>& pieces,
-                                          const Eigen::Vector3d& place, const Piece*& guess);
+  [[nodiscard]] static NearestPlace nearest_of(const std::vector<const Piece*>& pieces,
+                                               const Eigen::Vector3d& place, const Piece*& guess);
 
   std::vector<Piece> pieces_;
   double most_thickness_ = 0;

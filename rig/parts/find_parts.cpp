@@ -12,6 +12,8 @@
 #include "base/median.hpp"
 #include "base/option_ranges.hpp"
 #include "rig/parts/body.hpp"
+#include "rig/parts/nearest_first.hpp"
+#include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/select_components.hpp"
 
@@ -24,11 +26,11 @@ Vector3d centroid(const Surface& surface) {
   Vector3d sum = Vector3d::Zero();
   double area = 0;
   for (const auto& t : surface.triangles.rowwise()) {
-    const Eigen::RowVector3d a = surface.positions.row(t(0));
-    const Eigen::RowVector3d b = surface.positions.row(t(1));
-    const Eigen::RowVector3d c = surface.positions.row(t(2));
-    const double twice = (b - a).cross(c - a).norm();
-    sum += twice / 3 * (a + b + c).transpose();
+    const Vector3d a = surface.positions.row(t(0));
+    const Vector3d b = surface.positions.row(t(1));
+    const Vector3d c = surface.positions.row(t(2));
+    const double twice = twice_area(a, b, c);
+    sum += twice / 3 * (a + b + c);
     area += twice;
   }
   return area > 0 ? Vector3d(sum / area) : Vector3d(surface.positions.row(0));
@@ -102,12 +104,9 @@ class PartFinder {
       part.reach = apart / std::max(body_.most_thickness(), 1e-12 * diagonal_);
       return;
     }
-    std::vector<BodySoFar::Contact> contacts = body_.contacts(probe);
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    const std::size_t tenth = std::max<std::size_t>(3, contacts.size() / 10);
+    const std::vector<BodySoFar::NearestPlace> contacts = nearest_first(body_.contacts(probe));
     std::vector<double> radii;
-    for (std::size_t i = 0; i < std::min(tenth, contacts.size()); ++i) {
+    for (std::size_t i = 0; i < places_that_count(contacts.size()); ++i) {
       radii.push_back(body_.thickness_at(contacts[i]));
     }
     const double thickness =

@@ -10,7 +10,9 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/make_rig.hpp>
+#include "rig/parts/nearest_first.hpp"
 #include "rig/skin/weight_pieces.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -102,10 +104,8 @@ class Following {
   }
 
   static std::vector<SurfaceTree::Nearest> nearest_of(std::vector<SurfaceTree::Nearest> contacts) {
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    const std::size_t tenth = std::max<std::size_t>(3, contacts.size() / 10);
-    contacts.resize(std::min(tenth, contacts.size()));
+    contacts = nearest_first(std::move(contacts));
+    contacts.resize(places_that_count(contacts.size()));
     return contacts;
   }
 
@@ -127,9 +127,6 @@ class Following {
   [[nodiscard]] std::array<double, 3> barycentric(const SurfaceTree::Nearest& contact) const {
     const auto corner = [&](int k) -> Vector3d {
       return surface_.positions.row(surface_.triangles(contact.triangle, k));
-    };
-    const auto twice_area = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-      return (b - a).cross(c - a).norm();
     };
     const std::array<double, 3> parts{twice_area(contact.point, corner(1), corner(2)),
                                       twice_area(corner(0), contact.point, corner(2)),

@@ -8,6 +8,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/certificate.hpp>
+#include <curveskel/monitor.hpp>
 #include <curveskel/rig_character.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/rig_polygons.hpp>
@@ -128,8 +129,8 @@ void append(Rig& all, const Rig& more) {
 class Groups {
  public:
   Groups(const RepairedSurface& body, const CurveSkeleton& skeleton, const Topology& counted,
-         const FigureOptions& options)
-      : body_(body), skeleton_(skeleton), counted_(counted), options_(options) {}
+         const FigureOptions& options, const std::stop_token& stop)
+      : body_(body), skeleton_(skeleton), counted_(counted), options_(options), stop_(stop) {}
 
   /// Those that are each built to a plan, the largest first; all else goes with the one whose box
   /// is nearest. `ground` (-1: none) is a component that groups with no other.
@@ -203,6 +204,7 @@ class Groups {
 
   /// As if it were alone. A scene that is not made of tubes may have a figure that is.
   [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) const {
+    throw_if_stopped(stop_);
     const RigParts parts = parts_of(group, wanted);
     const RepairedSurface body = body_of(body_, parts);
     const CurveSkeleton skeleton = skeleton_of_body(skeleton_, parts);
@@ -252,6 +254,7 @@ class Groups {
   const CurveSkeleton& skeleton_;
   const Topology& counted_;
   const FigureOptions& options_;
+  const std::stop_token& stop_;
 };
 
 /// True if the plan has joints on each of them: pieces of one body, as a doll's upper and lower
@@ -270,7 +273,7 @@ bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
 }  // namespace
 
 std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                                 const FigureOptions& options) {
+                                 const FigureOptions& options, const std::stop_token& stop) {
   std::vector<Figure> whole;
   whole.push_back({body, skeleton, plan_with_sheets(body, skeleton, options.plan)});
   const BodyKind wanted = options.plan.plan;
@@ -278,7 +281,7 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   if (!says_of || wanted == BodyKind::none || wanted == BodyKind::other) return whole;
   const Topology counted = topology(body.surface);
   if (counted.components() < 2) return whole;
-  const Groups groups(body, skeleton, counted, options);
+  const Groups groups(body, skeleton, counted, options, stop);
   constexpr int no_ground = -1;
   std::vector<Figure> figures = groups.figures(no_ground);
   const std::size_t planned = whole.front().plan.joints.size();

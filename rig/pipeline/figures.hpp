@@ -1,6 +1,7 @@
 // The figures of a scene, each with a plan of its own. Internal to rig/.
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/body_plan.hpp>
@@ -42,11 +43,12 @@ struct FigureOptions {
 /// with the figure whose box is nearest. Else the whole body is the only
 /// figure. Of a scene that is not made of tubes each group is judged alone.
 /// `skeleton` has node_of_vertex, by the body's vertices; without it there is
-/// one figure. O((#V + #N) times the number of groups with four tips or more,
-/// and the square of the number of components).
+/// one figure. Throws Cancelled on a stop. O((#V + #N) times the number of groups with four tips or
+/// more, and the square of the number of components).
 [[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
                                                const CurveSkeleton& skeleton,
-                                               const FigureOptions& options);
+                                               const FigureOptions& options,
+                                               const std::stop_token& stop = {});
 
 /// A rig, and the surface and skeleton that it is of.
 struct RiggedBody {

@@ -1,5 +1,3 @@
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <map>
 #include <queue>
@@ -15,6 +13,7 @@
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/pipeline/kept_joints.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -32,12 +31,9 @@ struct Worth {
 /// By joint; a corner of a triangle is a third of it.
 Eigen::VectorXd areas_moved(const Rig& rig, const Surface& given) {
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(rig.parents.size());
-  for (const auto& triangle : given.triangles.rowwise()) {
-    const Eigen::Vector3d corner = given.positions.row(triangle[0]).transpose();
-    const Eigen::Vector3d second = given.positions.row(triangle[1]).transpose() - corner;
-    const Eigen::Vector3d third = given.positions.row(triangle[2]).transpose() - corner;
-    const double share = second.cross(third).norm() / 6;
-    for (const int vertex : triangle) {
+  for (Eigen::Index face = 0; face < given.triangles.rows(); ++face) {
+    const double share = twice_area(given, face) / 6;
+    for (const int vertex : given.triangles.row(face)) {
       for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
         moved[it.col()] += static_cast<double>(it.value()) * share;
       }

@@ -130,12 +130,13 @@ struct Body {
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                       const CurveSkeleton& skeleton, const CharacterOptions& options,
                       const Monitor& monitor) {
-  CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+  CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
   const bool is_root_chosen = options.rig.joints.root >= 0;  // it stays in its place
   if (!is_root_chosen) turn_to_contacts(dense, body.surface);
   PlanOptions wanted = options.plan;
-  if (options.rig.joints.root >= 0) wanted.plan = BodyKind::none;
-  std::vector<Figure> figures = find_figures(body, dense, {wanted, options.rig.skin.threads});
+  if (is_root_chosen) wanted.plan = BodyKind::none;
+  std::vector<Figure> figures =
+      find_figures(body, dense, {wanted, options.rig.skin.threads}, monitor.stop);
   CharacterRig result;
   result.plan = figures.front().plan;
   std::vector<RiggedBody> made;

@@ -74,9 +74,9 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
 /// The plan of a single figure that has one, to be asked for at a finer level:
 /// a rabbit's tail makes no bird of it.
 BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                 const FigureOptions& options) {
-  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
-  const std::vector<Figure> figures = find_figures(body, dense, options);
+                 const FigureOptions& options, const Monitor& monitor) {
+  const CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
+  const std::vector<Figure> figures = find_figures(body, dense, options, monitor.stop);
   const BodyKind kind = figures.front().plan.plan;
   return figures.size() > 1 || kind == BodyKind::other ? options.plan.plan : kind;
 }
@@ -129,7 +129,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   result.certificate = certificate;
   const Surface given{soup.positions, triangulate(soup)};
   if (sources.joints) {
-    const CurveSkeleton dense = dense_skeleton(body.surface, skeleton);
+    const CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
     const Rig made =
         weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
     result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
@@ -137,7 +137,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   } else {
     wanted.plan.made_of_tubes = !certificate || certificate->curve_like;
     if (usual && wanted.plan.plan == BodyKind::automatic) {
-      wanted.plan.plan = kind_of(body, *usual, {wanted.plan, options.threads});
+      wanted.plan.plan = kind_of(body, *usual, {wanted.plan, options.threads}, monitor);
     }
     CharacterRig level = level_of_character(rig_body(given, body, skeleton, wanted, monitor),
                                             skeleton, least_life(options.extract.embed.detail));

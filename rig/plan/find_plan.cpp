@@ -10,6 +10,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
@@ -213,6 +214,8 @@ void require_valid(const PlanOptions& options) { (void)frames_of(options); }
 
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
+  require_sound(skeleton, "find_plan");
+  require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
   if (options.plan == BodyKind::automatic && !options.made_of_tubes) {

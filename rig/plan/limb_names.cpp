@@ -14,8 +14,8 @@ namespace curveskel {
 namespace {
 
 /// "finger_index" of "finger_index_3.L".
-std::string without_side_and_number(std::string name) {
-  if (ends_with_side(name)) name.resize(name.size() - 2);
+std::string without_side_and_number(std::string_view sided) {
+  std::string name(without_side(sided));
   std::size_t end = name.size();
   while (end > 0 && std::isdigit(static_cast<unsigned char>(name[end - 1])) != 0) --end;
   const bool is_number =

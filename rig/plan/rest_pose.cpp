@@ -13,6 +13,7 @@
 #include <curveskel/error.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
+#include "rig/measure/rig_bones.hpp"
 
 namespace curveskel {
 namespace {
@@ -147,12 +148,8 @@ Rig with_one_root(const Rig& rig, const Surface& surface, const Eigen::RowVector
 
 Rig without_ends(const Rig& rig) {
   const Eigen::Index count = rig.joints.rows();
-  std::vector<char> stays(idx(count), 0);
-  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
-    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-      if (it.value() > 0) stays[idx(it.col())] = 1;
-    }
-  }
+  const std::vector<bool> moves = moving_joints(rig);
+  std::vector<char> stays(moves.begin(), moves.end());
   for (Eigen::Index joint = 0; joint < count; ++joint) {
     const bool is_end = rig.names[idx(joint)].find("_end") != std::string::npos;
     if (!is_end || rig.parents[joint] < 0) stays[idx(joint)] = 1;

@@ -1,6 +1,5 @@
 #include "rig/skin/weight_pieces.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -77,13 +77,10 @@ WeldedSurface::WeldedSurface(const Surface& surface, std::vector<int> place_of)
   for (const auto& [a, b] : edges) joined.unite(a, b);
   for (int v = 0; v < static_cast<int>(count); ++v) joined.unite(v, place[idx(v)]);
   component = joined.numbers();
-  for (const auto& t : surface.triangles.rowwise()) {
-    const Eigen::Vector3d a = surface.positions.row(t(0));
-    const Eigen::Vector3d u = surface.positions.row(t(1)).transpose() - a;
-    const Eigen::Vector3d v = surface.positions.row(t(2)).transpose() - a;
-    const double third = u.cross(v).norm() / 6;
+  for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
+    const double third = twice_area(surface, face) / 6;
     if (!std::isfinite(third)) continue;
-    for (const int corner : t) areas[place[idx(corner)]] += third;
+    for (const int corner : surface.triangles.row(face)) areas[place[idx(corner)]] += third;
   }
 }
 

@@ -1,4 +1,4 @@
-// How much of a surface lies near its curve, as the walls of tubes do.
+// The share of a surface that lies near its curve, as the walls of tubes do.
 #pragma once
 
 #include <curveskel/surface.hpp>

@@ -5,8 +5,8 @@
 
 namespace curveskel {
 
-/// What `Certificate::correct` asks: the numbers of components, cycles and round handles, and how
-/// much of the curve is inside; all other figures stay as they are by default. Conditions and
+/// All that `Certificate::correct` needs, the numbers of components, cycles and round handles, and
+/// how much of the curve is inside; all other figures stay as they are by default. Conditions and
 /// errors as of `evaluate`. The figures left out cost thousands of points and rays for the smallest
 /// of components, this only what the component has of curve and surface.
 [[nodiscard]] Certificate verdict(const CertifiedSurface& surface, const CurveSkeleton& skeleton,

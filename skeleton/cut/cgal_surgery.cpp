@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface/mesh/cgal_mesh.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -23,16 +25,6 @@ struct NoSolver {
 using Skeletonization =
     CGAL::Mean_curvature_flow_skeletonization<Mesh, CGAL::Default, CGAL::Default, NoSolver>;
 using Graph = Skeletonization::Skeleton;
-
-Mesh mesh_of(const Surface& surface) {
-  Mesh mesh;
-  for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
-  for (const auto& t : surface.triangles.rowwise()) {
-    const auto corner = [&t](int k) { return Mesh::Vertex_index(static_cast<unsigned>(t[k])); };
-    mesh.add_face(corner(0), corner(1), corner(2));
-  }
-  return mesh;
-}
 
 Positions nodes_of(const Graph& graph) {
   Positions nodes(static_cast<Eigen::Index>(num_vertices(graph)), 3);
@@ -61,7 +53,7 @@ Edges edges_of(const Graph& graph) {
 }  // namespace
 
 CurveSkeleton cgal_surgery(const Contraction& contraction) {
-  const Mesh mesh = mesh_of(contraction.surface);
+  const Mesh mesh = cgal_mesh<Mesh>(contraction.surface);
   Skeletonization skeletonization(mesh);
   Graph graph;
   skeletonization.convert_to_skeleton(graph);

@@ -26,4 +26,14 @@ void require_sound(const CurveSkeleton& skeleton, std::string_view purpose) {
   }
 }
 
+void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
+                         std::string_view purpose) {
+  const Eigen::Index mapped = skeleton.node_of_vertex.size();
+  if (mapped == 0 || mapped == surface.positions.rows()) return;
+  throw Error(Fault::input, std::string(purpose) + ": the skeleton has nodes for " +
+                                std::to_string(mapped) + " vertices, needed one for each of the " +
+                                "surface's " + std::to_string(surface.positions.rows()) +
+                                ", or none");
+}
+
 }  // namespace curveskel

@@ -4,11 +4,16 @@
 #include <string_view>
 
 #include <curveskel/curve_skeleton.hpp>
+#include <curveskel/surface.hpp>
 
 namespace curveskel {
 
 /// Throws Error(Fault::input) that begins with `purpose` unless every edge runs between two nodes,
 /// radii are as many as nodes or none, and no vertex has a node that there is not. O(#N + #E + #V).
 void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
+
+/// The same unless node_of_vertex is by the surface's vertices, or empty. O(1).
+void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
+                         std::string_view purpose);
 
 }  // namespace curveskel

@@ -1,10 +1,9 @@
 // Recognition of a file's format, and code that all formats share.
-#include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "skeleton/io/raw_graph.hpp"
 
@@ -12,14 +11,6 @@ namespace curveskel {
 namespace {
 
 constexpr std::string_view readable = "one of obj, ply, cgal, swc, vtp, graphml, json";
-
-std::string lower_extension(std::filesystem::path path) {
-  if (path.extension() == ".gz") path = path.stem();
-  std::string text = path.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.empty() ? text : text.substr(1);
-}
 
 /// The formats that name themselves in their first lines.
 std::optional<SkeletonFormat> skeleton_format_by_content(const FileBytes& file) {
@@ -37,7 +28,7 @@ std::optional<SkeletonFormat> skeleton_format_by_content(const FileBytes& file) 
 }
 
 std::optional<SkeletonFormat> skeleton_format_by_extension(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_extension(without_gz(path));
   if (extension == "txt") return SkeletonFormat::cgal;  // CGAL's own is ".polylines.txt"
   return choice_of(skeleton_formats, std::string_view(extension));
 }

@@ -155,9 +155,11 @@ class FinerBranches {
     return true;
   }
 
-  /// Edges about as long as the curve's; one where its own have no length.
+  /// Edges about as long as the curve's, but no shorter than a tenth of the least spacing: its own
+  /// may have no length.
   [[nodiscard]] int pieces_of(double length) const {
-    return spacing_ > 0 ? std::max(1, static_cast<int>(length / spacing_)) : 1;
+    const double each = std::max(spacing_, 0.1 * least_rim_);
+    return each > 0 ? std::max(1, static_cast<int>(length / each)) : 1;
   }
 
   /// The centre of the ball that touches the surface behind the rim, in the direction of the tip;

@@ -43,22 +43,23 @@ void for_moved_nodes(const Branch& one, const BranchCurve& from, const BranchCur
   }
 }
 
-bool starts_at_junction(const MatchSide& side, const Branch& branch) {
-  const int start = branch.nodes.front();
-  return (side.skeleton.edges.array() == start).count() >= 3;
+bool starts_at_junction(const BranchOnSide& one) {
+  const int start = one.branch.nodes.front();
+  return (one.side.skeleton.edges.array() == start).count() >= 3;
 }
 
 }  // namespace
 
-BranchLaying laying_of(const MatchSide& a, const Branch& one, const BranchCurve& from,
-                       const MatchSide& b, const Branch& other, const BranchCurve& to,
-                       bool reversed, const NodeMotions& motions) {
+BranchLaying laying_of(const BranchOnSide& one, const BranchOnSide& other, bool reversed,
+                       const NodeMotions& motions) {
+  const BranchCurve& from = one.curve;
+  const BranchCurve& to = other.curve;
   BranchLaying laying{reversed ? to.length() : 0, reversed};
   const bool is_ring = from.closed && to.closed && from.length() > 0 && to.length() > 0;
-  if (!is_ring || (starts_at_junction(a, one) && starts_at_junction(b, other))) return laying;
+  if (!is_ring || (starts_at_junction(one) && starts_at_junction(other))) return laying;
   const BranchLaying from_zero{0, reversed};
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for_moved_nodes(one, from, to, motions, [&](double s, double t, const Similarity&) {
+  for_moved_nodes(one.branch, from, to, motions, [&](double s, double t, const Similarity&) {
     const double start = t - from_zero.length_on_partner(from, to, s);
     const double angle = 2 * std::numbers::pi * start / to.length();
     sum += Eigen::Vector2d(std::cos(angle), std::sin(angle));

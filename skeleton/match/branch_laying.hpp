@@ -1,4 +1,4 @@
-// How a branch lies along its partner.
+// The place of a branch along its partner.
 #pragma once
 
 #include "skeleton/match/motions.hpp"
@@ -19,10 +19,16 @@ struct BranchLaying {
   }
 };
 
-/// A pair of branches, with their curves. Where a ring begins says nothing, as no junction is
-/// there: its start goes to where the motions take the ring's nodes, in the circular mean.
-[[nodiscard]] BranchLaying laying_of(const MatchSide& a, const Branch& one, const BranchCurve& from,
-                                     const MatchSide& b, const Branch& other, const BranchCurve& to,
+/// One branch of a skeleton. Refers to what it is made of.
+struct BranchOnSide {
+  const MatchSide& side;
+  const Branch& branch;
+  const BranchCurve& curve;  ///< of the branch
+};
+
+/// A pair of branches. Where a ring begins says nothing, as no junction is there: its start goes to
+/// where the motions take the ring's nodes, in the circular mean.
+[[nodiscard]] BranchLaying laying_of(const BranchOnSide& one, const BranchOnSide& other,
                                      bool reversed, const NodeMotions& motions);
 
 /// True if a closed branch goes round against its closed partner, by the directions of both where

@@ -1,4 +1,4 @@
-// How much of each branch's surface comes to lie on that of each branch of the other.
+// The share of each branch's surface that comes to lie on that of each branch of the other.
 #pragma once
 
 #include <Eigen/Core>

@@ -127,10 +127,9 @@ bool runs_against(const MatchSide& a, const Branch& one, const MatchSide& b, con
 
 }  // namespace
 
-std::vector<BranchPair> pair_branches(const MatchSide& a, const TipFeatures& of_a,
-                                      const MatchSide& b, const TipFeatures& of_b,
-                                      const std::vector<int>& partner,
+std::vector<BranchPair> pair_branches(const MatchedBodies& bodies, const std::vector<int>& partner,
                                       const Eigen::MatrixXd& overlaps, const NodeMotions& motions) {
+  const auto& [a, of_a, b, of_b, like] = bodies;
   std::vector<int> pair_in_a(of_a.tips.size(), -1);
   std::vector<int> pair_in_b(of_b.tips.size(), -1);
   int tip_pairs = 0;

@@ -11,8 +11,7 @@ namespace curveskel {
 
 /// By a. Each branch at most once; none is marked as ambiguous. `partner` is of `pair_tips`,
 /// `overlaps` of `branch_overlaps`.
-[[nodiscard]] std::vector<BranchPair> pair_branches(const MatchSide& a, const TipFeatures& of_a,
-                                                    const MatchSide& b, const TipFeatures& of_b,
+[[nodiscard]] std::vector<BranchPair> pair_branches(const MatchedBodies& bodies,
                                                     const std::vector<int>& partner,
                                                     const Eigen::MatrixXd& overlaps,
                                                     const NodeMotions& motions);

@@ -139,79 +139,112 @@ bool differs(const CoreAlignment& one, const CoreAlignment& other) {
   return std::abs(between.angle()) > std::numbers::pi / 6;
 }
 
-/// The best that differ, from all starts.
-std::vector<CoreAlignment> align_points(const Points& few, const Points& many,
-                                        const Similarity& start, const SurfaceTree& tree_b,
-                                        double unit, const std::vector<Eigen::Matrix3d>& rotations,
-                                        std::size_t most, int threads) {
-  std::vector<CoreAlignment> found(rotations.size());
-  const auto improve = [&](const Points& points, int rounds) {
-    parallel_for(found.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+/// Points of a's, and the motion in which they are laid onto b first, but for its rotation.
+struct Start {
+  Points few;  ///< for the first rounds
+  Points many;
+  Similarity motion;
+  std::vector<Eigen::Matrix3d> rotations;
+};
+
+/// Lays a onto b's surface.
+class Alignments {
+ public:
+  Alignments(const MatchedBodies& bodies, const SurfaceTree& tree_b, double scale, int threads,
+             const std::stop_token& stop)
+      : bodies_(bodies), tree_b_(tree_b), scale_(scale), threads_(threads), stop_(stop) {}
+
+  [[nodiscard]] Start of_cores() const {
+    return start_from(bodies_.of_a.core_vertices, bodies_.of_b.core_vertices, bodies_.of_a.centre,
+                      bodies_.of_b.centre);
+  }
+
+  [[nodiscard]] Start of_wholes() const {
+    return start_from(all_vertices(bodies_.a.surface), all_vertices(bodies_.b.surface),
+                      whole_centroid(bodies_.of_a), whole_centroid(bodies_.of_b));
+  }
+
+  /// The best that differ, at most `most`, from all rotations.
+  [[nodiscard]] std::vector<CoreAlignment> best_from(const Start& start, std::size_t most) const {
+    std::vector<CoreAlignment> found(start.rotations.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      found[k].motion = start.motion;
+      found[k].motion.rotation = start.rotations[k];
+    }
+    constexpr int first_rounds = 3;
+    improve(found, start.few, first_rounds);
+    constexpr std::size_t refined = 16;
+    if (found.size() > refined) found.resize(refined);
+    improve(found, start.many, rounds_of_refinement);
+    std::vector<CoreAlignment> apart;
+    for (const CoreAlignment& one : found) {
+      if (apart.size() < most && std::all_of(apart.begin(), apart.end(), [&](const auto& other) {
+            return differs(one, other);
+          })) {
+        apart.push_back(one);
+      }
+    }
+    return apart;
+  }
+
+  [[nodiscard]] CoreAlignment as_they_stand(const Points& core_a) const {
+    CoreAlignment standing;
+    standing.motion = {Eigen::Matrix3d::Identity(), bodies_.of_a.centre, bodies_.of_b.centre,
+                       scale_};
+    refine(standing.motion, core_a, tree_b_, rounds_of_refinement);
+    standing.residual = misfit(standing.motion, core_a, tree_b_) / bodies_.of_b.unit;
+    return standing;
+  }
+
+ private:
+  [[nodiscard]] Start start_from(const std::vector<int>& of_a, const std::vector<int>& of_b,
+                                 const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    constexpr std::size_t few = 80;
+    constexpr std::size_t many = 400;
+    const Positions& positions = bodies_.a.surface.positions;
+    Start start{spread(positions, of_a, few),
+                spread(positions, of_a, many),
+                {Eigen::Matrix3d::Identity(), from, to, scale_},
+                {Eigen::Matrix3d::Identity()}};
+    add_limb_rotations(bodies_.of_a, bodies_.of_b, bodies_.like, start.rotations);
+    add_axis_rotations(start.many, spread(bodies_.b.surface.positions, of_b, many),
+                       start.rotations);
+    return start;
+  }
+
+  /// And puts the best first.
+  void improve(std::vector<CoreAlignment>& found, const Points& points, int rounds) const {
+    parallel_for(found.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        refine(found[k].motion, points, tree_b, rounds);
-        found[k].residual = misfit(found[k].motion, points, tree_b) / unit;
+        throw_if_stopped(stop_);
+        refine(found[k].motion, points, tree_b_, rounds);
+        found[k].residual = misfit(found[k].motion, points, tree_b_) / bodies_.of_b.unit;
       }
     });
     std::stable_sort(found.begin(), found.end(),
                      [](const CoreAlignment& one, const CoreAlignment& other) {
                        return one.residual < other.residual;
                      });
-  };
-  for (std::size_t k = 0; k < rotations.size(); ++k) {
-    found[k].motion = start;
-    found[k].motion.rotation = rotations[k];
   }
-  improve(few, 3);
-  constexpr std::size_t refined = 16;
-  if (found.size() > refined) found.resize(refined);
-  improve(many, rounds_of_refinement);
-  std::vector<CoreAlignment> apart;
-  for (const CoreAlignment& one : found) {
-    if (apart.size() < most && std::all_of(apart.begin(), apart.end(), [&](const auto& other) {
-          return differs(one, other);
-        })) {
-      apart.push_back(one);
-    }
-  }
-  return apart;
-}
 
-CoreAlignment as_they_stand(const Points& core_a, const TipFeatures& of_a,
-                            const SurfaceTree& tree_b, const TipFeatures& of_b, double scale) {
-  CoreAlignment standing;
-  standing.motion = {Eigen::Matrix3d::Identity(), of_a.centre, of_b.centre, scale};
-  refine(standing.motion, core_a, tree_b, rounds_of_refinement);
-  standing.residual = misfit(standing.motion, core_a, tree_b) / of_b.unit;
-  return standing;
-}
+  const MatchedBodies& bodies_;
+  const SurfaceTree& tree_b_;
+  double scale_;
+  int threads_;
+  const std::stop_token& stop_;
+};
 
 }  // namespace
 
-std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
-                                       const SurfaceTree& tree_b, const MatchSide& b,
-                                       const TipFeatures& of_b, const Eigen::MatrixXd& like,
-                                       double scale, std::size_t most, int threads) {
-  const Points core_a = spread(a.surface.positions, of_a.core_vertices, 400);
-  const Points core_b = spread(b.surface.positions, of_b.core_vertices, 400);
-  std::vector<Eigen::Matrix3d> starts{Eigen::Matrix3d::Identity()};
-  add_limb_rotations(of_a, of_b, like, starts);
-  add_axis_rotations(core_a, core_b, starts);
-  std::vector<CoreAlignment> found =
-      align_points(spread(a.surface.positions, of_a.core_vertices, 80), core_a,
-                   {Eigen::Matrix3d::Identity(), of_a.centre, of_b.centre, scale}, tree_b,
-                   of_b.unit, starts, most, threads);
-  const std::vector<int> all_a = all_vertices(a.surface);
-  const Points whole_a = spread(a.surface.positions, all_a, 400);
-  const Points whole_b = spread(b.surface.positions, all_vertices(b.surface), 400);
-  starts = {Eigen::Matrix3d::Identity()};
-  add_limb_rotations(of_a, of_b, like, starts);
-  add_axis_rotations(whole_a, whole_b, starts);
-  const std::vector<CoreAlignment> of_whole =
-      align_points(spread(a.surface.positions, all_a, 80), whole_a,
-                   {Eigen::Matrix3d::Identity(), whole_centroid(of_a), whole_centroid(of_b), scale},
-                   tree_b, of_b.unit, starts, most, threads);
-  found.insert(found.end(), of_whole.begin(), of_whole.end());
-  found.push_back(as_they_stand(core_a, of_a, tree_b, of_b, scale));
+std::vector<CoreAlignment> align_cores(const MatchedBodies& bodies, const SurfaceTree& tree_b,
+                                       double scale, std::size_t most, const MatchOptions& options,
+                                       const std::stop_token& stop) {
+  const Alignments alignments(bodies, tree_b, scale, options.threads, stop);
+  const Start cores = alignments.of_cores();
+  std::vector<CoreAlignment> found = alignments.best_from(cores, most);
+  const std::vector<CoreAlignment> of_wholes = alignments.best_from(alignments.of_wholes(), most);
+  found.insert(found.end(), of_wholes.begin(), of_wholes.end());
+  found.push_back(alignments.as_they_stand(cores.many));
   return found;
 }
 

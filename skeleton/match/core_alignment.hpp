@@ -1,6 +1,8 @@
 // Rotations that lay the middle of one body onto that of another.
 #pragma once
 
+#include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/advanced/tree.hpp>
@@ -21,10 +23,10 @@ struct CoreAlignment {
 /// where the other starts may fall into a like turn. Starts are the rotations of three limbs of a
 /// onto three of b that are as far apart, those of the principal axes, and none; the best are
 /// refined by nearest points (P. Besl and N. McKay, A method for registration of 3-D shapes, 1992).
-[[nodiscard]] std::vector<CoreAlignment> align_cores(const MatchSide& a, const TipFeatures& of_a,
-                                                     const SurfaceTree& tree_b, const MatchSide& b,
-                                                     const TipFeatures& of_b,
-                                                     const Eigen::MatrixXd& like, double scale,
-                                                     std::size_t most, int threads);
+/// `tree_b` is over b's surface. Throws Cancelled on a stop.
+[[nodiscard]] std::vector<CoreAlignment> align_cores(const MatchedBodies& bodies,
+                                                     const SurfaceTree& tree_b, double scale,
+                                                     std::size_t most, const MatchOptions& options,
+                                                     const std::stop_token& stop);
 
 }  // namespace curveskel

@@ -88,33 +88,28 @@ void mark_ambiguous(std::vector<BranchPair>& pairs, const std::vector<BranchPair
 /// All that trials have in common, made once.
 class Trials {
  public:
-  Trials(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b, const TipFeatures& of_b,
-         const Eigen::MatrixXd& like, const SurfaceTree& tree_b, int threads)
-      : a_(a),
-        of_a_(of_a),
-        b_(b),
-        of_b_(of_b),
-        like_(like),
+  Trials(const MatchedBodies& bodies, const SurfaceTree& tree_b, int threads)
+      : bodies_(bodies),
         tree_b_(tree_b),
         threads_(threads),
-        territories_a_(branch_territories(a.surface, a.skeleton)),
-        territories_b_(branch_territories(b.surface, b.skeleton)),
-        pairing_(a, territories_a_, b, territories_b_, threads),
-        seats_(a, of_a, b, of_b, threads),
-        measures_a_(branch_measures(a.skeleton)),
-        measures_b_(branch_measures(b.skeleton)) {
+        territories_a_(branch_territories(bodies.a.surface, bodies.a.skeleton)),
+        territories_b_(branch_territories(bodies.b.surface, bodies.b.skeleton)),
+        pairing_(bodies.a, territories_a_, bodies.b, territories_b_, threads),
+        seats_(bodies, threads),
+        measures_a_(branch_measures(bodies.a.skeleton)),
+        measures_b_(branch_measures(bodies.b.skeleton)) {
     constexpr int most_samples = 2000;
-    const auto all = static_cast<int>(a.surface.positions.rows());
+    const auto all = static_cast<int>(bodies.a.surface.positions.rows());
     const int step = std::max(1, all / most_samples);
     for (int vertex = 0; vertex < all; vertex += step) samples_.push_back(vertex);
   }
 
   [[nodiscard]] PairingOutcome outcome_of(NodeMotions motions) const {
-    std::vector<int> components = pair_components(of_a_, of_b_, motions);
+    std::vector<int> components = pair_components(bodies_.of_a, bodies_.of_b, motions);
     std::vector<BranchPair> pairs = pairs_of(motions, components);
     if (!seats_.empty()) {
       seats_.seat(motions, pairing_.pair(pairs, motions, seats_.vertices()).partner);
-      components = pair_components(of_a_, of_b_, motions);
+      components = pair_components(bodies_.of_a, bodies_.of_b, motions);
       seats_.lay_onto_partners(motions, components);
       pairs = pairs_of(motions, components);
     }
@@ -123,12 +118,12 @@ class Trials {
   }
 
   [[nodiscard]] NodeMotions anchored(const PairingOutcome& outcome) const {
-    return anchored_motions(a_, of_a_, b_, outcome.pairs, outcome.motions);
+    return anchored_motions(bodies_.a, bodies_.of_a, bodies_.b, outcome.pairs, outcome.motions);
   }
 
   [[nodiscard]] Eigen::VectorXi vertex_of_a(const std::vector<BranchPair>& pairs,
                                             const NodeMotions& motions) const {
-    std::vector<int> all(idx(a_.surface.positions.rows()));
+    std::vector<int> all(idx(bodies_.a.surface.positions.rows()));
     std::iota(all.begin(), all.end(), 0);
     return pairing_.pair(pairs, motions, all).partner;
   }
@@ -136,10 +131,10 @@ class Trials {
  private:
   [[nodiscard]] std::vector<BranchPair> pairs_of(const NodeMotions& motions,
                                                  const std::vector<int>& components) const {
-    const std::vector<int> tips = pair_tips(a_, of_a_, b_, of_b_, like_, motions, components);
-    const Landings landings = landings_of(a_, territories_b_, tree_b_, motions, threads_);
+    const std::vector<int> tips = pair_tips(bodies_, motions, components);
+    const Landings landings = landings_of(bodies_.a, territories_b_, tree_b_, motions, threads_);
     const Eigen::MatrixXd overlaps = branch_overlaps(territories_a_, territories_b_, landings);
-    return pair_branches(a_, of_a_, b_, of_b_, tips, overlaps, motions);
+    return pair_branches(bodies_, tips, overlaps, motions);
   }
 
   /// Over the unit: how far a's vertices, where they are thought to go, are from b's surface in the
@@ -159,16 +154,12 @@ class Trials {
         continue;
       }
       const double pulled = stretch[idx(branch_of_vertex[v])];
-      sum += std::min(lost, moved.distance[v] / of_b_.unit + lost * pulled);
+      sum += std::min(lost, moved.distance[v] / bodies_.of_b.unit + lost * pulled);
     }
     return sum / static_cast<double>(samples_.size());
   }
 
-  const MatchSide& a_;
-  const TipFeatures& of_a_;
-  const MatchSide& b_;
-  const TipFeatures& of_b_;
-  const Eigen::MatrixXd& like_;
+  const MatchedBodies& bodies_;
   const SurfaceTree& tree_b_;
   int threads_;
   BranchTerritories territories_a_;
@@ -190,6 +181,7 @@ std::vector<PairingOutcome> outcomes_of(const Trials& trials,
     outcomes.push_back(trials.outcome_of(hypothesis));
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round) {
+      throw_if_stopped(monitor.stop);
       PairingOutcome next = trials.outcome_of(trials.anchored(outcomes.back()));
       const bool settled = next.pairs == outcomes.back().pairs;
       outcomes.push_back(std::move(next));
@@ -214,13 +206,13 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   const Eigen::MatrixXd like = likeness(of_a, of_b);
   monitor.report("match", 0.1);
   const SurfaceTree tree_b(b.surface, options.threads);
+  const MatchedBodies bodies{a, of_a, b, of_b, like};
   std::vector<CoreAlignment> alignments;
   for (const double scale : scales_between(of_a, of_b)) {
-    const auto found =
-        align_cores(a, of_a, tree_b, b, of_b, like, scale, most_alignments, options.threads);
+    const auto found = align_cores(bodies, tree_b, scale, most_alignments, options, monitor.stop);
     alignments.insert(alignments.end(), found.begin(), found.end());
   }
-  const Trials trials(a, of_a, b, of_b, like, tree_b, options.threads);
+  const Trials trials(bodies, tree_b, options.threads);
   const std::vector<PairingOutcome> outcomes = outcomes_of(
       trials, follow_cores(a, of_a, tree_b, alignments, options.threads, monitor), monitor);
   const PairingOutcome& best = outcomes.front();

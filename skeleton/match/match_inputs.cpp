@@ -114,15 +114,16 @@ SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
   require_known(vertex_of_a, a, b);
   monitor.report("match", 0.3);
   const NodeMotions motions = known_motions(a, of_a, b, of_b, vertex_of_a);
-  const std::vector<int> tips = pair_tips(a, of_a, b, of_b, likeness(of_a, of_b), motions,
-                                          pair_components(of_a, of_b, motions));
+  const Eigen::MatrixXd like = likeness(of_a, of_b);
+  const MatchedBodies bodies{a, of_a, b, of_b, like};
+  const std::vector<int> tips = pair_tips(bodies, motions, pair_components(of_a, of_b, motions));
   monitor.report("match", 0.7);
   const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
   const Eigen::MatrixXd overlaps =
       branch_overlaps(branch_territories(a.surface, a.skeleton), territories_b,
                       known_landings(vertex_of_a, territories_b));
   SkeletonMatch match;
-  match.branches = pair_branches(a, of_a, b, of_b, tips, overlaps, motions);
+  match.branches = pair_branches(bodies, tips, overlaps, motions);
   match.junctions = pair_junctions(a, b, match.branches);
   match.vertex_of_a = vertex_of_a;
   return match;

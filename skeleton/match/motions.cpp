@@ -233,8 +233,8 @@ NodeMotions anchored_motions(const MatchSide& a, const TipFeatures& of_a, const 
     const std::vector<int>& nodes = all_a[idx(pair.a)].nodes;
     const BranchCurve from = branch_curve(a.skeleton, all_a[idx(pair.a)]);
     const BranchCurve to = branch_curve(b.skeleton, all_b[idx(pair.b)]);
-    const BranchLaying laying =
-        laying_of(a, all_a[idx(pair.a)], from, b, all_b[idx(pair.b)], to, pair.reversed, motions);
+    const BranchLaying laying = laying_of({a, all_a[idx(pair.a)], from},
+                                          {b, all_b[idx(pair.b)], to}, pair.reversed, motions);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (is_known[idx(nodes[k])]) continue;
       is_known[idx(nodes[k])] = true;

@@ -1,4 +1,4 @@
-// How each stretch of a body moves from one surface to another.
+// The motion of each stretch of a body from one surface to another.
 #pragma once
 
 #include <vector>

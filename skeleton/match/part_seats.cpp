@@ -48,9 +48,9 @@ std::vector<std::unique_ptr<const SurfaceTree>> part_surfaces(const MatchSide& s
 
 PartSeats::~PartSeats() = default;
 
-PartSeats::PartSeats(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
-                     const TipFeatures& of_b, int threads)
-    : a_(a), b_(b), threads_(threads) {
+PartSeats::PartSeats(const MatchedBodies& bodies, int threads)
+    : a_(bodies.a), b_(bodies.b), threads_(threads) {
+  const auto& [a, of_a, b, of_b, like] = bodies;
   const std::vector<int> component = component_of_vertex(a, of_a);
   std::vector<std::vector<int>> vertices(of_a.middle.size());
   for (int v = 0; v < static_cast<int>(component.size()); ++v) {

@@ -1,4 +1,4 @@
-// How small parts move: with the surface that they sit on.
+// The motion of small parts: with the surface that they sit on.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,7 @@ namespace curveskel {
 /// Of the components with less than `least_body_share`. Refers to what it is made of.
 class PartSeats {
  public:
-  PartSeats(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
-            const TipFeatures& of_b, int threads);
+  PartSeats(const MatchedBodies& bodies, int threads);
   ~PartSeats();
   PartSeats(const PartSeats&) = delete;
   PartSeats& operator=(const PartSeats&) = delete;

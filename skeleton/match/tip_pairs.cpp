@@ -109,9 +109,9 @@ double support(const Candidate& one, const std::vector<Candidate>& candidates,
 
 }  // namespace
 
-std::vector<int> pair_tips(const MatchSide& a, const TipFeatures& of_a, const MatchSide& b,
-                           const TipFeatures& of_b, const Eigen::MatrixXd& like,
-                           const NodeMotions& motions, const std::vector<int>& component_pairs) {
+std::vector<int> pair_tips(const MatchedBodies& bodies, const NodeMotions& motions,
+                           const std::vector<int>& component_pairs) {
+  const auto& [a, of_a, b, of_b, like] = bodies;
   std::vector<int> partner(of_a.tips.size(), -1);
   if (of_a.tips.empty() || of_b.tips.empty()) return partner;
   std::vector<Candidate> candidates =

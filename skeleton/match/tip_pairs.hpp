@@ -13,9 +13,7 @@ namespace curveskel {
 /// over at most 16 candidates for each: the score of a pair grows with the pairs that lie as far
 /// from it in both, and with how near the tip comes to the other when it moves as its surroundings.
 /// Tips are those of paired components.
-[[nodiscard]] std::vector<int> pair_tips(const MatchSide& a, const TipFeatures& of_a,
-                                         const MatchSide& b, const TipFeatures& of_b,
-                                         const Eigen::MatrixXd& like, const NodeMotions& motions,
+[[nodiscard]] std::vector<int> pair_tips(const MatchedBodies& bodies, const NodeMotions& motions,
                                          const std::vector<int>& component_pairs);
 
 }  // namespace curveskel

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -57,13 +58,11 @@ class FeatureFinder {
   /// A third of each face for each of its vertices' nodes.
   Eigen::VectorXd node_areas() const {
     Eigen::VectorXd areas = Eigen::VectorXd::Zero(side_.skeleton.nodes.rows());
-    const Positions& at = side_.surface.positions;
-    for (const auto& face : side_.surface.triangles.rowwise()) {
-      const Eigen::RowVector3d u = at.row(face[1]) - at.row(face[0]);
-      const Eigen::RowVector3d v = at.row(face[2]) - at.row(face[0]);
-      for (const int vertex : face) {
+    for (Eigen::Index face = 0; face < side_.surface.triangles.rows(); ++face) {
+      const double third = twice_area(side_.surface, face) / 6;
+      for (const int vertex : side_.surface.triangles.row(face)) {
         const int node = side_.skeleton.node_of_vertex[vertex];
-        if (node >= 0) areas[node] += u.cross(v).norm() / 6;
+        if (node >= 0) areas[node] += third;
       }
     }
     return areas;

@@ -43,4 +43,13 @@ inline constexpr double core_share = 0.35;
 /// tips of a x tips of b, 0..1: how alike the ways of two tips to the middle are.
 [[nodiscard]] Eigen::MatrixXd likeness(const TipFeatures& a, const TipFeatures& b);
 
+/// Two bodies between which partners are looked for. Refers to what it is made of.
+struct MatchedBodies {
+  const MatchSide& a;
+  const TipFeatures& of_a;
+  const MatchSide& b;
+  const TipFeatures& of_b;
+  const Eigen::MatrixXd& like;  ///< see `likeness`
+};
+
 }  // namespace curveskel

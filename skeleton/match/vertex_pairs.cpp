@@ -45,7 +45,7 @@ class TerritorySurface {
 
 namespace {
 
-/// Where on a branch the point nearest to a place lies, from two nodes before `node` to two after.
+/// The length on a branch of the point nearest to a place, from two nodes before `node` to two on.
 double nearest_length(const BranchCurve& curve, Eigen::Index node, const Eigen::Vector3d& place) {
   constexpr Eigen::Index around = 2;
   double best = curve.lengths[idx(node)];
@@ -158,7 +158,7 @@ VertexPairs VertexPairing::pair(const std::vector<BranchPair>& branch_pairs,
       const BranchCurve from = branch_curve(made.a.skeleton, one);
       const BranchCurve to = branch_curve(made.b.skeleton, other);
       const BranchTransfer transfer(
-          from, to, laying_of(made.a, one, from, made.b, other, to, pair.reversed, motions));
+          from, to, laying_of({made.a, one, from}, {made.b, other, to}, pair.reversed, motions));
       const auto places = places_of(one);
       for (const int vertex : vertices[idx(pair.a)]) {
         const Eigen::Vector3d at = surface.positions.row(vertex);

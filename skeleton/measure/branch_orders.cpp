@@ -98,7 +98,7 @@ class Walk {
     }
   }
 
-  /// What hangs from a branch comes after it.
+  /// Branches that hang from one come after it.
   void count_streams() {
     for (std::size_t k = order_.size(); k-- > 0;) {
       int most = 0;

@@ -8,6 +8,7 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/measure/branch_curve.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -231,7 +232,7 @@ BranchTerritories branch_territories(const Surface& surface, const CurveSkeleton
     const Eigen::Vector3d a = corner(0);
     const Eigen::Vector3d b = corner(1);
     const Eigen::Vector3d c = corner(2);
-    territories.areas[idx(branch)] += (b - a).cross(c - a).norm() / 2;
+    territories.areas[idx(branch)] += twice_area(a, b, c) / 2;
     territories.volumes[idx(branch)] += six_volumes(a, b, c);
   }
   close_territories(surface, skeleton, all, centres, territories);

@@ -304,20 +304,19 @@ struct Prepared {
 
 }  // namespace
 
-void rasterise(const Surface& surface, const Positions& normals, const View& view, int width,
-               int height, int threads, const std::function<void(const PictureWindow&)>& begin,
-               const std::function<void(const FragmentRow&)>& draw) {
+void rasterise(const Surface& surface, const Positions& normals, const View& view,
+               const PictureSize& size, int threads, const FragmentSink& sink) {
   constexpr std::size_t bands_at_a_time = 8;
   Prepared prepared{surface, corners_of(surface, normals, view, threads), {}, {}};
-  prepared.window = move_to_window(prepared.corners, width, height);
+  prepared.window = move_to_window(prepared.corners, size.width, size.height);
   prepared.bands = sort_into_bands(surface, prepared.corners, prepared.window.height);
-  begin(prepared.window);
+  sink.begin(prepared.window);
   parallel_for(prepared.bands.first.size() - 1, bands_at_a_time, threads,
                [&](std::size_t first, std::size_t last) {
                  SampleRows rows;
                  std::vector<Fragment> fragments;
                  for (std::size_t band = first; band < last; ++band) {
-                   prepared.draw_band(band, rows, fragments, draw);
+                   prepared.draw_band(band, rows, fragments, sink.draw);
                  }
                });
 }

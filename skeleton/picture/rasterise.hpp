@@ -34,13 +34,24 @@ struct FragmentRow {
   std::span<const Fragment> pixels;
 };
 
+/// In pixels.
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// The receivers of what `rasterise` finds.
+struct FragmentSink {
+  std::function<void(const PictureWindow&)> begin;
+  std::function<void(const FragmentRow&)> draw;
+};
+
 /// Calls begin(window) first, then draw(row) once for each row that the surface touches, from all
 /// threads: rows are not kept, as those of a whole picture take longer to store than to make.
 /// 3 x 3 samples per pixel; a sample on an edge belongs to one of the two triangles, so that the
 /// depths of a closed surface add up to the thickness. The same rows for any number of threads.
 /// `normals` are #V by 3. O(#F + samples covered).
-void rasterise(const Surface& surface, const Positions& normals, const View& view, int width,
-               int height, int threads, const std::function<void(const PictureWindow&)>& begin,
-               const std::function<void(const FragmentRow&)>& draw);
+void rasterise(const Surface& surface, const Positions& normals, const View& view,
+               const PictureSize& size, int threads, const FragmentSink& sink);
 
 }  // namespace curveskel

@@ -66,7 +66,7 @@ unsigned char as_byte(float share) {
   return static_cast<unsigned char>(std::clamp(share, 0.0F, 1.0F) * 255.0F + to_nearest);
 }
 
-/// What the shading needs of the window's pixels once all are drawn.
+/// All that the shading needs of the window's pixels once they are drawn.
 struct DepthBuffer {
   DepthBuffer() = default;
   explicit DepthBuffer(const PictureWindow& touched)
@@ -181,9 +181,8 @@ void shade_surface(const Surface& surface, const Positions& normals, const View&
                   colour_of(fragment.normal, fragment.thickness / side), fragment.coverage);
     }
   };
-  rasterise(
-      surface, normals, view, image.width(), image.height(), threads,
-      [&](const PictureWindow& window) { buffer = DepthBuffer(window); }, draw_row);
+  rasterise(surface, normals, view, {image.width(), image.height()}, threads,
+            {[&](const PictureWindow& window) { buffer = DepthBuffer(window); }, draw_row});
   draw_ink(buffer, std::max(1, static_cast<int>(side) / 90), threads, image);
 }
 

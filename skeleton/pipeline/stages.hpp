@@ -155,7 +155,7 @@ class StageRun {
   template <typename Key, typename Value, typename Work>
   Shared<Value> operator()(const char* stage, Kept<Key, Value>& kept, std::type_identity_t<Key> key,
                            const Work& work) {
-    if (monitor_.stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(monitor_.stop);
     if (kept.value && kept.key == key) {
       reused_.emplace_back(stage);
       return kept.value;

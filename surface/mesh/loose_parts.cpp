@@ -1,10 +1,10 @@
 #include "surface/mesh/loose_parts.hpp"
 
-#include <Eigen/Geometry>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 
@@ -15,17 +15,14 @@ LooseParts loose_parts(const Surface& surface) {
   }
   LooseParts parts;
   std::vector<int> number(idx(surface.positions.rows()), -1);
-  for (const auto& t : surface.triangles.rowwise()) {
-    int& part = number[idx(joined.root(t(0)))];
+  for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
+    int& part = number[idx(joined.root(surface.triangles(face, 0)))];
     if (part < 0) {
       part = static_cast<int>(parts.areas.size());
       parts.areas.push_back(0);
     }
     parts.part_of_face.push_back(part);
-    const Eigen::RowVector3d a = surface.positions.row(t(0));
-    const Eigen::RowVector3d u = surface.positions.row(t(1)) - a;
-    const Eigen::RowVector3d v = surface.positions.row(t(2)) - a;
-    parts.areas[idx(part)] += u.cross(v).norm() / 2;
+    parts.areas[idx(part)] += twice_area(surface, face) / 2;
   }
   return parts;
 }

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "surface/mesh/triangle_area.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -16,8 +18,7 @@ Eigen::Vector3d point(const Surface& surface, Eigen::Index face, int corner) {
 double area(const Surface& surface) {
   double twice = 0;
   for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
-    const Eigen::Vector3d a = point(surface, face, 0);
-    twice += (point(surface, face, 1) - a).cross(point(surface, face, 2) - a).norm();
+    twice += twice_area(surface, face);
   }
   return twice / 2;
 }

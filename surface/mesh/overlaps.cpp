@@ -110,7 +110,7 @@ std::set<std::pair<int, int>> meeting_pairs(const Surface& surface, const Topolo
     if (own(a) == own(b)) return;
     const std::pair<int, int> both = std::minmax(own(a), own(b));
     if (meeting.contains(both)) return;
-    if (stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(stop);
     const auto one = triangle_of(surface, a.info());
     const auto other = triangle_of(surface, b.info());
     if (one.is_degenerate() || other.is_degenerate()) return;

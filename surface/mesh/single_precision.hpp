@@ -1,6 +1,8 @@
 // Refuses coordinates that a file with single precision alone cannot hold.
 #pragma once
 
+#include <limits>
+#include <sstream>
 #include <string>
 
 #include <curveskel/advanced/measures.hpp>
@@ -27,9 +29,16 @@ inline void require_single_precision(const Positions& positions, const std::stri
   require_single_range(positions, format, otherwise);
   const double lost = (positions - positions.cast<float>().cast<double>()).cwiseAbs().maxCoeff();
   if (lost <= most * bounding_box_diagonal(positions)) return;
+  constexpr double all_digits_from = std::numeric_limits<float>::min();
+  if (most * positions.cwiseAbs().maxCoeff() < all_digits_from) {
+    throw Error(Fault::output, "coordinates too small for single precision, which is all that " +
+                                   format + " has; " + otherwise + "scale the surface up");
+  }
+  std::ostringstream moved;
+  moved << lost;
   throw Error(Fault::output,
               "coordinates so far from the origin that single precision, which is all that " +
-                  format + " has, moves vertices by " + std::to_string(lost) + "; " + otherwise +
+                  format + " has, moves vertices by " + moved.str() + "; " + otherwise +
                   "move the surface to the origin");
 }
 

@@ -110,7 +110,7 @@ bool all_of_ranges(std::int32_t count, std::int32_t grain, int threads, const Bo
   return all;
 }
 
-/// Whether each edge is run through exactly once either way.
+/// True if each edge is run through exactly once either way.
 bool pairs(Pairing& pairing, std::int32_t vertices, int threads) {
   // Each range reads all faces, so there are no more of them than cores.
   const auto ranges = static_cast<std::int32_t>(thread_count(threads));

@@ -13,7 +13,7 @@ namespace curveskel {
 /// the same three vertices. Nothing otherwise. O(#V + #F) for bounded valence.
 [[nodiscard]] std::optional<Topology> topology_if_whole(const Surface& surface, int threads);
 
-/// Whether it is, in the time that finding out takes. Precondition: corners are vertices.
+/// The same question without the counts. Precondition: corners are vertices.
 [[nodiscard]] bool is_whole(const Surface& surface, int threads);
 
 }  // namespace curveskel

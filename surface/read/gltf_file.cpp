@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "base/json_depth.hpp"
 #include "surface/read/gltf_compression.hpp"
 
@@ -30,10 +30,8 @@ struct FileAccess {
 
 /// Pictures are reported missing, which tinygltf takes as a warning: they carry no geometry.
 bool buffer_exists(const std::string& path, void* /*access*/) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::array<std::string_view, 6> pictures{".png",  ".jpg",  ".jpeg",
-                                                     ".webp", ".ktx2", ".basis"};
+  const std::string extension = lower_extension(path);
+  constexpr std::array<std::string_view, 6> pictures{"png", "jpg", "jpeg", "webp", "ktx2", "basis"};
   std::error_code ignored;
   return std::find(pictures.begin(), pictures.end(), extension) == pictures.end() &&
          std::filesystem::is_regular_file(path, ignored);

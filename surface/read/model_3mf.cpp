@@ -60,8 +60,9 @@ class Model3mfParser {
     });
     XML_SetStartNamespaceDeclHandler(
         parser_.get(), [](void* self, const char* prefix, const char* uri) {
-          static_cast<Model3mfParser*>(self)->namespaces_[prefix == nullptr ? "" : prefix] =
-              uri == nullptr ? "" : uri;
+          static_cast<Model3mfParser*>(self)->guarded([&](Model3mfParser& p) {
+            p.namespaces_[prefix == nullptr ? "" : prefix] = uri == nullptr ? "" : uri;
+          });
         });
     XML_SetStartDoctypeDeclHandler(
         parser_.get(), [](void* self, const char* /*name*/, const char* /*id*/, const char* /*id*/,

@@ -1,11 +1,10 @@
 #include <curveskel/read.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "surface/read/file_bytes.hpp"
 #include "surface/read/foreign_formats.hpp"
 #include "surface/read/formats.hpp"
@@ -15,16 +14,8 @@ namespace curveskel {
 namespace {
 
 /// Of "cow.ply.gz" it is ply.
-std::optional<SurfaceFormat> format_by_extension(std::filesystem::path path) {
-  const auto extension = [&path] {
-    std::string text = path.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-  };
-  if (extension() == ".gz") path = path.stem();
-  const std::string text = extension();
-  return text.empty() ? std::nullopt : choice_of(surface_formats, std::string_view(text).substr(1));
+std::optional<SurfaceFormat> format_by_extension(const std::filesystem::path& path) {
+  return choice_of(surface_formats, std::string_view(lower_extension(without_gz(path))));
 }
 
 std::optional<SurfaceFormat> format_by_content(const FileBytes& file) {

@@ -1,11 +1,11 @@
 // 3MF: a ZIP archive whose relationships name the model, in millimetres.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "base/memory.hpp"
 #include "base/uri.hpp"
 #include "surface/read/formats.hpp"
@@ -110,19 +110,12 @@ PolygonSoup built(const Model3mf& model, const Monitor& monitor) {
   return soup;
 }
 
-std::string lower_name(std::string_view name) {
-  std::string result(name);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 /// As the archive has it: names of parts are alike in any case.
 std::string name_in_archive(const ZipArchive& archive, const std::string& name) {
   if (archive.holds(name)) return name;
-  const auto alike =
-      std::find_if(archive.names().begin(), archive.names().end(),
-                   [&](const std::string& other) { return lower_name(other) == lower_name(name); });
+  const auto alike = std::find_if(
+      archive.names().begin(), archive.names().end(),
+      [&](const std::string& other) { return in_lower_case(other) == in_lower_case(name); });
   return alike == archive.names().end() ? name : *alike;
 }
 

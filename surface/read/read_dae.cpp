@@ -31,12 +31,6 @@ PolygonSoup read_dae(const FileBytes& file, const Monitor& monitor, const ReadOp
   return soup;
 }
 
-bool looks_like_dae(const FileBytes& file) {
-  constexpr std::size_t first_lines = 2000;
-  const std::string_view text = std::string_view(file.content).substr(0, first_lines);
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return begin != std::string_view::npos && text[begin] == '<' &&
-         text.find(dae_start) != std::string_view::npos;
-}
+bool looks_like_dae(const FileBytes& file) { return begins_as_xml(file, dae_start); }
 
 }  // namespace curveskel

@@ -38,7 +38,7 @@ std::optional<OffKeyword> take_keyword(TextCursor& text) {
   return keyword;
 }
 
-/// Where the numbers of a binary file begin; none of a text. Behind the keyword.
+/// The place at which the numbers of a binary file begin; none of a text. Behind the keyword.
 std::optional<std::size_t> begin_of_binary(TextCursor text) {
   text.skip_blanks();
   if (!text.accept("BINARY")) return std::nullopt;

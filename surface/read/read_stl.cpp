@@ -1,12 +1,12 @@
 // Stereolithography, binary and ASCII. Every facet brings its own corners; `clean` joins them.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "surface/read/formats.hpp"
 #include "surface/read/text_cursor.hpp"
 
@@ -31,9 +31,7 @@ bool has_binary_size(const FileBytes& file) {
 
 std::string lower_word(TextCursor& text) {
   text.skip_blanks();
-  std::string word(text.word().substr(0, 16));
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word;
+  return in_lower_case(text.word().substr(0, 16));
 }
 
 bool begins_comment(const TextCursor& text) { return text.peek() == ';' || text.peek() == '#'; }

@@ -2,13 +2,13 @@
 // their sizes (up to version 4.2) or as offsets and connectivity (from 5.0 on).
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "surface/read/binary_cursor.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/text_cursor.hpp"
@@ -44,18 +44,11 @@ constexpr std::array<VtkTypeName, 16> vtk_types{{{"float", VtkType::float32},
                                                  {"unsigned_char", VtkType::uint8},
                                                  {"signed_char", VtkType::int8}}};
 
-/// VTK reads its keywords and names of types in any case.
-std::string lower_keyword(std::string_view word) {
-  std::string result(word);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
-/// True if the next word is this keyword, given in lower case; if so it is stepped over.
+/// True if the next word is this keyword, given in lower case; if so it is stepped over. VTK reads
+/// its keywords and names of types in any case.
 bool accept_keyword(TextCursor& text, std::string_view keyword) {
   TextCursor next = text;
-  if (lower_keyword(next.word()) != keyword) return false;
+  if (in_lower_case(next.word()) != keyword) return false;
   text = next;
   return true;
 }
@@ -128,7 +121,7 @@ class VtkReader {
   bool read_section() {
     const TextCursor start = text_;
     monitor_.report("read", text_.fraction());
-    const std::string name = lower_keyword(text_.word());
+    const std::string name = in_lower_case(text_.word());
     if (name == "points") {
       read_points();
     } else if (name == "polygons") {
@@ -162,7 +155,7 @@ class VtkReader {
   [[nodiscard]] VtkType type() {
     text_.skip_blanks();
     const TextCursor start = text_;
-    const std::string word = lower_keyword(text_.word());
+    const std::string word = in_lower_case(text_.word());
     for (const VtkTypeName& known : vtk_types) {
       if (known.name == word) return known.type;
     }

@@ -137,12 +137,6 @@ PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor) {
   return VtpReader(file, root).read(monitor);
 }
 
-bool looks_like_vtp(const FileBytes& file) {
-  constexpr std::size_t first_lines = 2000;
-  const std::string_view text = std::string_view(file.content).substr(0, first_lines);
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return begin != std::string_view::npos && text[begin] == '<' &&
-         text.find(vtp_start) != std::string_view::npos;
-}
+bool looks_like_vtp(const FileBytes& file) { return begins_as_xml(file, vtp_start); }
 
 }  // namespace curveskel

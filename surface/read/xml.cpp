@@ -14,7 +14,7 @@ std::string without_prefix(std::string_view name) {
   return std::string(colon == std::string_view::npos ? name : name.substr(colon + 1));
 }
 
-/// Where in the file VTK's raw data stands, which is no XML and is left out of what is parsed.
+/// The place in the file of VTK's raw data, which is no XML and is left out of what is parsed.
 struct RawData {
   std::size_t begin = 0;
   std::size_t end = 0;  ///< begin = none
@@ -145,6 +145,14 @@ void fail_at(const FileBytes& file, std::size_t position, std::string_view found
   throw Error(Fault::input, file.path.string() + ", line " + std::to_string(line) + ": found " +
                                 std::string(found) + ", needed " + std::string(needed) +
                                 "; correct it or export the file again");
+}
+
+bool begins_as_xml(const FileBytes& file, std::string_view mark) {
+  constexpr std::size_t first_lines = 2000;
+  const std::string_view text = std::string_view(file.content).substr(0, first_lines);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string_view::npos && text[begin] == '<' &&
+         text.find(mark) != std::string_view::npos;
 }
 
 }  // namespace curveskel

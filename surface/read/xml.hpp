@@ -32,6 +32,9 @@ struct XmlElement {
 /// Throws Error(Fault::input) with the line. O(bytes).
 [[nodiscard]] XmlElement parse_xml(const FileBytes& file, int deepest = 64);
 
+/// True if the file begins with a tag and has `mark` in its first lines.
+[[nodiscard]] bool begins_as_xml(const FileBytes& file, std::string_view mark);
+
 /// Throws Error(Fault::input) "FILE, line N: found FOUND, needed NEEDED; export the file again",
 /// the line being the one of `position` in the file's content.
 [[noreturn]] void fail_at(const FileBytes& file, std::size_t position, std::string_view found,

@@ -1,6 +1,5 @@
 #include "surface/repair/bodies_and_sheets.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,16 +9,10 @@
 #include "base/buckets.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/half_edges.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
-
-double face_area(const Surface& surface, Eigen::Index f) {
-  const Eigen::RowVector3d a = surface.positions.row(surface.triangles(f, 0));
-  const Eigen::RowVector3d ab = surface.positions.row(surface.triangles(f, 1)) - a;
-  const Eigen::RowVector3d ac = surface.positions.row(surface.triangles(f, 2)) - a;
-  return ab.cross(ac).norm() / 2;
-}
 
 /// True if the face runs through its corners in the given order.
 bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index f) {
@@ -98,7 +91,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
   judged.parts.resize(idx(judged.orientation.components));
   for (Eigen::Index f = 0; f < closed.surface.triangles.rows(); ++f) {
     JudgedPart& part = judged.parts[idx(judged.orientation.component_of_face[idx(f)])];
-    const double area = face_area(closed.surface, f);
+    const double area = twice_area(closed.surface, f) / 2;
     part.area += area;
     if (closed.face_given[idx(f)] < 0) {
       part.added_area += area;
@@ -112,7 +105,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
   const bool one_sided = is_one_sided(joined, closed.vertices_copied);
   const ComponentsApart components(closed.surface, judged.orientation);
   for (std::size_t c = 0; c < judged.parts.size(); ++c) {
-    if (monitor.stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(monitor.stop);
     JudgedPart& part = judged.parts[c];
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;

@@ -136,9 +136,7 @@ class StopAtSteps : public pmp::Hole_filling::Default_visitor {
   void cubic_step() const { look(); }
 
  private:
-  void look() const {
-    if (stop_->stop_requested()) throw Cancelled();
-  }
+  void look() const { throw_if_stopped(*stop_); }
   const std::stop_token* stop_;
 };
 

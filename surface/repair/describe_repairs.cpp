@@ -42,7 +42,7 @@ std::string list_of(const std::vector<int>& components) {
   return text + " and " + std::to_string(components.size() - shown) + " more";
 }
 
-/// What was merged, by the numbers of the components without merging.
+/// Bodies that were merged, by the numbers of the components without merging.
 void describe_merging(Repairs& repairs, const Monitor& monitor) {
   const Merging& merging = repairs.merging;
   for (const auto& body : merging.bodies) {

@@ -221,7 +221,7 @@ void clip(const FlatPolygon& polygon, Ears ears, const std::stop_token& stop,
           std::int32_t* triangle) {
   std::size_t here = polygon.first_corner();
   for (std::size_t left = polygon.points().size(); left > 3; --left) {
-    if (left % 64 == 0 && stop.stop_requested()) throw Cancelled();
+    if (left % 64 == 0) throw_if_stopped(stop);
     const std::size_t ear = ears.next(here);
     triangle = polygon.write(triangle, ear);
     const std::size_t after = polygon.at(ear).after;

@@ -146,7 +146,7 @@ class HoleSearch {
     if (found == spans_.end()) return false;
     Span& span = found->second;
     if (span.searched) return span.third >= 0;
-    if (stop_.stop_requested()) throw Cancelled();
+    throw_if_stopped(stop_);
     for (const std::int32_t j : span.thirds) {
       if (j < i || j > k || !allowed(i, j, k) || !fill(i, j) || !fill(j, k)) continue;
       const FoldAndArea whole = part(i, j) + part(j, k) + cost(i, j, k);

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/parallel.hpp"
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 
@@ -160,7 +161,7 @@ std::vector<ComponentSums> component_sums(const Surface& surface, const Orientat
         const Eigen::Vector3d a = corner(0);
         const Eigen::Vector3d b = corner(1);
         const Eigen::Vector3d c = corner(2);
-        sums.area += (b - a).cross(c - a).norm() / 2;
+        sums.area += twice_area(a, b, c) / 2;
         sums.volume += a.dot(b.cross(c)) / 6;
       },
       [](ComponentSums& whole, const ComponentSums& part) {

@@ -9,12 +9,6 @@
 namespace curveskel {
 namespace {
 
-std::span<const std::int32_t> corners_of(const PolygonSoup& soup, std::size_t p) {
-  const auto begin = static_cast<std::size_t>(soup.offsets[p]);
-  return std::span(soup.corners)
-      .subspan(begin, static_cast<std::size_t>(soup.offsets[p + 1]) - begin);
-}
-
 /// The corners from the smallest on, towards the smaller of its neighbours.
 std::vector<std::int32_t> cycle_of(std::span<const std::int32_t> corners) {
   std::vector<std::int32_t> cycle(corners.begin(), corners.end());
@@ -38,7 +32,7 @@ std::uint64_t mark_of(std::span<const std::int32_t> corners) {
 std::vector<char> repeats_among(const PolygonSoup& soup) {
   std::vector<std::tuple<std::uint64_t, std::size_t>> marks;
   for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
-    const auto corners = corners_of(soup, p);
+    const auto corners = corners_of_polygon(soup, p);
     if (corners.size() > 3) marks.emplace_back(mark_of(corners), p);
   }
   std::sort(marks.begin(), marks.end());
@@ -51,7 +45,7 @@ std::vector<char> repeats_among(const PolygonSoup& soup) {
     for (; i < marks.size() && std::get<0>(marks[i]) == mark; ++i) {
       if (alone) continue;
       const std::size_t p = std::get<1>(marks[i]);
-      auto cycle = cycle_of(corners_of(soup, p));
+      auto cycle = cycle_of(corners_of_polygon(soup, p));
       repeats[p] = std::find(cycles.begin(), cycles.end(), cycle) != cycles.end() ? 1 : 0;
       if (repeats[p] == 0) cycles.push_back(std::move(cycle));
     }
@@ -69,7 +63,7 @@ std::optional<PolygonSoup> without_repeated_polygons(const PolygonSoup& soup,
   result.corners.clear();
   result.offsets.assign(1, 0);
   for (std::size_t p = 0; p < repeats.size(); ++p) {
-    const auto corners = corners_of(soup, p);
+    const auto corners = corners_of_polygon(soup, p);
     if (repeats[p] != 0) {
       triangles += static_cast<std::int64_t>(corners.size()) - 2;
       continue;

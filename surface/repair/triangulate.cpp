@@ -6,6 +6,7 @@
 
 #include <curveskel/clean.hpp>
 #include "surface/repair/ear_clipping.hpp"
+#include "surface/repair/repeated_polygons.hpp"
 
 namespace curveskel {
 namespace {
@@ -34,12 +35,6 @@ PolygonSoup without_repeats(const PolygonSoup& soup) {
   return result;
 }
 
-std::span<const std::int32_t> polygon(const PolygonSoup& soup, std::size_t p) {
-  const auto begin = static_cast<std::size_t>(soup.offsets[p]);
-  return std::span(soup.corners)
-      .subspan(begin, static_cast<std::size_t>(soup.offsets[p + 1]) - begin);
-}
-
 /// Keys of a polygon's edges, sorted.
 void collect_edges(std::span<const std::int32_t> corners, std::vector<std::uint64_t>& edges) {
   edges.clear();
@@ -55,7 +50,7 @@ std::vector<std::uint64_t> crowded_diagonals(const PolygonSoup& soup, const Tria
   std::vector<std::uint64_t> edges;
   std::vector<std::uint64_t> diagonals;
   for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
-    const auto corners = polygon(soup, p);
+    const auto corners = corners_of_polygon(soup, p);
     if (corners.size() <= 3) continue;
     collect_edges(corners, edges);
     const auto first = static_cast<std::ptrdiff_t>(diagonals.size());
@@ -75,7 +70,7 @@ std::vector<std::uint64_t> crowded_diagonals(const PolygonSoup& soup, const Tria
     if (diagonals[i] == diagonals[i - 1]) crowded.push_back(diagonals[i]);
   }
   for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
-    const auto corners = polygon(soup, p);
+    const auto corners = corners_of_polygon(soup, p);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint64_t key = edge_key(corners[i], corners[(i + 1) % corners.size()]);
       if (std::binary_search(diagonals.begin(), diagonals.end(), key)) crowded.push_back(key);
@@ -99,14 +94,14 @@ Triangles triangulate(const PolygonSoup& given, const std::stop_token& stop) {
   const PolygonSoup soup = without_repeats(given);
   std::vector<std::int64_t> first_triangle{0};
   for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
-    const auto corners = static_cast<std::int64_t>(polygon(soup, p).size());
+    const auto corners = static_cast<std::int64_t>(corners_of_polygon(soup, p).size());
     first_triangle.push_back(first_triangle.back() + std::max<std::int64_t>(corners - 2, 0));
   }
   Triangles triangles(first_triangle.back(), 3);
   std::vector<std::uint64_t> banned;
   for (int round = 0; round < 3; ++round) {
     for (std::size_t p = 0; p + 1 < soup.offsets.size(); ++p) {
-      const auto corners = polygon(soup, p);
+      const auto corners = corners_of_polygon(soup, p);
       std::int32_t* const target = triangles.data() + 3 * first_triangle[p];
       if (corners.size() == 3 && round == 0) std::copy(corners.begin(), corners.end(), target);
       if (corners.size() > 3) clip_ears(given.positions, corners, banned, stop, target);

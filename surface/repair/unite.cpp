@@ -18,6 +18,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include "surface/mesh/cgal_mesh.hpp"
 
 namespace curveskel {
 namespace {
@@ -25,39 +26,6 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using UnitingKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using BodyMesh = CGAL::Surface_mesh<UnitingKernel::Point_3>;
-
-BodyMesh body_mesh(const Surface& surface) {
-  BodyMesh mesh;
-  using Vertex = BodyMesh::Vertex_index;
-  for (const auto& p : surface.positions.rowwise()) mesh.add_vertex({p.x(), p.y(), p.z()});
-  const auto vertex = [](std::int32_t v) { return Vertex(static_cast<std::uint32_t>(v)); };
-  for (const auto& t : surface.triangles.rowwise()) {
-    mesh.add_face(vertex(t(0)), vertex(t(1)), vertex(t(2)));
-  }
-  return mesh;
-}
-
-Surface surface_of(const BodyMesh& mesh) {
-  Surface surface;
-  surface.positions.resize(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
-  surface.triangles.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
-  std::vector<std::int32_t> number(mesh.num_vertices(), -1);
-  std::int32_t vertices = 0;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    surface.positions.row(vertices) << p.x(), p.y(), p.z();
-    number[v] = vertices++;
-  }
-  Eigen::Index faces = 0;
-  for (const auto f : mesh.faces()) {
-    int k = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
-      surface.triangles(faces, k++) = number[v];
-    }
-    ++faces;
-  }
-  return surface;
-}
 
 /// A body while others are added to it.
 struct Growing {
@@ -77,7 +45,7 @@ bool has_volume_of_union(double found, double one, double other) {
 /// Without faces that have no area. Returns why it cannot be united with anything, else nothing:
 /// CGAL's unions need surfaces that cross themselves nowhere.
 std::string begin(Growing& body, const Surface& surface) {
-  body.mesh = body_mesh(surface);
+  body.mesh = cgal_mesh<BodyMesh>(surface);
   body.volume = volume(surface);
   const bool taken_out = pmp::remove_degenerate_faces(body.mesh);
   body.mesh.collect_garbage();
@@ -199,7 +167,7 @@ std::vector<UnitedBody> united_bodies(std::vector<Growing>& bodies, UnionFind& j
     if (!bodies[idx(root)].is_united) continue;
     if (place[idx(root)] < 0) {
       place[idx(root)] = static_cast<int>(result.size());
-      result.push_back({{}, surface_of(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
+      result.push_back({{}, surface_of_cgal(bodies[idx(root)].mesh), bodies[idx(root)].cavities});
     }
     result[idx(place[idx(root)])].parts.push_back(c);
   }
@@ -319,7 +287,7 @@ class Uniting {
 
   /// All at once; where that fails in halves, so that one that cannot be united bars no other.
   void unite_with(int hub, const Pairs& pairs, const Monitor& monitor) {
-    if (monitor.stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(monitor.stop);
     const int root = joined_.root(hub);
     Growing others;
     for (const std::size_t pair : pairs) {

@@ -17,6 +17,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include "base/memory.hpp"
+#include "surface/mesh/cgal_mesh.hpp"
 #include "surface/repair/join_soup.hpp"
 
 namespace curveskel {
@@ -129,24 +130,7 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& b
   CGAL::alpha_wrap_3(points, faces, options.gap, options.offset, mesh,
                      CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
 
-  Surface result;
-  result.positions.resize(mesh.number_of_vertices(), 3);
-  result.triangles.resize(mesh.number_of_faces(), 3);
-  std::vector<std::int32_t> number(mesh.num_vertices(), -1);
-  std::int32_t vertices = 0;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    result.positions.row(vertices) << p.x(), p.y(), p.z();
-    number[v.idx()] = vertices++;
-  }
-  Eigen::Index row = 0;
-  for (const auto f : mesh.faces()) {
-    int k = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) {
-      result.triangles(row, k++) = number[v.idx()];
-    }
-    ++row;
-  }
+  Surface result = surface_of_cgal(mesh);
   monitor.report("wrap", 1);
   return result;
 }

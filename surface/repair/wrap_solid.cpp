@@ -1,6 +1,5 @@
 #include "surface/repair/wrap_solid.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
+#include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/join_soup.hpp"
 #include "surface/repair/select_components.hpp"
 #include "surface/repair/wrap.hpp"
@@ -51,11 +51,11 @@ WrappedSolid measured(Surface surface, double gap, const Surface& faces, double 
   double sum = 0;
   double followed = 0;
   for (const auto& t : wrap.triangles.rowwise()) {
-    const Eigen::RowVector3d a = wrap.positions.row(t(0));
-    const Eigen::RowVector3d b = wrap.positions.row(t(1));
-    const Eigen::RowVector3d c = wrap.positions.row(t(2));
-    const double weight = (b - a).cross(c - a).norm();
-    const double distance = away((a + b + c) / 3);
+    const Eigen::Vector3d a = wrap.positions.row(t(0));
+    const Eigen::Vector3d b = wrap.positions.row(t(1));
+    const Eigen::Vector3d c = wrap.positions.row(t(2));
+    const double weight = twice_area(a, b, c);
+    const double distance = away((a + b + c).transpose() / 3);
     sum += weight * distance;
     followed += distance <= near ? weight : 0;
     whole += weight;

@@ -145,9 +145,8 @@ std::vector<std::vector<Index>> collapse_stretches(std::vector<CollapsingPatch>&
         std::count(patch.fixed.begin(), patch.fixed.end(), std::uint8_t{1}));
     const std::size_t free = patch.vertices.size() - fixed;
     const CollapseOptions options{static_cast<int>(fixed + free * target / count), 1};
-    places[i] = collapse_edges(patch, options, [&](std::size_t) {
-      if (monitor.stop.stop_requested()) throw Cancelled();
-    });
+    places[i] =
+        collapse_edges(patch, options, [&](std::size_t) { throw_if_stopped(monitor.stop); });
     ++done;
     if (std::this_thread::get_id() == caller) {
       monitor.report(stage_name, 0.7 * static_cast<double>(done) / static_cast<double>(parts));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/mesh/triangle_area.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -243,7 +245,7 @@ FourthMoments fourth_moments_of(const Surface& surface) {
     const Eigen::Vector3d p = surface.positions.row(face(0));
     const Eigen::Vector3d q = surface.positions.row(face(1));
     const Eigen::Vector3d r = surface.positions.row(face(2));
-    const double area = (q - p).cross(r - p).norm();
+    const double area = twice_area(p, q, r);
     const FourthMoments moments = fourth_moments_of_triangle(p, q, r);
     for (std::size_t i = 0; i < fourth_moments; ++i) sum[i] += area * moments[i];
     whole += area;

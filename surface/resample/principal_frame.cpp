@@ -15,6 +15,7 @@
 
 #include "base/exact_sum.hpp"
 #include "base/parallel.hpp"
+#include "surface/mesh/triangle_area.hpp"
 #include "surface/resample/fourth_moments.hpp"
 
 namespace curveskel {
@@ -160,7 +161,7 @@ class Pose {
     sheets_.resize(static_cast<std::size_t>(surface_.triangles.rows()));
     const auto sums = summed<10>([&](std::size_t index, std::array<ExactSum, 10>& part_sums) {
       const auto [p, q, r] = corners(static_cast<Eigen::Index>(index));
-      const double part = (q - p).cross(r - p).norm() / 2;
+      const double part = twice_area(p, q, r) / 2;
       const Eigen::Vector3d s = p + q + r;
       sheets_[index] = {s / 3, part};
       part_sums[0].add(part);

@@ -8,10 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/extract.hpp>
+#include <curveskel/repair.hpp>
 #include <curveskel/rig_polygons.hpp>
 
 namespace curveskel::contact_laws {
@@ -95,6 +98,17 @@ TEST(Contacts, MakeAHumanOfBoxesThatTouchOverlapOrNearlyTouch) {
       expect_human(soup_of_boxes(blocky(gap, arm), false, Eigen::Affine3d::Identity()));
     }
   }
+}
+
+/// Crowds have hundreds of thousands of pairs.
+TEST(Contacts, AreLookedForUntilSomebodyStopsThat) {
+  const PolygonSoup soup = soup_of_boxes(blocky(0, 12), false, Eigen::Affine3d::Identity());
+  const RepairedSurface repaired = repair(soup);
+  const CurveSkeleton skeleton = extract(repaired.surface).skeleton;
+  std::stop_source stopped;
+  EXPECT_FALSE(contacts_of(repaired.surface, skeleton, stopped.get_token()).empty());
+  stopped.request_stop();
+  EXPECT_THROW((void)contacts_of(repaired.surface, skeleton, stopped.get_token()), Cancelled);
 }
 
 /// The arms reach down beside the thighs.

@@ -20,6 +20,7 @@
 #include <curveskel/rig_files.hpp>
 #include "base/base64.hpp"
 #include "tests/glb.hpp"
+#include "tests/rig/fbx_mappings.hpp"
 #include "tests/rig/fbx_subjects.hpp"
 #include "tests/rig/random_rigs.hpp"
 #include "tests/surface/scene_encodings.hpp"
@@ -29,107 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using namespace fbx_subjects;
-
-constexpr int faces = 6;
-
-/// Of a corner of the box: its face, and which of the face's it is.
-std::size_t vertex_at(int face, int corner) {
-  return static_cast<std::size_t>(encodings::quads[idx(face)][idx(corner)]);
-}
-
-struct Mapping {
-  std::string name;
-  int rows;  ///< that it has on the box
-  int (*place)(int face, int corner);
-};
-
-const std::vector<Mapping> mappings{
-    {"ByPolygonVertex", 24, [](int face, int corner) { return 4 * face + corner; }},
-    {"ByVertice", 8,
-     [](int face, int corner) { return static_cast<int>(vertex_at(face, corner)); }},
-    {"ByPolygon", 6, [](int face, int) { return face; }},
-    {"AllSame", 1, [](int, int) { return 0; }},
-};
-
-/// Row r of the texture coordinates is (.01 r, .02 r). With indices place p has row 2 p + 1.
-struct Textures {
-  Mapping mapping;
-  bool is_indexed;
-
-  [[nodiscard]] int row(int face, int corner) const {
-    const int place = mapping.place(face, corner);
-    return is_indexed ? 2 * place + 1 : place;
-  }
-
-  [[nodiscard]] FbxItem layer() const {
-    std::vector<double> values;
-    std::vector<int> indices;
-    indices.reserve(idx(mapping.rows));
-    for (int place = 0; place < mapping.rows; ++place) {
-      indices.push_back(2 * place + 1);
-    }
-    for (int row = 0; row < (is_indexed ? 2 : 1) * mapping.rows; ++row) {
-      values.push_back(0.01 * row);
-      values.push_back(0.02 * row);
-    }
-    FbxItem result{"LayerElementUV",
-                   {0},
-                   {{"MappingInformationType", {mapping.name}},
-                    {"ReferenceInformationType", {is_indexed ? "IndexToDirect" : "Direct"}},
-                    {"UV", {values}}}};
-    if (is_indexed) result.children.push_back({"UVIndex", {indices}});
-    return result;
-  }
-};
-
-/// Of the face that has all three.
-int face_of(const SurfaceMaterials& look, Eigen::Index triangle) {
-  for (int face = 0; face < faces; ++face) {
-    std::set<int> own;
-    for (int corner = 0; corner < 4; ++corner) own.insert(int(vertex_at(face, corner)));
-    const auto row = look.triangles.row(triangle);
-    const bool has_all = std::all_of(row.begin(), row.end(), [&](int drawn) {
-      return own.count(look.vertices[idx(drawn)]) > 0;
-    });
-    if (has_all) return face;
-  }
-  return -1;
-}
+using namespace fbx_mappings;
 
 class DressFbx : public FbxDressing {};
-
-TEST_F(DressFbx, TextureCoordinatesAreTheFilesHoweverTheyAreGiven) {
-  for (const FbxForm form : all_forms) {
-    for (const Mapping& mapping : mappings) {
-      for (const int kind : {0, 1, 2}) {
-        SCOPED_TRACE(mapping.name + " " + std::to_string(kind));
-        const Textures textures{mapping, kind == 1};
-        const double side = kind == 2 ? -1 : 1;  // mirrored: corners are in the other order
-        FbxItem box = encodings::fbx_box();
-        box.children.push_back(textures.layer());
-        const fs::path file =
-            written(scene(box, encodings::fbx_model(2, {{"Lcl Scaling", {side, 1.0, 1.0}}}),
-                          {material(0, {})}),
-                    form);
-        const auto look = read_materials(file);
-        ASSERT_TRUE(look);
-        ASSERT_EQ(look->triangles.rows(), 12);
-        for (Eigen::Index t = 0; t < 12; ++t) {
-          const int face = face_of(*look, t);
-          ASSERT_GE(face, 0);
-          for (const int drawn : look->triangles.row(t)) {
-            int corner = 0;
-            while (int(vertex_at(face, corner)) != look->vertices[idx(drawn)]) ++corner;
-            const auto row = static_cast<float>(textures.row(face, corner));
-            EXPECT_NEAR(look->places_in_picture(drawn, 0), 0.01F * row, 1e-6F);
-            EXPECT_NEAR(look->places_in_picture(drawn, 1), 1 - 0.02F * row, 1e-6F);
-          }
-        }
-      }
-    }
-  }
-}
 
 TEST_F(DressFbx, FacesHaveTheMaterialThatTheLayerGivesThem) {
   for (const FbxForm form : all_forms) {
@@ -489,102 +392,6 @@ TEST_F(DressFbx, NothingWhereThereIsNothingToKeep) {
   EXPECT_TRUE(format_rig_into(written(records, FbxForm::text), rig));
   records.push_back({"GlobalSettings", {}, {properties({{"UnitScaleFactor", {100.0}}})}});
   EXPECT_FALSE(format_rig_into(written(records, FbxForm::text), rig));
-}
-
-FbxItem colours(const Mapping& mapping) {
-  std::vector<double> values;
-  for (int row = 0; row < mapping.rows; ++row) {
-    values.insert(values.end(), {0.01 * row, 0.5, 1, 0.02 * row});
-  }
-  return {"LayerElementColor",
-          {0},
-          {{"MappingInformationType", {mapping.name}},
-           {"ReferenceInformationType", {"Direct"}},
-           {"Colors", {values}}}};
-}
-
-/// The opacity tells the rows of the first set; the second has one row for all.
-TEST_F(DressFbx, ColoursAreTheFilesHoweverTheyAreGiven) {
-  for (const FbxForm form : all_forms) {
-    for (const Mapping& mapping : mappings) {
-      SCOPED_TRACE(mapping.name);
-      FbxItem box = encodings::fbx_box();
-      box.children.push_back(colours(mapping));
-      box.children.push_back(colours(mappings[3]));
-      const fs::path file = written(scene(box, encodings::fbx_model(2), {material(0, {})}), form);
-      const auto look = read_materials(file);
-      ASSERT_TRUE(look);
-      for (Eigen::Index t = 0; t < 12; ++t) {
-        const int face = face_of(*look, t);
-        for (const int drawn : look->triangles.row(t)) {
-          int corner = 0;
-          while (int(vertex_at(face, corner)) != look->vertices[idx(drawn)]) ++corner;
-          const double row = mapping.place(face, corner);
-          EXPECT_NEAR(look->colours(drawn, 1), 0.21404, 1e-5);  // of .5, IEC 61966-2-1
-          EXPECT_EQ(look->colours(drawn, 2), 1);
-          EXPECT_NEAR(look->colours(drawn, 3), 0.02 * row, 1e-6);
-        }
-      }
-      const Glb glb = glb_of(dressed(file).bytes);
-      const auto second =
-          glb.values<float>(glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_1"]);
-      ASSERT_FALSE(second.empty());
-      for (std::size_t k = 3; k < second.size(); k += 4) EXPECT_EQ(second[k], 0);
-    }
-  }
-}
-
-/// Colours beside pictures are masks, mostly: they must not darken what is drawn. Written as FBX,
-/// they come first again.
-TEST_F(DressFbx, ColoursAreNoFactorsOnPictures) {
-  (void)folder_.write("skin.png", png);
-  FbxItem box = encodings::fbx_box();
-  box.children.push_back(colours(mappings[1]));
-  const FbxItems beside{
-      material(0, {}),
-      {"Texture", {std::int64_t{30}, "Texture::t", ""}, {{"RelativeFilename", {"skin.png"}}}}};
-  const std::vector<FbxItem> links{
-      {"C", {"OP", std::int64_t{30}, first_material, std::string("DiffuseColor")}}};
-  fs::path file = written(scene(box, encodings::fbx_model(2), beside, links), FbxForm::binary);
-  for (int round = 0; round < 2; ++round) {
-    const Glb glb = glb_of(dressed(file).bytes);
-    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
-    EXPECT_FALSE(attributes.contains("COLOR_2"));
-    for (const float number : glb.values<float>(attributes["COLOR_0"])) EXPECT_EQ(number, 1);
-    const auto own = glb.values<float>(attributes["COLOR_1"]);
-    for (std::size_t k = 3; k < 32; k += 4) EXPECT_NEAR(own[k], 0.005 * double(k - 3), 1e-6);
-    file = folder_.write("again.fbx", dressed(file, RigFormat::fbx).bytes);
-  }
-}
-
-TEST_F(DressFbx, AllSetsOfTextureCoordinatesAreKeptAndEachPictureHasItsOwn) {
-  (void)folder_.write("skin.png", png);
-  for (const auto& [name, wanted] : {std::pair<std::string, int>{"second", 1}, {"none", 0}}) {
-    FbxItem box = encodings::fbx_box();
-    for (const std::size_t set : {0U, 1U}) {
-      FbxItem layer = Textures{mappings[set], false}.layer();
-      layer.children.push_back({"Name", {std::string(set == 0 ? "first" : "second")}});
-      box.children.push_back(layer);
-    }
-    const FbxItem texture{"Texture",
-                          {std::int64_t{30}, "Texture::t", ""},
-                          {{"RelativeFilename", {"skin.png"}}, properties({{"UVSet", {name}}})}};
-    const std::vector<FbxItem> links{
-        {"C", {"OP", std::int64_t{30}, first_material, "DiffuseColor"}}};
-    const FbxItems records = scene(box, encodings::fbx_model(2), {material(0, {}), texture}, links);
-    const Glb glb = glb_of(dressed(written(records, FbxForm::binary)).bytes);
-    const Json& look = glb.json["materials"][0]["pbrMetallicRoughness"];
-    EXPECT_EQ(look["baseColorTexture"].value("texCoord", 0), wanted);
-    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
-    const auto largest = [&](const char* set) {
-      const auto numbers = glb.values<float>(attributes[set]);
-      float most = 0;
-      for (std::size_t k = 0; k < numbers.size(); k += 2) most = std::max(most, numbers[k]);
-      return most;
-    };
-    EXPECT_NEAR(largest("TEXCOORD_0"), 0.23, 1e-6);  // of 24 corners,
-    EXPECT_NEAR(largest("TEXCOORD_1"), 0.07, 1e-6);  // and of 8 vertices
-  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_character.hpp>
 #include "meshes/shapes.hpp"
+#include "rig/pipeline/figures.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::figure_laws {
@@ -57,6 +59,17 @@ CharacterRig rig_of(const RigSubject& subject, const CharacterOptions& options =
   body.vertex_of_input = Eigen::VectorXi::LinSpaced(
       subject.surface.positions.rows(), 0, static_cast<int>(subject.surface.positions.rows()) - 1);
   return rig_body(subject.surface, body, subject.skeleton, options);
+}
+
+/// There may be a thousand of them to look at.
+TEST(Figures, AreLookedForUntilSomebodyStopsThat) {
+  const RigSubject both = scene({{beast(1), 16}, {human(), 0}});
+  RepairedSurface body;
+  body.surface = both.surface;
+  std::stop_source stopped;
+  EXPECT_FALSE(find_figures(body, both.skeleton, {}, stopped.get_token()).empty());
+  stopped.request_stop();
+  EXPECT_THROW((void)find_figures(body, both.skeleton, {}, stopped.get_token()), Cancelled);
 }
 
 /// Each figure of a scene is rigged as if it were alone.

@@ -35,6 +35,21 @@ bool same_row(const SkinWeights& a, Eigen::Index row, const SkinWeights& b, Eige
   return (a.row(row) - b.row(other)).norm() == 0;
 }
 
+TEST(DenseSkeleton, RefusesNumbersOfNothing) {
+  const RigSubject s = mapped_s();
+  EXPECT_NO_THROW((void)dense_skeleton(s.surface, s.skeleton));
+  CurveSkeleton wrong_edge = s.skeleton;
+  wrong_edge.edges(0, 1) = static_cast<int>(wrong_edge.nodes.rows());
+  EXPECT_THROW((void)dense_skeleton(s.surface, wrong_edge), Error);
+  CurveSkeleton wrong_node = s.skeleton;
+  wrong_node.node_of_vertex[3] = static_cast<int>(wrong_node.nodes.rows());
+  EXPECT_THROW((void)dense_skeleton(s.surface, wrong_node), Error);
+  CurveSkeleton of_another = s.skeleton;
+  of_another.node_of_vertex.setZero(2 * s.surface.positions.rows());
+  EXPECT_THROW((void)dense_skeleton(s.surface, of_another), Error);
+  EXPECT_THROW((void)find_plan(s.surface, of_another), Error);
+}
+
 TEST(MakeRig, TakesTheNearestBallWhereAVertexHasNoNode) {
   const RigSubject s = mapped_s();
   const Rig rig = make_rig(s.surface, s.skeleton, {}, {});

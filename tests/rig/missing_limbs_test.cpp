@@ -21,7 +21,7 @@ RigSubject human_with(const Maimed& maimed, double side) {
   const std::array<Eigen::RowVector3d, 3> arm{{{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}};
   const std::array<Eigen::RowVector3d, 4> leg{
       {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}};
-  Figure figure;
+  BodyCurve figure;
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
   figure.add({0, 18.6, 0}, 1.3, figure.add({0, 16.8, 0}, 0.6, chest));
@@ -92,7 +92,7 @@ TEST(MissingLimbs, ARefusalIsOfTheLookThatExplainsMost) {
 
 /// A robot's forearm, say: one place from which three limbs lead, and a fourth one's image.
 TEST(MissingLimbs, WhatForksTwiceInOnePlaceIsNoHuman) {
-  Figure figure;
+  BodyCurve figure;
   const int fork = figure.add({0, 14, 0}, 1);
   figure.add({0, 19, 0}, 1, fork);
   for (const double x : {2.0, -2.0}) {

@@ -197,7 +197,7 @@ TEST(Upright, IsNoFileOfALyingBody) {
 /// On four legs about a top, with a head at one end or without.
 TEST(FindPlan, AnAnimalHasAHeadAtOneEnd) {
   for (const bool has_head : {true, false}) {
-    Figure figure;
+    BodyCurve figure;
     const int rear = figure.add({0, 10, -6}, 0.8);
     const int front = figure.add({0, 10, 6}, 0.8, rear);
     if (has_head) figure.add({0, 13, 10}, 0.8, front);
@@ -212,14 +212,14 @@ TEST(FindPlan, AnAnimalHasAHeadAtOneEnd) {
 /// Arms as long as the forearms of a doll, or at the very top.
 TEST(FindPlan, AChairsBackAndALadderAreNoHumans) {
   for (const double reach : {8.5, 2.6}) {
-    Figure figure;
+    BodyCurve figure;
     const int chest = add_body_without_arms(figure);
     figure.add_pair(chest, {{2.2, 15, 0}, {reach, 15, 0}}, 0.5);
     const RigSubject subject = subject_of("short arms", figure);
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
     EXPECT_EQ(plan.plan == BodyKind::humanoid, reach > 5) << plan.reason;
   }
-  Figure figure;
+  BodyCurve figure;
   const int hips = figure.add({0, 10, 0}, 0.5);
   const int top = figure.add({0, 19.4, 0}, 0.5, hips);
   figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}}, 0.5);
@@ -249,7 +249,7 @@ TEST(FindPlan, ABipedWithATailLooksWhereItsToesPoint) {
 
 /// Low, long, on short legs that stand out to the sides.
 RigSubject lizard() {
-  Figure figure;
+  BodyCurve figure;
   const int rump = figure.add({0, 1.6, -3}, 0.8);
   const int withers = figure.add({0, 1.6, 4}, 0.8, rump);
   figure.add({0, 1.8, 9}, 0.6, figure.add({0, 1.8, 6.5}, 0.5, withers));
@@ -283,7 +283,7 @@ TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
 
 /// A vessel that forks stands on two legs.
 TEST(FindPlan, AForkIsNoAnimal) {
-  Figure figure;
+  BodyCurve figure;
   const int fork = figure.add({0, 10, 0}, 1);
   figure.add({0, 20, 0}, 1, fork);
   figure.add_pair(fork, {{2, 5, 0}, {2, 0.5, 0}}, 0.8);
@@ -329,7 +329,7 @@ TEST(FindPlan, SeesNoAnimalInWhatIsPutTogether) {
 
 TEST(FindPlan, SeesNoAnimalInLegsWithRungs) {
   for (const bool has_rungs : {false, true}) {
-    Figure figure;
+    BodyCurve figure;
     const int rear = figure.add({0, 10, -6}, 0.8);
     const int front = figure.add({0, 10, 6}, 0.8, rear);
     figure.add({0, 13, 9}, 0.8, front);
@@ -371,7 +371,7 @@ TEST(FindPlan, AWeaponInOneHandHidesNoHuman) {
   for (const double length : {3.0, 6.0, 10.0}) {
     for (const double side : {1.0, -1.0}) {
       SCOPED_TRACE(side * length);
-      Figure figure;
+      BodyCurve figure;
       const int chest = add_body_without_arms(figure);
       for (const double x : {1.0, -1.0}) {
         int arm = chest;
@@ -394,7 +394,7 @@ TEST(FindPlan, AWeaponInOneHandHidesNoHuman) {
 
 /// One leg stands farther out than the other.
 TEST(FindPlan, JointsOfUnequalSidesLieOnTheirOwn) {
-  Figure figure;
+  BodyCurve figure;
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
   figure.add({0, 18.6, 0}, 1.3, figure.add({0, 16.8, 0}, 0.6, chest));

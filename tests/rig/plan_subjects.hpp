@@ -19,7 +19,7 @@
 namespace curveskel {
 
 /// Places joined by edges; the left half also stands for the right one.
-struct Figure {
+struct BodyCurve {
   std::vector<Eigen::RowVector3d> places;
   std::vector<double> radii;
   std::vector<std::pair<int, int>> edges;
@@ -42,7 +42,7 @@ struct Figure {
   }
 };
 
-inline RigSubject subject_of(const std::string& name, const Figure& figure,
+inline RigSubject subject_of(const std::string& name, const BodyCurve& figure,
                              double resolution = 2.5) {
   CurveSkeleton graph;
   const auto count = static_cast<Eigen::Index>(figure.places.size());
@@ -72,7 +72,7 @@ inline RigSubject subject_of(const std::string& name, const Figure& figure,
 }
 
 /// Legs, trunk and head, 20 high, looking along z. Returns the chest.
-inline int add_body_without_arms(Figure& figure) {
+inline int add_body_without_arms(BodyCurve& figure) {
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
   const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
@@ -83,7 +83,7 @@ inline int add_body_without_arms(Figure& figure) {
 
 /// 20 high, looks along z, arms held out.
 inline RigSubject human() {
-  Figure figure;
+  BodyCurve figure;
   const int chest = add_body_without_arms(figure);
   figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
   return subject_of("human", figure);
@@ -91,7 +91,7 @@ inline RigSubject human() {
 
 /// The same with a thumb and `fingers` on each hand, the last of which may end in two tips.
 inline RigSubject human_with_hands(int fingers, bool is_forked = false) {
-  Figure figure;
+  BodyCurve figure;
   const int chest = add_body_without_arms(figure);
   for (const double side : {1.0, -1.0}) {
     int arm = chest;
@@ -114,7 +114,7 @@ inline RigSubject human_with_hands(int fingers, bool is_forked = false) {
 
 /// 20 long, its head at +z or -z.
 inline RigSubject beast(double front) {
-  Figure figure;
+  BodyCurve figure;
   const int rump = figure.add({0, 8, -6 * front}, 1.4);
   const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
   const int neck = figure.add({0, 10.5, 8 * front}, 0.8, withers);
@@ -128,7 +128,7 @@ inline RigSubject beast(double front) {
 
 /// Its ears leave the neck at that share of the way to the nose.
 inline RigSubject beast_with_ears(double share) {
-  Figure figure;
+  BodyCurve figure;
   const int rump = figure.add({0, 8, -6}, 1.4);
   const int withers = figure.add({0, 8, 5}, 1.4, rump);
   const int poll = figure.add({0, 8 + 5 * share, 5 + 8 * share}, 0.8, withers);
@@ -142,7 +142,7 @@ inline RigSubject beast_with_ears(double share) {
 
 /// On two legs, leaning far ahead of a tail, with short arms.
 inline RigSubject t_rex() {
-  Figure figure;
+  BodyCurve figure;
   const int hips = figure.add({0, 8, 0}, 1.5);
   const int chest = figure.add({0, 9.6, 5}, 1.2, hips);
   const int neck = figure.add({0, 11.5, 7.5}, 0.8, chest);
@@ -155,7 +155,7 @@ inline RigSubject t_rex() {
 
 /// Six branches round a trunk, none of them down to the ground.
 inline RigSubject tree() {
-  Figure figure;
+  BodyCurve figure;
   int below = figure.add({0, 0.8, 0}, 0.8);
   for (const double height : {6.0, 9.0, 12.0}) {
     const int fork = figure.add({0.2, height, 0.1}, 0.8, below);
@@ -169,7 +169,7 @@ inline RigSubject tree() {
 /// 20 long, thick before the middle, with two pairs of fins and one on the back, its nose at +z or
 /// -z; clear of the ground.
 inline RigSubject fish(double front) {
-  Figure figure;
+  BodyCurve figure;
   const int thick = figure.add({0, 6, 3 * front}, 2);
   figure.add({0, 6, 8 * front}, 1, figure.add({0, 6, 6 * front}, 1.5, thick));
   const int back = figure.add({0, 6, 0.5 * front}, 1.8, thick);
@@ -183,7 +183,7 @@ inline RigSubject fish(double front) {
 
 /// The same with its tail aside, as it swims, and the fins of its sides ahead of its nose.
 inline RigSubject lionfish() {
-  Figure figure;
+  BodyCurve figure;
   const int thick = figure.add({0, 6, 3}, 2.2);
   figure.add({0, 6, 5}, 1.8, thick);
   const int back = figure.add({0, 6, 0.5}, 1.9, thick);
@@ -195,7 +195,7 @@ inline RigSubject lionfish() {
 
 /// A rod with a pair of pegs; or with a ring at its end.
 inline RigSubject rod(bool is_ringed) {
-  Figure figure;
+  BodyCurve figure;
   const int front = figure.add({0, 6, 9}, is_ringed ? 2.0 : 1.0);
   const int middle = figure.add({0, 6, 3}, is_ringed ? 1.6 : 1.0, front);
   const int rear = figure.add({0, 6, -9}, is_ringed ? 0.4 : 1.0, middle);
@@ -209,7 +209,7 @@ inline RigSubject rod(bool is_ringed) {
 }
 
 inline RigSubject snake() {
-  Figure figure;
+  BodyCurve figure;
   int before = figure.add({-10, 1, 0}, 0.8);
   for (int k = 1; k <= 10; ++k) before = figure.add({2.0 * k - 10, 1, std::sin(k)}, 0.8, before);
   return subject_of("snake", figure);

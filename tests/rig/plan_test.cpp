@@ -44,7 +44,7 @@ TEST(FindPlan, HumanoidsHaveTheirJoints) {
 /// In the ball of a belly the curve has one junction or two: noise decides.
 TEST(FindPlan, AFatHumanIsOneWithAChestAndWithout) {
   for (const bool has_chest : {true, false}) {
-    Figure figure;
+    BodyCurve figure;
     const int hips = figure.add({0, 9, 0}, 4);
     const int chest = has_chest ? figure.add({0, 12, 0}, 3, hips) : hips;
     const int neck = figure.add({0, 16, 0}, 0.9, chest);
@@ -145,7 +145,7 @@ TEST(PlannedJoints, AHeadBetweenNodesIsOneToo) {
 
 // The upper chest lay in the rucksack, and neck and arms hung from it.
 TEST(FindPlan, ARucksackBendsNoSpine) {
-  Figure figure;
+  BodyCurve figure;
   const int chest = add_body_without_arms(figure);
   figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
   figure.add({0, 13, -3}, 0.8, chest);

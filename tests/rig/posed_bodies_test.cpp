@@ -39,7 +39,7 @@ Limb mirrored(Limb limb) {
   return limb;
 }
 
-void add_limb(Figure& figure, int from, const Limb& limb, double radius) {
+void add_limb(BodyCurve& figure, int from, const Limb& limb, double radius) {
   int above = from;
   for (const RowVector3d& place : limb) above = figure.add(place, radius, above);
 }
@@ -49,7 +49,7 @@ const Limb arm_of_human{{2.2, 15, 0}, {2.8, 11.5, 0}, {3.2, 8.5, 0}};
 
 /// The left leg and the right arm ahead by so much, the others behind.
 RigSubject striding_human(double degrees) {
-  Figure figure;
+  BodyCurve figure;
   const int hips = figure.add({0, 10, 0}, 1.4);
   const int chest = figure.add({0, 15, 0}, 1.5, hips);
   const int neck = figure.add({0, 16.8, 0}, 0.6, chest);
@@ -105,7 +105,7 @@ const Limb front_leg{{1.5, 6, 5}, {1.5, 3, 5}, {1.5, 0.5, 5}};
 
 /// Its legs swung by so much, its head and tail to so far aside.
 RigSubject beast_in_pose(const std::vector<double>& degrees, double aside) {
-  Figure figure;
+  BodyCurve figure;
   const int rump = figure.add({0, 8, -6}, 1.4);
   const int withers = figure.add({0, 8, 5}, 1.4, rump);
   const int neck = figure.add({0.5 * aside, 10.5, 8}, 0.8, withers);
@@ -151,7 +151,7 @@ TEST(PosedBodies, ABeastWithLiftedLegsIsAQuadruped) {
 
 TEST(PosedBodies, ACrawlerOnEightLegsIsNoQuadruped) {
   for (const double swing : {0.0, 4.0}) {
-    Figure figure;
+    BodyCurve figure;
     const int rear = figure.add({0, 4, -5}, 1.5);
     int body = rear;
     for (int pair = 0; pair < 4; ++pair) {

@@ -104,6 +104,17 @@ TEST_P(WriteRig, RefusesWhatIsBeyondSinglePrecision) {
   }
 }
 
+TEST_P(WriteRig, SaysWhyDigitsWouldBeLost) {
+  const Surface surface = torus_surface();
+  const Rig rig = random_rig(surface.positions.rows(), 3, "joint ");
+  Surface tiny = surface;
+  tiny.positions *= 1e-60;
+  EXPECT_NE(refusal(tiny, rig).find("scale the surface up"), std::string::npos);
+  Surface far = surface;
+  far.positions.col(1).array() += 1e9;
+  EXPECT_NE(refusal(far, rig).find("move the surface to the origin"), std::string::npos);
+}
+
 TEST_P(WriteRig, RefusesMoreJointsThanSixteenBitsCount) {
   const Surface surface = torus_surface();
   const Rig rig = random_rig(surface.positions.rows(), 65537, "joint ");

@@ -96,7 +96,7 @@ Fragments fragments_of(const Surface& surface, const View& view) {
     std::copy(row.pixels.begin(), row.pixels.end(),
               all.pixels.begin() + std::ptrdiff_t{row.y} * all.window.width + row.left);
   };
-  rasterise(surface, vertex_normals(surface), view, width, height, 0, begin, draw);
+  rasterise(surface, vertex_normals(surface), view, {width, height}, 0, {begin, draw});
   return all;
 }
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -68,6 +70,30 @@ TEST(ParallelFor, RethrowsTheFirstFailureAndDoesTheRest) {
 }
 
 #ifdef __linux__
+// A sanitizer needs memory of its own for each thread that it is told of.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// As in a container that may not have as many: a thread gets no stack.
+void let_no_thread_start() {
+  const rlimit none{1, 1};
+  setrlimit(RLIMIT_AS, &none);
+}
+
+TEST(NoMoreThreads, LeavesTheWorkToThoseThatThereAre) {
+  const auto with_no_thread = [] {
+    std::vector<int> visits(200, 0);
+    visits.reserve(1000);
+    let_no_thread_start();
+    parallel_for(visits.size(), 1, 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+    });
+    const bool each_once = std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; });
+    std::_Exit(each_once && in_background(0, [] { return 7; }).get() == 7 ? 0 : 1);
+  };
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(with_no_thread(), testing::ExitedWithCode(0), "");
+}
+#endif
+
 // The pipeline gives way to the thread that draws; threads that stay must not forget that.
 TEST(ParallelFor, HelpersGiveWayAsTheirCallerDoes) {
   const auto expect_all_as_nice = [] {

@@ -12,198 +12,15 @@
 #include <vector>
 
 #include <curveskel/advanced/measures.hpp>
+#include "tests/surface/tree_subjects.hpp"
 
 namespace curveskel::tree_laws {
 namespace {
 
-using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Shape {
-  std::string name;
-  Surface surface;
-};
-
-Surface surface_of(const std::vector<Vector3d>& points,
-                   const std::vector<std::array<int, 3>>& faces) {
-  Surface surface;
-  surface.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
-  surface.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    surface.positions.row(static_cast<Eigen::Index>(i)) = points[i];
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    surface.triangles.row(static_cast<Eigen::Index>(i)) << faces[i][0], faces[i][1], faces[i][2];
-  }
-  return surface;
-}
-
-Surface cube() {
-  return surface_of(
-      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-      {{0, 2, 1},
-       {0, 3, 2},
-       {4, 5, 6},
-       {4, 6, 7},
-       {0, 1, 5},
-       {0, 5, 4},
-       {1, 2, 6},
-       {1, 6, 5},
-       {2, 3, 7},
-       {2, 7, 6},
-       {3, 0, 4},
-       {3, 4, 7}});
-}
-
-// Unit sphere of rings and sectors; `bump` moves the radius by that share.
-Surface sphere(int rings, double bump = 0) {
-  const int sectors = 2 * rings;
-  std::vector<Vector3d> points;
-  const auto point = [&](double latitude, double longitude) {
-    const double r = 1 + bump * std::sin(5 * latitude) * std::cos(3 * longitude + latitude);
-    return Vector3d(r * std::sin(latitude) * std::cos(longitude),
-                    r * std::sin(latitude) * std::sin(longitude), r * std::cos(latitude));
-  };
-  for (int i = 1; i < rings; ++i) {
-    for (int j = 0; j < sectors; ++j) points.push_back(point(pi * i / rings, 2 * pi * j / sectors));
-  }
-  const auto north = static_cast<int>(points.size());
-  const int south = north + 1;
-  points.emplace_back(0, 0, 1);
-  points.emplace_back(0, 0, -1);
-  std::vector<std::array<int, 3>> faces;
-  for (int j = 0; j < sectors; ++j) {
-    const int k = (j + 1) % sectors;
-    faces.push_back({north, j, k});
-    faces.push_back({south, (rings - 2) * sectors + k, (rings - 2) * sectors + j});
-    for (int i = 0; i + 2 < rings; ++i) {
-      const int a = i * sectors + j;
-      const int b = i * sectors + k;
-      faces.push_back({a, a + sectors, b});
-      faces.push_back({b, a + sectors, b + sectors});
-    }
-  }
-  return surface_of(points, faces);
-}
-
-// Around the z axis, main radius 1.
-Surface torus(double tube, int around, int across) {
-  std::vector<Vector3d> points;
-  std::vector<std::array<int, 3>> faces;
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      const double u = 2 * pi * i / around;
-      const double v = 2 * pi * j / across;
-      const double r = 1 + tube * std::cos(v);
-      points.emplace_back(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
-      const int a = i * across + j;
-      const int b = (i + 1) % around * across + j;
-      const int c = i * across + (j + 1) % across;
-      const int d = (i + 1) % around * across + (j + 1) % across;
-      faces.push_back({a, b, c});
-      faces.push_back({c, b, d});
-    }
-  }
-  return surface_of(points, faces);
-}
-
-Surface placed(Surface surface, double scale, const Vector3d& offset) {
-  surface.positions *= scale;
-  surface.positions.rowwise() += offset.transpose();
-  return surface;
-}
-
-std::vector<Shape> shapes() {
-  return {{"cube", cube()},
-          {"sphere", sphere(12)},
-          {"bumpy sphere", sphere(24, 0.3)},
-          {"torus", torus(0.3, 24, 12)},
-          {"long triangles", torus(0.01, 5, 40)},
-          {"tiny", placed(sphere(8, 0.2), 1e-12, {0, 0, 0})},
-          {"huge", placed(torus(0.4, 16, 8), 1e12, {0, 0, 0})},
-          {"far off", placed(sphere(8, 0.2), 1, {200, -300, 100})}};
-}
-
-class Points {
- public:
-  explicit Points(const Surface& surface)
-      : lower_(surface.positions.colwise().minCoeff()),
-        extent_(surface.positions.colwise().maxCoeff().transpose() - lower_) {}
-  // Within the bounding box, grown by half on every side.
-  Vector3d next() {
-    return lower_ + extent_.cwiseProduct(Vector3d(uniform(), uniform(), uniform()));
-  }
-  Vector3d direction() {
-    Vector3d d(uniform() - 0.5, uniform() - 0.5, uniform() - 0.5);
-    return d.normalized();
-  }
-
- private:
-  double uniform() { return std::uniform_real_distribution<>(-0.5, 1.5)(generator_); }
-  std::mt19937 generator_{7};
-  Vector3d lower_;
-  Vector3d extent_;
-};
-
-// Ericson's region test, a different way than the tree's.
-Vector3d closest_in_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                             const Vector3d& c) {
-  const Vector3d ab = b - a;
-  const Vector3d ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  }
-  return a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc));
-}
-
-Vector3d corner(const Surface& surface, int face, int k) {
-  return surface.positions.row(surface.triangles(face, k));
-}
-
-double brute_distance(const Surface& surface, const Vector3d& p) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < surface.triangles.rows(); ++f) {
-    const Vector3d q =
-        closest_in_triangle(p, corner(surface, f, 0), corner(surface, f, 1), corner(surface, f, 2));
-    best = std::min(best, (q - p).norm());
-  }
-  return best;
-}
-
-// Sum of the triangles' solid angles / 4 pi (Van Oosterom and Strackee 1983).
-double winding_number(const Surface& surface, const Vector3d& p) {
-  double sum = 0;
-  for (int f = 0; f < surface.triangles.rows(); ++f) {
-    const Vector3d a = corner(surface, f, 0) - p;
-    const Vector3d b = corner(surface, f, 1) - p;
-    const Vector3d c = corner(surface, f, 2) - p;
-    const double la = a.norm();
-    const double lb = b.norm();
-    const double lc = c.norm();
-    sum +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * pi);
-}
+using namespace tree_subjects;
 
 TEST(SurfaceTree, NearestIsWhatTryingEveryTriangleFinds) {
-  for (const auto& [name, surface] : shapes()) {
+  for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
     const double diagonal = bounding_box_diagonal(surface.positions);
@@ -238,7 +55,7 @@ TEST(SurfaceTree, NearestHonoursTheLimitAndServesFarPoints) {
 }
 
 TEST(SurfaceTree, RaysHitWhereTheWindingNumberChanges) {
-  for (const auto& [name, surface] : shapes()) {
+  for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
     const double diagonal = bounding_box_diagonal(surface.positions);
@@ -271,7 +88,7 @@ TEST(SurfaceTree, RaysHitWhereTheWindingNumberChanges) {
 
 TEST(SurfaceTree, NoRaySlipsThroughSharedEdgesAndVertices) {
   for (const Vector3d& offset : {Vector3d(0, 0, 0), Vector3d(1e3, -7e3, 3e3)}) {
-    for (const Surface& shape : {sphere(16), sphere(12, 0.1), cube()}) {
+    for (const Surface& shape : {sphere(16), sphere(12, 0.1), unit_cube()}) {
       const Surface surface = placed(shape, 1, offset);
       const SurfaceTree tree(surface);
       const Vector3d centre = surface.positions.colwise().mean();
@@ -294,7 +111,7 @@ TEST(SurfaceTree, NoRaySlipsThroughSharedEdgesAndVertices) {
 }
 
 TEST(SurfaceTree, RaysInAPlaneAreRays) {
-  for (const auto& [name, surface] : shapes()) {
+  for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
     const double diagonal = bounding_box_diagonal(surface.positions);
@@ -319,7 +136,7 @@ TEST(SurfaceTree, RaysInAPlaneAreRays) {
 }
 
 TEST(SurfaceTree, NearAPlaneAreAllTrianglesThatItCrosses) {
-  for (const auto& [name, surface] : shapes()) {
+  for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
     Points points(surface);
@@ -349,7 +166,7 @@ TEST(SurfaceTree, NearAPlaneAreAllTrianglesThatItCrosses) {
 }
 
 TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
-  for (const auto& [name, surface] : shapes()) {
+  for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);
     const SurfaceTree tree(surface);
     Points points(surface);
@@ -370,7 +187,7 @@ TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
 }
 
 TEST(SurfaceTree, InsideHoldsOnGridPointsThatAreAlignedWithEdges) {
-  const SurfaceTree tree(cube());
+  const SurfaceTree tree(unit_cube());
   for (int i = -4; i <= 12; ++i) {
     for (int j = -4; j <= 12; ++j) {
       for (int k = -4; k <= 12; ++k) {
@@ -392,82 +209,6 @@ TEST(SurfaceTree, AnInwardSurfaceWindsToo) {
   const SurfaceTree tree(surface);
   EXPECT_TRUE(tree.inside({0.1, 0.2, 0.3}));
   EXPECT_FALSE(tree.inside({1.1, 0.2, 0.3}));
-}
-
-TEST(SurfaceTree, BallsOfRoundShapesHaveTheirRadius) {
-  struct Case {
-    Surface surface;
-    double radius;
-  };
-  for (const auto& [surface, radius] : {Case{sphere(48), 1.0}, Case{torus(0.25, 96, 24), 0.25}}) {
-    for (const double scale : {1.0, 1e-9, 1e9}) {
-      const Surface scaled = placed(surface, scale, {scale, 0, 0});
-      const SurfaceTree tree(scaled);
-      const Positions normals = vertex_normals(scaled);
-      for (int v = 0; v < scaled.positions.rows(); v += 17) {
-        const Vector3d p = scaled.positions.row(v);
-        const Vector3d n = -normals.row(v).transpose();
-        const auto ball = tree.inscribed_ball(p, n);
-        ASSERT_NEAR(ball.radius, radius * scale, 0.02 * radius * scale);
-        ASSERT_NEAR((ball.centre - p - ball.radius * n).norm(), 0, 1e-12 * scale);
-      }
-    }
-  }
-}
-
-TEST(SurfaceTree, BallsFromTheFacesOfACubeTouchWhatTheyShould) {
-  const SurfaceTree tree(cube());
-  std::mt19937 generator(3);
-  std::uniform_real_distribution<> uniform(0.01, 0.99);
-  for (int i = 0; i < 200; ++i) {
-    const double x = uniform(generator);
-    const double y = uniform(generator);
-    // From z = 0 upward: the opposite face at 1, or a wall at the nearest side.
-    const double expected = std::min({0.5, x, y, 1 - x, 1 - y});
-    const auto ball = tree.inscribed_ball({x, y, 0}, {0, 0, 1});
-    ASSERT_GE(ball.radius, expected * (1 - 1e-12));
-    ASSERT_LE(ball.radius, expected / 0.995);
-  }
-}
-
-TEST(SurfaceTree, BallsAreWhatDenseSamplingFinds) {
-  constexpr double min_sine = 0.17364817766693033;
-  constexpr int steps = 24;
-  for (const Surface& surface : {sphere(12, 0.3), torus(0.3, 14, 9), torus(0.05, 6, 20)}) {
-    const SurfaceTree tree(surface);
-    int bounded = 0;
-    const Positions normals = vertex_normals(surface);
-    for (int v = 0; v < surface.positions.rows(); v += 3) {
-      const Vector3d p = surface.positions.row(v);
-      const Vector3d n = -normals.row(v).transpose();
-      double sampled = std::numeric_limits<double>::infinity();
-      for (int f = 0; f < surface.triangles.rows(); ++f) {
-        const bool at_p = (surface.triangles.row(f).array() == v).any();
-        for (int i = 0; i <= steps; ++i) {
-          for (int j = 0; i + j <= steps; ++j) {
-            const bool at_vertex = i == steps || j == steps || i + j == 0;
-            if (at_p && !at_vertex) continue;
-            const Vector3d e = (corner(surface, f, 0) * i + corner(surface, f, 1) * j +
-                                corner(surface, f, 2) * (steps - i - j)) /
-                                   steps -
-                               p;
-            const double height = n.dot(e);
-            if (height < (at_vertex ? min_sine : 0.5) * e.norm() || e.norm() < 1e-9) continue;
-            sampled = std::min(sampled, e.squaredNorm() / (2 * height));
-          }
-        }
-      }
-      const auto ball = tree.inscribed_ball(p, n);
-      if (std::isinf(sampled)) {
-        EXPECT_TRUE(std::isinf(ball.radius));
-        continue;
-      }
-      ++bounded;
-      EXPECT_LE(ball.radius, sampled * 1.05);
-      EXPECT_GE(ball.radius, sampled * 0.95);
-    }
-    EXPECT_GT(bounded, 30);
-  }
 }
 
 TEST(SurfaceTree, TheOrderOfTheTrianglesDoesNotMatter) {

@@ -36,9 +36,8 @@ void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton&
 
 /// Of the skeleton that was opened, as the window makes it.
 void add_rig_of_file(Scene& scene, const RunOptions& options, const Monitor& monitor) {
-  const auto ground = ground_of(std::make_shared<const RepairedSurface>(
-                                    repair(*scene.document.polygons(), options.repair, monitor)),
-                                monitor);
+  const auto ground =
+      ground_of(repaired_of(scene.document, nullptr, options.repair, monitor), monitor);
   const CurveSkeleton& skeleton = *scene.own_skeleton;
   const Certificate certificate =
       certificate_of(*ground, skeleton, options.extract.certificate, monitor);

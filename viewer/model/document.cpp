@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
@@ -14,11 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_surface_name(const fs::path& file) {
-  fs::path name = file.filename();
-  if (name.extension() == ".gz") name = name.stem();
-  std::string extension = name.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return !extension.empty() && choice_of(surface_formats, extension.substr(1)).has_value();
+  return choice_of(surface_formats, lower_extension(without_gz(file))).has_value();
 }
 
 bool has_same_triangles(const PolygonSoup& soup, const Triangles& triangles) {

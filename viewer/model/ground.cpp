@@ -7,8 +7,18 @@
 
 namespace curveskel::viewer {
 
+std::shared_ptr<const RepairedSurface> repaired_of(const Document& document,
+                                                   std::shared_ptr<const RepairedSurface> known,
+                                                   const RepairOptions& options,
+                                                   const Monitor& monitor) {
+  if (known) return known;
+  return std::make_shared<const RepairedSurface>(repair(*document.polygons(), options, monitor));
+}
+
 std::shared_ptr<const Ground> ground_of(std::shared_ptr<const RepairedSurface> repaired,
-                                        const Monitor& monitor) {
+                                        const Monitor& monitor,
+                                        std::shared_ptr<const Ground> known) {
+  if (known && known->repaired == repaired) return known;
   const Surface& surface = repaired->surface;
   const Topology counted = topology(surface);
   throw_if_stopped(monitor.stop);

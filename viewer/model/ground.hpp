@@ -6,6 +6,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/repair.hpp>
+#include "viewer/model/document.hpp"
 
 namespace curveskel::viewer {
 
@@ -17,9 +18,15 @@ struct Ground {
   int genus = 0;
 };
 
-/// O(#F log #F).
+/// The document's surface, repaired, or `known` unless that is null. Precondition: it has one.
+[[nodiscard]] std::shared_ptr<const RepairedSurface> repaired_of(
+    const Document& document, std::shared_ptr<const RepairedSurface> known,
+    const RepairOptions& options, const Monitor& monitor);
+
+/// `known` itself if it is of this surface. Else O(#F log #F).
 [[nodiscard]] std::shared_ptr<const Ground> ground_of(
-    std::shared_ptr<const RepairedSurface> repaired, const Monitor& monitor);
+    std::shared_ptr<const RepairedSurface> repaired, const Monitor& monitor,
+    std::shared_ptr<const Ground> known = nullptr);
 
 /// That of the skeleton, with what repair says about the surface.
 [[nodiscard]] Certificate certificate_of(const Ground& ground, const CurveSkeleton& skeleton,

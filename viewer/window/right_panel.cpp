@@ -78,23 +78,19 @@ const char* why_not_judged(const Workbench& bench) {
                                  : "of the skeleton, at the end of the timeline (End)";
 }
 
-void certificate(Workbench& bench) {
-  const Judgement* found = bench.judgement();
-  if (found == nullptr) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", why_not_judged(bench));
-    ImGui::PopStyleColor();
-    return;
-  }
-  if (!found->error.empty()) {
-    ImGui::TextWrapped("%s", found->error.c_str());
-    return;
-  }
-  const Certificate& c = found->certificate;
-  const auto line = [theme = bench.scene->look.theme](const char* name, const std::string& value,
-                                                      int verdict, const char* meaning) {
+/// Puts down lines of the certificate in the theme's colours.
+struct CertificateLines {
+  Theme theme;
+
+  void operator()(const char* name, const std::string& value, int verdict,
+                  const char* meaning) const {
     certificate_line(name, value, verdict, theme, meaning);
-  };
+  }
+};
+
+/// The figures that have to be right.
+void verdicts(Workbench& bench, const Judgement& found, const CertificateLines& line) {
+  const Certificate& c = found.certificate;
   const auto verdict = [](bool good) { return good ? 1 : 0; };
   line("components", fmt::format("{} of {}", c.components, c.components_of_surface),
        verdict(c.components_right()),
@@ -107,7 +103,7 @@ void certificate(Workbench& bench) {
        verdict(c.homology_rank == c.genus), "Handles of the surface that a ring runs through.");
   line("inside", fmt::format("{:.2f} %", 100 * c.inside_fraction), verdict(c.inside_enough),
        "Share of the skeleton's length that lies inside the surface; 99.9 % have to.");
-  if (!found->findings.exits.empty()) {
+  if (!found.findings.exits.empty()) {
     beside_if_it_fits("show");
     if (ImGui::SmallButton("show##exits")) bench.show_exits();
     tip("the edges that leave the surface");
@@ -131,6 +127,10 @@ void certificate(Workbench& bench) {
     if (ImGui::SmallButton("show##spurs")) bench.show_spurs();
     tip("the edges of those branches");
   }
+}
+
+/// The figures that only tell.
+void measures(const Certificate& c, const CertificateLines& line) {
   line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1,
        "How far the skeleton comes out of the surface; D is the diagonal of the box round the "
        "model.");
@@ -148,6 +148,23 @@ void certificate(Workbench& bench) {
        "Of the whole skeleton, in diagonals of the box round the model.");
   line("total curvature", fmt::format("{:.1f} rad/D", c.total_curvature), -1,
        "How much the skeleton bends along its length: low where it runs smoothly.");
+}
+
+void certificate(Workbench& bench) {
+  const Judgement* found = bench.judgement();
+  if (found == nullptr) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", why_not_judged(bench));
+    ImGui::PopStyleColor();
+    return;
+  }
+  if (!found->error.empty()) {
+    ImGui::TextWrapped("%s", found->error.c_str());
+    return;
+  }
+  const CertificateLines line{bench.scene->look.theme};
+  verdicts(bench, *found, line);
+  measures(found->certificate, line);
 }
 
 /// Seconds of the stages, of the embedding also of its steps.

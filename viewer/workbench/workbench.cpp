@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
 #include "app/report.hpp"
@@ -15,11 +16,6 @@ namespace curveskel::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename Value>
-bool is_ready(const std::future<Value>& future) {
-  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
 
 fs::file_time_type time_of(const fs::path& file) {
   std::error_code error;
@@ -46,12 +42,6 @@ Monitor heeding(const std::stop_source& source) {
   Monitor monitor;
   monitor.stop = source.get_token();
   return monitor;
-}
-
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension.empty() ? extension : extension.substr(1);
 }
 
 }  // namespace
@@ -254,7 +244,7 @@ void Workbench::save(const fs::path& file, bool may_replace) {
     say(file.string() + " is the input; name another output", true);
     return;
   }
-  const std::string extension = extension_of(file);
+  const std::string extension = lower_extension(file);
   const auto format = choice_of(skeleton_formats, extension);
   const auto rig_format = choice_of(rig_formats, extension);
   if (!format && !rig_format) {
@@ -293,8 +283,8 @@ void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
 
 std::string Workbench::suggested_name() const {
   const Document& document = scene->document;
-  fs::path name = (document.has_surface() ? document.mesh_file : document.skeleton_file).filename();
-  if (extension_of(name) == "gz") name.replace_extension();
+  const fs::path name =
+      without_gz((document.has_surface() ? document.mesh_file : document.skeleton_file).filename());
   const std::string stem = name.empty() ? "skeleton" : name.stem().string();
   const char* const extension = shows_made_rig() ? ".glb" : ".json";
   const std::string wanted = stem + extension;
@@ -381,11 +371,8 @@ void Workbench::judge() {
         found.scene = held;
         found.skeleton = skeleton;
         try {
-          if (!repaired) {
-            repaired = std::make_shared<const RepairedSurface>(
-                repair(*held->document.polygons(), repair_options, monitor));
-          }
-          if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
+          repaired = repaired_of(held->document, std::move(repaired), repair_options, monitor);
+          ground = ground_of(repaired, monitor, std::move(ground));
           found.ground = ground;
           found.certificate = certificate_of(*ground, *skeleton, options, monitor);
           found.findings = findings(ground->tree, ground->diagonal, *skeleton, options, monitor);

@@ -67,6 +67,12 @@ class StageNews {
   Stage now_;
 };
 
+/// True if `get` would not wait.
+template <typename Value>
+[[nodiscard]] bool is_ready(const std::future<Value>& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 class Workbench {
  public:
   explicit Workbench(ViewOptions options);

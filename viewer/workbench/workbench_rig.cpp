@@ -56,12 +56,9 @@ void Workbench::rig() {
         made.scene = held;
         made.of = of;
         try {
-          if (!repaired) {
-            repaired = std::make_shared<const RepairedSurface>(
-                repair(*held->document.polygons(), repair_options, monitor));
-          }
+          repaired = repaired_of(held->document, std::move(repaired), repair_options, monitor);
           if (!certificate) {
-            if (!ground || ground->repaired != repaired) ground = ground_of(repaired, monitor);
+            ground = ground_of(repaired, monitor, std::move(ground));
             certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
           }
           made.rig =
@@ -88,9 +85,7 @@ void Workbench::cancel_rig() {
 }
 
 bool Workbench::take_rig() {
-  const bool ready =
-      rigging_.valid() && rigging_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (!ready) return false;
+  if (!is_ready(rigging_)) return false;
   const Rigged made = rigging_.get();
   // By a person, or by a change, even one taken back.
   const bool stopped = rigging_stop_.stop_requested() || (!made.rig && made.error.empty());

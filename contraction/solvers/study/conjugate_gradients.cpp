@@ -188,7 +188,7 @@ class ConjugateGradients final : public LeastSquaresBackend {
     PerColumn r_z = dots(r_, z_);
     turn({});
     for (int iteration = 1;; ++iteration) {
-      if (monitor.stop.stop_requested()) throw Cancelled();
+      throw_if_stopped(monitor.stop);
       product_.set(h_.start, h_.column, h_.value, p_, h_p_, rows_);
       launch(product_);
       advance_.set(x_, r_, p_, h_p_, quotient(r_z, dots(p_, h_p_)), rows_);

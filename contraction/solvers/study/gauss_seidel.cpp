@@ -117,7 +117,7 @@ class GaussSeidel final : public LeastSquaresBackend {
       // The residual costs as much as a sweep.
       const int stretch = std::clamp(sweeps / 8, 1, 100);
       for (int k = 0; k < stretch; ++k) {
-        if (monitor.stop.stop_requested()) throw Cancelled();
+        throw_if_stopped(monitor.stop);
         sweep(rows);
         session_.finish();
       }

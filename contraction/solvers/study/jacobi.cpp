@@ -90,7 +90,7 @@ class Jacobi final : public LeastSquaresBackend {
     Positions next(system.r.rows(), 3);
     Convergence convergence(name(), options_);
     for (int iterations = 0;; ++iterations) {
-      if (monitor.stop.stop_requested()) throw Cancelled();
+      throw_if_stopped(monitor.stop);
       const double residual =
           relax_rows(system, relaxation, options_.threads, solution.x, next) / size;
       solution.iterations = iterations;

@@ -36,7 +36,7 @@ Spectrum jacobi_spectrum(const SparseMatrix& h, int steps, const Monitor& monito
   std::vector<double> beside;
   const int most = static_cast<int>(std::min<Eigen::Index>(steps, h.cols()));
   for (int step = 0; step < most; ++step) {
-    if (monitor.stop.stop_requested()) throw Cancelled();
+    throw_if_stopped(monitor.stop);
     Eigen::VectorXd next = scale.asDiagonal() * (h * (scale.asDiagonal() * now).eval());
     if (!beside.empty()) next -= beside.back() * before;
     diagonal.push_back(now.dot(next));

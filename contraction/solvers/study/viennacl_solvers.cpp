@@ -69,9 +69,7 @@ Positions solve_upper(const std::string& solver, const Eigen::Ref<const Eigen::M
 
 /// Called between panels: ends the work once that was asked for.
 std::function<void()> heeding(const Monitor& monitor) {
-  return [&monitor] {
-    if (monitor.stop.stop_requested()) throw Cancelled();
-  };
+  return [&monitor] { throw_if_stopped(monitor.stop); };
 }
 
 /// Method 3: R and Y = Q^T B come from one reduction of [A B]; Q is never formed.

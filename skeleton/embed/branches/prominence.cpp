@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
 namespace {
@@ -141,10 +142,7 @@ Vector3d ProminenceSweep::cap_centre(const Protrusion& part) const {
     if (taken_corners_[idx(t)] != 3) continue;
     const Vector3d middle = from_boundary(t);
     if (middle.norm() < cap * height) continue;
-    const Vector3d a = place(surface_, surface_.triangles(t, 0));
-    const Vector3d b = place(surface_, surface_.triangles(t, 1));
-    const Vector3d c = place(surface_, surface_.triangles(t, 2));
-    const double weight = (b - a).cross(c - a).norm();
+    const double weight = twice_area(surface_, t);
     sum += weight * middle;
     area += weight;
   }

@@ -14,7 +14,9 @@
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/lives/finer_branches.hpp"
 
 namespace curveskel::finer_branches_laws {
 namespace {
@@ -162,6 +164,28 @@ TEST(FinerBranches, TheirLimitFallsFromTheDefaultOn) {
   EXPECT_EQ(least_deficit(0), least_deficit(0.5));
   for (std::size_t k = 1; k < details.size(); ++k) {
     EXPECT_LT(least_deficit(details[k]), least_deficit(details[k - 1]));
+  }
+}
+
+/// A curve that has shrunk to next to nothing is no measure for what is drawn from it.
+TEST(FinerBranches, HaveNoMorePointsThanTheSpacingAsksFor) {
+  const shapes::Shape ball = bumpy_ball(6, 0.4);
+  constexpr double spacing = 0.01;
+  for (const double length : {1e-2, 1e-5, 1e-12}) {
+    CurveSkeleton speck;
+    speck.nodes.setZero(2, 3);
+    speck.nodes(1, 0) = length;
+    speck.edges = Edges(1, 2);
+    speck.edges << 0, 1;
+    speck.radii.setConstant(2, 0.9);
+    speck.lives.setZero(2);
+    speck.node_of_vertex.setZero(ball.surface.positions.rows());
+    const SurfaceTree tree(ball.surface);
+    const int drawn =
+        add_finer_branches(speck, ball.surface, tree, tip_lives(ball.surface), {}, 0.1, spacing);
+    EXPECT_GT(drawn, 0);
+    const double most = 10 * bounding_box_diagonal(ball.surface.positions) / spacing;
+    EXPECT_LT(static_cast<double>(speck.nodes.rows()), drawn * most);
   }
 }
 
