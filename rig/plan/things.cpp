@@ -18,11 +18,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the area that is no sheet's.
+/// Of the area that is no sheet's, if there is any: leaves are put together, too.
 double share_of_largest_component(const Surface& surface, const std::vector<std::int32_t>& sheets) {
   const Topology counted = topology(surface);
-  std::vector<double> areas = component_areas(surface, counted);
+  const std::vector<double> with_sheets = component_areas(surface, counted);
+  std::vector<double> areas = with_sheets;
   for (const std::int32_t v : sheets) areas[idx(counted.component_of_vertex[v])] = 0;
+  if (!(*std::max_element(areas.begin(), areas.end()) > 0)) areas = with_sheets;
   const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
   return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;
 }

@@ -350,6 +350,11 @@ TEST(FindPlan, CountsNoSheetWhereMostOfAnAnimalIsOneComponent) {
   const auto one = static_cast<std::int32_t>(parts.surface.positions.rows() / 3);
   options.sheets = {one, 2 * one};
   EXPECT_EQ(find_plan(parts.surface, parts.skeleton, options).plan, BodyKind::quadruped);
+  options.sheets.push_back(0);  // a tree's leaves
+  EXPECT_EQ(find_plan(parts.surface, parts.skeleton, options).plan, BodyKind::other);
+  const RigSubject scan = beast(1);
+  options.sheets = {0};
+  EXPECT_EQ(find_plan(scan.surface, scan.skeleton, options).plan, BodyKind::quadruped);
 }
 
 TEST(FindPlan, NamesNoFinOnARod) {
