@@ -74,25 +74,43 @@ std::vector<Vector3d> places_along(const CurveTree& tree, const std::vector<int>
   return places;
 }
 
+/// The faces whose own boxes meet this one.
+Surface faces_in(const Surface& surface, const Eigen::AlignedBox3d& box) {
+  std::vector<int> kept;
+  for (int f = 0; f < static_cast<int>(surface.triangles.rows()); ++f) {
+    Eigen::AlignedBox3d own;
+    for (const int v : surface.triangles.row(f)) {
+      own.extend(surface.positions.row(v).transpose());
+    }
+    if (own.intersects(box)) kept.push_back(f);
+  }
+  return {surface.positions, surface.triangles(kept, Eigen::all)};
+}
+
 /// Some straight way from a leg to the same place of the other one leaves the surface. The lower
 /// corners of a box have the box between them.
-bool has_air_between(const SurfaceTree& solid, const Outlook& outlook, const LimbWay& legs) {
+bool has_air_between(const Surface& placed, const Outlook& outlook, const LimbWay& legs) {
   const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
   const std::vector<Vector3d> left = places_along(tree, legs.path);
   const std::vector<Vector3d> right = places_along(tree, legs.mirror);
+  Eigen::AlignedBox3d box;
+  for (std::size_t k = 0; k < left.size(); ++k) box.extend(left[k]).extend(right[k]);
+  const Surface near = faces_in(placed, box);
+  if (near.triangles.rows() == 0) return false;
+  const SurfaceTree faces(near);
   for (std::size_t k = 0; k < left.size(); ++k) {
     const Vector3d across = right[k] - left[k];
     const double length = across.norm();
-    if (length > 0 && solid.ray(left[k], across / length, length).triangle >= 0) return true;
+    if (length > 0 && faces.ray(left[k], across / length, length).triangle >= 0) return true;
   }
   return false;
 }
 
 bool has_corners_for_legs(const Outlook& outlook, const Surface& surface) {
   if (outlook.found.legs.empty()) return false;
-  const SurfaceTree solid({surface.positions * outlook.axes.transpose(), surface.triangles});
+  const Surface placed{surface.positions * outlook.axes.transpose(), surface.triangles};
   return std::any_of(outlook.found.legs.begin(), outlook.found.legs.end(), [&](int pair) {
-    return !has_air_between(solid, outlook, outlook.limbs.pairs[idx(pair)].ways.front());
+    return !has_air_between(placed, outlook, outlook.limbs.pairs[idx(pair)].ways.front());
   });
 }
 
