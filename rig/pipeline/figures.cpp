@@ -132,11 +132,25 @@ class Groups {
          const FigureOptions& options, const std::stop_token& stop)
       : body_(body), skeleton_(skeleton), counted_(counted), options_(options), stop_(stop) {}
 
-  /// Those that are each built to a plan, the largest first; all else goes with the one whose box
-  /// is nearest. `ground` (-1: none) is a component that groups with no other.
+  /// Of components whose boxes meet. `ground` (-1: none) is one that groups with no other.
   [[nodiscard]] std::vector<Figure> figures(int ground) const {
-    const std::vector<int> group = groups_that_meet(
-        boxes_of(body_.surface, counted_.component_of_vertex, counted_.components()), ground);
+    return figures_among(
+        groups_that_meet(
+            boxes_of(body_.surface, counted_.component_of_vertex, counted_.components()), ground),
+        ground);
+  }
+
+  /// All that stands on the ground as one, as a doll of parts with gaps between them.
+  [[nodiscard]] std::vector<Figure> figure_on(int ground) const {
+    std::vector<int> group(idx(counted_.components()), 0);
+    group[idx(ground)] = 1;
+    return figures_among(group, ground);
+  }
+
+ private:
+  /// Those that are each built to a plan, the largest first; all else goes with the one whose box
+  /// is nearest.
+  [[nodiscard]] std::vector<Figure> figures_among(const std::vector<int>& group, int ground) const {
     const int groups = 1 + *std::max_element(group.begin(), group.end());
     if (groups < 2) return {};
     Eigen::VectorXi group_of_vertex = counted_.component_of_vertex;
@@ -179,7 +193,6 @@ class Groups {
     return found;
   }
 
- private:
   [[nodiscard]] RigParts parts_of(const std::vector<int>& group, int wanted) const {
     RigParts parts;
     parts.part_of_vertex = counted_.component_of_vertex;
@@ -293,7 +306,9 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   if (planned > 0) return whole;
   const std::vector<double> areas = component_areas(body.surface, counted);
   const auto largest = std::max_element(areas.begin(), areas.end());
-  figures = groups.figures(static_cast<int>(largest - areas.begin()));
+  const int ground = static_cast<int>(largest - areas.begin());
+  figures = groups.figures(ground);
+  if (figures.empty()) figures = groups.figure_on(ground);
   return figures.empty() ? whole : figures;
 }
 

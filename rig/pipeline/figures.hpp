@@ -39,12 +39,13 @@ struct FigureOptions {
 /// The bodies that stand clear of one another (their boxes do not meet) and are
 /// each built to a plan, the largest first; a single one unless the whole has a
 /// plan of more joints. Where neither has a plan, those that there are without
-/// the component of the largest area, which may be the ground. All else goes
-/// with the figure whose box is nearest. Else the whole body is the only
-/// figure. Of a scene that is not made of tubes each group is judged alone.
-/// `skeleton` has node_of_vertex, by the body's vertices; without it there is
-/// one figure. Throws Cancelled on a stop. O((#V + #N) times the number of groups with four tips or
-/// more, and the square of the number of components).
+/// the component of the largest area, which may be the ground, and at last all
+/// that stands on it as one. All else goes with the figure whose box is nearest.
+/// Else the whole body is the only figure. Of a scene that is not made of tubes
+/// each group is judged alone. `skeleton` has node_of_vertex, by the body's
+/// vertices; without it there is one figure. Throws Cancelled on a stop.
+/// O((#V + #N) times the number of groups with four tips or more, and the square
+/// of the number of components).
 [[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
                                                const CurveSkeleton& skeleton,
                                                const FigureOptions& options,

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include <curveskel/topology.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
+#include "rig/plan/things.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
-#include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
 namespace {
@@ -174,40 +172,6 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
   }
 }
 
-/// Of the area that is no sheet's.
-double share_of_largest_component(const Surface& surface, const std::vector<std::int32_t>& sheets) {
-  const Topology counted = topology(surface);
-  std::vector<double> areas = component_areas(surface, counted);
-  for (const std::int32_t v : sheets) areas[idx(counted.component_of_vertex[v])] = 0;
-  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
-  return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;
-}
-
-/// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
-/// nothing about humans.
-bool is_put_together(const Surface& surface, const PlanOptions& options) {
-  constexpr double most_of_it = 0.5;
-  return share_of_largest_component(surface, options.sheets) < most_of_it;
-}
-
-/// Chairs and tables have legs and rungs between them. Humans are spared, as they may fold their
-/// hands.
-void refuse_things(Outlook& outlook, const Surface& surface, const PlanOptions& options) {
-  PlanFound& found = outlook.found;
-  if (found.plan == BodyKind::humanoid || found.plan == BodyKind::other) return;
-  std::string why;
-  if (outlook.tree.cycles > 0) why = "the curve of an animal has no cycles, as this one has; ";
-  if (is_put_together(surface, options)) {
-    why = "most of an animal is one component, which here is less than half; ";
-  }
-  if (is_alike_from_both_ends(outlook)) {
-    why = "an animal has a head at one end, and this is alike from both; ";
-  }
-  if (why.empty()) return;
-  found.plan = BodyKind::other;
-  found.reason.insert(0, why);
-}
-
 }  // namespace
 
 void require_valid(const PlanOptions& options) { (void)frames_of(options); }
@@ -226,7 +190,9 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   }
   Outlook outlook = best_outlook(surface, skeleton, options);
   if (options.plan == BodyKind::automatic) {
-    refuse_things(outlook, surface, options);
+    const std::string why = why_a_thing(outlook, surface, options);
+    if (!why.empty()) outlook.found.plan = BodyKind::other;
+    outlook.found.reason.insert(0, why);
   }
   const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
   result.axes = outlook.axes.array() + 0.0;  // no -0

@@ -224,6 +224,35 @@ TEST(Figures, StandOnSlabs) {
   }
 }
 
+/// Limbs with gaps between them and the trunk: no two boxes of components meet.
+std::vector<std::pair<RigSubject, double>> doll_of_parts() {
+  BodyCurve trunk;
+  const int hips = trunk.add({0, 10, 0}, 1.4);
+  const int chest = trunk.add({0, 15, 0}, 1.5, hips);
+  trunk.add({0, 18.6, 0}, 1.3, trunk.add({0, 16.8, 0}, 0.6, chest));
+  std::vector<std::pair<RigSubject, double>> parts{{subject_of("trunk", trunk), 0}};
+  for (const double side : {1.0, -1.0}) {
+    BodyCurve arm;
+    arm.add({side * 8.5, 15, 0}, 0.5, arm.add({side * 2.2, 15, 0}, 0.5));
+    BodyCurve leg;
+    leg.add({side * 1.6, 0.5, 2}, 0.6,
+            leg.add({side * 1.6, 0.6, 0}, 0.6, leg.add({side * 1.6, 7.9, 0}, 0.6)));
+    parts.emplace_back(subject_of("arm", arm), 0);
+    parts.emplace_back(subject_of("leg", leg), 0);
+  }
+  return parts;
+}
+
+TEST(Figures, OfPartsStandOnSlabs) {
+  std::vector<std::pair<RigSubject, double>> parts = doll_of_parts();
+  const CharacterRig alone = rig_of(scene(parts));
+  ASSERT_EQ(alone.plan.plan, BodyKind::humanoid) << alone.plan.reason;
+  parts.emplace_back(slab(60, 0), 0);
+  const CharacterRig found = rig_of(scene(parts));
+  EXPECT_EQ(found.plan.plan, BodyKind::humanoid) << found.plan.reason;
+  EXPECT_EQ(roles_in(found.plan), roles_in(alone.plan));
+}
+
 /// A tree that is nearer to one of two humans is no part of the human's plan.
 TEST(Figures, AreAsIfNothingStoodBesideThem) {
   const CharacterRig alone = rig_of(human());

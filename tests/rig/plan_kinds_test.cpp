@@ -350,6 +350,11 @@ TEST(FindPlan, CountsNoSheetWhereMostOfAnAnimalIsOneComponent) {
   const auto one = static_cast<std::int32_t>(parts.surface.positions.rows() / 3);
   options.sheets = {one, 2 * one};
   EXPECT_EQ(find_plan(parts.surface, parts.skeleton, options).plan, BodyKind::quadruped);
+  options.sheets.push_back(0);  // a tree's leaves
+  EXPECT_EQ(find_plan(parts.surface, parts.skeleton, options).plan, BodyKind::other);
+  const RigSubject scan = beast(1);
+  options.sheets = {0};
+  EXPECT_EQ(find_plan(scan.surface, scan.skeleton, options).plan, BodyKind::quadruped);
 }
 
 TEST(FindPlan, NamesNoFinOnARod) {
@@ -357,6 +362,55 @@ TEST(FindPlan, NamesNoFinOnARod) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
     EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
   }
+}
+
+/// A block of 12 x 10 x 20 that stands on y = 0, whose upper side is narrower by this factor, with
+/// the subject's curve inside.
+RigSubject within_block(RigSubject subject, double narrower) {
+  subject.surface = shapes::box({12, 10, 20}, 6).surface;
+  Positions& positions = subject.surface.positions;
+  positions.col(1).array() += 5;
+  for (const int axis : {0, 2}) {
+    positions.col(axis).array() *= 1 - (1 - narrower) * positions.col(1).array() / 10;
+  }
+  subject.skeleton.node_of_vertex.resize(positions.rows());
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    (subject.skeleton.nodes.rowwise() - positions.row(v))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&subject.skeleton.node_of_vertex[v]);
+  }
+  return subject;
+}
+
+/// Curves lead into the corners of blocks as they do into legs.
+TEST(FindPlan, CornersAreNoLegs) {
+  BodyCurve figure;
+  const int rear = figure.add({0, 6, -3}, 0.8);
+  const int front = figure.add({0, 6, 3}, 0.8, rear);
+  figure.add({0, 9, 3}, 0.8, front);
+  figure.add_pair(rear, {{2, 3, -5}, {3, 0.5, -6}}, 0.5);
+  figure.add_pair(front, {{2, 3, 6}, {4, 0.5, 9}}, 0.5);
+  const RigSubject beast = subject_of("beast", figure);
+  const BodyPlan of_tubes = find_plan(beast.surface, beast.skeleton);
+  EXPECT_EQ(of_tubes.plan, BodyKind::quadruped) << of_tubes.reason;
+  for (const double narrower : {1.0, 0.3}) {  // of its box it fills all and .46, a ball .52
+    const RigSubject block = within_block(beast, narrower);
+    const BodyPlan plan = find_plan(block.surface, block.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::other) << narrower;
+    EXPECT_TRUE(plan.joints.empty());
+    EXPECT_NE(plan.reason.find(narrower == 1 ? "than a ball" : "air"), std::string::npos)
+        << plan.reason;
+  }
+}
+
+TEST(FindPlan, ABusIsNoFish) {
+  const RigSubject subject = fish(1);
+  const RigSubject bus = within_block(subject, 1);
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton).plan, BodyKind::fish);
+  const BodyPlan plan = find_plan(bus.surface, bus.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::other);
+  EXPECT_NE(plan.reason.find("than a ball"), std::string::npos) << plan.reason;
 }
 
 /// The middle of the box is not the body's.
