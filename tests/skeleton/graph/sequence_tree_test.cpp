@@ -50,6 +50,7 @@ std::vector<Vector3d> places(int count) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> anywhere(-0.1, 1.1);
   std::vector<Vector3d> all;
+  all.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) all.emplace_back(anywhere(random), anywhere(random), 0.5);
   return all;
 }
