@@ -118,7 +118,7 @@ BodySoFar::NearestPlace BodySoFar::nearest_of(const std::vector<const Piece*>& p
   };
   if (guess != nullptr) {  // others are asked only if they may be nearer
     const double limit = (1 + rounding) * guess->tree.nearest(place).distance;
-    const NearestPlace contact = within(limit);
+    NearestPlace contact = within(limit);
     if (contact.component >= 0) return contact;
   }
   return within(infinity);

@@ -29,7 +29,7 @@ inline void require_single_precision(const Positions& positions, const std::stri
   require_single_range(positions, format, otherwise);
   const double lost = (positions - positions.cast<float>().cast<double>()).cwiseAbs().maxCoeff();
   if (lost <= most * bounding_box_diagonal(positions)) return;
-  constexpr double all_digits_from = std::numeric_limits<float>::min();
+  constexpr auto all_digits_from = static_cast<double>(std::numeric_limits<float>::min());
   if (most * positions.cwiseAbs().maxCoeff() < all_digits_from) {
     throw Error(Fault::output, "coordinates too small for single precision, which is all that " +
                                    format + " has; " + otherwise + "scale the surface up");
