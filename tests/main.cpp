@@ -1,5 +1,6 @@
-// usage: PROGRAM [--file=NAME | --thorough=NAME] [GoogleTest's options]: all laws, those of
-// NAME_test.cpp that users' ./test runs, or the rest of them, in suites named "Thorough...".
+// usage: PROGRAM [--fast=NAME | --thorough=NAME | --file=NAME] [GoogleTest's options]: all laws,
+// those of NAME_test.cpp that users' ./test runs, the rest of them, in suites named "Thorough...",
+// or both.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,14 +10,14 @@
 
 namespace {
 
-/// The filter that picks the tests of this file, the thorough or the others; empty where there are
-/// none.
-std::string tests_of(const std::string& file, bool thorough) {
+/// The filter that picks the tests of this file that `option` asks for; empty where there are none.
+std::string tests_of(const std::string& file, std::string_view option) {
   std::string filter;
   const testing::UnitTest& program = *testing::UnitTest::GetInstance();
   for (int s = 0; s < program.total_test_suite_count(); ++s) {
     const testing::TestSuite& suite = *program.GetTestSuite(s);
-    if (std::string_view(suite.name()).starts_with("Thorough") != thorough) continue;
+    const bool thorough = std::string_view(suite.name()).starts_with("Thorough");
+    if (option == (thorough ? "--fast=" : "--thorough=")) continue;
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const testing::TestInfo& test = *suite.GetTestInfo(t);
       if (std::filesystem::path(test.file()).filename() != file) continue;
@@ -30,10 +31,10 @@ std::string tests_of(const std::string& file, bool thorough) {
 
 int main(int count, char** arguments) {
   testing::InitGoogleTest(&count, arguments);
-  for (const std::string_view option : {"--file=", "--thorough="}) {
+  for (const std::string_view option : {"--fast=", "--thorough=", "--file="}) {
     if (count < 2 || !std::string_view(arguments[1]).starts_with(option)) continue;
     const std::string name(std::string_view(arguments[1]).substr(option.size()));
-    const std::string filter = tests_of(name + "_test.cpp", option != "--file=");
+    const std::string filter = tests_of(name + "_test.cpp", option);
     if (filter.empty()) {
       std::cerr << "no tests of " << name << "_test.cpp in this program\n";
       return 1;
