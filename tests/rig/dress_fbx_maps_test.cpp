@@ -2,16 +2,10 @@
 // gives them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -19,11 +13,9 @@
 #include <curveskel/read_materials.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
-#include "base/base64.hpp"
 #include "tests/glb.hpp"
 #include "tests/rig/fbx_mappings.hpp"
 #include "tests/rig/fbx_subjects.hpp"
-#include "tests/rig/random_rigs.hpp"
 #include "tests/surface/scene_encodings.hpp"
 
 namespace curveskel::dress_fbx_maps_laws {

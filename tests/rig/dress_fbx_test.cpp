@@ -1,16 +1,13 @@
 // Laws of rigs for FBX files: the look of the file is there in glTF, however the file gives it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -55,7 +52,6 @@ TEST_F(DressFbx, FacesHaveTheMaterialThatTheLayerGivesThem) {
   }
 }
 
-/// A box whose corners have the normals of their faces, turned, stretched and mirrored.
 // Hair, belt and body came out as one mesh, and their names were lost.
 TEST_F(DressFbx, EachMeshStaysOneOfItsOwn) {
   const FbxItems beside{material(0, {}), encodings::fbx_model(20)};
