@@ -22,10 +22,9 @@ struct RigSources {
 /// Sheets of a tenth of D and more have joints of their own: wings, ears, tails of one layer.
 [[nodiscard]] RepairOptions repair_for_rigs();
 
-/// `curve_like`, judged without the area of sheets that got a second side, hardly any of which is a
-/// tube's. `body` is the surface that was certified.
-[[nodiscard]] bool made_of_tubes_but_for_sheets(const Certificate& certificate,
-                                                const RepairedSurface& body);
+/// A certificate's `curve_like` by its `tube_share`, judged without the area of sheets that got a
+/// second side, hardly any of which is a tube's. `body` is the surface that was certified.
+[[nodiscard]] bool made_of_tubes_but_for_sheets(double tube_share, const RepairedSurface& body);
 
 /// For `Rig::to_y_up`. Of formats that state their axes, and FBX and COLLADA their unit, it is
 /// `stated` (`PolygonSoup::to_gltf`). Of others a turn, and none where neither the plan nor `asked`

@@ -223,9 +223,8 @@ class Groups {
     const CurveSkeleton skeleton = skeleton_of_body(skeleton_, parts);
     PlanOptions options = options_.plan;
     if (!options.made_of_tubes) {
-      Certificate certificate;
-      certificate.tube_share = tube_share(body.surface, skeleton, {.threads = options_.threads});
-      options.made_of_tubes = made_of_tubes_but_for_sheets(certificate, body);
+      const double share = tube_share(body.surface, skeleton, {.threads = options_.threads});
+      options.made_of_tubes = made_of_tubes_but_for_sheets(share, body);
     }
     return plan_with_sheets(body, skeleton, options);
   }

@@ -10,6 +10,7 @@
 #include "rig/joints/contacts.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/pipeline/figures.hpp"
+#include "skeleton/certify/tube_share.hpp"
 
 namespace curveskel {
 std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
@@ -163,11 +164,10 @@ CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired
                         : Body{body_of(repaired, parts), skeleton_of_body(skeleton, parts)};
   CharacterOptions judged = options;
   if (certificate != nullptr) {
-    const Certificate of_body = parts.all_body()
-                                    ? *certificate
-                                    : evaluate(body.surface.surface, body.skeleton,
-                                               {.threads = options.parts.threads}, monitor);
-    judged.plan.made_of_tubes = made_of_tubes_but_for_sheets(of_body, body.surface);
+    const double share = parts.all_body() ? certificate->tube_share
+                                          : tube_share(body.surface.surface, body.skeleton,
+                                                       {.threads = options.parts.threads}, monitor);
+    judged.plan.made_of_tubes = made_of_tubes_but_for_sheets(share, body.surface);
   }
   CharacterRig result = rig_body(given, body.surface, body.skeleton, judged, monitor);
   result = within_budget(std::move(result), given, options.joint_budget);

@@ -66,7 +66,7 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
   }
   if (found.wrapped) body = std::move(*found.wrapped);
   curve.certificate = found.extraction.certificate;
-  curve.certificate->curve_like = made_of_tubes_but_for_sheets(*curve.certificate, body);
+  curve.certificate->curve_like = made_of_tubes_but_for_sheets(curve.certificate->tube_share, body);
   curve.skeleton = std::move(found.extraction.skeleton);
   return curve;
 }
@@ -107,9 +107,8 @@ Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated
   return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
 
-bool made_of_tubes_but_for_sheets(const Certificate& certificate, const RepairedSurface& body) {
-  return certificate.curve_like ||
-         certificate.tube_share >= tube_share_needed * (1 - share_of_sheets(body));
+bool made_of_tubes_but_for_sheets(double tube_share, const RepairedSurface& body) {
+  return tube_share >= tube_share_needed * (1 - share_of_sheets(body));
 }
 
 PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
