@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "surface/repair/polygon_corners.hpp"
+
 namespace curveskel {
 namespace {
 

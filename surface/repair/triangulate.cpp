@@ -6,7 +6,7 @@
 
 #include <curveskel/clean.hpp>
 #include "surface/repair/ear_clipping.hpp"
-#include "surface/repair/repeated_polygons.hpp"
+#include "surface/repair/polygon_corners.hpp"
 
 namespace curveskel {
 namespace {
