@@ -61,6 +61,9 @@ void choose(const char* label, Choice& value, const NameTable<Choice, Count>& ta
 void questions(Workbench& bench, Panels& panels);
 /// Run, parameters, corrections.
 void draw_left_panel(Workbench& bench, Panels& panels, const Area& area);
+/// First of all in the right panel, where there is a rig: it is what a person has asked for. Its
+/// joints scroll within a part of the panel, so that the rest stays at hand.
+void draw_rig_section(Workbench& bench, Panels& panels);
 /// Look, certificate, rig, input.
 void draw_right_panel(Workbench& bench, Panels& panels, const Area& area);
 
