@@ -24,9 +24,10 @@ CurveSkeleton finished(const SkeletonGraph& graph, const Setting& in) {
   return std::move(nodes.skeleton);
 }
 
-void require_same_vertices(const PartitionGraph& partition, const InscribedBalls& balls,
-                           const Surface& surface) {
-  const Eigen::Index vertices = surface.positions.rows();
+void require_same_vertices(const EmbedInput& input) {
+  const PartitionGraph& partition = input.partition;
+  const InscribedBalls& balls = input.balls;
+  const Eigen::Index vertices = input.surface.positions.rows();
   if (partition.group_of_vertex.size() == vertices && balls.radii.size() == vertices &&
       balls.centres.rows() == vertices) {
     return;
@@ -55,42 +56,41 @@ void require_valid(const EmbedOptions& options) {
   check.number("tip_gap", options.tip_gap, radii);
 }
 
-CurveSkeleton embed_tuned(const Surface& surface, const SurfaceTree& tree, const FullSurface& full,
-                          const InscribedBalls& balls, const PartitionGraph& partition,
-                          const EmbedOptions& options, const EmbedTuning& tuning, int threads,
-                          StepClock& clock, const Monitor& monitor) {
+CurveSkeleton embed_tuned(const EmbedInput& input, const EmbedOptions& options,
+                          const EmbedTuning& tuning, int threads, StepClock& clock,
+                          const Monitor& monitor) {
+  const Surface& surface = input.surface;
+  const SurfaceTree& tree = input.tree;
   monitor.report("embed", 0);
   HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop); });
-  const WorkingSurface working(surface, balls);
+  const WorkingSurface working(surface, input.balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   const std::vector<MirrorPlane> planes = clock(
       "mirror planes", [&] { return mirror_planes(surface, tree, tuning.spacing.least, threads); });
   SkeletonGraph graph;
   embed_in_working_surface(graph,
-                           {working, tree, tree, partition, options, tuning, spacing, threads,
+                           {working, tree, tree, input.partition, options, tuning, spacing, threads,
                             guard, planes, monitor.stop},
                            clock, monitor);
-  const SurfaceTree* const full_tree = clock("wait for the tree", [&] { return &full.tree(); });
+  const SurfaceTree* const full_tree =
+      clock("wait for the tree", [&] { return &input.full_tree(); });
   graph.forget_radii();
-  const Setting at_last{working, *full_tree, tree,  partition, options,      tuning,
-                        spacing, threads,    guard, planes,    monitor.stop, full.surface};
+  const Setting at_last{working, *full_tree, tree,         input.partition,
+                        options, tuning,     spacing,      threads,
+                        guard,   planes,     monitor.stop, input.full_surface};
   embed_in_full_surface(graph, at_last, clock, monitor);
   CurveSkeleton skeleton = clock("radii", [&] { return finished(graph, at_last); });
   monitor.report("embed", 1);
   return skeleton;
 }
 
-CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
-                    const std::function<const SurfaceTree&()>& full_tree,
-                    const InscribedBalls& balls, const PartitionGraph& partition,
-                    const EmbedOptions& options, int threads, const Monitor& monitor,
-                    StepClock* steps) {
+CurveSkeleton embed(const EmbedInput& input, const EmbedOptions& options, int threads,
+                    const Monitor& monitor, StepClock* steps) {
   require_valid(options);
-  require_closed_manifold(surface, "embed", threads);
-  require_same_vertices(partition, balls, surface);
+  require_closed_manifold(input.surface, "embed", threads);
+  require_same_vertices(input);
   StepClock unread;
-  return embed_tuned(surface, tree, {full_tree}, balls, partition, options, {}, threads,
-                     steps != nullptr ? *steps : unread, monitor);
+  return embed_tuned(input, options, {}, threads, steps != nullptr ? *steps : unread, monitor);
 }
 
 }  // namespace curveskel

@@ -258,10 +258,6 @@ class Pipeline {
     monitor.curve({"surgery", 0, middles_of_groups(graph, vertices), graph.edges});
   }
 
-  [[nodiscard]] FullSurface full_surface() const {
-    return {[this]() -> const SurfaceTree& { return *fine_.get(); }, &canonical_->surface};
-  }
-
   Shared<CurveSkeleton> embedded(const Cut& cut, const WorkingBalls& trees,
                                  std::future<std::vector<TipLife>> lives) {
     EmbedOptions embedding = options_.embed;
@@ -273,8 +269,10 @@ class Pipeline {
           tuning.spacing = tuning.spacing.of_part(extent_);
           // Most of the embedding's rays go against the working surface, which fits the cache.
           EmbeddedCurve made;
-          made.skeleton = embed_tuned(surface, trees.rough, full_surface(), *cut.balls, *cut.graph,
-                                      embedding, tuning, options_.threads, steps, monitor_);
+          const auto fine_tree = [this]() -> const SurfaceTree& { return *fine_.get(); };
+          made.skeleton = embed_tuned(
+              {surface, trees.rough, fine_tree, *cut.balls, *cut.graph, &canonical_->surface},
+              embedding, tuning, options_.threads, steps, monitor_);
           steps("lives", [&] {
             made.lives = lives.valid() ? lives.get() : lives_of(surface, monitor_.stop);
             set_lives(made.skeleton, made.lives);

@@ -83,7 +83,7 @@ std::vector<Door> doors() {
        }},
       {"embed", true,
        [](const Surface& s) {
-         (void)embed(s, a_tree(), []() -> const SurfaceTree& { return a_tree(); }, {}, {}, {}, 1,
+         (void)embed({s, a_tree(), []() -> const SurfaceTree& { return a_tree(); }, {}, {}}, {}, 1,
                      {});
        }},
       {"fair", false, [](const Surface& s) { (void)fair(s); }},
@@ -198,9 +198,10 @@ TEST(Doors, LetInEveryShape) {
 
 TEST(Doors, RefuseAContractionOrBallsOfAnotherSurface) {
   EXPECT_THROW((void)surgery(torus(), Contraction{torus(), {}, {}}), Error);
-  EXPECT_THROW((void)embed(torus(), a_tree(), []() -> const SurfaceTree& { return a_tree(); }, {},
-                           {}, {}, 1, {}),
-               Error);
+  EXPECT_THROW(
+      (void)embed({torus(), a_tree(), []() -> const SurfaceTree& { return a_tree(); }, {}, {}}, {},
+                  1, {}),
+      Error);
 }
 
 TEST(Doors, RefuseASkeletonWithNumbersOfNoNode) {

@@ -258,8 +258,8 @@ TEST(Options, AreLookedAtByEveryFunctionThatTakesThem) {
   EXPECT_TRUE(refuses("SurgeryOptions",
                       [&] { (void)surgery(surface, Contraction{}, {.shape_weight = -1}); }));
   EXPECT_TRUE(refuses("EmbedOptions", [&] {
-    (void)embed(surface, tree, [&]() -> const SurfaceTree& { return tree; }, {}, {}, {.detail = 2},
-                1, {});
+    (void)embed({surface, tree, [&]() -> const SurfaceTree& { return tree; }, {}, {}},
+                {.detail = 2}, 1, {});
   }));
   EXPECT_TRUE(refuses("JointOptions", [&] { (void)place_joints(axis, {.bend = 0}); }));
   EXPECT_TRUE(

@@ -44,18 +44,24 @@ struct EmbedOptions {
 /// range.
 void require_valid(const EmbedOptions& options);
 
+/// A surface that the surgery has cut. Kept by reference.
+struct EmbedInput {
+  const Surface& surface;   ///< one closed component with D = 1
+  const SurfaceTree& tree;  ///< over it
+  /// Gives a tree over the surface that this one was coarsened from, or `tree`. Called once,
+  /// half-way, so that the tree may grow till then.
+  std::function<const SurfaceTree&()> full_tree;
+  const InscribedBalls& balls;  ///< of the vertices
+  const PartitionGraph& partition;
+  const Surface* full_surface = nullptr;  ///< of `full_tree`; null if it is not at hand
+};
+
 /// Places the graph's nodes from the inscribed balls of the surface's vertices, prunes, merges
 /// junctions, grows the tips, centres and smooths, all within the surface; then keeps every edge
-/// inside the surface of `full_tree`, prunes spurs there and smooths once more.
-/// Precondition: one closed component with D = 1; `balls` are the vertices'; `tree` is over the
-/// surface itself, `full_tree` gives a tree over the one that it was coarsened from, or `tree`. It
-/// is called once, half-way, so that the tree may grow till then. Radii are the distances to its
-/// surface. Most of the time is spent in rays against `tree`: a coarse surface pays. Seconds of
-/// its steps go to `steps`, if there is one.
-[[nodiscard]] CurveSkeleton embed(const Surface& surface, const SurfaceTree& tree,
-                                  const std::function<const SurfaceTree&()>& full_tree,
-                                  const InscribedBalls& balls, const PartitionGraph& partition,
-                                  const EmbedOptions& options, int threads, const Monitor& monitor,
-                                  StepClock* steps = nullptr);
+/// inside the surface of `full_tree`, prunes spurs there and smooths once more. Radii are the
+/// distances to that surface. Most of the time is spent in rays against `tree`: a coarse surface
+/// pays. Seconds of its steps go to `steps`, if there is one.
+[[nodiscard]] CurveSkeleton embed(const EmbedInput& input, const EmbedOptions& options, int threads,
+                                  const Monitor& monitor, StepClock* steps = nullptr);
 
 }  // namespace curveskel

@@ -116,8 +116,9 @@ class CutSurface {
   [[nodiscard]] Shape embedded(const Constants& with) const {
     StepClock unread;
     const CurveSkeleton skeleton =
-        embed_tuned(working_, tree_, {[this]() -> const SurfaceTree& { return full_tree_; }},
-                    balls_, *partition_, with.options, with.tuning, 0, unread, {});
+        embed_tuned({working_, tree_, [this]() -> const SurfaceTree& { return full_tree_; }, balls_,
+                     *partition_},
+                    with.options, with.tuning, 0, unread, {});
     const GraphTopology counted = graph_topology(skeleton);
     return {counted.tips, counted.junctions, counted.cycle_rank};
   }
