@@ -61,8 +61,7 @@ class Humanoid {
   /// `ankle` is the one that is seen. The trunk's curve has no leg beside it.
   void place_hidden_leg(const Vector3d& ankle) {
     constexpr double hip_of_shoulder = 0.648;  // heights: .530 and .818 of a human's
-    hip_height_ =
-        tree_.ground + hip_of_shoulder * (arm_joints_.shoulder.y() - tree_.ground);
+    hip_height_ = tree_.ground + hip_of_shoulder * (arm_joints_.shoulder.y() - tree_.ground);
     hip_ = {hip_.x(), hip_height_, depth_at(hip_height_)};
     const double knee = tree_.ground + knee_height * (hip_height_ - tree_.ground);
     const double share = (hip_height_ - knee) / (hip_height_ - ankle.y());
