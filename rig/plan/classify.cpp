@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -229,9 +230,11 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
   return found;
 }
 
-bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  constexpr double clearly = 0.05;  // of the legs' length
-  const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
+namespace {
+
+/// By how much more the foot reaches ahead of the shin than behind it; 0 where either has no
+/// vertices.
+double foot_ahead(const CurveTree& tree, const LimbPair& leg) {
   const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
   double ahead = -std::numeric_limits<double>::infinity();
   double behind = -ahead;
@@ -248,38 +251,61 @@ bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound&
       ++count;
     }
   }
-  if (count == 0 || !(ahead > behind)) return false;
+  if (count == 0 || !(ahead > behind)) return 0;
   shin /= count;
-  return (shin - behind) - (ahead - shin) > clearly * length;
+  return (ahead - shin) - (shin - behind);
+}
+
+/// How much higher a quadruped reaches beyond its front legs than beyond its hind legs: by its
+/// trunk, and by its surface. Where the trunk ends above the legs it is as high as there.
+double front_above_rear(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const Vector3d& a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)];
+  const Vector3d& b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)];
+  const auto& [rear, front] = a.z() < b.z() ? std::tie(a, b) : std::tie(b, a);
+  double trunk[2] = {rear.y(), front.y()};
+  for (const int node : limbs.trunk) {
+    const Vector3d& p = tree.nodes[idx(node)];
+    if (p.z() < rear.z()) trunk[0] = std::max(trunk[0], p.y());
+    if (p.z() > front.z()) trunk[1] = std::max(trunk[1], p.y());
+  }
+  double surface[2] = {tree.ground, tree.ground};
+  for (const Vector3d& p : tree.vertices) {
+    if (p.z() < rear.z()) surface[0] = std::max(surface[0], p.y());
+    if (p.z() > front.z()) surface[1] = std::max(surface[1], p.y());
+  }
+  return trunk[1] - trunk[0] + surface[1] - surface[0];
+}
+
+/// The length of the ears, horns and jaws in the front half, less that of those in the rear half.
+double ears_ahead(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const auto root = [&](int pair) { return tree.nodes[idx(limbs.pairs[idx(pair)].root)].z(); };
+  const double middle = 0.5 * (root(found.legs[0]) + root(found.legs[1]));
+  double ears = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    const bool is_leg = std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
+    if (is_leg || pair.length <= 0.05 * tree.size) continue;
+    ears += (root(k) > middle ? 1 : -1) * pair.length;
+  }
+  return ears;
+}
+
+}  // namespace
+
+bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  constexpr double clearly = 0.05;  // of the legs' length
+  const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
+  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
+  return -foot_ahead(tree, leg) > clearly * length;
 }
 
 bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
                 Standing standing) {
-  const double a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)].z();
-  const double b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)].z();
-  const double ahead = std::max(a, b);
-  const double behind = std::min(a, b);
-  double trunk_top[2] = {tree.ground, tree.ground};
-  for (const int node : limbs.trunk) {
-    const Vector3d& p = tree.nodes[idx(node)];
-    if (p.z() > ahead) trunk_top[0] = std::max(trunk_top[0], p.y());
-    if (p.z() < behind) trunk_top[1] = std::max(trunk_top[1], p.y());
-  }
-  double surface_top[2] = {tree.ground, tree.ground};
-  for (const Vector3d& p : tree.vertices) {
-    if (p.z() > ahead) surface_top[0] = std::max(surface_top[0], p.y());
-    if (p.z() < behind) surface_top[1] = std::max(surface_top[1], p.y());
-  }
-  double ears = 0;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    const LimbPair& pair = limbs.pairs[idx(k)];
-    const bool is_one = std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
-    if (is_one || pair.length <= 0.05 * tree.size) continue;
-    ears += (tree.nodes[idx(pair.root)].z() > 0.5 * (a + b) ? 1 : -1) * pair.length;
-  }
+  const double ears = ears_ahead(tree, limbs, found);
   if (standing == Standing::in_pose && ears != 0) return ears < 0;
-  const auto sign = [](double value) { return value > 0 ? 1 : (value < 0 ? -1 : 0); };
-  return sign(trunk_top[0] - trunk_top[1]) + sign(surface_top[0] - surface_top[1]) + sign(ears) < 0;
+  double ahead = ears + front_above_rear(tree, limbs, found);
+  for (const int leg : found.legs) ahead += foot_ahead(tree, limbs.pairs[idx(leg)]);
+  return ahead < 0;
 }
 
 }  // namespace curveskel

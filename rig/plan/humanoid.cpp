@@ -14,6 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double knee_height = 0.56;  // of the hips'
+
 class Humanoid {
  public:
   Humanoid(const CurveTree& tree, const Limbs& limbs, const PlanFound& found)
@@ -21,7 +23,8 @@ class Humanoid {
         leg_(limbs.pairs[idx(found.legs.front())]),
         arm_(limbs.pairs[idx(found.arms)]),
         leg_pair_(found.legs.front()),
-        arm_pair_(found.arms) {
+        arm_pair_(found.arms),
+        arm_joints_(arm_joints(tree, arm_)) {
     // Without what hangs from it in the mirror plane: a rucksack, a lace.
     const auto is_lower = [&](int a, int b) {
       return tree.nodes[idx(a)].y() < tree.nodes[idx(b)].y();
@@ -45,6 +48,27 @@ class Humanoid {
   void add(const std::string& role, const std::string& parent, const Vector3d& at, int pair,
            const std::string& reason, bool on_curve = true) {
     places_.push_back({role, parent, at, on_curve, pair, reason});
+  }
+
+  /// True for a gown, at whose hem legs seem to part: they would be shorter than half of the trunk,
+  /// and this longer than twice the way from shoulder to shoulder. A bear's is long, but thick.
+  [[nodiscard]] bool hides_legs(double parts) const {
+    const double trunk = arm_joints_.shoulder.y() - parts;
+    const double shoulders = 2 * std::abs(arm_joints_.shoulder.x() - tree_.middle);
+    return 2 * (parts - tree_.ground) < trunk && trunk > 2 * shoulders;
+  }
+
+  /// `ankle` is the one that is seen. The trunk's curve has no leg beside it.
+  void place_hidden_leg(const Vector3d& ankle) {
+    constexpr double hip_of_shoulder = 0.648;  // heights: .530 and .818 of a human's
+    hip_height_ = tree_.ground + hip_of_shoulder * (arm_joints_.shoulder.y() - tree_.ground);
+    hip_ = {hip_.x(), hip_height_, depth_at(hip_height_)};
+    const double knee = tree_.ground + knee_height * (hip_height_ - tree_.ground);
+    const double share = (hip_height_ - knee) / (hip_height_ - ankle.y());
+    add("leftUpperLeg", "hips", hip_, leg_pair_,
+        "at a human's share of the shoulders' height, in a gown", false);
+    add("leftLowerLeg", "leftUpperLeg", hip_ + share * (ankle - hip_), leg_pair_,
+        "on the line from the hip to the ankle, in a gown", false);
   }
 
   void place_leg() {
@@ -73,24 +97,31 @@ class Humanoid {
     const auto at_share = [&](double share) {
       return down_to(tree_.ground + share * (hip_height_ - tree_.ground));
     };
-    const Vector3d ankle = at_share(0.115);
+    const bool is_hidden = hides_legs(hip_height_);
+    const Vector3d ankle = at_share(is_hidden ? 0.5 : 0.115);
     double toes = -std::numeric_limits<double>::infinity();
     for (const int v : leg_.vertices) {
       const Vector3d& p = tree_.vertices[idx(v)];
       if (p.y() <= ankle.y()) toes = std::max(toes, p.z());  // a belly may reach farther
     }
     if (!std::isfinite(toes)) toes = course.points.back().z();
-    add("leftUpperLeg", "hips", hip_, leg_pair_, "above the place where the legs part");
-    add("leftLowerLeg", "leftUpperLeg", at_share(0.56), leg_pair_,
-        ".56 of the hips' height above the ground");
-    add("leftFoot", "leftLowerLeg", ankle, leg_pair_, ".115 of the hips' height above the ground");
+    if (is_hidden) {
+      place_hidden_leg(ankle);
+    } else {
+      add("leftUpperLeg", "hips", hip_, leg_pair_, "above the place where the legs part");
+      add("leftLowerLeg", "leftUpperLeg", at_share(knee_height), leg_pair_,
+          ".56 of the hips' height above the ground");
+    }
+    add("leftFoot", "leftLowerLeg", ankle, leg_pair_,
+        is_hidden ? "half-way from the hem to the ground"
+                  : ".115 of the hips' height above the ground");
     add("leftToes", "leftFoot",
         {ankle.x(), tree_.ground + 0.02 * tree_.height, ankle.z() + 0.55 * (toes - ankle.z())},
         leg_pair_, ".55 of the way from the ankle to the tip of the foot");
   }
 
   void place_arm() {
-    const ArmJoints arm = arm_joints(tree_, arm_);
+    const ArmJoints& arm = arm_joints_;
     shoulder_ = arm.shoulder;
     add("leftUpperArm", "leftShoulder", arm.shoulder, arm_pair_, shoulder_reason);
     add("leftLowerArm", "leftUpperArm", arm.elbow, arm_pair_, elbow_reason);
@@ -198,6 +229,7 @@ class Humanoid {
   const LimbPair& arm_;
   int leg_pair_;
   int arm_pair_;
+  ArmJoints arm_joints_;
   std::vector<Vector3d> trunk_;  // from below
   double hip_height_ = 0;
   Vector3d hip_ = Vector3d::Zero();

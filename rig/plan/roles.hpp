@@ -67,7 +67,8 @@ inline constexpr const char* wrist_reason =
 [[nodiscard]] std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs,
                                               const PlanFound& found);
 
-/// True if a quadruped's head is at its rear: what is called front is its back.
+/// True if a quadruped's head is at its rear: what is called front is its back. By the sum of how
+/// much higher the front is, how much longer its ears and horns are, and how far toes reach ahead.
 /// In a pose ears alone say so, where there are any: a tail may be lifted and a head lowered.
 [[nodiscard]] bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
                               Standing standing);

@@ -268,6 +268,65 @@ TEST(FindPlan, SprawlsOnFourLegs) {
   EXPECT_EQ(plan.axes(2, 2), 1);
 }
 
+/// Its rump is a little higher than its head is, and it has horns: at which end is told by what is
+/// long, not by how many signs there are. Seen from both sides, as the usual look may be right.
+TEST(FindPlan, HornsOutweighAHighRump) {
+  for (const double front : {1.0, -1.0}) {
+    BodyCurve figure;
+    const int rump = figure.add({0, 8.2, -6 * front}, 1.4);
+    const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
+    const int poll = figure.add({0, 8.2, 8 * front}, 0.8, withers);
+    figure.add({0, 7, 11 * front}, 0.8, poll);
+    const int tail = figure.add({0, 8.8, -8 * front}, 0.5, rump);
+    figure.add({0, 4, -10 * front}, 0.4, tail);
+    figure.add_pair(rump, {{1.5, 6, -6 * front}, {1.5, 3, -6 * front}, {1.5, 0.5, -6 * front}},
+                    0.5);
+    figure.add_pair(withers, {{1.5, 6, 5 * front}, {1.5, 3, 5 * front}, {1.5, 0.5, 5 * front}},
+                    0.5);
+    figure.add_pair(poll, {{3, 8.2, 8 * front}}, 0.3);
+    const RigSubject subject = subject_of("cow", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+    EXPECT_EQ(plan.axes(2, 2), front);
+  }
+}
+
+/// With its tail lifted above its back, as a dog's, and without ears: the paws say it.
+TEST(FindPlan, PawsOutweighALiftedTail) {
+  for (const double front : {1.0, -1.0}) {
+    BodyCurve figure;
+    const int rump = figure.add({0, 8, -6 * front}, 1.4);
+    const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
+    figure.add({0, 8, 10 * front}, 0.9, withers);
+    figure.add({0, 9.4, -10 * front}, 0.4, rump);
+    for (const auto& [root, z] : {std::pair(rump, -6.0), std::pair(withers, 5.0)}) {
+      figure.add_pair(
+          root, {{1.5, 5, z * front}, {1.5, 0.5, z * front}, {1.5, 0.5, (z + 2) * front}}, 0.5);
+    }
+    const RigSubject subject = subject_of("dog", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+    EXPECT_EQ(plan.axes(2, 2), front);
+  }
+}
+
+/// Legs seem to part at the hem: the hips are where a human has them, and the knees below them.
+TEST(FindPlan, AGownHidesHipsAndKnees) {
+  BodyCurve figure;
+  const int hem = figure.add({0, 3, 0}, 2.2);
+  const int chest = figure.add({0, 15, 0}, 1.5, hem);
+  figure.add({0, 18.6, 0}, 1.3, figure.add({0, 16.8, 0}, 0.6, chest));
+  figure.add_pair(hem, {{1.6, 2, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 3}}, 0.6);
+  figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
+  const RigSubject subject = subject_of("gown", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  expect_near(plan, "hips", {0, 0.65 * 15, 0}, 0.5);
+  expect_near(plan, "leftUpperLeg", {1.6, 0.65 * 15, 0}, 0.8);
+  expect_near(plan, "rightLowerLeg", {-1.6, 0.36 * 15, 0}, 0.8);
+  EXPECT_TRUE(plan.missing.empty());
+}
+
 /// A front that is said holds, in shoes with the longer end behind, too.
 TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
   const RigSubject back =
