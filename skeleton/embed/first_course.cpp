@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -38,6 +39,13 @@ std::vector<Point> positions_from_balls(const WorkingSurface& working,
   return sum;
 }
 
+/// Joins the arcs at each node that is no fork.
+void dissolve_passed_nodes(SkeletonGraph& graph) {
+  for (int node = 0; node < static_cast<int>(graph.nodes.size()); ++node) {
+    if (graph.nodes[idx(node)].alive && graph.degree(node) == 2) graph.dissolve(node);
+  }
+}
+
 }  // namespace
 
 SkeletonGraph first_course(const Setting& in) {
@@ -46,6 +54,7 @@ SkeletonGraph first_course(const Setting& in) {
       skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
   cut_pockets(whole, in.working, in.partition, limit);
   SkeletonGraph graph = whole;
+  dissolve_passed_nodes(graph);
   prune_blunt(graph, in.working, in.partition, limit);
   HomologyGuard anywhere;  // outside, lines say nothing about handles yet
   const int uncovered =
@@ -53,8 +62,9 @@ SkeletonGraph first_course(const Setting& in) {
   if (!in.guard.has_handles()) return graph;
   const bool goes_round = in.guard.finds_all_handles(graph, in.partition);
   if (uncovered == 0 && goes_round) return graph;
-  SkeletonGraph rerouted = whole;
+  SkeletonGraph rerouted = std::move(whole);
   reroute_around_handles(rerouted, in.working, in.tree, in.partition, in.guard);
+  dissolve_passed_nodes(rerouted);
   prune_blunt(rerouted, in.working, in.partition, limit);
   const int left =
       keep_inside(rerouted, in.working, in.partition, in.tree, in.guard, {.stop = in.stop});

@@ -117,6 +117,11 @@ void SkeletonGraph::orient_from(int arc, int node) {
 }
 
 void SkeletonGraph::prune(int arc) {
+  const int base = take_off(arc);
+  if (degree(base) == 2) dissolve(base);
+}
+
+int SkeletonGraph::take_off(int arc) {
   Arc& s = arcs[idx(arc)];
   const int tip = degree(s.from) == 1 ? s.from : s.to;
   const int base = tip == s.from ? s.to : s.from;
@@ -126,7 +131,7 @@ void SkeletonGraph::prune(int arc) {
   nodes[idx(tip)].alive = false;
   nodes[idx(tip)].arcs.clear();
   detach(nodes[idx(base)], arc);
-  if (degree(base) == 2) dissolve(base);
+  return base;
 }
 
 void SkeletonGraph::collapse(int arc, int into, const CurvePoint& point) {

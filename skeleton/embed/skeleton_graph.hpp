@@ -82,6 +82,8 @@ struct SkeletonGraph {
   void orient_from(int arc, int node);
   /// Removes a leaf arc and its tip; their groups go to the other node.
   void prune(int arc);
+  /// The same, but the other node, which is returned, stays though only two arcs are left at it.
+  int take_off(int arc);
   /// Shrinks an arc between two different nodes to the node `into`.
   void collapse(int arc, int into, const CurvePoint& point);
   /// Joins the two arcs at a node of degree 2 into one; nothing to do at a closed curve's node.

@@ -17,7 +17,7 @@ namespace curveskel {
 /// leaves over span a Lagrangian subspace of the surface's homology. Of those that do not vanish
 /// inside a basis becomes rings; the other cycles are dual to discs, so all together are as many
 /// independent cycles inside as the surface has handles. Precondition: the graph is as
-/// `skeleton_graph_of` made it.
+/// `skeleton_graph_of` made it, or `cut_pockets` left it.
 void reroute_around_handles(SkeletonGraph& graph, const WorkingSurface& working,
                             const SurfaceTree& tree, const PartitionGraph& partition,
                             HomologyGuard& guard);

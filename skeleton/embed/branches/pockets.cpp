@@ -169,7 +169,7 @@ void cut_back(SkeletonGraph& graph, int s, int tip, std::size_t count) {
   Node& end = graph.nodes[idx(tip)];
   const std::size_t gone = count - end.pieces.size();
   if (gone >= arc.pieces.size()) {
-    if (graph.is_leaf(arc)) graph.prune(s);
+    if (graph.is_leaf(arc)) graph.take_off(s);
     return;
   }
   const auto last = static_cast<std::ptrdiff_t>(gone);
