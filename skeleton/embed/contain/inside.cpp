@@ -216,16 +216,14 @@ class Keeper {
 
   /// True if nothing needs to come between two points, or those that have to do. No straight line
   /// between two points inside that meets no surface leaves it, however small their balls.
-  bool is_covered(const CurvePoint& p, const CurvePoint& q, std::vector<CurvePoint>& between) {
-    if (more_fruitless_covers_ > 0) {
-      if (Cover(tree_, true).between(p, q, between)) return true;
-      --more_fruitless_covers_;
-      between.clear();
-    }
+  bool is_covered(const CurvePoint& p, const CurvePoint& q,
+                  std::vector<CurvePoint>& between) const {
+    if (Cover(tree_, true).between(p, q, between)) return true;
+    between.clear();
     return sees_straight(tree_, p, q);
   }
 
-  bool sees(const CurvePoint& p, const CurvePoint& q) {
+  bool sees(const CurvePoint& p, const CurvePoint& q) const {
     std::vector<CurvePoint> unused;
     return is_covered(p, q, unused);
   }
@@ -244,7 +242,7 @@ class Keeper {
     return Point(top + share * (Point(balls_.centres.row(vertex)) - top));
   }
 
-  bool leaves(const std::vector<CurvePoint>& way) {
+  bool leaves(const std::vector<CurvePoint>& way) const {
     const auto hidden = [&](const CurvePoint& p, const CurvePoint& q) { return !sees(p, q); };
     return std::adjacent_find(way.begin(), way.end(), hidden) != way.end();
   }
@@ -399,10 +397,8 @@ class Keeper {
 
   Stretch detour(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t first,
                  std::size_t last) {
-    if (more_fruitless_detours_ == 0) return {last, {}, 1};
     ++detours_;
     auto made = round_hidden_steps(line[first], line[last], groups_along(graph_, arc, partition_));
-    if (!made || made->uncovered > 0) --more_fruitless_detours_;
     if (!made) return {last, {}, 1};
     return {last, std::move(made->points), made->uncovered};
   }
@@ -430,8 +426,6 @@ class Keeper {
   int detours_ = 0;  ///< of the arc at hand
   // For all detours, as a surface may meet itself everywhere.
   int more_tries_ = 300;
-  int more_fruitless_covers_ = 1000;
-  int more_fruitless_detours_ = 300;
   int more_fruitless_ways_ = 300;  ///< below the surface, from ball to ball
 };
 
