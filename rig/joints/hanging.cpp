@@ -22,6 +22,12 @@ struct Bunch {
   double radius = 0;  // the largest
 };
 
+/// What of a component there is to say without its bunches.
+struct Whole {
+  Eigen::AlignedBox3d box;
+  double radius = 0;  // the largest
+};
+
 struct Link {
   double length = endless;
   double gap = endless;  // decides where lengths are equal: the deeper, the better
@@ -55,7 +61,10 @@ class Hanging {
                           const std::vector<char>& is_ground, const Eigen::Vector3d& up) {
     constexpr std::size_t most_above = 1000;
     const std::size_t above = std::min(components.size(), most_above);
-    for (const auto& component : components) parts_.push_back(bunches(component));
+    for (const auto& component : components) {
+      parts_.push_back(bunches(component));
+      wholes_.push_back(whole_of(parts_.back()));
+    }
     links_.resize(components.size());
     find_contacts(components);
     std::vector<std::size_t> open;
@@ -64,6 +73,7 @@ class Hanging {
     }
     std::size_t last = 0;
     while (true) {
+      mark_contacts(last);
       for (const std::size_t part : open) link(part, last);
       for (std::size_t part = above; part < parts_.size(); ++part) {
         if (is_ground[part] == 0) link(part, last);
@@ -138,14 +148,26 @@ class Hanging {
     return all;
   }
 
-  /// True if `part` hangs better from `above` than from those before.
+  static Whole whole_of(const std::vector<Bunch>& bunches) {
+    Whole whole;
+    for (const Bunch& bunch : bunches) {
+      whole.box.extend(bunch.box);
+      whole.radius = std::max(whole.radius, bunch.radius);
+    }
+    return whole;
+  }
+
+  /// Takes the link to `above`, of which the contacts are marked, if it is the best so far.
   void link(std::size_t part, std::size_t above) {
     Link& best = links_[part];
-    const int touching = contact_between(part, above);
-    if (touching >= 0) {
-      best = std::min(best, link_by_contact(touching, part));
+    if (marked_[part].above == above) {
+      best = std::min(best, link_by_contact(marked_[part].contact, part));
       return;
     }
+    const Whole& own = wholes_[part];
+    const Whole& its = wholes_[above];
+    const double least = least_length(own.box.exteriorDistance(its.box), own.radius, its.radius);
+    if (least > best.length) return;
     for (const Bunch& lower : parts_[part]) {
       for (const Bunch& upper : parts_[above]) {
         const double apart = lower.box.exteriorDistance(upper.box);
@@ -174,6 +196,7 @@ class Hanging {
   void find_contacts(const std::vector<std::vector<int>>& components) {
     part_of_.resize(idx(graph_.nodes()));
     contacts_.resize(components.size());
+    marked_.assign(components.size(), {components.size(), -1});
     for (std::size_t part = 0; part < components.size(); ++part) {
       for (const int node : components[part]) part_of_[idx(node)] = part;
     }
@@ -186,13 +209,9 @@ class Hanging {
     }
   }
 
-  /// The last there is; -1 = none. A trunk touches all its leaves, but a leaf few parts.
-  [[nodiscard]] int contact_between(std::size_t part, std::size_t other) const {
-    if (contacts_[other].size() < contacts_[part].size()) std::swap(part, other);
-    const auto& its = contacts_[part];
-    const auto found = std::find_if(its.rbegin(), its.rend(),
-                                    [&](const auto& contact) { return contact.first == other; });
-    return found == its.rend() ? -1 : found->second;
+  /// Of two contacts with one component the last counts.
+  void mark_contacts(std::size_t above) {
+    for (const auto& [part, contact] : contacts_[above]) marked_[part] = {above, contact};
   }
 
   [[nodiscard]] Link link_by_contact(int number, std::size_t part) const {
@@ -319,7 +338,13 @@ class Hanging {
   std::vector<std::vector<Bunch>> parts_;
   std::vector<std::size_t> part_of_;                                // by node
   std::vector<std::vector<std::pair<std::size_t, int>>> contacts_;  // by part: with which, numbers
-  std::vector<Link> links_;  // by part, to those that others hang from so far
+  struct Marked {
+    std::size_t above;
+    int contact;
+  };
+  std::vector<Whole> wholes_;   // by part
+  std::vector<Marked> marked_;  // by part: its contact with the one whose contacts were marked last
+  std::vector<Link> links_;     // by part, to those that others hang from so far
 };
 
 std::vector<char> are_ground(const std::vector<std::vector<int>>& components,

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <curveskel/advanced/indices.hpp>
-#include "rig/joints/rooted_tree.hpp"
 #include "surface/spatial/spread_points.hpp"
 
 namespace curveskel {
@@ -23,44 +22,51 @@ std::vector<int> tips_of(const CurveTree& tree) {
   return tips;
 }
 
-CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
-                     const Eigen::Matrix3d& axes) {
+const RootedTree& LookedAt::rooted(const Vector3d& up) {
+  const auto found = std::find_if(known_.begin(), known_.end(),
+                                  [&](const auto& known) { return known.first == up; });
+  if (found != known_.end()) return found->second;
+  return known_.emplace_back(up, rooted_tree(skeleton_, -1, {}, up)).second;
+}
+
+CurveTree LookedAt::tree(const Eigen::Matrix3d& axes) {
   constexpr int spread = 20000;
+  if (spread_.empty()) spread_ = spread_points(surface_, spread);
   CurveTree tree;
   const auto in_frame = [&](const Vector3d& p) -> Vector3d { return axes * p; };
-  for (const auto& node : skeleton.nodes.rowwise()) tree.nodes.push_back(in_frame(node));
-  const Eigen::VectorXd radii = usable_radii(skeleton);
+  for (const auto& node : skeleton_.nodes.rowwise()) tree.nodes.push_back(in_frame(node));
+  const Eigen::VectorXd radii = usable_radii(skeleton_);
   tree.radii.assign(radii.begin(), radii.end());
   tree.neighbours.resize(tree.nodes.size());
   const auto join = [&](int a, int b) {
     tree.neighbours[idx(a)].push_back(b);
     tree.neighbours[idx(b)].push_back(a);
   };
-  const RootedTree rooted = rooted_tree(skeleton, -1, {}, axes.row(1).transpose());
+  const RootedTree& hanging = rooted(axes.row(1).transpose());
   for (int node = 0; node < static_cast<int>(tree.nodes.size()); ++node) {
-    if (rooted.parent[idx(node)] >= 0) join(node, rooted.parent[idx(node)]);
+    if (hanging.parent[idx(node)] >= 0) join(node, hanging.parent[idx(node)]);
   }
-  for (std::size_t k = 0; k < rooted.roots.size(); ++k) {
-    if (rooted.above[k] >= 0) join(rooted.roots[k], rooted.above[k]);
+  for (std::size_t k = 0; k < hanging.roots.size(); ++k) {
+    if (hanging.above[k] >= 0) join(hanging.roots[k], hanging.above[k]);
   }
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Vector3d high = -low;
-  for (const auto& position : surface.positions.rowwise()) {
+  for (const auto& position : surface_.positions.rowwise()) {
     const Vector3d p = in_frame(position);
     tree.vertices.push_back(p);
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   tree.node_of_vertex.assign(tree.vertices.size(), -1);
-  for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
-    tree.node_of_vertex[idx(v)] = skeleton.node_of_vertex[v];
+  for (Eigen::Index v = 0; v < skeleton_.node_of_vertex.size(); ++v) {
+    tree.node_of_vertex[idx(v)] = skeleton_.node_of_vertex[v];
   }
-  for (const Vector3d& p : spread_points(surface, spread)) tree.spread.push_back(in_frame(p));
+  for (const Vector3d& p : spread_) tree.spread.push_back(in_frame(p));
   const auto nodes = static_cast<Eigen::Index>(tree.nodes.size());
-  const auto components = static_cast<Eigen::Index>(rooted.roots.size());
-  tree.component = component_of_node(skeleton);
+  const auto components = static_cast<Eigen::Index>(hanging.roots.size());
+  tree.component = component_of_node(skeleton_);
   tree.own_nodes = static_cast<int>(nodes);
-  tree.cycles = static_cast<int>(skeleton.edges.rows() - (nodes - components));
+  tree.cycles = static_cast<int>(skeleton_.edges.rows() - (nodes - components));
   tree.size = (high - low).maxCoeff();
   tree.ground = low.y();
   tree.height = high.y() - low.y();

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/surface.hpp>
+#include "rig/joints/rooted_tree.hpp"
 
 namespace curveskel {
 
@@ -31,9 +33,23 @@ struct CurveTree {
 
 [[nodiscard]] std::vector<int> tips_of(const CurveTree& tree);
 
-/// Components hang together as in the rig; cycles are cut.
-[[nodiscard]] CurveTree curve_tree(const Surface& surface, const CurveSkeleton& skeleton,
-                                   const Eigen::Matrix3d& axes);
+/// A body that is looked at from several sides; both its surface and its curve must outlive this.
+class LookedAt {
+ public:
+  LookedAt(const Surface& surface, const CurveSkeleton& skeleton)
+      : surface_(surface), skeleton_(skeleton) {}
+
+  /// In the frame of these axes. Components hang together as in the rig; cycles are cut.
+  [[nodiscard]] CurveTree tree(const Eigen::Matrix3d& axes);
+
+ private:
+  [[nodiscard]] const RootedTree& rooted(const Eigen::Vector3d& up);
+
+  const Surface& surface_;
+  const CurveSkeleton& skeleton_;
+  std::vector<Eigen::Vector3d> spread_;                        // over the surface, as it lies
+  std::vector<std::pair<Eigen::Vector3d, RootedTree>> known_;  // by up
+};
 
 /// From one node to all.
 struct Ways {

@@ -121,9 +121,8 @@ bool is_whole_but_for_a_limb(const Outlook& outlook) {
 namespace {
 
 /// By the middle of the box.
-Outlook look_at_images(const Surface& surface, const CurveSkeleton& skeleton,
-                       const Eigen::Matrix3d& axes, BodyKind wanted) {
-  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::images, {}};
+Outlook look_at_images(LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook{axes, body.tree(axes), {}, {}, Sides::images, {}};
   outlook.limbs = find_limbs(outlook.tree, pairs_by_place(outlook.tree));
   outlook.found = classify(outlook.tree, outlook.limbs, wanted);
   const bool is_seen = wanted == BodyKind::automatic && outlook.found.plan != BodyKind::other;
@@ -193,9 +192,8 @@ void complete(Outlook& outlook, const TipPairs& pairs) {
 
 /// For bodies in which nothing is seen by the middle of the box: a weapon in one hand moves it, and
 /// the hand's tip; half an arm does, too.
-Outlook look_at_own_sides(const Surface& surface, const CurveSkeleton& skeleton,
-                          const Eigen::Matrix3d& axes, BodyKind wanted) {
-  Outlook moved{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::own, {}};
+Outlook look_at_own_sides(LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook moved{axes, body.tree(axes), {}, {}, Sides::own, {}};
   const std::vector<int> tips = tips_of(moved.tree);
   if (tips.size() > most_tips) return moved;
   moved.tree.middle = middle_of_tips(moved.tree, tips);
@@ -211,25 +209,23 @@ Outlook look_at_own_sides(const Surface& surface, const CurveSkeleton& skeleton,
 }
 
 /// For humans without an arm or a leg: the longest limb that has no image has one now.
-Outlook look_at_completed(const Surface& surface, const CurveSkeleton& skeleton,
-                          const Eigen::Matrix3d& axes, BodyKind wanted) {
-  Outlook outlook{axes, curve_tree(surface, skeleton, axes), {}, {}, Sides::completed, {}};
+Outlook look_at_completed(LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook{axes, body.tree(axes), {}, {}, Sides::completed, {}};
   const std::vector<int> tips = tips_of(outlook.tree);
   if (tips.size() > most_tips || !may_be_human(wanted)) return outlook;
   outlook.tree.middle = middle_of_tips(outlook.tree, tips);
   const TipPairs pairs = pairs_by_place(outlook.tree);
   outlook.limbs = find_limbs(outlook.tree, pairs);
-  std::optional<Completed> body = with_missing_limb(outlook.tree, pairs, outlook.limbs);
-  if (!body) return outlook;
-  look_again(outlook, std::move(*body));
+  std::optional<Completed> whole = with_missing_limb(outlook.tree, pairs, outlook.limbs);
+  if (!whole) return outlook;
+  look_again(outlook, std::move(*whole));
   if (outlook.found.plan != BodyKind::humanoid) outlook.found.plan = BodyKind::other;
   return outlook;
 }
 
 /// For bodies in a pose.
-Outlook look_at_posed(const Surface& surface, const CurveSkeleton& skeleton,
-                      const Eigen::Matrix3d& axes, BodyKind wanted) {
-  Outlook outlook{axes, {}, {}, {}, Sides::posed, curve_tree(surface, skeleton, axes)};
+Outlook look_at_posed(LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wanted) {
+  Outlook outlook{axes, {}, {}, {}, Sides::posed, body.tree(axes)};
   outlook.limbs = find_limbs(outlook.posed, pairs_by_shape(outlook.posed));
   Unposed unposed = unpose(outlook.posed, outlook.limbs);
   outlook.tree = std::move(unposed.tree);
@@ -241,19 +237,18 @@ Outlook look_at_posed(const Surface& surface, const CurveSkeleton& skeleton,
 
 }  // namespace
 
-Outlook look(Sides sides, const Surface& surface, const CurveSkeleton& skeleton,
-             const Eigen::Matrix3d& axes, BodyKind wanted) {
+Outlook look(Sides sides, LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wanted) {
   switch (sides) {
     case Sides::images:
       break;
     case Sides::own:
-      return look_at_own_sides(surface, skeleton, axes, wanted);
+      return look_at_own_sides(body, axes, wanted);
     case Sides::completed:
-      return look_at_completed(surface, skeleton, axes, wanted);
+      return look_at_completed(body, axes, wanted);
     case Sides::posed:
-      return look_at_posed(surface, skeleton, axes, wanted);
+      return look_at_posed(body, axes, wanted);
   }
-  return look_at_images(surface, skeleton, axes, wanted);
+  return look_at_images(body, axes, wanted);
 }
 
 }  // namespace curveskel

@@ -26,8 +26,8 @@ struct Outlook {
 /// By the middle of the box (`images`); by the middle of the tips, for a body whose weapon, hand or
 /// missing forearm moves the box (`own`); the same with an image of the longest limb that has none,
 /// for a human without an arm or a leg (`completed`); by the shape of its limbs (`posed`).
-[[nodiscard]] Outlook look(Sides sides, const Surface& surface, const CurveSkeleton& skeleton,
-                           const Eigen::Matrix3d& axes, BodyKind wanted);
+[[nodiscard]] Outlook look(Sides sides, LookedAt& body, const Eigen::Matrix3d& axes,
+                           BodyKind wanted);
 
 /// Two pairs of limbs that are where they should be are no accident.
 [[nodiscard]] bool is_clear(BodyKind plan);

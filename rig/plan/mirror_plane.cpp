@@ -1,8 +1,10 @@
 #include "rig/plan/mirror_plane.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -11,20 +13,75 @@ namespace curveskel {
 
 using Eigen::Vector3d;
 
-double asymmetry(const CurveTree& tree, int axis, double middle) {
-  constexpr std::size_t samples = 300;
-  const std::size_t stride = 1 + tree.nodes.size() / samples;
-  double sum = 0;
-  int count = 0;
-  for (std::size_t k = 0; k < tree.nodes.size(); k += stride) {
-    Vector3d image = tree.nodes[k];
-    image[axis] = 2 * middle - image[axis];
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vector3d& other : tree.nodes) least = std::min(least, (other - image).squaredNorm());
-    sum += std::sqrt(least);
-    ++count;
+namespace {
+
+/// A curve beside its images across planes normal to one axis.
+class Mirrored {
+ public:
+  Mirrored(const CurveTree& tree, int axis) : tree_(tree), axis_(axis), along_(longer_beside()) {
+    order_.resize(tree.nodes.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+      return tree.nodes[a][along_] < tree.nodes[b][along_];
+    });
+    rank_.resize(order_.size());
+    for (std::size_t rank = 0; rank < order_.size(); ++rank) rank_[order_[rank]] = rank;
   }
-  return sum / (std::max(count, 1) * tree.size);
+
+  /// See `asymmetry`; infinite if it is `enough` or more.
+  [[nodiscard]] double asymmetry(double middle, double enough = endless) const {
+    constexpr std::size_t samples = 300;
+    const std::size_t stride = 1 + order_.size() / samples;
+    const std::size_t count = (order_.size() + stride - 1) / stride;
+    const double whole = static_cast<double>(std::max<std::size_t>(count, 1)) * tree_.size;
+    double sum = 0;
+    for (std::size_t k = 0; k < order_.size(); k += stride) {
+      sum += off_curve(k, middle);
+      if (sum / whole >= enough) return endless;
+    }
+    return sum / whole;
+  }
+
+ private:
+  static constexpr double endless = std::numeric_limits<double>::infinity();
+
+  /// The axis beside the mirrored one along which the curve is longer.
+  [[nodiscard]] int longer_beside() const {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& node : tree_.nodes) box.extend(node);
+    const int one = (axis_ + 1) % 3;
+    const int other = (axis_ + 2) % 3;
+    return tree_.nodes.empty() || box.sizes()[one] >= box.sizes()[other] ? one : other;
+  }
+
+  /// From the image of a node; an image has its node's place in the order.
+  [[nodiscard]] double off_curve(std::size_t node, double middle) const {
+    Vector3d image = tree_.nodes[node];
+    image[axis_] = 2 * middle - image[axis_];
+    double least = endless;
+    const auto is_near = [&](std::size_t rank) {
+      const Vector3d way = tree_.nodes[order_[rank]] - image;
+      if (way[along_] * way[along_] > least) return false;
+      least = std::min(least, way.squaredNorm());
+      return true;
+    };
+    const std::size_t own = rank_[node];
+    for (std::size_t rank = own; rank < order_.size() && is_near(rank);) ++rank;
+    for (std::size_t rank = own; rank > 0 && is_near(rank - 1);) --rank;
+    return std::sqrt(least);
+  }
+
+  const CurveTree& tree_;
+  int axis_;
+  int along_;
+  std::vector<std::size_t> order_;  // of the nodes along that axis
+  std::vector<std::size_t> rank_;   // in it, by node
+};
+
+}  // namespace
+
+double asymmetry(const CurveTree& tree, int axis, double middle) {
+  return Mirrored(tree, axis).asymmetry(middle);
 }
 
 namespace {
@@ -64,9 +121,10 @@ std::vector<double> middles_of(const CurveTree& tree, const std::vector<int>& ti
 
 double middle_of_tips(const CurveTree& tree, const std::vector<int>& tips) {
   double best = tree.middle;
-  double least = asymmetry(tree, 0, best);
+  const Mirrored curve(tree, 0);
+  double least = curve.asymmetry(best);
   for (const double middle : middles_of(tree, tips)) {
-    const double off = asymmetry(tree, 0, middle);
+    const double off = curve.asymmetry(middle, least);
     if (off >= least) continue;
     least = off;
     best = middle;

@@ -8,7 +8,7 @@
 namespace curveskel {
 
 /// The mean distance of the curve's mirror image, across the plane where that axis has the value
-/// `middle`, from the curve; of the size. O(#N), at 300 of its nodes.
+/// `middle`, from the curve; of the size. At 300 of its nodes; O(#N log #N).
 [[nodiscard]] double asymmetry(const CurveTree& tree, int axis, double middle);
 
 /// Of the size: the asymmetry of a curve that is its own image.

@@ -60,15 +60,14 @@ struct Refusal {
   }
 };
 
-Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
-                      const std::vector<Eigen::Matrix3d>& frames, const PlanOptions& options,
-                      Refusal& refusal) {
-  Outlook best = look(Sides::images, surface, skeleton, frames.front(), options.plan);
+Outlook best_by_place(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames,
+                      const PlanOptions& options, Refusal& refusal) {
+  Outlook best = look(Sides::images, body, frames.front(), options.plan);
   refusal.consider(best);
   double off = asymmetry(best.tree, 0, best.tree.middle);
   if (is_clear(best.found.plan) && off < symmetric) return best;
   for (std::size_t k = 1; k < frames.size(); ++k) {
-    Outlook other = look(Sides::images, surface, skeleton, frames[k], options.plan);
+    Outlook other = look(Sides::images, body, frames[k], options.plan);
     refusal.consider(other);
     const double other_off = asymmetry(other.tree, 0, other.tree.middle);
     const bool is_better =
@@ -80,7 +79,7 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
     off = other_off;
   }
   for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
-    Outlook other = look(Sides::own, surface, skeleton, frames[k], options.plan);
+    Outlook other = look(Sides::own, body, frames[k], options.plan);
     refusal.consider(other);
     if (is_clear(other.found.plan)) best = std::move(other);
   }
@@ -89,14 +88,14 @@ Outlook best_by_place(const Surface& surface, const CurveSkeleton& skeleton,
 
 /// A human or a quadruped on its back, its front or a side. Nobody stands so, so nothing is left to
 /// chance: its sides are images of each other, and it is all that there is.
-std::optional<Outlook> best_lying(const Surface& surface, const CurveSkeleton& skeleton,
-                                  const PlanOptions& options, const Outlook& usual) {
+std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
+                                  const Outlook& usual) {
   std::optional<Outlook> best;
   double least = symmetric;
   for (const Eigen::Matrix3d& axes : frames_of_lying(options)) {
     const bool is_upside_down = axes.row(1).dot(usual.axes.row(1)) < 0;
     if (is_upside_down && usual.found.plan != BodyKind::other) continue;
-    Outlook other = look(Sides::images, surface, skeleton, axes, options.plan);
+    Outlook other = look(Sides::images, body, axes, options.plan);
     if (!is_clear(other.found.plan) || other.tree.cycles > 0) continue;
     const double off = asymmetry(other.tree, 0, other.tree.middle);
     if (off >= least || explained_by(other).share < most_of_it) continue;
@@ -107,17 +106,16 @@ std::optional<Outlook> best_lying(const Surface& surface, const CurveSkeleton& s
   return best;
 }
 
-Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleton,
-                            const PlanOptions& options) {
+Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
-  Outlook best = best_by_place(surface, skeleton, frames, options, refusal);
+  Outlook best = best_by_place(body, frames, options, refusal);
   if (!is_clear(best.found.plan)) {
-    if (std::optional<Outlook> lying = best_lying(surface, skeleton, options, best)) return *lying;
+    if (std::optional<Outlook> lying = best_lying(body, options, best)) return *lying;
   }
   Explained most = explained_by(best);
   for (std::size_t k = 0; k < frames.size() && !is_clear(best.found.plan); ++k) {
-    Outlook other = look(Sides::posed, surface, skeleton, frames[k], options.plan);
+    Outlook other = look(Sides::posed, body, frames[k], options.plan);
     refusal.consider(other);
     const Explained explained = explained_by(other);
     if (!is_body_in_pose(other, explained, options.plan)) continue;
@@ -126,7 +124,7 @@ Outlook best_before_turning(const Surface& surface, const CurveSkeleton& skeleto
     best = std::move(other);
   }
   for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
-    Outlook other = look(Sides::completed, surface, skeleton, frames[k], options.plan);
+    Outlook other = look(Sides::completed, body, frames[k], options.plan);
     if (is_whole_but_for_a_limb(other)) best = std::move(other);
   }
   if (best.found.plan == BodyKind::other && refusal.length >= 0) {
@@ -166,12 +164,13 @@ bool is_alike_from_both_ends(const Outlook& outlook) {
 
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
-  Outlook outlook = best_before_turning(surface, skeleton, options);
+  LookedAt body(surface, skeleton);
+  Outlook outlook = best_before_turning(body, options);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    outlook = look(outlook.sides, surface, skeleton, axes, options.plan);
+    outlook = look(outlook.sides, body, axes, options.plan);
   }
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
   const std::vector<Eigen::Matrix3d> usual = frames_of(options);

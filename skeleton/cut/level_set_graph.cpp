@@ -15,7 +15,12 @@ namespace curveskel {
 namespace {
 
 constexpr int most_halvings = 20;
-constexpr Eigen::Index most_sliced_vertices = 4000000;  // after subdivision
+
+/// After subdivision. All stages that follow go through them; a loop opens a handle for less.
+Eigen::Index most_sliced_vertices(Eigen::Index given) {
+  constexpr Eigen::Index for_any = 32000;
+  return std::max(for_any, 4 * given);
+}
 
 /// Of the shortest ways along edges.
 std::vector<double> edge_distances(const Surface& surface, const EdgeIndex& index, int source) {
@@ -131,8 +136,8 @@ std::vector<bool> worth_cutting(const Sliced& sliced, const PartitionGraph& grap
 }
 
 /// Until the edges of what is wanted are less steep than the width; false if there are too many.
-bool refine(Sliced& sliced, const std::vector<bool>& wanted, double width) {
-  while (sliced.surface.positions.rows() <= most_sliced_vertices) {
+bool refine(Sliced& sliced, const std::vector<bool>& wanted, double width, Eigen::Index most) {
+  while (sliced.surface.positions.rows() <= most) {
     if (!split_steep(sliced, wanted, width)) return true;
   }
   return false;
@@ -146,7 +151,7 @@ PartitionGraph cut_by_levels(Sliced& sliced, const Monitor& monitor) {
     if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
     monitor.report("surgery", halvings / (most_halvings + 1.0));
     const double width = std::ldexp(sliced.first_width, -halvings);
-    if (!refine(sliced, wanted, width)) break;
+    if (!refine(sliced, wanted, width, most_sliced_vertices(input_vertices))) break;
     sliced.width = width;
     const PartitionGraph graph = cut(sliced, wanted);
     sliced.group.assign(graph.group_of_vertex.begin(), graph.group_of_vertex.end());

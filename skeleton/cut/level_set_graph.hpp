@@ -19,9 +19,9 @@ struct LevelSetGraph {
 /// components of the slices are pieces that meet along cut curves: a discrete Reeb graph (Reeb
 /// 1946). Where a piece has a handle of its own, w is too wide: the piece's edges are split until d
 /// changes by less than w/2 along each, and that piece alone is cut again, and so on, twenty times
-/// or up to four million vertices. A piece that then keeps a handle, as one whose saddles lie in
-/// one vertex or whose vertices coincide, is cut along a loop of its edges: that always ends.
-/// Precondition: one closed oriented component.
+/// or until there are four times the vertices, and more than 32,000. A piece that then keeps a
+/// handle, as one whose saddles lie in one vertex or whose vertices coincide, is cut along a loop
+/// of its edges: that always ends. Precondition: one closed oriented component.
 [[nodiscard]] LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor);
 
 /// Genus of each group's piece of surface, (2 - chi - cut curves) / 2.

@@ -140,7 +140,10 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
   const std::size_t count = wedges_around_.offsets.size() - 1;
   Eigen::VectorXf distance = Eigen::VectorXf::Constant(static_cast<Eigen::Index>(count), nowhere);
   std::vector<char> is_done(count, 0);
-  const float worth_it = 0.05F * step_;  // of reaching a vertex anew
+  float worth_it = 0.05F * step_;  // of reaching a vertex anew
+  // Among slivers a wave may be improved without end, by less and less.
+  const std::size_t many = 4 * count;
+  std::size_t taken = 0;
   Front front(step_, steps_, count);
   distance[vertex] = 0;
   front.push(0, vertex);
@@ -153,6 +156,7 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
   for (std::int32_t v = front.pop(distance); v >= 0; v = front.pop(distance)) {
     if (is_done[idx(v)] != 0) continue;
     is_done[idx(v)] = 1;
+    if (++taken % many == 0) worth_it *= 4;
     const float reached = distance[v];
     for (std::int64_t i = wedges_around_.offsets[idx(v)]; i < wedges_around_.offsets[idx(v) + 1];
          ++i) {

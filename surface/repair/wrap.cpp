@@ -2,7 +2,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/alpha_wrap_3.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +18,7 @@
 #include "base/memory.hpp"
 #include "surface/mesh/cgal_mesh.hpp"
 #include "surface/repair/join_soup.hpp"
+#include "surface/repair/wrap_oracle.hpp"
 
 namespace curveskel {
 namespace {
@@ -127,8 +127,10 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& b
 
   WrapMesh mesh;
   WatchedWrapping visitor(monitor, expected_vertices(triangles, options.gap), budget, when_spent);
-  CGAL::alpha_wrap_3(points, faces, options.gap, options.offset, mesh,
-                     CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
+  WrapOracle<WrapKernel> oracle(options.gap, WrapKernel());
+  oracle.add_triangle_soup(points, faces);
+  CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<WrapOracle<WrapKernel>> wrapping(oracle);
+  wrapping(options.gap, options.offset, mesh, CGAL::parameters::visitor(visitor));
 
   Surface result = surface_of_cgal(mesh);
   monitor.report("wrap", 1);

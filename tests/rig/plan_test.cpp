@@ -16,12 +16,36 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/role_names.hpp>
+#include "meshes/random.hpp"
+#include "rig/plan/mirror_plane.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
 namespace curveskel::plan_laws {
 namespace {
 
 using Eigen::RowVector3d;
+
+TEST(MirrorPlanes, AsymmetryIsTheMeanDistanceOfTheImageOverTheSize) {
+  shapes::Random random(7);
+  CurveTree tree;
+  tree.size = 2;
+  for (int k = 0; k < 700; ++k) {
+    tree.nodes.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t k = 0; k < tree.nodes.size(); k += 3) {
+      Eigen::Vector3d image = tree.nodes[k];
+      image[axis] = 0.2 - image[axis];
+      double least = 100;
+      for (const auto& other : tree.nodes) least = std::min(least, (other - image).norm());
+      sum += least;
+      ++count;
+    }
+    EXPECT_NEAR(asymmetry(tree, axis, 0.1), sum / count / tree.size, 1e-12);
+  }
+}
 
 TEST(FindPlan, HumanoidsHaveTheirJoints) {
   const RigSubject subject = human();

@@ -110,6 +110,15 @@ TEST(LevelSets, HandlesFinerThanASliceAreFoundBySubdividing) {
   EXPECT_EQ(cycle_rank(level_set_graph(torus.surface, {}).graph), 1);
 }
 
+TEST(LevelSets, SplitNoSurfaceIntoFarMoreVerticesThanItHas) {
+  for (const auto& shape : connected_shapes()) {
+    const Eigen::Index given = shape.surface.positions.rows();
+    const LevelSetGraph level_sets = level_set_graph(shape.surface, {});
+    EXPECT_LT(level_sets.surface.positions.rows(), 8 * std::max<Eigen::Index>(32000, 4 * given))
+        << shape.name;
+  }
+}
+
 void expect_right_cut(const Surface& surface, int genus) {
   const LevelSetGraph level_sets = level_set_graph(surface, {});
   EXPECT_EQ(cycle_rank(level_sets.graph), genus);
