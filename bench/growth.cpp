@@ -121,8 +121,8 @@ void write_ply(const Surface& surface, const fs::path& file) {
   if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
 }
 
-/// The surface with about so many vertices. What is added lies off its face by some hundredths of
-/// an edge, as in a scan: coarsening has nothing for nothing.
+/// The surface with about so many vertices. Added vertices lie off their faces by some hundredths
+/// of an edge, as in a scan: coarsening has nothing for nothing.
 Surface of_size(const Surface& given, int vertices) {
   shapes::Shape shape;
   shape.surface = given;

@@ -44,7 +44,7 @@ struct RepairOptions {
   /// extraction the one whose skeleton explains most.
   double wrap_gap = 0;
   /// Components that cross or touch one another become one body, their exact union; those that lie
-  /// wholly inside another are left out. What merely comes near stays apart.
+  /// wholly inside another are left out. Those that merely come near stay apart.
   bool merge_overlapping = false;
   /// Sheets that no wrap makes a body of get a second side near the first one and so become thin
   /// bodies, if their extent is at least this, of D: wings and ears of one layer of triangles. 0 =

@@ -63,19 +63,19 @@ struct CharacterRig {
 /// The character with fewer joints: without those that lie on branches of a shorter life than the
 /// limit and without those below them, but with all that VRM requires of a human, and with the
 /// trunk and head of others. Mirror images (".L", ".R") have the longer life of the two, the digits
-/// of a hand that of the middle one: they come and go together. What stays has its name and its
-/// place at every limit, and moves what the joints below it moved. `skeleton`, of which the rig was
-/// made, has lives; without them nothing goes. O(weights + joints times #E).
+/// of a hand that of the middle one: they come and go together. A joint that stays has its name and
+/// its place at every limit, and moves what the joints below it moved. `skeleton`, of which the rig
+/// was made, has lives; without them nothing goes. O(weights + joints times #E).
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
 
 /// The character with at most so many joints in each of its figures: from the tips inward those go
 /// first that move the least of the surface `given`, of equals the one with the shorter bone;
 /// joints without a role before those with one, mirror images (".L", ".R") together, of the digits
-/// of a human's hands all last joints together, then all middle ones, then all first ones. What VRM
-/// requires of a human stays, and so do roots and the trunk, neck and head of others. What stays
-/// moves what the joints below it moved. 0 = all stay. Throws Error(Fault::usage) below 0.
-/// O(weights + joints log joints).
+/// of a human's hands all last joints together, then all middle ones, then all first ones. All that
+/// VRM requires of a human stays, and so do roots and the trunk, neck and head of others. Joints
+/// that stay move all that the joints below them moved. 0 = all stay. Throws Error(Fault::usage)
+/// below 0. O(weights + joints log joints).
 [[nodiscard]] CharacterRig within_budget(CharacterRig character, const Surface& given, int joints);
 
 }  // namespace curveskel

@@ -48,7 +48,7 @@ struct RigParts {
 [[nodiscard]] RigParts find_parts(const Surface& surface, const PartOptions& options = {},
                                   const Monitor& monitor = {});
 
-/// What remains if the followers are left out: `vertex_of_input` is -1 for theirs.
+/// The rest if the followers are left out: `vertex_of_input` is -1 for theirs.
 [[nodiscard]] RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts);
 
 }  // namespace curveskel

@@ -9,7 +9,7 @@
 
 namespace curveskel {
 
-/// What went; nodes by their old numbers.
+/// All that went; nodes by their old numbers.
 struct RemovedRig {
   int joints = 0;             ///< nodes that were joints
   int channels = 0;           ///< of animations

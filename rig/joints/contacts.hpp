@@ -9,7 +9,7 @@
 namespace curveskel {
 
 /// Of each two components whose surfaces come nearer than the thicker one is thick (the radius of
-/// its largest ball), by patches of both. What counts is the part of the smaller surface that is
+/// its largest ball), by patches of both. Counted is the part of the smaller surface that is
 /// inside the other one or faces it from no farther than their gap and half of the thinner one's
 /// thickness: its section is the sum of its area as vectors, so that of a limb that ends inside
 /// another it is the limb's, however deep it goes, and of a rivet inside it is nothing. None where

@@ -22,7 +22,7 @@ struct Bunch {
   double radius = 0;  // the largest
 };
 
-/// What of a component there is to say without its bunches.
+/// All that there is to say of a component without its bunches.
 struct Whole {
   Eigen::AlignedBox3d box;
   double radius = 0;  // the largest

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t most_joints = 4;
 
-/// What moves with the body without being of it, and hangs together.
+/// All that moves with the body without being of it, and hangs together.
 struct Follower {
   std::vector<int> vertices;
   bool sewn = false;  ///< to the body

@@ -256,7 +256,7 @@ double foot_ahead(const CurveTree& tree, const LimbPair& leg) {
   return (ahead - shin) - (shin - behind);
 }
 
-/// How much higher a quadruped reaches beyond its front legs than beyond its hind legs: by its
+/// By how much a quadruped reaches higher beyond its front legs than beyond its hind legs: by its
 /// trunk, and by its surface. Where the trunk ends above the legs it is as high as there.
 double front_above_rear(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   const Vector3d& a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)];

@@ -27,7 +27,7 @@ namespace curveskel {
 class HomologyGuard {
  public:
   HomologyGuard() = default;  ///< lets everything go where it likes
-  /// One closed component. What takes long throws Cancelled soon after a stop was requested.
+  /// One closed component. Whatever takes long throws Cancelled soon after a stop was requested.
   explicit HomologyGuard(const Surface& surface, std::stop_token stop = {});
 
   [[nodiscard]] bool has_handles() const { return classes_ && classes_->has_handles(); }

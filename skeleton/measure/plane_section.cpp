@@ -58,7 +58,7 @@ Eigen::Vector2d crossing_point(const Surface& surface, const PlaneSection& frame
   return frame.axes.transpose() * ((1 - share) * a + share * b);
 }
 
-/// Triangles joined where one rises and its neighbour falls. What does not close is left out.
+/// Triangles joined where one rises and its neighbour falls. Chains that do not close are left out.
 std::vector<Loop> loops_of(const Surface& surface, const PlaneSection& frame,
                            std::vector<PlaneCrossing> all) {
   std::sort(all.begin(), all.end(),

@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/version.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,13 @@
 #include "base/memory.hpp"
 #include "surface/mesh/cgal_mesh.hpp"
 #include "surface/repair/join_soup.hpp"
+
+// The quicker oracle takes the place of one that is no public part of CGAL.
+#if CGAL_VERSION_MAJOR == 5 && CGAL_VERSION_MINOR == 5
 #include "surface/repair/wrap_oracle.hpp"
+#else
+#include <CGAL/alpha_wrap_3.h>
+#endif
 
 namespace curveskel {
 namespace {
@@ -127,10 +134,15 @@ Surface wrap(const Surface& triangles, const WrapOptions& options, WrapBudget& b
 
   WrapMesh mesh;
   WatchedWrapping visitor(monitor, expected_vertices(triangles, options.gap), budget, when_spent);
+#if CGAL_VERSION_MAJOR == 5 && CGAL_VERSION_MINOR == 5
   WrapOracle<WrapKernel> oracle(options.gap, WrapKernel());
   oracle.add_triangle_soup(points, faces);
   CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<WrapOracle<WrapKernel>> wrapping(oracle);
   wrapping(options.gap, options.offset, mesh, CGAL::parameters::visitor(visitor));
+#else
+  CGAL::alpha_wrap_3(points, faces, options.gap, options.offset, mesh,
+                     CGAL::parameters::default_values(), CGAL::parameters::visitor(visitor));
+#endif
 
   Surface result = surface_of_cgal(mesh);
   monitor.report("wrap", 1);

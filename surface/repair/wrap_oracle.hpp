@@ -181,7 +181,8 @@ class WrapOracle : public CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Ke
     return AwayFromBall(ball);
   }
 
-  /// Whether any triangle meets the query: boxes in doubt are entered, as only triangles decide.
+  /// Finds out if any triangle meets the query: boxes in doubt are entered, as only triangles
+  /// decide.
   template <typename Query>
   class Meeting {
    public:

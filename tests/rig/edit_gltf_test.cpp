@@ -273,7 +273,7 @@ TEST_F(EditGltf, EveryPrimitiveOfASkinnedMeshHasRows) {
   });
 }
 
-/// What the standard wants of nodes, skins, accessors and views.
+/// All that the standard wants of nodes, skins, accessors and views.
 void expect_valid(const Glb& glb) {
   const Json& json = glb.json;
   const std::map<std::string, std::size_t> widths{

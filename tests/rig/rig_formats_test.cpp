@@ -242,7 +242,7 @@ TEST_F(RigFormats, BvhHasOneRoot) {
   }
 }
 
-/// What stands between the brackets behind `key`.
+/// The text between the brackets behind `key`.
 std::string list_after(const std::string& text, const std::string& key) {
   const std::size_t begin = text.find(key + " = [");
   EXPECT_NE(begin, std::string::npos) << key;
