@@ -201,7 +201,7 @@ class Skeleton:
         """
         import pandas
 
-        return pandas.DataFrame(self._graph.junction_table()).setindex("node")
+        return pandas.DataFrame(self._graph.junction_table()).set_index("node")
 
     def profiles(self, spacing=None, *, threads=0, progress=None):
         """DataFrame of sections along each branch: place, tangent, area, perimeter, and more.

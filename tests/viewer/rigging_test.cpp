@@ -255,6 +255,8 @@ TEST_F(Rigging, AVrmFileHasItsNameAuthorAndLicenceFromTheStart) {
   human.save(file);
   ASSERT_TRUE(wait_for([&] { return !human.busy(); }));
   ASSERT_TRUE(std::filesystem::exists(file)) << human.messages().back().text;
+  EXPECT_NE(human.messages().back().text.find("look along z"), std::string::npos)
+      << human.messages().back().text;
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   EXPECT_NE(bytes.find("https://vrm.dev/licenses/1.0/"), std::string::npos);

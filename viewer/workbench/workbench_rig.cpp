@@ -10,6 +10,7 @@
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include "app/report.hpp"
+#include "app/rig_findings.hpp"
 #include "viewer/model/rigging.hpp"
 #include "viewer/software/priority.hpp"
 #include "viewer/workbench/workbench.hpp"
@@ -253,6 +254,9 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   history_.note_saved();
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
+  if (format != RigFormat::vrm) return;
+  const auto finding = posture_finding(character.plan, character.rig.to_y_up, RestPose::input);
+  if (finding) say(*finding);
 }
 
 }  // namespace curveskel::viewer
