@@ -77,4 +77,13 @@ void add_time_limit(CLI::App& parser, double& seconds) {
              "seconds, then it ends with exit 5 and writes nothing more; 0 = none");
 }
 
+void add_vrm_meta(CLI::App& parser, VrmMeta& meta) {
+  parser.add_option("--vrm-name", meta.name, "of the figure, for .vrm")->type_name("TEXT");
+  parser.add_option("--vrm-author", meta.author, "of the figure, for .vrm")->type_name("TEXT");
+  parser
+      .add_option("--vrm-licence", meta.licence_url,
+                  "address of its licence, for .vrm, as https://vrm.dev/licenses/1.0/")
+      ->type_name("URL");
+}
+
 }  // namespace curveskel

@@ -10,6 +10,7 @@
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/preset.hpp>
 #include <curveskel/repair.hpp>
+#include <curveskel/rig_files.hpp>
 
 namespace curveskel {
 
@@ -73,5 +74,8 @@ void add_mesh(CLI::App& parser, std::filesystem::path& mesh);
 
 /// --time-limit, in seconds; 0 = none.
 void add_time_limit(CLI::App& parser, double& seconds);
+
+/// --vrm-name, --vrm-author and --vrm-licence.
+void add_vrm_meta(CLI::App& parser, VrmMeta& meta);
 
 }  // namespace curveskel

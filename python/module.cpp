@@ -55,6 +55,26 @@ const char* class_of(Fault fault) {
   return "Error";
 }
 
+/// "min_size" of "--min-size", anywhere.
+std::string with_keywords(const std::string& message) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  std::string found;
+  bool in_option = false;
+  for (std::size_t k = 0; k < message.size(); ++k) {
+    const bool starts = message.compare(k, 2, "--") == 0 && k + 2 < message.size() &&
+                        is_letter(message[k + 2]) && (k == 0 || message[k - 1] != '-');
+    if (starts) {
+      in_option = true;
+      ++k;
+      continue;
+    }
+    const bool joins = message[k] == '-' && k + 1 < message.size() && is_letter(message[k + 1]);
+    in_option = in_option && (joins || is_letter(message[k]));
+    found += in_option && joins ? '_' : message[k];
+  }
+  return found;
+}
+
 /// "detail is 2, ..." of "EmbedOptions::detail is 2, ..."; keywords that are called as members are
 /// but for these.
 std::string in_python(const std::string& message) {
@@ -75,7 +95,7 @@ void translate(std::exception_ptr thrown) {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {
     const py::object type = py::module_::import("curveskel.errors").attr(class_of(error.fault()));
-    PyErr_SetString(type.ptr(), in_python(error.what()).c_str());
+    PyErr_SetString(type.ptr(), with_keywords(in_python(error.what())).c_str());
   }
 }
 

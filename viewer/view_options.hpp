@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <curveskel/preset.hpp>
+#include <curveskel/rig_files.hpp>
 #include "viewer/model/run.hpp"
 #include "viewer/render/camera.hpp"
 #include "viewer/render/look.hpp"
@@ -46,6 +47,7 @@ struct ViewOptions {
   Look look;
   Preset preset = Preset::standard;
   RunOptions pipeline;
+  VrmMeta vrm;  ///< of rigs that the window saves as .vrm
 };
 
 }  // namespace curveskel::viewer

@@ -127,6 +127,9 @@ int run_view(ViewOptions options, Session& session) {
   if (!options.screenshot.empty()) (void)format_of(options.screenshot, picture_formats);
   if (!pictures && !options.turns.empty()) throw UsageError("--turn is for pictures");
   if (!pictures) return run_window(options, session);
+  if (!(options.vrm.name + options.vrm.author + options.vrm.licence_url).empty()) {
+    throw UsageError("--vrm-name, --vrm-author and --vrm-licence are for the window");
+  }
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
   if (!options.frame_times.empty()) throw UsageError("--frame-times is for the window");
   session.interruption.limit(options.time_limit_seconds);  // of a window: its runs
@@ -213,6 +216,7 @@ Verb add_view(CLI::App& program) {
   add_pictures(*parser, *options);
   add_appearance(*parser, options);
   add_extraction(*parser, *options);
+  add_vrm_meta(*parser, options->vrm);
   parser->footer(meanings("Presets", presets) + meanings("Surgeries", surgery_methods) +
                  meanings("Embeddings", embed_methods) + meanings("Surface", surface_styles) +
                  meanings("Skeleton", skeleton_styles) + meanings("Colours", colourings) +

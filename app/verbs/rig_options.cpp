@@ -58,16 +58,6 @@ SourceOptions add_sources(CLI::App& parser, RigArguments& arguments) {
   return found;
 }
 
-void add_vrm_meta(CLI::App& parser, RigArguments& arguments) {
-  parser.add_option("--vrm-name", arguments.vrm.name, "of the figure, for .vrm")->type_name("TEXT");
-  parser.add_option("--vrm-author", arguments.vrm.author, "of the figure, for .vrm")
-      ->type_name("TEXT");
-  parser
-      .add_option("--vrm-licence", arguments.vrm.licence_url,
-                  "address of its licence, for .vrm, as https://vrm.dev/licenses/1.0/")
-      ->type_name("URL");
-}
-
 void add_plan(CLI::App& parser, RigArguments& arguments) {
   parser
       .add_option("--report", arguments.report,
@@ -129,7 +119,7 @@ void exclude_idle(CLI::App& parser, const SourceOptions& sources) {
 void add_rig_options(CLI::App& parser, RigArguments& arguments) {
   add_files(parser, arguments);
   const SourceOptions sources = add_sources(parser, arguments);
-  add_vrm_meta(parser, arguments);
+  add_vrm_meta(parser, arguments.vrm);
   add_plan(parser, arguments);
   add_joints(parser, arguments);
   add_extraction(parser, arguments);

@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+import operator
 import os
 import re
 import time
@@ -11,6 +12,9 @@ import numpy
 
 from . import _core
 from .errors import SolverError, UsageError
+
+
+MOST_THREADS = 4096  # as the program has it
 
 
 class _Listener:
@@ -40,6 +44,8 @@ def listening(progress, time_limit=0):
         seconds = math.nan
     if not 0 <= seconds <= 1e9:
         raise UsageError(f"time_limit: needs seconds, 0 (none) to 1e9, not {time_limit!r}")
+    if progress and progress is not True and not callable(progress):
+        raise UsageError(f"progress: needs a callable, True or None, not {progress!r}")
     if progress is not True:
         yield _Listener(progress, seconds) if progress or seconds else None
         return
@@ -56,6 +62,17 @@ def listening(progress, time_limit=0):
             bar.refresh()
 
         yield _Listener(show, seconds)
+
+
+def index(value, name, least, most):
+    """A whole number in its range; raises UsageError for anything else."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or not least <= number <= most:
+        raise UsageError(f"{name}: needs a whole number, {least} to {most}, not {value!r}")
+    return number
 
 
 def path_of(path, name):

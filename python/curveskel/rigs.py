@@ -13,8 +13,32 @@ from .inputs import listening, path_of, soup_of, warn_of
 from .skeleton import Skeleton, read
 
 
+class _KeptRig:
+    """What goes through pickle of a rig: arrays, names and the report."""
+
+    def __init__(self, made):
+        self.joints, self.parents = numpy.array(made.joints), numpy.array(made.parents)
+        self.names, self.roles = made.names, made.roles
+        self._weights, self._report = made.weights(), made.report()
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+        for values in (self.joints, self.parents):
+            values.flags.writeable = False
+
+    def weights(self):
+        return tuple(values.copy() for values in self._weights)
+
+    def report(self):
+        return self._report
+
+
 class Rig:
-    """Joints that move a surface, as `rig` makes them. Arrays are views, and read-only."""
+    """Joints that move a surface, as `rig` makes them. Arrays are views, and read-only.
+
+    It can be copied and pickled. What comes out of pickle has all but `save`, which needs the
+    surface.
+    """
 
     def __init__(self, made):
         self._made = made
@@ -66,8 +90,21 @@ class Rig:
         InputError or OutputError.
         """
         path = pathlib.Path(path_of(path, "path"))
+        if isinstance(self._made, _KeptRig):
+            raise UsageError("files of rigs have the surface in them, which a rig that was pickled "
+                             "has not; save it before, or make it again")
         warn_of(self._made.save(path, path.suffix.lower().lstrip("."), vrm_name, vrm_author,
                                 vrm_licence), 2)
+
+    def __copy__(self):
+        return self  # as nothing of it changes
+
+    def __deepcopy__(self, memo):
+        return self
+
+    def __reduce__(self):
+        kept = isinstance(self._made, _KeptRig)
+        return Rig, (self._made if kept else _KeptRig(self._made),)
 
     def __repr__(self):
         return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"

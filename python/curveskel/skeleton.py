@@ -1,6 +1,5 @@
 """Skeletons as arrays and tables."""
 
-import operator
 import pathlib
 import warnings
 
@@ -8,7 +7,7 @@ import numpy
 
 from . import _core, graphs
 from .errors import CertificateWarning, SolverError, UsageError
-from .inputs import listening, path_of, soup_of, warn_of
+from .inputs import MOST_THREADS, index, listening, path_of, soup_of, warn_of
 
 
 class _Kept:
@@ -136,7 +135,7 @@ class Skeleton:
         Each has its own certificate, and nodes and branches their own numbers. Raises UsageError of
         a skeleton that was pickled.
         """
-        count = _index(most, "most", 1, 100)
+        count = index(most, "most", 1, 100)
         if self._extraction is None:
             return [Skeleton(graph) for graph in self._graph.levels(count)]
         self._need_surface("levels")
@@ -185,7 +184,7 @@ class Skeleton:
         """
         import pandas
 
-        number = -1 if root is None else _index(root, "root", 0, len(self.vertices) - 1)
+        number = -1 if root is None else index(root, "root", 0, len(self.vertices) - 1)
         if ("branches", number) not in self._found:
             source = self._graph if self._extraction is None else self._extraction
             table = pandas.DataFrame(source.branch_table(number))
@@ -215,10 +214,13 @@ class Skeleton:
         import pandas
 
         self._need_surface("sections")
+        try:
+            step = 0.0 if spacing is None else float(spacing)
+        except (TypeError, ValueError) as error:
+            raise UsageError(f"spacing: needs a number or None, not {spacing!r}") from error
+        count = index(threads, "threads", 0, MOST_THREADS)
         with listening(progress) as listener:
-            return pandas.DataFrame(
-                self._extraction.profiles(0.0 if spacing is None else float(spacing), threads,
-                                          listener))
+            return pandas.DataFrame(self._extraction.profiles(step, count, listener))
 
     def vertex_labels(self):
         """(v,) int32, read-only: the branch of each vertex given; -1 = of none."""
@@ -333,17 +335,6 @@ def _named(path, extension, content):
     if path.suffix.lower() == extension:
         return path
     raise UsageError(f"{path}: {content} is written here, needed a name that ends in {extension}")
-
-
-def _index(value, name, least, most):
-    """A whole number in its range; raises UsageError for anything else."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = None
-    if number is None or not least <= number <= most:
-        raise UsageError(f"{name}: needs a whole number, {least} to {most}, not {value!r}")
-    return number
 
 
 def extracted(mesh, listener, options):

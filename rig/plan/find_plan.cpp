@@ -185,7 +185,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   if (options.plan == BodyKind::automatic && !options.made_of_tubes) {
     result.plan = BodyKind::other;
     result.axes = frames_of(options).front().array() + 0.0;  // no -0
-    result.reason = "the surface is not made of tubes, as bodies are; --plan asks for one";
+    result.reason = "the surface is not made of tubes, as bodies are; a plan can be asked for";
     return result;
   }
   Outlook outlook = best_outlook(surface, skeleton, options);

@@ -37,6 +37,10 @@ class JsonGraph {
   }
 
   RawGraph read() {
+    if (root_.is_object() && root_.contains("joints") && !root_.contains("nodes")) {
+      file_.fail("a rig", "a skeleton, whose JSON has \"nodes\" and \"edges\"",
+                 "give the skeleton; curveskel rig --joints takes rigs");
+    }
     const json& nodes = list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n) add_node(nodes[n], n);
     add_radii();

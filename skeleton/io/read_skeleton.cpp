@@ -6,6 +6,7 @@
 #include <curveskel/advanced/file_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "skeleton/io/raw_graph.hpp"
+#include "surface/read/foreign_formats.hpp"
 
 namespace curveskel {
 namespace {
@@ -67,7 +68,12 @@ RootedSkeleton read_as(SkeletonFormat format, const FileBytes& file) {
 RootedSkeleton read_rooted_skeleton(const std::filesystem::path& path) {
   const FileBytes file = read_file(path, Monitor{}, "a skeleton");
   std::optional<SkeletonFormat> format = skeleton_format_by_content(file);
-  if (!format) format = skeleton_format_by_extension(path);
+  if (!format) {
+    if (const auto foreign = foreign_format_of(file)) {
+      file.fail(foreign->name, std::string("a skeleton as ") + std::string(readable), "convert it");
+    }
+    format = skeleton_format_by_extension(path);
+  }
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",

@@ -8,18 +8,12 @@ namespace {
 
 using namespace std::string_view_literals;
 
-struct ForeignFormat {
-  std::string_view start;
-  std::string_view name;
-  std::string_view remedy;
-};
-
 constexpr std::string_view export_scene = "export it as .glb, .obj or .ply";
 constexpr std::string_view export_solid = "export it from its CAD program as .stl, .3mf or .obj";
 constexpr std::string_view unpack = "unpack it and give the surface file that is in it";
 constexpr std::string_view fetch = "give the surface file itself";
 
-constexpr std::array<ForeignFormat, 22> foreign_starts{{
+constexpr std::array<ForeignFormat, 23> foreign_starts{{
     {"BLENDER"sv, "a Blender scene", export_scene},
     {"PXR-USDC"sv, "a USD scene", export_scene},
     {"#usda"sv, "a USD scene", export_scene},
@@ -40,6 +34,7 @@ constexpr std::array<ForeignFormat, 22> foreign_starts{{
      "7zXZ"sv,
      "a file packed by xz", unpack},
     {"\x28\xB5\x2F\xFD"sv, "a file packed by Zstandard", unpack},
+    {"HIERARCHY"sv, "a BVH motion", fetch},
     {"\x89HDF"sv, "an HDF5 file", fetch},
     {"\x89PNG"sv, "a PNG picture", fetch},
     {"%PDF"sv, "a PDF document", fetch},
@@ -56,20 +51,23 @@ constexpr std::array<ForeignFormat, 5> foreign_elements{{
 
 }  // namespace
 
-void refuse_foreign_format(const FileBytes& file) {
+std::optional<ForeignFormat> foreign_format_of(const FileBytes& file) {
   constexpr std::size_t first_lines = 2000;
-  constexpr std::string_view needed = "a surface file";
   for (const ForeignFormat& format : foreign_starts) {
-    if (file.content.starts_with(format.start)) file.fail(format.name, needed, format.remedy);
+    if (file.content.starts_with(format.start)) return format;
   }
   const std::string_view text = std::string_view(file.content).substr(0, first_lines);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (begin == std::string_view::npos || text[begin] != '<') return;
+  if (begin == std::string_view::npos || text[begin] != '<') return std::nullopt;
   for (const ForeignFormat& format : foreign_elements) {
-    if (text.find(format.start) != std::string_view::npos) {
-      file.fail(format.name, needed, format.remedy);
-    }
+    if (text.find(format.start) != std::string_view::npos) return format;
   }
+  return std::nullopt;
+}
+
+void refuse_foreign_format(const FileBytes& file) {
+  const std::optional<ForeignFormat> format = foreign_format_of(file);
+  if (format) file.fail(format->name, "a surface file", format->remedy);
 }
 
 }  // namespace curveskel

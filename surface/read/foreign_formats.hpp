@@ -1,9 +1,21 @@
-// Files that are no surface which this program reads, by name. Internal to surface/.
+// Files that are no surface which this program reads, by name. For surface/ and skeleton/io/.
 #pragma once
+
+#include <optional>
+#include <string_view>
 
 #include "surface/read/file_bytes.hpp"
 
 namespace curveskel {
+
+struct ForeignFormat {
+  std::string_view start;   ///< of the file, or of one of its elements
+  std::string_view name;    ///< with its article
+  std::string_view remedy;  ///< of one who has it for a surface
+};
+
+/// What the file is, if its first bytes tell.
+[[nodiscard]] std::optional<ForeignFormat> foreign_format_of(const FileBytes& file);
 
 /// Throws Error(Fault::input) that says what the file is, if its first bytes tell.
 void refuse_foreign_format(const FileBytes& file);

@@ -1,10 +1,12 @@
 """`rig`, `match`, `fair` and `contract` of the module beside the program's verbs, and the stubs."""
 
 import ast
+import copy
 import inspect
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import tempfile
 import unittest
@@ -152,6 +154,37 @@ class Verbs(unittest.TestCase):
                               ("joint_budget", lambda: curveskel.rig(Y, joint_budget=-1))):
             with self.assertRaisesRegex(curveskel.UsageError, f"^{keyword} is -?[0-9]", msg=keyword):
                 call()
+
+    def test_no_message_names_an_option_of_the_program(self):
+        skeleton, rig = curveskel.extract(Y), curveskel.rig(Y)
+        meta = {"vrm_name": "a", "vrm_author": "b"}
+        flat = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [2, 1, 3]])
+        for keyword, call in (("vrm_licence", lambda: rig.save(self.folder / "a.vrm")),
+                              ("vrm_licence", lambda: rig.save(self.folder / "a.vrm", **meta,
+                                                               vrm_licence="none")),
+                              ("least_sheet", lambda: curveskel.extract(flat, wrap="never")),
+                              ("spacing", lambda: skeleton.profiles("fine")),
+                              ("threads", lambda: skeleton.profiles(threads="all")),
+                              ("threads", lambda: curveskel.match(skeleton, skeleton, threads=-1)),
+                              ("progress", lambda: curveskel.extract(Y, progress=3))):
+            with self.assertRaises(curveskel.Error, msg=keyword) as raised:
+                call()
+            self.assertIn(keyword, str(raised.exception))
+            self.assertNotIn("--", str(raised.exception))
+
+    @unittest.skipUnless(has("scipy"), "no scipy")
+    def test_a_rig_goes_through_pickle_and_copies(self):
+        rig = curveskel.rig(MESHES / "free" / "humanoid-10k.ply.gz", front="-x")
+        self.assertIs(copy.deepcopy(rig), rig)
+        again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(rig))))
+        for name in ("joints", "parents"):
+            numpy.testing.assert_array_equal(getattr(again, name), getattr(rig, name))
+            self.assertFalse(getattr(again, name).flags.writeable)
+        self.assertEqual((again.names, again.roles, again.report, again.plan),
+                         (rig.names, rig.roles, rig.report, rig.plan))
+        self.assertEqual((again.weights != rig.weights).nnz, 0)
+        with self.assertRaisesRegex(curveskel.UsageError, "pickled"):
+            again.save(self.folder / "again.glb")
 
     def test_what_is_no_path_is_told_so(self):
         rig = curveskel.rig(Y)

@@ -443,6 +443,10 @@ TEST(BadSkeletonFiles, AreNamedWithTheLineTheValueAndTheNeed) {
       {"a.svg", "<svg></svg>", {"svg", "obj, ply, cgal"}},
       {"a.png", "?", {"png", "does not hold the graph"}},
       {"a.unknown", "?", {"no known extension", "obj, ply, cgal"}},
+      {"a.json", "{\"joints\": [], \"weights\": {}}", {"found a rig", "rig --joints"}},
+      {"a.usda", "#usda 1.0\n(\n", {"a USD scene", "obj, ply, cgal"}},
+      {"a.bvh", "HIERARCHY\nROOT hips\n{\n", {"a BVH motion", "obj, ply, cgal"}},
+      {"a.obj", "BLENDER-v304RENDH", {"a Blender scene"}},
       {"a.swc", "# nothing\n", {"without nodes"}},
   };
   for (const Case& bad : cases) {

@@ -221,6 +221,7 @@ std::vector<Broken> broken_files() {
        "hello",
        {"\"hello\"", "obj, off, ply, stl, om, gltf, glb, vtp, vtk, 3mf, dae, fbx"}},
       {"blender_scene", "a.obj", "BLENDER-v304RENDH", {"a Blender scene", "export it as .glb"}},
+      {"bvh_motion", "a.bvh", "HIERARCHY\nROOT hips\n{\n", {"a BVH motion"}},
       {"step_file", "a.step", "ISO-10303-21;\nHEADER;\n", {"a STEP file"}},
       {"x3d_scene", "a.x3d", "<?xml version=\"1.0\"?>\n<X3D version=\"3.3\"/>", {"an X3D scene"}},
       {"web_page", "a.stl", "<!DOCTYPE html>\n<html></html>", {"a web page"}},

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <curveskel/advanced/write_file.hpp>
+#include <curveskel/error.hpp>
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 
@@ -35,6 +38,31 @@ TEST(DocumentOf, EveryEncodingHasThePolygonsThatWereRead) {
   }
   EXPECT_TRUE(triangles) << "kept once";
   EXPECT_TRUE(polygons) << "kept beside their triangles";
+}
+
+TEST(DocumentOf, AFileOfAnotherKindSaysWhatItIs) {
+  const OwnFolder folder;
+  struct Case {
+    std::string file;
+    std::string content;
+    std::string said;
+  };
+  const std::vector<Case> cases{
+      {"a.usda", "#usda 1.0\n(\n", "a USD scene, needed a surface"},
+      {"a.bvh", "HIERARCHY\nROOT hips\n{\n", "a BVH motion"},
+      {"a.blend", "BLENDER-v304RENDH", "a Blender scene, needed a surface"},
+      {"a.swc", "#usda 1.0\n(\n", "a USD scene, needed a skeleton"},
+      {"a.xyz", "hello", "no known extension"}};
+  for (const Case& foreign : cases) {
+    const fs::path file = folder.path() / foreign.file;
+    write_file(file, foreign.content);
+    try {
+      (void)open_document({file}, {});
+      FAIL() << foreign.file;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(foreign.said), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -230,6 +230,38 @@ TEST_F(Rigging, IsSavedAndMadeFirstIfNeedBe) {
   EXPECT_NE(last_said().find("for a rig, glb, gltf"), std::string::npos) << last_said();
 }
 
+TEST_F(Rigging, AVrmFileHasItsNameAuthorAndLicenceFromTheStart) {
+  open_y();
+  const auto file = folder.path() / "human.vrm";
+  bench.save(file);
+  EXPECT_NE(last_said().find("--vrm-name"), std::string::npos) << last_said();
+  EXPECT_NE(last_said().find("options of curveskel view"), std::string::npos) << last_said();
+  EXPECT_FALSE(bench.busy()) << "before any rig is made for it";
+
+  ViewOptions options;
+  options.vrm = {"a", "b", "https://vrm.dev/licenses/1.0/"};
+  options.pipeline.character.plan.front = Direction::minus_x;
+  Workbench human(options);
+  human.open({mesh("free/humanoid-10k.ply.gz")});
+  const auto wait_for = [&](const auto& wanted) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    for (human.update(); !wanted(); human.update()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(1ms);
+    }
+    return true;
+  };
+  ASSERT_TRUE(wait_for([&] { return human.result() != nullptr && !human.busy(); }));
+  human.save(file);
+  ASSERT_TRUE(wait_for([&] { return !human.busy(); }));
+  ASSERT_TRUE(std::filesystem::exists(file)) << human.messages().back().text;
+  EXPECT_NE(human.messages().back().text.find("look along z"), std::string::npos)
+      << human.messages().back().text;
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(bytes.find("https://vrm.dev/licenses/1.0/"), std::string::npos);
+}
+
 TEST_F(Rigging, OfASkeletonThatHasChangedMeanwhileIsNotShown) {
   open_y();
   Pick edge;

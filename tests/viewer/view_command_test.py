@@ -69,6 +69,7 @@ class Options(ViewTest):
                 self.refused(USAGE, "view", Y, *words, *out, says=[words[0], "--stage rig"])
         self.refused(USAGE, "view", Y, "--frame-times", self.folder / "times.csv", *out,
                      says=["--frame-times is for the window"])
+        self.refused(USAGE, "view", Y, "--vrm-name", "a", *out, says=["--vrm-name", "the window"])
 
 
 class Outputs(ViewTest):

@@ -18,6 +18,10 @@ bool has_surface_name(const fs::path& file) {
   return choice_of(surface_formats, lower_extension(without_gz(file))).has_value();
 }
 
+bool has_skeleton_name(const fs::path& file) {
+  return choice_of(skeleton_formats, lower_extension(without_gz(file))).has_value();
+}
+
 bool has_same_triangles(const PolygonSoup& soup, const Triangles& triangles) {
   const auto corners = static_cast<std::size_t>(triangles.size());
   if (soup.corners.size() != corners || soup.offsets.size() != corners / 3 + 1) return false;
@@ -73,7 +77,8 @@ void add_file(Document& document, const fs::path& file, const Monitor& monitor) 
         add_surface(document, read_polygons(file, monitor), file, monitor);
         return;
       } catch (const Error&) {
-        throw skeleton_error;
+        if (has_skeleton_name(file)) throw skeleton_error;
+        throw;
       }
     }
   }
