@@ -31,15 +31,20 @@ bool runs_as_given(const ClosedParts& closed, const Joined& joined, Eigen::Index
   return false;
 }
 
-/// True if a surface without boundary is one-sided to such an extent that cutting it open along the
-/// conflict would leave a shape of its own.
-bool is_one_sided(const Joined& joined, std::int64_t vertices_copied) {
-  constexpr double small_cut = 0.05;  // of the vertices
+/// True if a surface has no boundary, and no orientation.
+bool is_one_sided(const Joined& joined) {
   const HalfEdges half_edges = pair_half_edges(
       joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
   if (half_edges.first_unpaired >= 0) return false;
-  return orient(joined.surface.triangles, half_edges).conflict >= 0 &&
-         double(vertices_copied) > small_cut * double(joined.surface.positions.rows());
+  return orient(joined.surface.triangles, half_edges).conflict >= 0;
+}
+
+/// True for triangles at random, as of a file whose faces have the numbers of other vertices: where
+/// nearly all edges pass through other faces, no side of a face is the inside.
+bool is_tangle(const Surface& component) {
+  constexpr Eigen::Index fewest = 64;  // faces, of which a share says something
+  constexpr double nearly_all = 0.75;
+  return component.triangles.rows() >= fewest && crossing_share(component) > nearly_all;
 }
 
 /// Components one by one, each with its own vertices alone.
@@ -102,17 +107,23 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
   }
   constexpr double more_if_roomy = 4.0 / 3;
   const auto sums = component_sums(closed.surface, judged.orientation, threads);
-  const bool one_sided = is_one_sided(joined, closed.vertices_copied);
+  constexpr double small_cut = 0.05;  // of the vertices
+  const bool was_cut_much =
+      double(closed.vertices_copied) > small_cut * double(joined.surface.positions.rows());
+  // Cut open along its conflict, which leaves a shape of its own.
+  const bool one_sided = was_cut_much && is_one_sided(joined);
   const ComponentsApart components(closed.surface, judged.orientation);
   for (std::size_t c = 0; c < judged.parts.size(); ++c) {
     throw_if_stopped(monitor.stop);
     JudgedPart& part = judged.parts[c];
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;
+    part.is_tangle = was_cut_much && is_tangle(components[c]);
     part.is_body =
         !one_sided && sums[c].encloses_something() &&
         (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&
-                                     !crosses_itself(components[c])));
+                                     !crosses_itself(components[c]))) &&
+        !part.is_tangle;
   }
   return judged;
 }

@@ -16,9 +16,10 @@ namespace curveskel {
 /// One component of the closed parts.
 struct JudgedPart {
   double area = 0;
-  double added_area = 0;  ///< that closes holes
-  double volume = 0;      ///< relative, see ComponentSums
-  bool is_body = false;   ///< else a sheet
+  double added_area = 0;   ///< that closes holes
+  double volume = 0;       ///< relative, see ComponentSums
+  bool is_body = false;    ///< else a sheet
+  bool is_tangle = false;  ///< of triangles that pass through one another everywhere: a sheet
   std::int64_t given_faces = 0;
   std::int64_t faces_as_given = 0;  ///< same orientation as in the file
 };
@@ -30,7 +31,8 @@ struct JudgedParts {
 
 /// A body encloses something and is mostly given: closing it added no more than
 /// `most_added_area`, a third more where it encloses much and does not cross itself. No part of a
-/// one-sided surface is one. `closed` comes from `joined`. Throws Cancelled on a stop.
+/// one-sided surface is one, and no tangle.
+/// `closed` comes from `joined`. Throws Cancelled on a stop.
 [[nodiscard]] JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
                                       const RepairOptions& options, int threads,
                                       const Monitor& monitor);

@@ -142,6 +142,22 @@ const std::string give_thickness =
   refuse(soup, found.str());
 }
 
+/// True if more of the area is a tangle than is not.
+bool is_a_tangle(const JudgedParts& judged) {
+  double balance = 0;
+  for (const JudgedPart& part : judged.parts) balance += part.is_tangle ? part.area : -part.area;
+  return balance > 0;
+}
+
+[[noreturn]] void refuse_tangle(const PolygonSoup& soup) {
+  const std::string file = soup.file.empty() ? "surface" : soup.file.string();
+  throw Error(Fault::input,
+              file +
+                  ": found triangles that pass through one another everywhere, needed a surface "
+                  "with an inside; do the numbers of the faces belong to these vertices? "
+                  "(--wrap all takes what encloses them all)");
+}
+
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
   repairs.wrap_gap = wrapped.gap;
   repairs.wrap_distance = wrapped.distance;
@@ -252,6 +268,7 @@ RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const Rep
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;
   const JudgedParts judged = judge_parts(closed, joined, options, threads, monitor);
+  if (is_a_tangle(judged)) refuse_tangle(soup);
   result.surface = {closed.surface.positions, outward_bodies(closed, judged, result.changes)};
   const auto number = drop_unused_vertices(result.surface);
   count_holes(closed, judged, number, result);

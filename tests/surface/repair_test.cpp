@@ -20,6 +20,7 @@
 #include <curveskel/certificate.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/lids.hpp"
 #include "surface/read/placed_vertices.hpp"
 #include "surface/repair/close_surface.hpp"
@@ -467,6 +468,21 @@ TEST(Refusing, DrawingsInAPlaneAreCalledFlat) {
     }
   }
   EXPECT_EQ(std::string(refusal_of(bent_square(20, 0.3))).find("flat drawing"), std::string::npos);
+}
+
+/// As of faces whose numbers lost all but eight bits. A wrap of them all is there if asked for.
+TEST(Refusing, TrianglesThatPassThroughOneAnotherEverywhere) {
+  for (const shapes::Shape& shape : {shapes::torus(3, 1, 40), shapes::torus(3, 1, 48),
+                                     shapes::torus(3, 1, 56), shapes::torus(2, 1, 64)}) {
+    SCOPED_TRACE(shape.name);
+    Surface tangle = shape.surface;
+    tangle.triangles = tangle.triangles.unaryExpr([](int corner) { return corner % 256; });
+    expect_said(refusal_of(soup_of(tangle)), {"pass through one another", "--wrap all"});
+    RepairOptions options;
+    options.wrap = Wrapping::all;
+    EXPECT_EQ(topology(repair(soup_of(tangle), options, {}).surface).components(), 1);
+    EXPECT_EQ(crossing_share(shape.surface), 0);
+  }
 }
 
 TEST(Refusing, SheetsSinceTheyEncloseNothing) {
