@@ -470,13 +470,13 @@ TEST(Refusing, DrawingsInAPlaneAreCalledFlat) {
   EXPECT_EQ(std::string(refusal_of(bent_square(20, 0.3))).find("flat drawing"), std::string::npos);
 }
 
-/// As of faces whose numbers lost all but eight bits. A wrap of them all is there if asked for.
+/// As of faces with the numbers of other vertices. A wrap of them all is there if asked for.
 TEST(Refusing, TrianglesThatPassThroughOneAnotherEverywhere) {
-  for (const shapes::Shape& shape : {shapes::torus(3, 1, 40), shapes::torus(3, 1, 48),
+  for (const shapes::Shape& shape : {shapes::torus(3, 1, 32), shapes::torus(3, 1, 48),
                                      shapes::torus(3, 1, 56), shapes::torus(2, 1, 64)}) {
     SCOPED_TRACE(shape.name);
     Surface tangle = shape.surface;
-    tangle.triangles = tangle.triangles.unaryExpr([](int corner) { return corner % 256; });
+    tangle.triangles = tangle.triangles.unaryExpr([](int corner) { return corner * 97 % 251; });
     expect_said(refusal_of(soup_of(tangle)), {"pass through one another", "--wrap all"});
     RepairOptions options;
     options.wrap = Wrapping::all;
