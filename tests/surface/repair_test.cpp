@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/certificate.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
@@ -470,17 +471,18 @@ TEST(Refusing, DrawingsInAPlaneAreCalledFlat) {
   EXPECT_EQ(std::string(refusal_of(bent_square(20, 0.3))).find("flat drawing"), std::string::npos);
 }
 
-/// As of faces with the numbers of other vertices. A wrap of them all is there if asked for.
+/// As of faces with the numbers of other vertices.
 TEST(Refusing, TrianglesThatPassThroughOneAnotherEverywhere) {
-  for (const shapes::Shape& shape : {shapes::torus(3, 1, 32), shapes::torus(3, 1, 48),
-                                     shapes::torus(3, 1, 56), shapes::torus(2, 1, 64)}) {
+  for (const shapes::Shape& shape :
+       {shapes::ellipsoid({3, 2, 1}, 4), shapes::torus(3, 1, 32), shapes::torus(3, 1, 48),
+        shapes::torus(3, 1, 56), shapes::torus(2, 1, 64)}) {
     SCOPED_TRACE(shape.name);
     Surface tangle = shape.surface;
-    tangle.triangles = tangle.triangles.unaryExpr([](int corner) { return corner * 97 % 251; });
+    std::mt19937 draw(7);
+    std::vector<int> number(idx(tangle.positions.rows()));
+    for (int& one : number) one = static_cast<int>(draw() % (number.size() / 4));
+    tangle.triangles = tangle.triangles.unaryExpr([&](int corner) { return number[idx(corner)]; });
     expect_said(refusal_of(soup_of(tangle)), {"pass through one another", "--wrap all"});
-    RepairOptions options;
-    options.wrap = Wrapping::all;
-    EXPECT_EQ(topology(repair(soup_of(tangle), options, {}).surface).components(), 1);
     EXPECT_EQ(crossing_share(shape.surface), 0);
   }
 }
