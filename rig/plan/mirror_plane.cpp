@@ -18,13 +18,16 @@ namespace {
 /// A curve beside its images across planes normal to one axis.
 class Mirrored {
  public:
-  Mirrored(const CurveTree& tree, int axis) : tree_(tree), axis_(axis), along_(longer_beside()) {
-    order_.resize(tree.nodes.size());
+  Mirrored(const CurveTree& tree, int axis)
+      : tree_(tree),
+        axis_(axis),
+        along_(longer_beside()),
+        order_(tree.nodes.size()),
+        rank_(tree.nodes.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
       return tree.nodes[a][along_] < tree.nodes[b][along_];
     });
-    rank_.resize(order_.size());
     for (std::size_t rank = 0; rank < order_.size(); ++rank) rank_[order_[rank]] = rank;
   }
 
