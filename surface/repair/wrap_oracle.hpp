@@ -75,7 +75,7 @@ class WrapOracle : public CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Ke
     std::uint64_t query_ = 0;
   };
 
-  static double squared_distance(const Point& p, const CGAL::Bbox_3& box) {
+  static double squared_to_box(const Point& p, const CGAL::Bbox_3& box) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
       const double away = std::max({0.0, (box.min)(k)-p[k], p[k] - (box.max)(k)});
@@ -112,7 +112,7 @@ class WrapOracle : public CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Ke
         : center_(ball.boundary().center()), squared_(ball.boundary().squared_radius()) {}
 
     [[nodiscard]] bool operator()(const CGAL::Bbox_3& box) const {
-      return squared_distance(center_, box) > squared_ * (1 + doubtful);
+      return squared_to_box(center_, box) > squared_ * (1 + doubtful);
     }
 
    private:
@@ -223,7 +223,7 @@ class WrapOracle : public CGAL::Alpha_wraps_3::internal::Triangle_soup_oracle<Ke
       take(query, traits_->closest_point_object()(query, one, point_));
     }
     [[nodiscard]] bool do_intersect(const Point& query, const Node& node) const {
-      const double squared = WrapOracle::squared_distance(query, node.bbox());
+      const double squared = WrapOracle::squared_to_box(query, node.bbox());
       if (squared < squared_ * (1 - doubtful)) return true;
       if (squared > squared_ * (1 + doubtful)) return false;
       return traits_->compare_distance_object()(query, node.bbox(), point_) == CGAL::SMALLER;
