@@ -14,7 +14,7 @@ from .skeleton import Skeleton, read
 
 
 class _KeptRig:
-    """What goes through pickle of a rig: arrays, names and the report."""
+    """All of a rig that goes through pickle: arrays, names and the report."""
 
     def __init__(self, made):
         self.joints, self.parents = numpy.array(made.joints), numpy.array(made.parents)

@@ -38,8 +38,8 @@ struct Extracted {
 [[nodiscard]] RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
                                                  const Monitor& monitor);
 
-/// One extraction, as the options say, without another try of the whole. Components
-/// that stand are not made again. The tries within it are part of try `part_of`.
+/// One extraction, as the options say, without another try of the whole. Components that stand are
+/// not made again. The tries within it are part of try `part_of`.
 [[nodiscard]] Assembled extract_once(const Surface& surface, const ExtractOptions& options,
                                      const Monitor& monitor, SurfaceStages* kept, TryLog& log,
                                      int part_of, StandingResults standing = {});

@@ -21,7 +21,7 @@ double crossing_share(const Surface& surface) {
   constexpr Eigen::Index most_edges = 2000;
   constexpr double ends = 1e-3;  // of the edge, left out at either end
   const SurfaceTree tree(surface);
-  const auto corners = surface.triangles;
+  const Triangles& corners = surface.triangles;
   const Eigen::Index step = std::max<Eigen::Index>(1, corners.rows() / most_edges);
   int asked = 0;
   int crossing = 0;

@@ -14,7 +14,7 @@ struct ForeignFormat {
   std::string_view remedy;  ///< of one who has it for a surface
 };
 
-/// What the file is, if its first bytes tell.
+/// The kind of the file, if its first bytes tell.
 [[nodiscard]] std::optional<ForeignFormat> foreign_format_of(const FileBytes& file);
 
 /// Throws Error(Fault::input) that says what the file is, if its first bytes tell.

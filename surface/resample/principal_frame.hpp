@@ -17,7 +17,7 @@ struct PrincipalFrame {
 
 /// Principal axes of the area's covariance, signs from third moments. Where two of its values are
 /// equal, the least angular moment settles the directions: normal to the sides of a square plate.
-/// Where all three are, the fourth moments do, too: normal to the faces of a cube. A rounder
+/// The fourth moments do where all three are: normal to the faces of a cube. A rounder
 /// shape points to the vertices farthest out; of these to those farthest along the axis that is
 /// settled, and of these to those with the longest edges. At most `most_candidates`; up to these
 /// the result is free of the surface's numbering. O(#V + #F).

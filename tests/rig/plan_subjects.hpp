@@ -228,4 +228,18 @@ inline void expect_near(const BodyPlan& plan, const std::string& role,
   EXPECT_LT((joint->position - place).norm(), off) << role << " at " << joint->position;
 }
 
+/// `axes`: rows to the left, up and ahead, in which the subject stands as it is made.
+inline RigSubject standing_in(RigSubject subject, const Eigen::Matrix3d& axes) {
+  subject.surface.positions *= axes;
+  subject.skeleton.nodes *= axes;
+  return subject;
+}
+
+/// The rows of `standing_in`.
+inline Eigen::Matrix3d frame(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
+  Eigen::Matrix3d axes;
+  axes << up.cross(front).transpose(), up.transpose(), front.transpose();
+  return axes;
+}
+
 }  // namespace curveskel
