@@ -1,6 +1,7 @@
 #include "app/arguments.hpp"
 
 #include <curveskel/read.hpp>
+#include <curveskel/threads.hpp>
 
 namespace curveskel {
 
@@ -70,6 +71,11 @@ void add_mesh(CLI::App& parser, std::filesystem::path& mesh) {
                       ", or one of these gzipped; - is standard input")
       ->required()
       ->type_name("");
+}
+
+void add_threads(CLI::App& parser, int& threads) {
+  add_number(parser, "--threads", threads, 0, most_threads,
+             "at most; 0 = one per core; the result does not depend on it");
 }
 
 void add_time_limit(CLI::App& parser, double& seconds) {

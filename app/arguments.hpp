@@ -72,6 +72,9 @@ void add_surgery(CLI::App& parser, ExtractOptions& options);
 /// MESH, the surface file.
 void add_mesh(CLI::App& parser, std::filesystem::path& mesh);
 
+/// --threads.
+void add_threads(CLI::App& parser, int& threads);
+
 /// --time-limit, in seconds; 0 = none.
 void add_time_limit(CLI::App& parser, double& seconds);
 

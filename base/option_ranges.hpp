@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <curveskel/advanced/names.hpp>
+#include <curveskel/threads.hpp>
 
 namespace curveskel {
 
@@ -18,7 +19,7 @@ struct OptionRange {
   bool above_least = false;  ///< `least` itself is too little
 };
 
-inline constexpr OptionRange thread_range{0, 4096};
+inline constexpr OptionRange thread_range{0, most_threads};
 inline constexpr OptionRange share_range{0, 1};
 inline constexpr OptionRange iteration_range{0, 1e6};
 

@@ -10,6 +10,7 @@ set(CURVESKEL_PUBLIC_BASE
   include/curveskel/error.hpp
   include/curveskel/monitor.hpp
   include/curveskel/surface.hpp
+  include/curveskel/threads.hpp
 )
 set(CURVESKEL_PUBLIC_SURFACE
   include/curveskel/advanced/closed_manifold.hpp

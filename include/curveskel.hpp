@@ -68,6 +68,7 @@
 #include <curveskel/role_names.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/surface.hpp>
+#include <curveskel/threads.hpp>
 #include <curveskel/topology.hpp>
 #include <curveskel/tries.hpp>
 #include <curveskel/view.hpp>

@@ -21,6 +21,7 @@
 #include <curveskel/levels.hpp>
 #include <curveskel/match.hpp>
 #include <curveskel/skeleton_files.hpp>
+#include <curveskel/threads.hpp>
 #include "app/compare_skeletons.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/report.hpp"
@@ -363,9 +364,10 @@ py::tuple match_in_background(const PythonExtraction& a, const PythonExtraction&
   return py::make_tuple(table, match.junctions, std::move(found.vertex_of_a), found.by_vertices);
 }
 
-void bind_extraction(py::module_& module) {
+/// The surface as given and as repaired, and the skeleton in it.
+void bind_shapes(py::class_<PythonExtraction>& bound) {
   using Owner = PythonExtraction;
-  py::class_<Owner>(module, "Extraction")
+  bound
       .def_property_readonly("skeleton",
                              view_of([](const Owner& one) -> const auto& { return one.skeleton; }))
       .def_property_readonly("positions", view_of([](const Owner& one) -> const auto& {
@@ -382,7 +384,13 @@ void bind_extraction(py::module_& module) {
           [](const Owner& one) { return std::pair(one.soup.corners, one.soup.offsets); })
       .def_property_readonly("vertex_of_input", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.vertex_of_input;
-                             }))
+                             }));
+}
+
+/// The verdict, with the changes and warnings that the program's summary has.
+void bind_verdict(py::class_<PythonExtraction>& bound) {
+  using Owner = PythonExtraction;
+  bound
       .def_property_readonly("changes",
                              [](const Owner& one) {
                                std::vector<std::string> lines = one.repaired.changes.lines;
@@ -411,8 +419,12 @@ void bind_extraction(py::module_& module) {
           [](const Owner& one) {
             return dictionary_of(size_of(one.repaired.surface, one.extraction.certificate));
           })
-      .def_property_readonly("level", [](const Owner& one) { return dictionary_of(one.level); })
-      .def("levels", &levels_in_background)
+      .def_property_readonly("level", [](const Owner& one) { return dictionary_of(one.level); });
+}
+
+void bind_tables_and_files(py::class_<PythonExtraction>& bound) {
+  using Owner = PythonExtraction;
+  bound.def("levels", &levels_in_background)
       .def("picture", &picture)
       .def("branch_table",
            [](const Owner& one, int root) { return branch_table(one.skeleton, &one, root); })
@@ -432,6 +444,13 @@ void bind_extraction(py::module_& module) {
              write_file(output, page_of(one));
            })
       .def("save", &save_extraction);
+}
+
+void bind_extraction(py::module_& module) {
+  py::class_<PythonExtraction> bound(module, "Extraction");
+  bind_shapes(bound);
+  bind_verdict(bound);
+  bind_tables_and_files(bound);
 }
 
 void bind_skeleton(py::module_& module) {
@@ -476,6 +495,7 @@ PYBIND11_MODULE(_core, module) {
   const py::class_<PolygonSoup> opaque(module, "PolygonSoup");
   bind_skeleton(module);
   bind_extraction(module);
+  module.attr("most_threads") = most_threads;
   module.def("program_and_version", &program_and_version);
   module.def("soup_of_arrays", &soup_of_arrays);
   module.def("read_surface", &read_file);

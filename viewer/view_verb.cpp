@@ -197,7 +197,7 @@ void add_extraction(CLI::App& parser, ViewOptions& options) {
              "0..1: how small a branch may be");
   add_number(parser, "--fair", extract_options.fair.iterations, 0, 1000000,
              "iterations of fairing before the contraction, for noisy surfaces");
-  add_number(parser, "--threads", extract_options.threads, 0, 4096, "at most; 0 = one per core");
+  add_threads(parser, extract_options.threads);
   add_repair(parser, options.pipeline.repair);
   add_time_limit(parser, options.time_limit_seconds);
 }

@@ -149,8 +149,7 @@ Verb add_contract(CLI::App& program) {
                    "folder for one surface per iteration, 0000.ply the input; merged vertices "
                    "are gone from these")
       ->type_name("DIR");
-  add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(*parser, arguments->options.threads);
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

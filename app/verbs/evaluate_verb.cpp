@@ -202,8 +202,7 @@ Verb add_evaluate(CLI::App& program) {
                    "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of "
                    "another shape is "
                    "an error, too (exit 5), as a wrong topology always is");
-  add_number(*parser, "--threads", arguments->options.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(*parser, arguments->options.threads);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   return {parser, [arguments](Session& session) { return run_evaluate(*arguments, session); }};
 }

@@ -408,8 +408,7 @@ Verb add_extract(CLI::App& program) {
       *parser, "--fair", options.fair.iterations, 0, 1000000,
       "iterations of fairing before the contraction, for noisy surfaces: about ten times the "
       "noise in % of the diagonal");
-  add_number(*parser, "--threads", options.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(*parser, options.threads);
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag(

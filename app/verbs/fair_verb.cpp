@@ -89,8 +89,7 @@ Verb add_fair(CLI::App& program) {
                                                local_solvers, "how the centre of a patch is found");
   add_choice(*parser, "--volume", options.volume, volume_rules, "what becomes of the volume");
   add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
-  add_number(*parser, "--threads", options.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(*parser, options.threads);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +

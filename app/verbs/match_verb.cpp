@@ -147,8 +147,7 @@ Verb add_match(CLI::App& program) {
   options.contraction.program_cache = kernel_cache();
   add_number(*parser, "--detail", options.embed.detail, 0.0, 1.0,
              "0..1: how small a branch may be");
-  add_number(*parser, "--threads", options.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(*parser, options.threads);
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");

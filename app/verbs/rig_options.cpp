@@ -124,8 +124,7 @@ void add_rig_options(CLI::App& parser, RigArguments& arguments) {
   add_joints(parser, arguments);
   add_extraction(parser, arguments);
   exclude_idle(parser, sources);
-  add_number(parser, "--threads", arguments.threads, 0, 4096,
-             "at most; 0 = one per core; the result does not depend on it");
+  add_threads(parser, arguments.threads);
   add_repair(parser, arguments.repair);
   add_time_limit(parser, arguments.time_limit_seconds);
   parser.add_flag("-q,--quiet", arguments.quiet, "print errors only");

@@ -14,7 +14,7 @@ from . import _core
 from .errors import SolverError, UsageError
 
 
-MOST_THREADS = 4096  # as the program has it
+MOST_THREADS = _core.most_threads
 
 
 class _Listener:

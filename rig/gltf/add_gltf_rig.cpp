@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/free_name.hpp"
 #include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"
@@ -17,19 +18,17 @@ bool is_identity(const Eigen::Affine3d& place) {
   return place.matrix() == Eigen::Matrix4d::Identity();
 }
 
-std::string free_name(const OrderedJson& nodes, const std::string& name) {
+std::string free_among(const OrderedJson& nodes, const std::string& name) {
   std::set<std::string> taken;
   for (const OrderedJson& node : nodes) taken.insert(node.value("name", ""));
-  std::string free = name;
-  for (int k = 2; taken.contains(free); ++k) free = name + " " + std::to_string(k);
-  return free;
+  return free_name(taken, name, " ");
 }
 
 /// In the scene, at its origin.
 std::size_t add_holder(OrderedJson& file, const std::string& name) {
   OrderedJson& nodes = array_in(file, "nodes");
   const std::size_t holder = nodes.size();
-  nodes.push_back({{"name", free_name(nodes, as_utf8(name))}});
+  nodes.push_back({{"name", free_among(nodes, as_utf8(name))}});
   if (file.contains("scenes")) {
     OrderedJson& scene = file["scenes"].at(file.value("scene", std::size_t{0}));
     array_in(scene, "nodes").push_back(holder);

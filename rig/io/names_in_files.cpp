@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/free_name.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "rig/io/rig_writers.hpp"
@@ -33,11 +34,7 @@ std::vector<std::string> names_by(const Rig& rig, NameRule rule) {
   for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
     std::string name = by_rule(as_utf8(rig.names[static_cast<std::size_t>(joint)]), rule);
     if (name.empty()) name = "joint_" + std::to_string(joint + 1);
-    std::string unique = name;
-    for (int copy = 2; !taken.insert(unique).second; ++copy) {
-      unique = name + "_" + std::to_string(copy);
-    }
-    names.push_back(std::move(unique));
+    names.push_back(free_name(taken, name, "_"));
   }
   return names;
 }
