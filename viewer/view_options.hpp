@@ -47,7 +47,7 @@ struct ViewOptions {
   Look look;
   Preset preset = Preset::standard;
   RunOptions pipeline;
-  VrmMeta vrm;  ///< of rigs that the window saves as .vrm
+  VrmMeta vrm;  ///< of rigs that the window saves as .vrm, to begin with
 };
 
 }  // namespace curveskel::viewer

@@ -233,5 +233,37 @@ TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {
   EXPECT_EQ(bench.messages().back().text, "opening b.off");
 }
 
+TEST_F(Typed, AVrmFileIsNotChosenBeforeItsTextsAreThere) {
+  const OwnFolder folder;
+  panels.browser.go_to(folder.path());
+  const auto chosen_by_enter = [&](const char* name) {
+    panels.browser.ask(FileBrowser::Purpose::save, "Save the rig", name);
+    settle();
+    type(GLFW_KEY_ENTER);
+    return !panels.browser.shown();
+  };
+  EXPECT_FALSE(chosen_by_enter("y.vrm"));
+  EXPECT_FALSE(chosen_by_enter("Y.VRM"));
+  bench.vrm = {"a figure", "an author", "no address"};
+  EXPECT_FALSE(chosen_by_enter("y.vrm"));
+  EXPECT_FALSE(bench.making_rig());
+  EXPECT_TRUE(chosen_by_enter("y.glb")) << "which needs none of them";
+  EXPECT_TRUE(wait_for(bench, [&] { return !bench.busy(); }));
+  bench.vrm.licence_url = "https://vrm.dev/licenses/1.0/";
+  EXPECT_TRUE(chosen_by_enter("z.vrm"));
+}
+
+// A field beneath the list is reached by Tab from the name, as fields of forms are.
+TEST_F(Typed, TheTextsOfAVrmFileAreTypedInTheDialogue) {
+  panels.browser.ask(FileBrowser::Purpose::save, "Save the rig", "y.vrm");
+  settle();
+  for (int tabs = 0; tabs < 12 && bench.vrm.author.empty(); ++tabs) {
+    type(GLFW_KEY_TAB);
+    ImGui::GetIO().AddInputCharactersUTF8("a");
+    settle();
+  }
+  EXPECT_EQ(bench.vrm.author, "a");
+}
+
 }  // namespace
 }  // namespace curveskel::viewer::panel_keys_laws

@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <system_error>
@@ -125,7 +126,58 @@ bool FileBrowser::draw_name() {
   return ImGui::InputText("##name", &name_, flags, choose_beside, this);
 }
 
-std::optional<fs::path> FileBrowser::draw() {
+bool FileBrowser::asks_for(const FieldsForName& fields) const {
+  const std::size_t letters = fields.ending.size();
+  if (purpose_ != Purpose::save || letters == 0 || name_.size() < letters) return false;
+  return std::equal(
+      fields.ending.begin(), fields.ending.end(), name_.end() - letters,
+      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
+}
+
+float FileBrowser::height_of_hint() const {
+  if (hint_.empty()) return 0;
+  const float width = ImGui::GetContentRegionAvail().x;
+  return ImGui::GetStyle().ItemSpacing.y +
+         ImGui::CalcTextSize(hint_.c_str(), nullptr, false, width).y;
+}
+
+void FileBrowser::draw_hint() const {
+  if (hint_.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", hint_.c_str());
+  ImGui::PopStyleColor();
+}
+
+bool FileBrowser::draw_choice() {
+  if (opens_now_ || focuses_) ImGui::SetKeyboardFocusHere();
+  opens_now_ = focuses_ = false;
+  const float button = 5 * ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(-2 * button - 2 * ImGui::GetStyle().ItemSpacing.x - 1);
+  const bool entered = draw_name();
+  frames_to_open_ = ImGui::IsItemActive() ? 0 : std::max(frames_to_open_ - 1, 0);
+  ImGui::SameLine();
+  const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {button, 0});
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {button, 0})) shown_ = false;
+  return (entered || pressed) && !name_.empty();
+}
+
+void FileBrowser::refuse_unready(std::optional<fs::path>& chosen, const FieldsForName& fields) {
+  if (!chosen) return;
+  std::error_code error;
+  if (fs::is_directory(*chosen, error)) {
+    go_to(*chosen);
+    name_.clear();
+    focuses_ = true;
+    chosen.reset();
+    return;
+  }
+  if (!asks_for(fields)) return;
+  error_ = fields.missing();
+  if (!error_.empty()) chosen.reset();
+}
+
+std::optional<fs::path> FileBrowser::draw(const FieldsForName& fields) {
   if (!shown_) return std::nullopt;
   const char* const title = title_.c_str();
   if (opens_now_) ImGui::OpenPopup(title);
@@ -138,45 +190,24 @@ std::optional<fs::path> FileBrowser::draw() {
   std::optional<fs::path> chosen;
   if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
   ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
-  if (!error_.empty()) ImGui::TextColored({0.9F, 0.2F, 0.2F, 1}, "%s", error_.c_str());
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float hint =
-      hint_.empty() ? 0
-                    : style.ItemSpacing.y + ImGui::CalcTextSize(hint_.c_str(), nullptr, false,
-                                                                ImGui::GetContentRegionAvail().x)
-                                                .y;
-  const float line = ImGui::GetFrameHeightWithSpacing() + hint;
+  if (!error_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {0.9F, 0.2F, 0.2F, 1});
+    ImGui::TextWrapped("%s", error_.c_str());
+    ImGui::PopStyleColor();
+  }
+  const int lines = 1 + (asks_for(fields) ? fields.lines : 0);
+  const float below =
+      static_cast<float>(lines) * ImGui::GetFrameHeightWithSpacing() + height_of_hint();
   fs::path next;
-  if (ImGui::BeginChild("files", {0, -line}, true, ImGuiWindowFlags_NavFlattened)) {
+  if (ImGui::BeginChild("files", {0, -below}, true, ImGuiWindowFlags_NavFlattened)) {
     draw_entries(next, chosen);
   }
   ImGui::EndChild();
   if (!next.empty()) go_to(next);
-  if (!hint_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", hint_.c_str());
-    ImGui::PopStyleColor();
-  }
-  if (opens_now_ || focuses_) ImGui::SetKeyboardFocusHere();
-  opens_now_ = focuses_ = false;
-  const float button = 5 * letter;
-  ImGui::SetNextItemWidth(-2 * button - 2 * style.ItemSpacing.x - 1);
-  const bool entered = draw_name();
-  frames_to_open_ = ImGui::IsItemActive() ? 0 : std::max(frames_to_open_ - 1, 0);
-  ImGui::SameLine();
-  const bool pressed = ImGui::Button(purpose_ == Purpose::open ? "Open" : "Save", {button, 0});
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel", {button, 0})) shown_ = false;
-  if ((entered || pressed) && !name_.empty()) chosen = named();
-  if (chosen) {
-    std::error_code error;
-    if (fs::is_directory(*chosen, error)) {
-      go_to(*chosen);
-      name_.clear();
-      focuses_ = true;
-      chosen.reset();
-    }
-  }
+  draw_hint();
+  if (lines > 1) fields.draw();
+  if (draw_choice()) chosen = named();
+  refuse_unready(chosen, fields);
   if (chosen) shown_ = false;
   if (!shown_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

@@ -9,6 +9,14 @@
 
 namespace curveskel::viewer {
 
+/// Controls beneath the list of files, for names with this ending.
+struct FieldsForName {
+  std::string ending;  ///< in lower case; none: never
+  int lines = 0;
+  std::function<void()> draw;
+  std::function<std::string()> missing;  ///< why such a file cannot be saved yet; empty: it can
+};
+
 class FileBrowser {
  public:
   enum class Purpose { open, save };
@@ -17,8 +25,9 @@ class FileBrowser {
   /// `hint`: what may be opened, or how names are understood.
   void ask(Purpose purpose, const std::string& title, const std::string& suggested_name,
            const std::string& hint = {});
-  /// Within an ImGui frame; the chosen file, once.
-  [[nodiscard]] std::optional<std::filesystem::path> draw();
+  /// Within an ImGui frame; the chosen file, once. One that is to be saved and lacks something
+  /// is not chosen: the dialogue says why, and stays.
+  [[nodiscard]] std::optional<std::filesystem::path> draw(const FieldsForName& fields = {});
   /// As it stands in the field.
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Purpose purpose() const { return purpose_; }
@@ -37,6 +46,13 @@ class FileBrowser {
   };
   void list();
   void draw_entries(std::filesystem::path& next, std::optional<std::filesystem::path>& chosen);
+  [[nodiscard]] float height_of_hint() const;
+  void draw_hint() const;
+  /// The field for the name and the buttons; true if a file was chosen by them.
+  [[nodiscard]] bool draw_choice();
+  /// A folder is entered, a file that lacks something stays unchosen.
+  void refuse_unready(std::optional<std::filesystem::path>& chosen, const FieldsForName& fields);
+  [[nodiscard]] bool asks_for(const FieldsForName& fields) const;
   /// True if a name was typed and ended by Enter.
   [[nodiscard]] bool draw_name();
   /// The name of the entry so many lines from the one that is named.

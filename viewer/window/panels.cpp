@@ -1,6 +1,7 @@
 #include "viewer/window/panels.hpp"
 
 #include <fmt/core.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -195,8 +196,34 @@ void hint(const Workbench& bench, const Area& picture) {
                                           ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
 }
 
+std::string missing_of(const VrmMeta& meta) {
+  if (meta.name.empty() || meta.author.empty() || meta.licence_url.empty()) {
+    return "a .vrm file needs the name of its figure, an author and a licence: the fields below";
+  }
+  try {
+    require_whole(meta);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// VRM's files must have these.
+FieldsForName vrm_fields(VrmMeta& meta) {
+  const auto draw = [&meta] {
+    const auto field = [](const char* label, const char* hint, std::string& text) {
+      ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
+      ImGui::InputTextWithHint(label, hint, &text);
+    };
+    field("name", "of the figure", meta.name);
+    field("author", "who made the figure", meta.author);
+    field("licence", "https://vrm.dev/licenses/1.0/", meta.licence_url);
+  };
+  return {".vrm", 3, draw, [&meta] { return missing_of(meta); }};
+}
+
 void browser(Workbench& bench, Panels& panels) {
-  const auto chosen = panels.browser.draw();
+  const auto chosen = panels.browser.draw(vrm_fields(bench.vrm));
   if (!chosen) return;
   if (panels.browser.purpose() == FileBrowser::Purpose::open) {
     bench.open({*chosen});
@@ -397,6 +424,7 @@ void for_each_name(const Workbench& bench, const Panels& panels,
   for (const std::filesystem::path& file : bench.files()) visit(file.string());
   for (const Message& message : bench.messages()) visit(message.text);
   panels.browser.for_each_name(visit);
+  for (const std::string& text : {bench.vrm.name, bench.vrm.author}) visit(text);
   if (const auto rig = bench.scene->rig()) {
     for (const std::string& name : rig->names) visit(name);
   }

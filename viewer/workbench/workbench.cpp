@@ -49,6 +49,7 @@ Monitor heeding(const std::stop_source& source) {
 Workbench::Workbench(ViewOptions options)
     : scene(std::make_shared<Scene>(Document{})),
       pipeline(options.pipeline),
+      vrm(options.vrm),
       options_(std::move(options)),
       run_memory_(std::make_shared<RunMemory>()) {
   news_.state = Run::State::finished;

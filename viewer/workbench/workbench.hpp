@@ -202,6 +202,7 @@ class Workbench {
 
   std::shared_ptr<Scene> scene;  ///< never null
   RunOptions pipeline;
+  VrmMeta vrm;  ///< of rigs that are saved as .vrm
   /// Set when a person should be asked whether corrections that are in no file may be lost: for
   /// these files, or, if there are none, for leaving.
   std::optional<std::vector<std::filesystem::path>> wants_to_abandon;

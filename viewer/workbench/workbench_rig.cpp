@@ -213,22 +213,8 @@ void Workbench::set_role(const std::string& role) {
       (role.empty() ? " has no role now" : " is now the " + role));
 }
 
-namespace {
-
-/// The window has no field for them.
-void require_meta_from_start(const VrmMeta& meta) {
-  try {
-    require_whole(meta);
-  } catch (const Error& missing) {
-    throw Error(missing.fault(),
-                std::string(missing.what()) + "; these are options of curveskel view");
-  }
-}
-
-}  // namespace
-
 void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
-  if (format == RigFormat::vrm) require_meta_from_start(options_.vrm);
+  if (format == RigFormat::vrm) require_whole(vrm);
   if (!has_rig() || rigging_.valid()) {
     save_rig_to_ = file;
     if (!rigging_.valid()) rig();
@@ -242,15 +228,15 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   std::string without;  // why the file's own content is not in what is saved
   try {
     constexpr bool as_bound = false;  // the viewer's surface rests as shown
-    const EditOptions options{format,       OldRig::replaced, name + " rig", program_and_version(),
-                              options_.vrm, as_bound};
+    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(),
+                              vrm,    as_bound};
     edited = format_rig_into(document.mesh_file, rig, options);
   } catch (const Error& error) {
     without = error.what();
   }
-  write_file(file, edited ? edited->bytes
-                          : format_rig(document.surface, rig, format, name, program_and_version(),
-                                       options_.vrm));
+  write_file(file,
+             edited ? edited->bytes
+                    : format_rig(document.surface, rig, format, name, program_and_version(), vrm));
   history_.note_saved();
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
