@@ -49,7 +49,8 @@ struct Branch {
 /// Precondition: `edges` are as described at Edges. O(#N + #E log #E).
 [[nodiscard]] std::vector<Branch> branches(const CurveSkeleton& skeleton);
 
-/// #E: the number of the branch that each edge lies in. O(#N + #E log #E).
+/// #E: the number of the branch that each edge lies in. Throws Error(Fault::input) where edges are
+/// not sorted. O(#N + #E log #E).
 [[nodiscard]] std::vector<int> branch_of_edges(const CurveSkeleton& skeleton);
 
 /// The row of `edges` between two nodes, -1 if there is none. O(log #E).

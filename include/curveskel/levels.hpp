@@ -35,6 +35,7 @@ struct BranchLevel {
   double merge = -1;  ///< between two junctions: their distance over the sum of their radii. Under
                       ///< 1 they may be drawn as one. -1 for other branches, and without radii
 };
+/// Throws Error(Fault::input) where edges are not sorted (see Edges).
 [[nodiscard]] std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton);
 
 /// The edges whose life is at least the limit, and their nodes, which stay where they are; nodes

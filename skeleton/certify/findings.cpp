@@ -6,6 +6,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/certify/measured_curve.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 
@@ -23,8 +24,8 @@ Findings findings(const SurfaceTree& tree, double diagonal, const CurveSkeleton&
       continue;
     }
     const std::vector<int>& along = curve.branches[idx(sample.branch)].nodes;
-    const int edge =
-        edge_between(skeleton, along[idx(sample.segment)], along[idx(sample.segment) + 1]);
+    const int edge = require_edge(skeleton, along[idx(sample.segment)],
+                                  along[idx(sample.segment) + 1], "findings");
     Exit& exit = by_edge[edge];
     exit.edge = edge;
     exit.length += sample.length;

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 
@@ -52,7 +53,8 @@ std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
   for (std::size_t b = 0; b < all.size(); ++b) {
     const std::vector<int>& nodes = all[b].nodes;
     for (std::size_t k = 1; k < nodes.size(); ++k) {
-      branch_of_edge[idx(edge_between(skeleton, nodes[k - 1], nodes[k]))] = static_cast<int>(b);
+      const int edge = require_edge(skeleton, nodes[k - 1], nodes[k], "branch_of_edges");
+      branch_of_edge[idx(edge)] = static_cast<int>(b);
     }
   }
   return branch_of_edge;

@@ -26,6 +26,15 @@ void require_sound(const CurveSkeleton& skeleton, std::string_view purpose) {
   }
 }
 
+int require_edge(const CurveSkeleton& skeleton, int a, int b, std::string_view purpose) {
+  const int edge = edge_between(skeleton, a, b);
+  if (edge >= 0) return edge;
+  throw Error(Fault::input, std::string(purpose) + ": the edge between nodes " + std::to_string(a) +
+                                " and " + std::to_string(b) +
+                                " is not in its place, needed rows of edges sorted, the lower "
+                                "node first in each");
+}
+
 void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
                          std::string_view purpose) {
   const Eigen::Index mapped = skeleton.node_of_vertex.size();

@@ -12,7 +12,12 @@ namespace curveskel {
 /// radii are as many as nodes or none, and no vertex has a node that there is not. O(#N + #E + #V).
 void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
 
-/// The same unless node_of_vertex is by the surface's vertices, or empty. O(1).
+/// `edge_between` of neighbours on a branch. Throws Error(Fault::input) that begins with `purpose`
+/// where no row is found, as in edges that are not sorted. O(log #E).
+[[nodiscard]] int require_edge(const CurveSkeleton& skeleton, int a, int b,
+                               std::string_view purpose);
+
+/// As `require_sound`, unless node_of_vertex is by the surface's vertices, or empty. O(1).
 void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
                          std::string_view purpose);
 

@@ -8,6 +8,7 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "skeleton/embed/tuning.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -222,7 +223,7 @@ std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton) {
   std::vector<std::vector<int>> at(degree.size());  // the branches that end in a node
   for (std::size_t b = 0; b < all.size(); ++b) {
     const std::vector<int>& nodes = all[b].nodes;
-    levels[b].life = lives[edge_between(skeleton, nodes[0], nodes[1])];
+    levels[b].life = lives[require_edge(skeleton, nodes[0], nodes[1], "branch_levels")];
     const int first = nodes.front();
     const int last = nodes.back();
     at[idx(first)].push_back(static_cast<int>(b));

@@ -7,8 +7,13 @@
 #include <map>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
 
 namespace curveskel::curve_skeleton_laws {
 namespace {
@@ -113,6 +118,33 @@ TEST(Branches, OfALollipopAreTheStickAndTheLoop) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].nodes, (std::vector<int>{0, 1}));
   EXPECT_EQ(found[1].nodes, (std::vector<int>{1, 2, 3, 4, 1}));
+}
+
+// The row of an edge is sought in sorted rows; where it was not found, memory before the first was
+// written.
+TEST(Branches, OfEdgesThatAreNotSortedAreRightOrRefused) {
+  int refused = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    CurveSkeleton skeleton = random_graph(seed);
+    std::mt19937 random(seed);
+    for (Eigen::Index e = skeleton.edges.rows() - 1; e > 0; --e) {
+      const auto other = static_cast<Eigen::Index>(random() % idx(e + 1));
+      skeleton.edges.row(e).swap(skeleton.edges.row(other));
+    }
+    for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
+      if (random() % 4 == 0) std::swap(skeleton.edges(e, 0), skeleton.edges(e, 1));
+    }
+    try {
+      const std::vector<int> branch = branch_of_edges(skeleton);
+      EXPECT_EQ(std::count(branch.begin(), branch.end(), -1), 0) << seed;
+      EXPECT_EQ(branch_levels(skeleton).size(), branches(skeleton).size()) << seed;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::input);
+      EXPECT_NE(std::string(error.what()).find("sorted"), std::string::npos) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
 }
 
 TEST(GraphTopology, CycleRankIsWhatTheBranchesOfADepthFirstTreeLeaveOut) {
