@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "viewer/window/reading_order.hpp"
 
@@ -174,7 +175,9 @@ void FileBrowser::refuse_unready(std::optional<fs::path>& chosen, const FieldsFo
   }
   if (!asks_for(fields)) return;
   error_ = fields.missing();
-  if (!error_.empty()) chosen.reset();
+  if (error_.empty()) return;
+  chosen.reset();
+  focuses_field_ = true;
 }
 
 std::optional<fs::path> FileBrowser::draw(const FieldsForName& fields) {
@@ -205,8 +208,8 @@ std::optional<fs::path> FileBrowser::draw(const FieldsForName& fields) {
   ImGui::EndChild();
   if (!next.empty()) go_to(next);
   draw_hint();
-  if (lines > 1) fields.draw();
-  if (draw_choice()) chosen = named();
+  const bool entered = lines > 1 && fields.draw(std::exchange(focuses_field_, false));
+  if (draw_choice() || entered) chosen = named();
   refuse_unready(chosen, fields);
   if (chosen) shown_ = false;
   if (!shown_) ImGui::CloseCurrentPopup();

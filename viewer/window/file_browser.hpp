@@ -13,7 +13,8 @@ namespace curveskel::viewer {
 struct FieldsForName {
   std::string ending;  ///< in lower case; none: never
   int lines = 0;
-  std::function<void()> draw;
+  /// Of true: the keys are for the first that lacks a text. Returns true where Enter ended one.
+  std::function<bool(bool)> draw;
   std::function<std::string()> missing;  ///< why such a file cannot be saved yet; empty: it can
 };
 
@@ -64,7 +65,8 @@ class FileBrowser {
   std::string hint_;
   bool shown_ = false;
   bool opens_now_ = false;
-  bool focuses_ = false;    // on the name
+  bool focuses_ = false;  // on the name
+  bool focuses_field_ = false;
   bool scrolls_ = false;    // to the entry that is named
   int frames_to_open_ = 0;  // at most
   std::filesystem::path folder_;

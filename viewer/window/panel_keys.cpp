@@ -80,15 +80,18 @@ bool PanelKeys::begin(bool dialogue) {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   ImGuiIO& io = ImGui::GetIO();
   io.KeyMap[ImGuiKey_Tab] = -1;
-  if (std::exchange(asked_before_, 0) != 0) {
-    // ImGui would begin to edit a field that it comes to so.
-    g.NavActivateId = g.NavActivateInputId = 0;
+  const bool has_come = std::exchange(asked_before_, 0) != 0;
+  if (has_come) {
+    // ImGui begins to edit a field that it comes to so: for dialogues alone, where texts are typed
+    // one after the other.
+    g.NavActivateId = 0;
+    if (!of_dialogue_) g.NavActivateInputId = 0;
     g.NavDisableHighlight = false;
     g.NavDisableMouseHover = true;
   }
   const bool clicked = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked),
                                    [](bool one) { return one; });
-  if (on_ && g.NavActivateInputId != 0) {
+  if (on_ && !has_come && g.NavActivateInputId != 0) {
     // In ImGui 1.86, Enter is for fields alone.
     g.NavActivateId = g.NavActivateDownId = g.NavActivatePressedId = g.NavActivateInputId;
   }

@@ -198,7 +198,8 @@ void hint(const Workbench& bench, const Area& picture) {
 
 std::string missing_of(const VrmMeta& meta) {
   if (meta.name.empty() || meta.author.empty() || meta.licence_url.empty()) {
-    return "a .vrm file needs the name of its figure, an author and a licence: the fields below";
+    return "a .vrm file needs the name of its figure, an author and a licence: fill in the fields "
+           "below";
   }
   try {
     require_whole(meta);
@@ -210,14 +211,17 @@ std::string missing_of(const VrmMeta& meta) {
 
 /// VRM's files must have these.
 FieldsForName vrm_fields(VrmMeta& meta) {
-  const auto draw = [&meta] {
-    const auto field = [](const char* label, const char* hint, std::string& text) {
+  const auto draw = [&meta](bool focuses) {
+    const auto field = [&focuses](const char* label, const char* hint, std::string& text,
+                                  bool lacks) {
+      if (lacks && std::exchange(focuses, false)) ImGui::SetKeyboardFocusHere();
       ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
-      ImGui::InputTextWithHint(label, hint, &text);
+      return ImGui::InputTextWithHint(label, hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
     };
-    field("name", "of the figure", meta.name);
-    field("author", "who made the figure", meta.author);
-    field("licence", "https://vrm.dev/licenses/1.0/", meta.licence_url);
+    const bool first = field("figure", "its name", meta.name, meta.name.empty());
+    const bool second = field("author", "who made the figure", meta.author, meta.author.empty());
+    return field("licence", "https://vrm.dev/licenses/1.0/", meta.licence_url, true) || first ||
+           second;
   };
   return {".vrm", 3, draw, [&meta] { return missing_of(meta); }};
 }
