@@ -13,6 +13,7 @@
 #include <curveskel/monitor.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/joints/rooted_tree.hpp"
+#include "surface/mesh/meeting_boxes.hpp"
 
 namespace curveskel {
 namespace {
@@ -190,18 +191,29 @@ class ContactFinder {
 
   /// The smaller one first.
   [[nodiscard]] std::vector<std::pair<int, int>> near_pairs() const {
+    // Two pieces within the thickness of either meet once each has grown by its own.
+    constexpr double rounding = 1e-9;
+    std::vector<Eigen::AlignedBox3d> grown(pieces_.size());
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const Piece& piece = pieces_[k];
+      if (piece.area <= 0) continue;
+      const double size = piece.box.min().cwiseAbs().maxCoeff() + piece.box.sizes().maxCoeff();
+      const Vector3d by = Vector3d::Constant(piece.thickness + rounding * size);
+      grown[k] = {piece.box.min() - by, piece.box.max() + by};
+    }
     std::vector<std::pair<int, int>> near;
-    for (std::size_t a = 0; a < pieces_.size(); ++a) {
+    for_meeting_boxes(grown, [&](int one, int other) {
       throw_if_stopped(stop_);
-      for (std::size_t b = a + 1; b < pieces_.size(); ++b) {
-        const Piece& one = pieces_[a];
-        const Piece& other = pieces_[b];
-        if (one.area <= 0 || other.area <= 0) continue;
-        if (one.box.exteriorDistance(other.box) > limit_of(one, other)) continue;
-        const bool is_smaller = one.area <= other.area;
-        near.emplace_back(static_cast<int>(is_smaller ? a : b),
-                          static_cast<int>(is_smaller ? b : a));
+      const auto& [a, b] = std::minmax(one, other);
+      if (pieces_[idx(a)].box.exteriorDistance(pieces_[idx(b)].box) >
+          limit_of(pieces_[idx(a)], pieces_[idx(b)])) {
+        return;
       }
+      near.emplace_back(a, b);
+    });
+    std::sort(near.begin(), near.end());
+    for (auto& [a, b] : near) {
+      if (pieces_[idx(a)].area > pieces_[idx(b)].area) std::swap(a, b);
     }
     return near;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -72,17 +73,19 @@ class Hanging {
       if (is_ground[part] == 0) open.push_back(part);
     }
     std::size_t last = 0;
+    std::vector<std::size_t> order;  // in which they came to hang together
     while (true) {
       mark_contacts(last);
       for (const std::size_t part : open) link(part, last);
-      for (std::size_t part = above; part < parts_.size(); ++part) {
-        if (is_ground[part] == 0) link(part, last);
-      }
+      order.push_back(last);
       if (open.empty()) break;
       const auto next = std::min_element(open.begin(), open.end(),
                                          [this](auto a, auto b) { return links_[a] < links_[b]; });
       last = *next;
       open.erase(next);
+    }
+    for (std::size_t part = above; part < parts_.size(); ++part) {
+      if (is_ground[part] == 0) link_to_nearest(part, order);
     }
     std::vector<Hinge> hinges;
     for (const Link& link : links_) {
@@ -157,13 +160,31 @@ class Hanging {
     return whole;
   }
 
+  /// Part by part, so that the boxes asked again and again stay in the cache.
+  void link_to_nearest(std::size_t part, const std::vector<std::size_t>& all_above) {
+    std::map<std::size_t, int> contact_with;
+    for (const auto& [other, contact] : contacts_[part]) contact_with[other] = contact;
+    for (const std::size_t above : all_above) {
+      const auto found = contact_with.find(above);
+      if (found == contact_with.end()) {
+        link_by_nodes(part, above);
+      } else {
+        links_[part] = std::min(links_[part], link_by_contact(found->second, part));
+      }
+    }
+  }
+
   /// Takes the link to `above`, of which the contacts are marked, if it is the best so far.
   void link(std::size_t part, std::size_t above) {
-    Link& best = links_[part];
     if (marked_[part].above == above) {
-      best = std::min(best, link_by_contact(marked_[part].contact, part));
-      return;
+      links_[part] = std::min(links_[part], link_by_contact(marked_[part].contact, part));
+    } else {
+      link_by_nodes(part, above);
     }
+  }
+
+  void link_by_nodes(std::size_t part, std::size_t above) {
+    Link& best = links_[part];
     const Whole& own = wholes_[part];
     const Whole& its = wholes_[above];
     const double least = least_length(own.box.exteriorDistance(its.box), own.radius, its.radius);

@@ -78,6 +78,7 @@ void BodySoFar::add(int number, const Component& component, int threads) {
   for (const SurfaceTree::Ball& ball : piece.balls) {
     most_thickness_ = std::max(most_thickness_, ball.radius);
   }
+  piece_of_number_[number] = pieces_.size();
   pieces_.push_back(std::move(piece));
 }
 
@@ -125,10 +126,7 @@ BodySoFar::NearestPlace BodySoFar::nearest_of(const std::vector<const Piece*>& p
 }
 
 double BodySoFar::thickness_at(const NearestPlace& contact) const {
-  const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece& one) {
-    return one.number == contact.component;
-  });
-  return largest_about(piece->balls, contact.point);
+  return largest_about(pieces_[piece_of_number_.at(contact.component)].balls, contact.point);
 }
 
 double BodySoFar::thickness_within(const ProbedPart& part, double distance) const {

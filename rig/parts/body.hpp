@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <vector>
 
 #include <curveskel/advanced/tree.hpp>
@@ -54,6 +55,7 @@ class BodySoFar {
                                                const Eigen::Vector3d& place, const Piece*& guess);
 
   std::vector<Piece> pieces_;
+  std::map<int, std::size_t> piece_of_number_;
   double most_thickness_ = 0;
 };
 

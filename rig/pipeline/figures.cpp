@@ -17,6 +17,7 @@
 #include "rig/joints/limb_name.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "surface/mesh/component_areas.hpp"
+#include "surface/mesh/meeting_boxes.hpp"
 
 namespace curveskel {
 namespace {
@@ -35,12 +36,9 @@ Boxes boxes_of(const Surface& surface, const Eigen::VectorXi& group, int count) 
 /// (-1: none) meets no other.
 std::vector<int> groups_that_meet(const Boxes& boxes, int alone) {
   UnionFind joined(static_cast<std::int64_t>(boxes.size()));
-  for (int a = 0; a < static_cast<int>(boxes.size()); ++a) {
-    for (int b = 0; b < a; ++b) {
-      if (a == alone || b == alone) continue;
-      if (boxes[idx(a)].intersects(boxes[idx(b)])) joined.unite(a, b);
-    }
-  }
+  for_meeting_boxes(boxes, [&](int a, int b) {
+    if (a != alone && b != alone) joined.unite(a, b);
+  });
   return joined.numbers();
 }
 

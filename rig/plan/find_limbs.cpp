@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -38,17 +39,7 @@ class PairFinder {
  private:
   /// Left tips and their images: the nearest pairs first.
   void pair_tips() {
-    std::vector<std::tuple<double, int, int>> candidates;
-    for (const int left : tips_) {
-      if (tree_.aside(left) <= in_plane * tree_.size) continue;
-      for (const int right : tips_) {
-        if (tree_.aside(right) >= -in_plane * tree_.size) continue;
-        Vector3d image = tree_.nodes[idx(right)];
-        image.x() = 2 * tree_.middle - image.x();
-        const double off = (image - tree_.nodes[idx(left)]).norm();
-        if (off < alike * tree_.size) candidates.emplace_back(off, left, right);
-      }
-    }
+    std::vector<std::tuple<double, int, int>> candidates = images_near();
     std::sort(candidates.begin(), candidates.end());
     std::vector<char> taken(tree_.nodes.size(), 0);
     for (const auto& [off, left, right] : candidates) {
@@ -63,6 +54,40 @@ class PairFinder {
         found_.ends.push_back(tip);
       }
     }
+  }
+
+  /// Left tips, and right ones whose images are near them: those in the neighbouring cells.
+  [[nodiscard]] std::vector<std::tuple<double, int, int>> images_near() const {
+    using Cell = std::array<int, 3>;
+    std::vector<std::tuple<double, int, int>> near;
+    if (!(tree_.size > 0)) return near;
+    const double side = (1 + 1e-9) * alike * tree_.size;  // more than rounding takes
+    const auto cell_of = [&](const Vector3d& place) {
+      const Eigen::Array3d cell =
+          ((place - tree_.nodes[idx(tips_.front())]) / side).array().floor();
+      return Cell{static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2])};
+    };
+    std::map<Cell, std::vector<std::pair<int, Vector3d>>> images;
+    for (const int right : tips_) {
+      if (tree_.aside(right) >= -in_plane * tree_.size) continue;
+      Vector3d image = tree_.nodes[idx(right)];
+      image.x() = 2 * tree_.middle - image.x();
+      images[cell_of(image)].emplace_back(right, image);
+    }
+    for (const int left : tips_) {
+      if (tree_.aside(left) <= in_plane * tree_.size) continue;
+      const Cell own = cell_of(tree_.nodes[idx(left)]);
+      for (int k = 0; k < 27; ++k) {
+        const auto found =
+            images.find({own[0] + k / 9 - 1, own[1] + k / 3 % 3 - 1, own[2] + k % 3 - 1});
+        if (found == images.end()) continue;
+        for (const auto& [right, image] : found->second) {
+          const double off = (image - tree_.nodes[idx(left)]).norm();
+          if (off < alike * tree_.size) near.emplace_back(off, left, right);
+        }
+      }
+    }
+    return near;
   }
 
   /// Tips that have no tip for an image, with the node on the other side that is: of a hand that
@@ -136,7 +161,9 @@ class LimbFinder {
 
   Limbs find() {
     find_trunk();
-    for (const std::vector<int>& part : parts_beside_trunk()) add_pair(part);
+    const std::vector<std::vector<int>> parts = parts_beside_trunk();
+    const std::vector<std::vector<int>> vertices = vertices_of(parts);
+    for (std::size_t k = 0; k < parts.size(); ++k) add_pair(parts[k], vertices[k]);
     std::stable_sort(limbs_.pairs.begin(), limbs_.pairs.end(),
                      [](const LimbPair& a, const LimbPair& b) { return a.length > b.length; });
     return std::move(limbs_);
@@ -150,9 +177,9 @@ class LimbFinder {
                                        tree_.radii.begin()));
     }
     // In a tree the ways between all ends are those from one of them to the others.
-    const Ways ways = ways_from(tree_, ends_.front());
+    from_end_ = ways_from(tree_, ends_.front());
     for (const int end : ends_) {
-      for (const int node : ways.path(end)) limbs_.is_trunk[idx(node)] = 1;
+      for (const int node : from_end_.path(end)) limbs_.is_trunk[idx(node)] = 1;
     }
     for (int node = 0; node < static_cast<int>(tree_.nodes.size()); ++node) {
       if (limbs_.is_trunk[idx(node)] != 0) limbs_.trunk.push_back(node);
@@ -168,7 +195,37 @@ class LimbFinder {
     return parts;
   }
 
-  void add_pair(const std::vector<int>& part) {
+  /// Of the surface, those of each part's nodes.
+  [[nodiscard]] std::vector<std::vector<int>> vertices_of(
+      const std::vector<std::vector<int>>& parts) const {
+    std::vector<int> part_of_node(tree_.nodes.size(), -1);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      for (const int node : parts[k]) part_of_node[idx(node)] = static_cast<int>(k);
+    }
+    std::vector<std::vector<int>> vertices(parts.size());
+    for (std::size_t v = 0; v < tree_.vertices.size(); ++v) {
+      const int node = tree_.node_of_vertex[v];
+      if (node < 0 || part_of_node[idx(node)] < 0) continue;
+      vertices[idx(part_of_node[idx(node)])].push_back(static_cast<int>(v));
+    }
+    return vertices;
+  }
+
+  /// In a tree there is one way, so that those from the trunk's end, which are known, have it.
+  [[nodiscard]] std::vector<int> way_between(int root, int node) const {
+    return std::isfinite(from_end_.distance[idx(root)]) ? from_end_.between(root, node)
+                                                        : ways_from(tree_, root).path(node);
+  }
+
+  [[nodiscard]] double length_of(const std::vector<int>& path) const {
+    double length = 0;
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      length += (tree_.nodes[idx(path[k])] - tree_.nodes[idx(path[k - 1])]).norm();
+    }
+    return length;
+  }
+
+  void add_pair(const std::vector<int>& part, const std::vector<int>& vertices) {
     if (std::none_of(part.begin(), part.end(), [&](int node) { return mate_.count(node) > 0; })) {
       return;
     }
@@ -179,32 +236,27 @@ class LimbFinder {
       }
     }
     if (pair.root < 0) return;
-    const Ways from_root = ways_from(tree_, pair.root);
     for (const int node : part) {
       if (mate_.count(node) == 0) continue;
-      pair.ways.push_back(
-          {from_root.path(node), from_root.path(mate_.at(node)), from_root.distance[idx(node)]});
+      std::vector<int> path = way_between(pair.root, node);
+      const double length = length_of(path);
+      pair.ways.push_back({std::move(path), way_between(pair.root, mate_.at(node)), length});
     }
     if (pair.ways.empty()) return;
     std::stable_sort(pair.ways.begin(), pair.ways.end(),
                      [](const LimbWay& a, const LimbWay& b) { return a.length > b.length; });
     pair.length = pair.ways.front().length;
-    std::vector<char> is_own(tree_.nodes.size(), 0);
-    for (const int node : part) is_own[idx(node)] = 1;
     pair.lowest = std::numeric_limits<double>::infinity();
     for (const int node : part) pair.lowest = std::min(pair.lowest, tree_.nodes[idx(node)].y());
-    for (std::size_t v = 0; v < tree_.vertices.size(); ++v) {
-      const int node = tree_.node_of_vertex[v];
-      if (node < 0 || is_own[idx(node)] == 0) continue;
-      pair.vertices.push_back(static_cast<int>(v));
-      pair.lowest = std::min(pair.lowest, tree_.vertices[v].y());
-    }
+    pair.vertices = vertices;
+    for (const int v : vertices) pair.lowest = std::min(pair.lowest, tree_.vertices[idx(v)].y());
     limbs_.pairs.push_back(std::move(pair));
   }
 
   const CurveTree& tree_;
   const std::map<int, int>& mate_;
   std::vector<int> ends_;
+  Ways from_end_;  // the first, to all
   Limbs limbs_;
 };
 

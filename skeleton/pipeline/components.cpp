@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "skeleton/pipeline/component.hpp"
+#include "skeleton/pipeline/copies.hpp"
 #include "skeleton/pipeline/notes_of_components.hpp"
 
 namespace curveskel {
@@ -67,6 +68,15 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
   return size;
 }
 
+/// As written down for the first of the kind.
+std::vector<Try> tries_of_copy(std::vector<Try> tries, int copy) {
+  for (Try& one : tries) {
+    one.component = copy;
+    one.seconds = 0;
+  }
+  return tries;
+}
+
 /// Puts the components' tries one after the other, and tells each component its own.
 void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<ComponentResult>& all) {
   for (std::size_t c = 0; c < logs.size(); ++c) {
@@ -102,6 +112,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
                                                std::vector<ComponentStages>* kept, TryLog& log,
                                                int part_of, StandingResults standing) {
   constexpr int small = 2000;  // working vertices that leave nothing to share out
+  constexpr std::size_t fewest_with_copies = 500;  // fewer are soon extracted, one by one
   const Topology& counted = whole.counted;
   const bool several = whole.components.size() > 1;
   if (kept != nullptr) kept->resize(whole.components.size());
@@ -142,9 +153,23 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   Monitor silent;  // callbacks are for the calling thread
   silent.stop = monitor.stop;
   const std::thread::id caller = std::this_thread::get_id();
-  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+  const auto contribute_alone = [&](std::size_t c) {
     const bool here = std::this_thread::get_id() == caller;
-    contribute(side_by_side[i], alone, here ? notes.monitor() : silent);
+    contribute(c, alone, here ? notes.monitor() : silent);
+  };
+  const std::vector<std::size_t> firsts =
+      side_by_side.size() < fewest_with_copies ? side_by_side : firsts_of_kind(parts, side_by_side);
+  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+    if (firsts[i] == side_by_side[i]) contribute_alone(side_by_side[i]);
+  });
+  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+    const std::size_t c = side_by_side[i];
+    if (firsts[i] == c) return;
+    throw_if_stopped(monitor.stop);
+    auto made = result_of_copy(parts[firsts[i]], all[firsts[i]], parts[c]);
+    if (!made) return contribute_alone(c);
+    all[c] = std::move(*made);
+    logs[c].tries = tries_of_copy(logs[firsts[i]].tries, static_cast<int>(c));
   });
   notes.say_all();
   write_down(logs, log, all);

@@ -10,9 +10,4 @@ namespace curveskel {
 /// Precondition: closed oriented 2-manifold.
 [[nodiscard]] bool crosses_itself(const Surface& surface);
 
-/// The share of edges that pass through a face which none of their ends is a corner of: .92 of
-/// random triangles, .3 to .6 where noise is as thick as the limbs. Asks up to 2,000 edges, evenly
-/// spread over the triangles; 0 without triangles. O(#F log #F).
-[[nodiscard]] double crossing_share(const Surface& surface);
-
 }  // namespace curveskel

@@ -10,6 +10,7 @@
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/triangle_area.hpp"
+#include "surface/repair/tangles.hpp"
 
 namespace curveskel {
 namespace {
@@ -37,14 +38,6 @@ bool is_one_sided(const Joined& joined) {
       joined.surface.triangles, static_cast<std::int32_t>(joined.surface.positions.rows()));
   if (half_edges.first_unpaired >= 0) return false;
   return orient(joined.surface.triangles, half_edges).conflict >= 0;
-}
-
-/// True for triangles at random, as of a file whose faces have the numbers of other vertices: where
-/// nearly all edges pass through other faces, no side of a face is the inside.
-bool is_tangle(const Surface& component) {
-  constexpr Eigen::Index fewest = 64;  // faces, of which a share says something
-  constexpr double nearly_all = 0.75;
-  return component.triangles.rows() >= fewest && crossing_share(component) > nearly_all;
 }
 
 /// Components one by one, each with its own vertices alone.
@@ -118,7 +111,7 @@ JudgedParts judge_parts(const ClosedParts& closed, const Joined& joined,
     JudgedPart& part = judged.parts[c];
     part.volume = sums[c].volume;
     const double most = options.most_added_area * part.area;
-    part.is_tangle = was_cut_much && is_tangle(components[c]);
+    part.is_tangle = is_tangle(components[c], was_cut_much);
     part.is_body =
         !one_sided && sums[c].encloses_something() &&
         (part.added_area <= most || (part.added_area <= more_if_roomy * most && is_roomy(sums[c]) &&

@@ -22,6 +22,7 @@
 #include "surface/repair/lies_in_plane.hpp"
 #include "surface/repair/merge_overlapping.hpp"
 #include "surface/repair/select_components.hpp"
+#include "surface/repair/tangles.hpp"
 #include "surface/repair/thicken.hpp"
 #include "surface/repair/weld.hpp"
 #include "surface/repair/wrap.hpp"
@@ -151,11 +152,29 @@ bool is_a_tangle(const JudgedParts& judged) {
 
 [[noreturn]] void refuse_tangle(const PolygonSoup& soup) {
   const std::string file = soup.file.empty() ? "surface" : soup.file.string();
-  throw Error(Fault::input,
-              file +
-                  ": found triangles that pass through one another everywhere, needed a surface "
-                  "with an inside; do the numbers of the faces belong to these vertices? "
-                  "(--wrap all takes what encloses them all)");
+  throw Error(
+      Fault::input,
+      file +
+          ": found triangles that pass through one another everywhere, needed a surface "
+          "with an inside; do the numbers of the faces belong to these vertices, in this order? "
+          "(--wrap all takes what encloses them all)");
+}
+
+/// Each polygon in triangles round its first corner, as they come.
+Surface in_fans(const PolygonSoup& soup) {
+  const auto polygons = static_cast<std::int64_t>(soup.offsets.size()) - 1;
+  const auto corners = static_cast<std::int64_t>(soup.corners.size());
+  Surface fans{soup.positions, Triangles(std::max<std::int64_t>(0, corners - 2 * polygons), 3)};
+  Eigen::Index row = 0;
+  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
+    const auto first = static_cast<std::size_t>(soup.offsets[p - 1]);
+    for (std::size_t k = first + 2; k < static_cast<std::size_t>(soup.offsets[p]); ++k) {
+      if (row == fans.triangles.rows()) break;
+      fans.triangles.row(row++) << soup.corners[first], soup.corners[k - 1], soup.corners[k];
+    }
+  }
+  fans.triangles.conservativeResize(row, 3);
+  return fans;
 }
 
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
@@ -262,8 +281,10 @@ std::int64_t add_thick_sheets(const ClosedParts& closed, const JudgedParts& judg
 /// If `clean` refuses. The refusal stands where there are no faces, or too many to count.
 RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
+  if (is_mostly_tangle(in_fans(soup))) refuse_tangle(soup);  // to join it takes long
   RepairedSurface result;
   const Joined joined = joined_faces(soup, options, refusal, monitor.stop, result);
+  if (is_mostly_tangle(joined.surface)) refuse_tangle(soup);
   const ClosedParts closed = close_surface(joined.surface, monitor);
   result.repairs.vertices_copied = closed.vertices_copied;
   result.repairs.holes_narrowed = closed.holes_narrowed;
@@ -316,23 +337,28 @@ struct Mended {
 
 Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
+  std::optional<CleanSurface> cleaned;
   std::optional<Error> refusal;
   try {
-    CleanSurface cleaned = clean(soup, monitor, threads);
-    return {{std::move(cleaned.surface),
-             std::move(cleaned.vertex_of_input),
-             std::move(cleaned.changes),
-             {},
-             {},
-             {}},
-            cleaned.components == 1,
-            false};
+    cleaned = clean(soup, monitor, threads);
   } catch (const Error& error) {
     refusal = error;  // the fault is found again, and mended, below
   }
-  RepairedSurface rebuilt = rebuild(soup, *refusal, options, monitor, threads);
-  describe_changes(rebuilt.changes, monitor);
-  return {std::move(rebuilt), false, true};
+  if (!cleaned) {
+    RepairedSurface rebuilt = rebuild(soup, *refusal, options, monitor, threads);
+    describe_changes(rebuilt.changes, monitor);
+    return {std::move(rebuilt), false, true};
+  }
+  if (is_mostly_tangle(cleaned->surface)) refuse_tangle(soup);
+  const bool has_one_component = cleaned->components == 1;
+  return {{std::move(cleaned->surface),
+           std::move(cleaned->vertex_of_input),
+           std::move(cleaned->changes),
+           {},
+           {},
+           {}},
+          has_one_component,
+          false};
 }
 
 /// For a surface of which no wrap encloses anything: the other way, if there is one.
