@@ -12,6 +12,7 @@
 #include "rig/plan/frames.hpp"
 #include "rig/plan/mirror_plane.hpp"
 #include "rig/plan/unposed.hpp"
+#include "rig/plan/wings.hpp"
 
 namespace curveskel {
 namespace {
@@ -141,6 +142,9 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
                       sides == Sides::posed ? Standing::in_pose : Standing::on_all_feet);
   }
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
+  if (found.plan == BodyKind::bird && found.legs.empty()) {
+    return flies_back(tree, limbs, found.arms);
+  }
   const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
                         found.plan == BodyKind::tailed_biped;
   return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
@@ -165,7 +169,10 @@ bool is_alike_from_both_ends(const Outlook& outlook) {
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   LookedAt body(surface, skeleton);
-  Outlook outlook = best_before_turning(body, options);
+  const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
+  Outlook outlook = may_be_any  // else a bird or nothing
+                        ? best_before_turning(body, options)
+                        : look(Sides::images, body, frames_of(options).front(), options.plan);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;

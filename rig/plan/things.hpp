@@ -8,6 +8,9 @@
 
 namespace curveskel {
 
+/// True for a bird whose body is made of tubes, as its wings need not be.
+[[nodiscard]] bool is_bird_of_tubes(const Outlook& outlook);
+
 /// Why what is seen is no body's plan after all; empty if it may be one. A chair, a table, a car, a
 /// box. O(#F log #F) where there is a plan.
 [[nodiscard]] std::string why_a_thing(const Outlook& outlook, const Surface& surface,
