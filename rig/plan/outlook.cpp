@@ -19,12 +19,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
-/// No fish and no bird, as any long thing and any cross is one from somewhere.
+/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips, and
+/// a bird with flat wings. No fish and no other bird, as any long thing and any cross is one from
+/// somewhere.
 bool is_seen_from_aside(const Outlook& outlook, double off) {
   constexpr double level = 90;  // degrees from upright
-  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level &&
-         off < symmetric;
+  const bool is_biped = outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level;
+  return off < symmetric && (is_biped || has_flat_wings(outlook));
 }
 
 /// A trunk that lies across is one that is seen from its side.
@@ -107,6 +108,18 @@ std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
   return best;
 }
 
+/// Of what is not made of tubes: a bird, whose wings need not be, or nothing.
+Outlook best_of_wings(LookedAt& body, const PlanOptions& options) {
+  const std::vector<Eigen::Matrix3d> frames = frames_of(options);
+  Outlook best = look(Sides::images, body, frames.front(), options.plan);
+  for (std::size_t k = 1; k < frames.size() && !has_flat_wings(best); ++k) {
+    Outlook other = look(Sides::images, body, frames[k], options.plan);
+    const double off = asymmetry(other.tree, 0, other.tree.middle);
+    if (has_flat_wings(other) && off < symmetric) best = std::move(other);
+  }
+  return best;
+}
+
 Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
@@ -170,9 +183,7 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   LookedAt body(surface, skeleton);
   const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
-  Outlook outlook = may_be_any  // else a bird or nothing
-                        ? best_before_turning(body, options)
-                        : look(Sides::images, body, frames_of(options).front(), options.plan);
+  Outlook outlook = may_be_any ? best_before_turning(body, options) : best_of_wings(body, options);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;

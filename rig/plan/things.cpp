@@ -31,11 +31,6 @@ double share_of_largest_component(const Surface& surface, const std::vector<std:
   return all > 0 ? *std::max_element(areas.begin(), areas.end()) / all : 1;
 }
 
-bool has_flat_wings(const Outlook& outlook) {
-  return outlook.found.plan == BodyKind::bird && outlook.found.arms >= 0 &&
-         flat_wings(outlook.tree, outlook.limbs) == outlook.found.arms;
-}
-
 /// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
 /// nothing about humans, and wings and fans of tails may have more area than all the rest.
 bool is_put_together(const Outlook& outlook, const Surface& surface, const PlanOptions& options) {

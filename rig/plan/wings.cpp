@@ -102,7 +102,8 @@ int thickest_of(const CurveTree& tree, const std::vector<int>& trunk) {
                            [&](int a, int b) { return tree.radii[idx(a)] < tree.radii[idx(b)]; });
 }
 
-/// Of a round wing most of the surface is a radius from the curve.
+/// Along the trunk: of a round wing most of the surface is within a radius of the curve, and so is
+/// that of an upright blade.
 bool are_flat(const CurveTree& tree, const LimbPair& pair, const Feathered& bird, double thick) {
   constexpr double flat = 2;
   const Course course = mean_course(tree, pair.ways.front());
@@ -111,7 +112,7 @@ bool are_flat(const CurveTree& tree, const LimbPair& pair, const Feathered& bird
   std::vector<double> off;  // in the outer halves
   for (const PointOfNode& at : bird.wings) {
     if (std::abs(at.point.x() - tree.middle) > 0.5 * far_aside(tree, pair)) {
-      off.push_back(off_curve(tree, at));
+      off.push_back(std::abs(tree.nodes[idx(at.node)].z() - at.point.z()));
     }
   }
   return !off.empty() && median_of(std::move(off)) > flat * thin && thick > flat * thin;

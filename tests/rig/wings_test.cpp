@@ -116,6 +116,22 @@ TEST(FlatWings, TailsTellTheFront) {
   }
 }
 
+/// Files whose z is up, or in which it looks along x.
+TEST(FlatWings, AreSeenFromAnySide) {
+  using Eigen::Vector3d;
+  const RigSubject subject = bird({});
+  for (const Eigen::Matrix3d& axes :
+       {frame(Vector3d::UnitZ(), -Vector3d::UnitY()), frame(Vector3d::UnitZ(), Vector3d::UnitX()),
+        frame(Vector3d::UnitY(), -Vector3d::UnitX())}) {
+    const RigSubject turned = standing_in(subject, axes);
+    for (const PlanOptions& options : {PlanOptions{}, not_of_tubes()}) {
+      const BodyPlan plan = find_plan(turned.surface, turned.skeleton, options);
+      ASSERT_EQ(plan.plan, BodyKind::bird) << plan.reason;
+      EXPECT_TRUE(plan.axes.isApprox(axes, 1e-9)) << plan.axes;
+    }
+  }
+}
+
 /// A fin stands on an aeroplane; and arms of a thing that is not made of tubes may be anything.
 TEST(FlatWings, AnAeroplaneIsNoBird) {
   for (const double half_span : {8.0, 16.0}) {
