@@ -187,7 +187,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
   Outlook outlook = best_outlook(surface, skeleton, options);
   const bool is_found = options.plan == BodyKind::automatic;
-  if (is_found && !options.made_of_tubes && !is_bird_of_tubes(outlook)) {
+  if (is_found && !options.made_of_tubes && !has_body_of_tubes(outlook)) {
     outlook.found = {};
     outlook.found.reason = not_made_of_tubes;
   } else if (is_found) {

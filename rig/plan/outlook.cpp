@@ -108,11 +108,13 @@ std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
   return best;
 }
 
-/// Of what is not made of tubes: a bird, whose wings need not be, or nothing.
-Outlook best_of_wings(LookedAt& body, const PlanOptions& options) {
+/// Of what is not made of tubes: in the usual frame anything, in others a bird, whose wings need
+/// not be.
+Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Outlook best = look(Sides::images, body, frames.front(), options.plan);
-  for (std::size_t k = 1; k < frames.size() && !has_flat_wings(best); ++k) {
+  for (std::size_t k = 1; k < frames.size() && !is_clear(best.found.plan) && !has_flat_wings(best);
+       ++k) {
     Outlook other = look(Sides::images, body, frames[k], options.plan);
     const double off = asymmetry(other.tree, 0, other.tree.middle);
     if (has_flat_wings(other) && off < symmetric) best = std::move(other);
@@ -183,7 +185,8 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   LookedAt body(surface, skeleton);
   const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
-  Outlook outlook = may_be_any ? best_before_turning(body, options) : best_of_wings(body, options);
+  Outlook outlook =
+      may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;

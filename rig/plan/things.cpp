@@ -12,6 +12,7 @@
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/plan/outlook.hpp"
+#include "rig/plan/tubes.hpp"
 #include "rig/plan/wings.hpp"
 #include "surface/mesh/component_areas.hpp"
 
@@ -125,9 +126,15 @@ bool has_corners_for_legs(const Outlook& outlook, const Surface& surface) {
 
 }  // namespace
 
-bool is_bird_of_tubes(const Outlook& outlook) {
-  return has_flat_wings(outlook) &&
-         tubes_but_for_wings(outlook.tree, outlook.limbs, outlook.found.arms) >= tube_share_needed;
+bool has_body_of_tubes(const Outlook& outlook) {
+  const auto& [axes, tree, limbs, found, sides, posed] = outlook;
+  if (has_flat_wings(outlook)) {
+    return tubes_but_for_wings(tree, limbs, found.arms) >= tube_share_needed;
+  }
+  if (found.plan != BodyKind::humanoid) return false;
+  const int body = tree.component[idx(limbs.pairs[idx(found.legs.front())].root)];
+  return tubes_among(tree, [&](int node) { return tree.component[idx(node)] == body; }) >=
+         tube_share_needed;
 }
 
 std::string why_a_thing(const Outlook& outlook, const Surface& surface,

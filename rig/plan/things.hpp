@@ -8,8 +8,9 @@
 
 namespace curveskel {
 
-/// True for a bird whose body is made of tubes, as its wings need not be.
-[[nodiscard]] bool is_bird_of_tubes(const Outlook& outlook);
+/// True if all of a bird but its flat wings is made of tubes, or the component that a human's legs
+/// hang from: capes and shields are others.
+[[nodiscard]] bool has_body_of_tubes(const Outlook& outlook);
 
 /// Why what is seen is no body's plan after all; empty if it may be one. A chair, a table, a car, a
 /// box. O(#F log #F) where there is a plan.

@@ -3,32 +3,18 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/median.hpp"
 #include "rig/plan/trunk.hpp"
+#include "rig/plan/tubes.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-
-/// A point of the surface and the node next to it.
-struct PointOfNode {
-  Vector3d point;
-  int node;
-};
-
-int nearest_node(const CurveTree& tree, const Vector3d& point) {
-  const auto off = [&](const Vector3d& node) { return (node - point).squaredNorm(); };
-  const auto nearest =
-      std::min_element(tree.nodes.begin(), tree.nodes.end(),
-                       [&](const Vector3d& a, const Vector3d& b) { return off(a) < off(b); });
-  return static_cast<int>(nearest - tree.nodes.begin());
-}
 
 /// By node.
 std::vector<char> nodes_of_wings(const CurveTree& tree, const Limbs& limbs, int wings) {
@@ -49,24 +35,12 @@ struct Feathered {
 };
 
 Feathered feathered(const CurveTree& tree, const Limbs& limbs, int wings) {
-  constexpr std::size_t every = 8;  // as many points as a certificate asks
   const std::vector<char> is_wing = nodes_of_wings(tree, limbs, wings);
   Feathered bird;
-  for (std::size_t k = 0; k < tree.spread.size(); k += every) {
-    const int node = nearest_node(tree, tree.spread[k]);
-    (is_wing[idx(node)] != 0 ? bird.wings : bird.rest).push_back({tree.spread[k], node});
+  for (const PointOfNode& at : points_by_nodes(tree)) {
+    (is_wing[idx(at.node)] != 0 ? bird.wings : bird.rest).push_back(at);
   }
   return bird;
-}
-
-double off_curve(const CurveTree& tree, const PointOfNode& at) {
-  return (tree.nodes[idx(at.node)] - at.point).norm();
-}
-
-/// As on a tube's wall.
-bool is_near_curve(const CurveTree& tree, const PointOfNode& at) {
-  constexpr double tube_factor = 2.5;  // as the certificate's
-  return off_curve(tree, at) <= tube_factor * tree.radii[idx(at.node)];
 }
 
 double far_aside(const CurveTree& tree, const LimbPair& pair) {
@@ -181,11 +155,8 @@ int flat_wings(const CurveTree& tree, const Limbs& limbs) {
 }
 
 double tubes_but_for_wings(const CurveTree& tree, const Limbs& limbs, int wings) {
-  const Feathered bird = feathered(tree, limbs, wings);
-  if (bird.rest.empty()) return 0;
-  const auto near = std::count_if(bird.rest.begin(), bird.rest.end(),
-                                  [&](const PointOfNode& at) { return is_near_curve(tree, at); });
-  return static_cast<double>(near) / static_cast<double>(bird.rest.size());
+  const std::vector<char> is_wing = nodes_of_wings(tree, limbs, wings);
+  return tubes_among(tree, [&](int node) { return is_wing[idx(node)] == 0; });
 }
 
 bool has_a_flat_end(const CurveTree& tree, const Limbs& limbs, int wings) {

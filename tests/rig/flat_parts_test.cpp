@@ -1,4 +1,4 @@
-// Laws of birds whose wings are flat.
+// Laws of bodies with flat parts: birds, people in capes.
 #include <curveskel/body_plan.hpp>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <curveskel/rig_polygons.hpp>
 #include "tests/rig/plan_subjects.hpp"
 
-namespace curveskel::wings_laws {
+namespace curveskel::flat_parts_laws {
 namespace {
 
 struct BirdShape {
@@ -157,5 +157,38 @@ TEST(FlatWings, OfAFileAreRigged) {
   }
 }
 
+/// A component of its own, of more area than the body's.
+RigSubject human_in_cape() {
+  BodyCurve figure;
+  const int chest = add_body_without_arms(figure);
+  figure.add_pair(chest, {{2.2, 15, 0}, {5.5, 15, 0}, {8.5, 15, 0}}, 0.5);
+  figure.add({0, 14, -7}, 3, figure.add({0, 4, -7}, 3));
+  RigSubject subject = subject_of("cape", figure);
+  const auto flatten = [](double& z) { z = z < -3 ? -2.5 + 0.03 * (z + 7) : z; };
+  for (double& z : subject.surface.positions.col(2)) flatten(z);
+  for (Eigen::Index node = 0; node < subject.skeleton.nodes.rows(); ++node) {
+    double& z = subject.skeleton.nodes(node, 2);
+    if (z < -3) subject.skeleton.radii[node] *= 0.03;
+    flatten(z);
+  }
+  return subject;
+}
+
+TEST(FlatParts, ACapeHidesNoHuman) {
+  const RigSubject dressed = human_in_cape();
+  const BodyPlan plan = find_plan(dressed.surface, dressed.skeleton, not_of_tubes());
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  expect_near(plan, "leftHand", {7, 15, 0}, 1.5);
+  EXPECT_NE(joint_of(plan, "rightFoot"), nullptr);
+}
+
+TEST(FlatParts, AFlatHumanIsNone) {
+  RigSubject drawing = human();
+  drawing.surface.positions.col(2) *= 0.05;
+  drawing.skeleton.nodes.col(2) *= 0.05;
+  drawing.skeleton.radii *= 0.05;
+  EXPECT_EQ(find_plan(drawing.surface, drawing.skeleton, not_of_tubes()).plan, BodyKind::other);
+}
+
 }  // namespace
-}  // namespace curveskel::wings_laws
+}  // namespace curveskel::flat_parts_laws
