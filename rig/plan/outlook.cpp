@@ -19,13 +19,18 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// With a head at one end and a flat tail at the other.
+bool is_sure_bird(const Outlook& outlook) {
+  return has_flat_wings(outlook) && has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
+}
+
 /// In frames that are not the usual one: a tailed biped whose head is no lower than its hips, and
 /// a bird with flat wings. No fish and no other bird, as any long thing and any cross is one from
 /// somewhere.
 bool is_seen_from_aside(const Outlook& outlook, double off) {
   constexpr double level = 90;  // degrees from upright
   const bool is_biped = outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level;
-  return off < symmetric && (is_biped || has_flat_wings(outlook));
+  return off < symmetric && (is_biped || is_sure_bird(outlook));
 }
 
 /// A trunk that lies across is one that is seen from its side.
@@ -117,7 +122,7 @@ Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
        ++k) {
     Outlook other = look(Sides::images, body, frames[k], options.plan);
     const double off = asymmetry(other.tree, 0, other.tree.middle);
-    if (has_flat_wings(other) && off < symmetric) best = std::move(other);
+    if (is_sure_bird(other) && off < symmetric) best = std::move(other);
   }
   return best;
 }
