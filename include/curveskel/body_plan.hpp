@@ -57,7 +57,9 @@ struct PlanOptions {
   bool faces_minus_z = false;  ///< what the file says, as VRM 0.x does
   bool z_is_up = false;        ///< what the file says: with `up` automatic z is tried first
   bool made_of_tubes = true;   ///< what the certificate says: of others no plan is found unless one
-                               ///< is asked for, as any room has corners like legs
+                               ///< is asked for, as any room has corners like legs; but a bird of
+                               ///< which all but its flat wings is, and a human whose legs hang
+                               ///< from a component that is
   std::vector<std::int32_t> sheets = {};  ///< a vertex of each component that was made of a sheet,
                                           ///< see RepairedSurface; no large one need be the body
 };

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/roles.hpp"
+#include "rig/plan/wings.hpp"
 
 namespace curveskel {
 namespace {
@@ -180,6 +181,21 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   }
 }
 
+bool may_be_bird(BodyKind wanted) {
+  return wanted == BodyKind::automatic || wanted == BodyKind::bird;
+}
+
+/// Of a bird that glides the legs may be drawn in, or left out.
+bool spreads_wings(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
+  const int wings = flat_wings(tree, limbs);
+  if (wings < 0 || (!found.legs.empty() && found.legs.front() == wings)) return false;
+  found.plan = BodyKind::bird;
+  found.arms = wings;
+  found.reason = std::string("flat wings beside a level trunk, ") +
+                 (found.legs.empty() ? "no pair of legs" : "one pair of legs");
+  return true;
+}
+
 }  // namespace
 
 PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, Standing standing) {
@@ -188,6 +204,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
   const bool in_pose = standing == Standing::in_pose;
   if (in_pose && found.legs.size() == 1) add_lifted_legs(tree, limbs, found.legs);
   const std::size_t legs = found.legs.size();
+  if (legs < 2 && may_be_bird(wanted) && spreads_wings(tree, limbs, found)) return found;
   const bool is_asked_for = wanted == BodyKind::fish && !limbs.trunk.empty();
   const bool looks_like_it = wanted == BodyKind::automatic && legs == 0 && is_fish(tree, limbs);
   if (is_asked_for || looks_like_it) {

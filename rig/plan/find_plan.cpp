@@ -172,6 +172,9 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
   }
 }
 
+constexpr const char* not_made_of_tubes =
+    "the surface is not made of tubes, as bodies are; a plan can be asked for";
+
 }  // namespace
 
 void require_valid(const PlanOptions& options) { (void)frames_of(options); }
@@ -182,14 +185,12 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
-  if (options.plan == BodyKind::automatic && !options.made_of_tubes) {
-    result.plan = BodyKind::other;
-    result.axes = frames_of(options).front().array() + 0.0;  // no -0
-    result.reason = "the surface is not made of tubes, as bodies are; a plan can be asked for";
-    return result;
-  }
   Outlook outlook = best_outlook(surface, skeleton, options);
-  if (options.plan == BodyKind::automatic) {
+  const bool is_found = options.plan == BodyKind::automatic;
+  if (is_found && !options.made_of_tubes && !has_body_of_tubes(outlook)) {
+    outlook.found = {};
+    outlook.found.reason = not_made_of_tubes;
+  } else if (is_found) {
     const std::string why = why_a_thing(outlook, surface, options);
     if (!why.empty()) outlook.found.plan = BodyKind::other;
     outlook.found.reason.insert(0, why);

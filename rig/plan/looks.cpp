@@ -9,6 +9,7 @@
 #include "rig/plan/completed.hpp"
 #include "rig/plan/mirror_plane.hpp"
 #include "rig/plan/unposed.hpp"
+#include "rig/plan/wings.hpp"
 
 namespace curveskel {
 
@@ -43,6 +44,11 @@ Explained explained_by(const Outlook& outlook) {
     }
   }
   return {explained, whole > 0 ? explained / whole : 1};
+}
+
+bool has_flat_wings(const Outlook& outlook) {
+  return outlook.found.plan == BodyKind::bird && outlook.found.arms >= 0 &&
+         flat_wings(outlook.tree, outlook.limbs) == outlook.found.arms;
 }
 
 namespace {

@@ -32,6 +32,9 @@ struct Outlook {
 /// Two pairs of limbs that are where they should be are no accident.
 [[nodiscard]] bool is_clear(BodyKind plan);
 
+/// True for a bird whose wings are flat, see `flat_wings`.
+[[nodiscard]] bool has_flat_wings(const Outlook& outlook);
+
 /// The middle of a human's shin lies in the lowest fifth: a leg whose tip does not has no foot
 /// there, whatever of the surface about it is on the ground.
 [[nodiscard]] bool has_foot(const CurveTree& tree, const LimbPair& leg);

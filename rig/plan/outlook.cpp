@@ -12,18 +12,25 @@
 #include "rig/plan/frames.hpp"
 #include "rig/plan/mirror_plane.hpp"
 #include "rig/plan/unposed.hpp"
+#include "rig/plan/wings.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
 
-/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips.
-/// No fish and no bird, as any long thing and any cross is one from somewhere.
+/// With a head at one end and a flat tail at the other.
+bool is_sure_bird(const Outlook& outlook) {
+  return has_flat_wings(outlook) && has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
+}
+
+/// In frames that are not the usual one: a tailed biped whose head is no lower than its hips, and
+/// a bird with flat wings. No fish and no other bird, as any long thing and any cross is one from
+/// somewhere.
 bool is_seen_from_aside(const Outlook& outlook, double off) {
   constexpr double level = 90;  // degrees from upright
-  return outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level &&
-         off < symmetric;
+  const bool is_biped = outlook.found.plan == BodyKind::tailed_biped && outlook.found.lean < level;
+  return off < symmetric && (is_biped || is_sure_bird(outlook));
 }
 
 /// A trunk that lies across is one that is seen from its side.
@@ -106,6 +113,20 @@ std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
   return best;
 }
 
+/// Of what is not made of tubes: in the usual frame anything, in others a bird, whose wings need
+/// not be.
+Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
+  const std::vector<Eigen::Matrix3d> frames = frames_of(options);
+  Outlook best = look(Sides::images, body, frames.front(), options.plan);
+  for (std::size_t k = 1; k < frames.size() && !is_clear(best.found.plan) && !has_flat_wings(best);
+       ++k) {
+    Outlook other = look(Sides::images, body, frames[k], options.plan);
+    const double off = asymmetry(other.tree, 0, other.tree.middle);
+    if (is_sure_bird(other) && off < symmetric) best = std::move(other);
+  }
+  return best;
+}
+
 Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
@@ -141,6 +162,9 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
                       sides == Sides::posed ? Standing::in_pose : Standing::on_all_feet);
   }
   if (found.plan == BodyKind::fish) return swims_back(tree, limbs);
+  if (found.plan == BodyKind::bird && found.legs.empty()) {
+    return flies_back(tree, limbs, found.arms);
+  }
   const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
                         found.plan == BodyKind::tailed_biped;
   return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
@@ -165,7 +189,9 @@ bool is_alike_from_both_ends(const Outlook& outlook) {
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   LookedAt body(surface, skeleton);
-  Outlook outlook = best_before_turning(body, options);
+  const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
+  Outlook outlook =
+      may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;

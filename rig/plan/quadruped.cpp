@@ -133,6 +133,31 @@ void place_hind_leg(const CurveTree& tree, const Limbs& limbs, const LimbPair& h
       {"spine", "", root, true, -1, "on the trunk's curve, a little behind the thighs"});
 }
 
+/// Returns the root's node.
+int place_standing_hips(const CurveTree& tree, const Limbs& limbs, int legs,
+                        std::vector<Place>& places) {
+  const LimbPair& pair = limbs.pairs[idx(legs)];
+  place_hind_leg(tree, limbs, pair, legs, places);
+  return hips_of(tree, limbs, pair, places[2].at.z());
+}
+
+/// Of a bird in the air whose legs no curve sees. Returns the root's node.
+int place_gliding_hips(const CurveTree& tree, const Limbs& limbs, int wings,
+                       std::vector<Place>& places) {
+  constexpr double share = 0.4;  // of the way from the wings to the tail's tip
+  const int chest = limbs.pairs[idx(wings)].root;
+  const Ways ways = ways_from(tree, chest);
+  const std::vector<int> path = ways.path(tail_of(tree, chest, ways));
+  const double wanted = share * ways.distance[idx(path.back())];
+  const int hips = *std::find_if(path.begin(), path.end(),
+                                 [&](int node) { return ways.distance[idx(node)] >= wanted; });
+  Vector3d root = tree.nodes[idx(hips)];
+  root.x() = tree.middle;
+  places.push_back(
+      {"spine", "", root, true, -1, "at its share of the way from the wings to the tail's tip"});
+  return hips;
+}
+
 /// Four bones of one length, after a gap: means over artists' rigs.
 void place_tail(const CurveTree& tree, int hips, std::vector<Place>& places) {
   constexpr double gap = 0.12;
@@ -212,10 +237,9 @@ std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
 }
 
 std::vector<Place> biped_places(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  const LimbPair& legs = limbs.pairs[idx(found.legs[0])];
   std::vector<Place> places;
-  place_hind_leg(tree, limbs, legs, found.legs[0], places);
-  const int hips = hips_of(tree, limbs, legs, places[2].at.z());
+  const int hips = found.legs.empty() ? place_gliding_hips(tree, limbs, found.arms, places)
+                                      : place_standing_hips(tree, limbs, found.legs[0], places);
   place_tail(tree, hips, places);
   const LimbPair* arms = found.arms < 0 ? nullptr : &limbs.pairs[idx(found.arms)];
   place_trunk(tree, hips, chest_of(tree, hips, arms), places);

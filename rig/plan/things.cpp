@@ -9,8 +9,11 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 #include "rig/plan/outlook.hpp"
+#include "rig/plan/tubes.hpp"
+#include "rig/plan/wings.hpp"
 #include "surface/mesh/component_areas.hpp"
 
 namespace curveskel {
@@ -30,10 +33,17 @@ double share_of_largest_component(const Surface& surface, const std::vector<std:
 }
 
 /// A table has four legs, too, but is put together; dolls and robots are, as well, so this says
-/// nothing about humans.
-bool is_put_together(const Surface& surface, const PlanOptions& options) {
+/// nothing about humans, and wings and fans of tails may have more area than all the rest.
+bool is_put_together(const Outlook& outlook, const Surface& surface, const PlanOptions& options) {
   constexpr double most_of_it = 0.5;
-  return share_of_largest_component(surface, options.sheets) < most_of_it;
+  return !has_flat_wings(outlook) &&
+         share_of_largest_component(surface, options.sheets) < most_of_it;
+}
+
+/// Of a bird that spreads its wings the curve may be a cross, but a tail is flat and a head is not.
+bool has_a_head(const Outlook& outlook) {
+  if (!is_alike_from_both_ends(outlook)) return true;
+  return has_flat_wings(outlook) && has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
 }
 
 /// Of the box along the body's axes the share that the components' volumes have together.
@@ -116,6 +126,17 @@ bool has_corners_for_legs(const Outlook& outlook, const Surface& surface) {
 
 }  // namespace
 
+bool has_body_of_tubes(const Outlook& outlook) {
+  const auto& [axes, tree, limbs, found, sides, posed] = outlook;
+  if (has_flat_wings(outlook)) {
+    return tubes_but_for_wings(tree, limbs, found.arms) >= tube_share_needed;
+  }
+  if (found.plan != BodyKind::humanoid) return false;
+  const int body = tree.component[idx(limbs.pairs[idx(found.legs.front())].root)];
+  return tubes_among(tree, [&](int node) { return tree.component[idx(node)] == body; }) >=
+         tube_share_needed;
+}
+
 std::string why_a_thing(const Outlook& outlook, const Surface& surface,
                         const PlanOptions& options) {
   if (outlook.found.plan == BodyKind::other) return "";
@@ -127,10 +148,10 @@ std::string why_a_thing(const Outlook& outlook, const Surface& surface,
   }
   // Humans may be put together, as dolls are, and may fold their hands.
   if (outlook.found.plan == BodyKind::humanoid) return "";
-  if (is_alike_from_both_ends(outlook)) {
+  if (!has_a_head(outlook)) {
     return "an animal has a head at one end, and this is alike from both; ";
   }
-  if (is_put_together(surface, options)) {
+  if (is_put_together(outlook, surface, options)) {
     return "most of an animal is one component, which here is less than half; ";
   }
   return outlook.tree.cycles > 0 ? "the curve of an animal has no cycles, as this one has; " : "";
