@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -87,6 +90,95 @@ void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<Compon
   }
 }
 
+/// Those with so few working vertices that threads leave nothing to share out, none that stands.
+std::vector<std::size_t> small_parts(const std::vector<Part>& parts, const Topology& counted,
+                                     const ExtractOptions& options,
+                                     const StandingResults& standing) {
+  constexpr int fewest_shared = 2000;
+  const bool on_host = options.contraction.solver == Solver::automatic ||
+                       options.contraction.solver == Solver::cholesky;
+  std::vector<std::size_t> small;
+  if (!on_host || options.fairing) return small;
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const WorkingSize& size = parts[c].size;
+    const int working = std::max(size.least, std::min(size.most, counted.vertices[c]));
+    if (!standing[c] && working < fewest_shared) small.push_back(c);
+  }
+  return small;
+}
+
+/// Of each part the first that it is a copy of, itself unless there are many small ones.
+std::vector<std::size_t> first_of_each(const std::vector<Part>& parts,
+                                       const std::vector<std::size_t>& small) {
+  constexpr std::size_t fewest_with_copies = 500;  // fewer are soon extracted, one by one
+  std::vector<std::size_t> first(parts.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  if (small.size() < fewest_with_copies) return first;
+  const std::vector<std::size_t> firsts = firsts_of_kind(parts, small);
+  for (std::size_t i = 0; i < small.size(); ++i) first[small[i]] = firsts[i];
+  return first;
+}
+
+/// The results so far; different components may be made by different threads.
+struct ResultsInMaking {
+  const std::vector<Part>& parts;
+  std::vector<ComponentStages>* kept;
+  int part_of;
+  std::vector<std::size_t> first;  ///< see `first_of_each`
+  std::vector<ComponentResult> all;
+  std::vector<TryLog> logs;
+
+  ResultsInMaking(const std::vector<Part>& components, std::vector<ComponentStages>* stages,
+                  int outer_try, std::vector<std::size_t> first_of_kind)
+      : parts(components),
+        kept(stages),
+        part_of(outer_try),
+        first(std::move(first_of_kind)),
+        all(components.size()),
+        logs(components.size()) {}
+
+  void make(std::size_t c, const ExtractOptions& options, const Monitor& monitor) {
+    ComponentStages* const stages = kept != nullptr ? &(*kept)[c] : nullptr;
+    all[c] = component_result(parts[c], options, monitor, stages, logs[c], part_of);
+    if (parts.size() > 1) all[c].tree.reset();
+  }
+
+  /// False where there is none of the kind before it, or its curve would leave this one.
+  bool take_over(std::size_t c, const std::stop_token& stop) {
+    if (first[c] == c) return false;
+    throw_if_stopped(stop);
+    auto made = result_of_copy(parts[first[c]], all[first[c]], parts[c]);
+    if (!made) return false;
+    all[c] = std::move(*made);
+    logs[c].tries = tries_of_copy(logs[first[c]].tries, static_cast<int>(c));
+    return true;
+  }
+};
+
+/// With one thread each; the first of each kind before its copies.
+void make_side_by_side(ResultsInMaking& making, const std::vector<std::size_t>& components,
+                       const ExtractOptions& options, NotesOfComponents& notes,
+                       const std::stop_token& stop) {
+  ExtractOptions alone = options;
+  if (making.parts.size() > 1) {
+    alone.threads = alone.fair.threads = alone.contraction.threads = alone.certificate.threads = 1;
+  }
+  Monitor silent;  // callbacks are for the calling thread
+  silent.stop = stop;
+  const std::thread::id caller = std::this_thread::get_id();
+  const auto make = [&](std::size_t c) {
+    const bool here = std::this_thread::get_id() == caller;
+    making.make(c, alone, here ? notes.monitor() : silent);
+  };
+  parallel_for(components.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+    if (making.first[components[i]] == components[i]) make(components[i]);
+  });
+  parallel_for(components.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
+    const std::size_t c = components[i];
+    if (making.first[c] != c && !making.take_over(c, stop)) make(c);
+  });
+}
+
 }  // namespace
 
 std::vector<Part> parts_of(const Parts& whole, const ExtractOptions& options) {
@@ -111,69 +203,29 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
                                                const Monitor& monitor,
                                                std::vector<ComponentStages>* kept, TryLog& log,
                                                int part_of, StandingResults standing) {
-  constexpr int small = 2000;  // working vertices that leave nothing to share out
-  constexpr std::size_t fewest_with_copies = 500;  // fewer are soon extracted, one by one
-  const Topology& counted = whole.counted;
-  const bool several = whole.components.size() > 1;
   if (kept != nullptr) kept->resize(whole.components.size());
   standing.resize(whole.components.size());
   const std::vector<Part> parts = parts_of(whole, options);
-  std::vector<ComponentResult> all(whole.components.size());
-  std::vector<TryLog> logs(whole.components.size());
-  std::vector<std::size_t> side_by_side;
+  const std::vector<std::size_t> small = small_parts(parts, whole.counted, options, standing);
   NotesOfComponents notes(monitor);
-  const auto contribute = [&](std::size_t c, const ExtractOptions& its, const Monitor& own) {
-    all[c] = component_result(parts[c], its, own, kept != nullptr ? &(*kept)[c] : nullptr, logs[c],
-                              part_of);
-    if (several) all[c].tree.reset();
-  };
-  const bool on_host = options.contraction.solver == Solver::automatic ||
-                       options.contraction.solver == Solver::cholesky;
+  ResultsInMaking making(parts, kept, part_of, first_of_each(parts, small));
   const bool watched = monitor.frame || monitor.curve;
+  std::vector<char> waits(parts.size(), 0);  // to be made side by side
+  if (!watched) {
+    for (const std::size_t c : small) waits[c] = 1;
+  }
   int next = log.next();  // what is shown has the number that it is written down with
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    if (standing[c]) {
-      all[c] = std::move(*standing[c]);
-      continue;
-    }
-    const WorkingSize size = parts[c].size;
-    if (on_host && !options.fairing && !watched &&
-        std::max(size.least, std::min(size.most, counted.vertices[c])) < small) {
-      side_by_side.push_back(c);
-    } else {
-      logs[c].first = next;
-      contribute(c, options, notes.monitor());
-      next = logs[c].next();
-    }
+    if (standing[c]) making.all[c] = std::move(*standing[c]);
+    if (standing[c] || waits[c] != 0) continue;
+    making.logs[c].first = next;
+    if (!making.take_over(c, monitor.stop)) making.make(c, options, notes.monitor());
+    next = making.logs[c].next();
   }
-  ExtractOptions alone = options;
-  if (several) {
-    alone.threads = alone.fair.threads = alone.contraction.threads = alone.certificate.threads = 1;
-  }
-  Monitor silent;  // callbacks are for the calling thread
-  silent.stop = monitor.stop;
-  const std::thread::id caller = std::this_thread::get_id();
-  const auto contribute_alone = [&](std::size_t c) {
-    const bool here = std::this_thread::get_id() == caller;
-    contribute(c, alone, here ? notes.monitor() : silent);
-  };
-  const std::vector<std::size_t> firsts =
-      side_by_side.size() < fewest_with_copies ? side_by_side : firsts_of_kind(parts, side_by_side);
-  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
-    if (firsts[i] == side_by_side[i]) contribute_alone(side_by_side[i]);
-  });
-  parallel_for(side_by_side.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
-    const std::size_t c = side_by_side[i];
-    if (firsts[i] == c) return;
-    throw_if_stopped(monitor.stop);
-    auto made = result_of_copy(parts[firsts[i]], all[firsts[i]], parts[c]);
-    if (!made) return contribute_alone(c);
-    all[c] = std::move(*made);
-    logs[c].tries = tries_of_copy(logs[firsts[i]].tries, static_cast<int>(c));
-  });
+  if (!watched) make_side_by_side(making, small, options, notes, monitor.stop);
   notes.say_all();
-  write_down(logs, log, all);
-  return all;
+  write_down(making.logs, log, making.all);
+  return std::move(making.all);
 }
 
 }  // namespace curveskel

@@ -14,6 +14,7 @@
 
 #include <curveskel/certificate.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/monitor.hpp>
 #include <curveskel/topology.hpp>
 #include <curveskel/tries.hpp>
 #include "meshes/shapes.hpp"
@@ -111,6 +112,26 @@ TEST(Copies, HaveCurvesAsGoodAsTheirOwn) {
   EXPECT_GT(found.skeleton.radii.minCoeff(), 0);
   for (int component = 0; component < 4 * copies; ++component) {
     EXPECT_TRUE(is_kept(found.history, try_as_asked, component)) << component;
+  }
+}
+
+// Nothing else goes side by side where frames are shown one after the other.
+TEST(Copies, AreTheSameWhereTheRunIsWatched) {
+  const Surface scene = scene_of(kinds(), 150, 3);
+  const Extraction found = extract(scene);
+  Monitor watching;
+  int frames = 0;
+  watching.frame = [&](const Frame& /*frame*/) { ++frames; };
+  const Extraction watched = extract(scene, {}, watching);
+  EXPECT_GT(frames, 0);
+  EXPECT_EQ(watched.skeleton.nodes, found.skeleton.nodes);
+  EXPECT_EQ(watched.skeleton.edges, found.skeleton.edges);
+  EXPECT_EQ(watched.skeleton.radii, found.skeleton.radii);
+  EXPECT_EQ(watched.skeleton.node_of_vertex, found.skeleton.node_of_vertex);
+  ASSERT_EQ(watched.history.size(), found.history.size());
+  for (std::size_t k = 0; k < found.history.size(); ++k) {
+    EXPECT_EQ(watched.history[k].component, found.history[k].component) << k;
+    EXPECT_EQ(watched.history[k].part_of, found.history[k].part_of) << k;
   }
 }
 
