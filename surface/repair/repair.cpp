@@ -349,8 +349,10 @@ Mended clean_or_rebuilt(const PolygonSoup& soup, const RepairOptions& options,
     describe_changes(rebuilt.changes, monitor);
     return {std::move(rebuilt), false, true};
   }
-  if (is_mostly_tangle(cleaned->surface)) refuse_tangle(soup);
   const bool has_one_component = cleaned->components == 1;
+  const bool is_tangled =
+      has_one_component ? is_tangle(cleaned->surface, false) : is_mostly_tangle(cleaned->surface);
+  if (is_tangled) refuse_tangle(soup);
   return {{std::move(cleaned->surface),
            std::move(cleaned->vertex_of_input),
            std::move(cleaned->changes),
