@@ -127,7 +127,9 @@ bool has_corners_for_legs(const Outlook& outlook, const Surface& surface) {
 }  // namespace
 
 bool has_body_of_tubes(const Outlook& outlook) {
-  const auto& [axes, tree, limbs, found, sides, posed] = outlook;
+  const CurveTree& tree = outlook.tree;
+  const Limbs& limbs = outlook.limbs;
+  const PlanFound& found = outlook.found;
   if (has_flat_wings(outlook)) {
     return tubes_but_for_wings(tree, limbs, found.arms) >= tube_share_needed;
   }

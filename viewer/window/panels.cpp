@@ -1,6 +1,7 @@
 #include "viewer/window/panels.hpp"
 
 #include <fmt/core.h>
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
