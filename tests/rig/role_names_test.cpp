@@ -40,9 +40,10 @@ TEST(RoleNames, OfFingersAreThoseOfThePrograms) {
 TEST(RoleNames, AreTheRoleBearersAloneInAnyStyle) {
   const RigSubject subject = human_with_hands(3);
   const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  const Rig nameless = make_planned_rig(subject.surface, subject.skeleton, plan);
+  ASSERT_GT(nameless.names.size(), plan.joints.size());
   for (const auto& style : name_styles) {
-    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
-    ASSERT_GT(rig.names.size(), plan.joints.size());
+    Rig rig = nameless;
     rig.names.back() = "head";
     name_roles(rig, plan, style.value);
     for (std::size_t k = plan.joints.size(); k < rig.names.size(); ++k) {
@@ -54,8 +55,9 @@ TEST(RoleNames, AreTheRoleBearersAloneInAnyStyle) {
 TEST(RoleNames, AreUniqueAndOfTheirStyle) {
   for (const RigSubject& subject : {human(), human_with_hands(3), beast(1), tree()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    const Rig nameless = make_planned_rig(subject.surface, subject.skeleton, plan);
     for (const auto& style : name_styles) {
-      Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+      Rig rig = nameless;
       name_roles(rig, plan, style.value);
       const std::set<std::string> names(rig.names.begin(), rig.names.end());
       EXPECT_EQ(names.size(), rig.names.size()) << subject.name << ' ' << style.name;
@@ -81,12 +83,13 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
 TEST(RoleNames, LeaveAxesAndTwinsAsTheyAre) {
   for (const RigSubject& subject : {human(), human_with_hands(3), beast(1), tree()}) {
     const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
-    Rig rig = make_planned_rig(subject.surface, subject.skeleton, plan);
+    const Rig nameless = make_planned_rig(subject.surface, subject.skeleton, plan);
+    Rig rig = nameless;
     name_roles(rig, plan, NameStyle::automatic);
     const auto axes = bone_axes(rig);
     const std::vector<int> twins = twins_of(rig);
     for (const auto& style : name_styles) {
-      Rig other = make_planned_rig(subject.surface, subject.skeleton, plan);
+      Rig other = nameless;
       name_roles(other, plan, style.value);
       EXPECT_EQ(twins_of(other), twins) << subject.name << ' ' << style.name;
       const auto its = bone_axes(other);
