@@ -15,7 +15,7 @@ struct PointOfNode {
   int node;
 };
 
-/// As many as a certificate asks, evenly over the area. O(#N).
+/// An eighth of those that a certificate asks, evenly over the area. Near-linear in #N.
 [[nodiscard]] std::vector<PointOfNode> points_by_nodes(const CurveTree& tree);
 
 /// True on the wall of a tube, as by a certificate's `tube_share`.
