@@ -45,7 +45,8 @@ struct CleanSurface {
 /// each after leaving out corners that repeat the one before them, and one triangle with a repeated
 /// corner for a polygon with one or two. Where it can, it avoids diagonals that are an edge or a
 /// diagonal of another polygon too. O(k log k) for a polygon of k corners, O(k^2) at worst. Throws
-/// Cancelled on a stop.
+/// Error(Fault::input) where a corner is no vertex or the offsets skip corners, as `clean` and
+/// `repair` do; Cancelled on a stop.
 [[nodiscard]] Triangles triangulate(const PolygonSoup& given, const std::stop_token& stop = {});
 
 /// Triangulates, merges coincident vertices (exactly equal positions, and only where that does not

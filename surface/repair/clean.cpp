@@ -16,6 +16,7 @@
 #include "surface/mesh/whole.hpp"
 #include "surface/repair/orient.hpp"
 #include "surface/repair/repeated_polygons.hpp"
+#include "surface/repair/sound_soup.hpp"
 #include "surface/repair/weld.hpp"
 
 namespace curveskel {
@@ -207,6 +208,7 @@ void describe_changes(Changes& changes, const Monitor& monitor) {
 
 CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
   monitor.report("clean", 0);
+  require_sound(soup);
   Draft draft{soup, {soup.positions, {}}, {}};
   const auto once = without_repeated_polygons(soup, draft.changes.duplicate_faces_dropped);
   draft.surface.triangles = triangulate(once ? *once : soup, monitor.stop);

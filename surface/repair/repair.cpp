@@ -22,6 +22,7 @@
 #include "surface/repair/lies_in_plane.hpp"
 #include "surface/repair/merge_overlapping.hpp"
 #include "surface/repair/select_components.hpp"
+#include "surface/repair/sound_soup.hpp"
 #include "surface/repair/tangles.hpp"
 #include "surface/repair/thicken.hpp"
 #include "surface/repair/weld.hpp"
@@ -160,23 +161,6 @@ bool is_a_tangle(const JudgedParts& judged) {
           "(--wrap all takes what encloses them all)");
 }
 
-/// Each polygon in triangles round its first corner, as they come.
-Surface in_fans(const PolygonSoup& soup) {
-  const auto polygons = static_cast<std::int64_t>(soup.offsets.size()) - 1;
-  const auto corners = static_cast<std::int64_t>(soup.corners.size());
-  Surface fans{soup.positions, Triangles(std::max<std::int64_t>(0, corners - 2 * polygons), 3)};
-  Eigen::Index row = 0;
-  for (std::size_t p = 1; p < soup.offsets.size(); ++p) {
-    const auto first = static_cast<std::size_t>(soup.offsets[p - 1]);
-    for (std::size_t k = first + 2; k < static_cast<std::size_t>(soup.offsets[p]); ++k) {
-      if (row == fans.triangles.rows()) break;
-      fans.triangles.row(row++) << soup.corners[first], soup.corners[k - 1], soup.corners[k];
-    }
-  }
-  fans.triangles.conservativeResize(row, 3);
-  return fans;
-}
-
 void note_wrap(Repairs& repairs, const WrappedSolid& wrapped) {
   repairs.wrap_gap = wrapped.gap;
   repairs.wrap_distance = wrapped.distance;
@@ -281,7 +265,8 @@ std::int64_t add_thick_sheets(const ClosedParts& closed, const JudgedParts& judg
 /// If `clean` refuses. The refusal stands where there are no faces, or too many to count.
 RepairedSurface rebuild(const PolygonSoup& soup, const Error& refusal, const RepairOptions& options,
                         const Monitor& monitor, int threads) {
-  if (is_mostly_tangle(in_fans(soup))) refuse_tangle(soup);  // to join it takes long
+  const Surface given{soup.positions, triangulate(soup, monitor.stop)};
+  if (is_mostly_tangle(given)) refuse_tangle(soup);  // to join it takes long
   RepairedSurface result;
   const Joined joined = joined_faces(soup, options, refusal, monitor.stop, result);
   if (is_mostly_tangle(joined.surface)) refuse_tangle(soup);
@@ -410,6 +395,7 @@ void require_valid(const RepairOptions& options) {
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
   require_valid(options);
+  require_sound(soup);
   RepairOptions its = options;
   if (lies_in_plane(soup)) {
     if (options.least_sheet <= 0 || options.wrap == Wrapping::all) {

@@ -7,6 +7,7 @@
 #include <curveskel/clean.hpp>
 #include "surface/repair/ear_clipping.hpp"
 #include "surface/repair/polygon_corners.hpp"
+#include "surface/repair/sound_soup.hpp"
 
 namespace curveskel {
 namespace {
@@ -84,6 +85,7 @@ std::vector<std::uint64_t> crowded_diagonals(const PolygonSoup& soup, const Tria
 }  // namespace
 
 Triangles triangulate(const PolygonSoup& given, const std::stop_token& stop) {
+  require_sound(given);
   const auto polygons = static_cast<std::int64_t>(given.offsets.size()) - 1;
   bool only_triangles = given.corners.size() == static_cast<std::size_t>(3 * polygons);
   for (std::int64_t p = 0; only_triangles && p < polygons; ++p) {

@@ -6,12 +6,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <initializer_list>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include <curveskel/repair.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
 #include "tests/soups.hpp"
@@ -227,6 +231,30 @@ TEST(Cleaning, TakesMinusZeroForZero) {
 }
 
 // ---- What is refused, and how -------------------------------------------------------------------
+
+// Memory elsewhere was read.
+TEST(Cleaning, NumbersThatAreNoVerticesAreRefused) {
+  const PolygonSoup whole = cube();
+  std::vector<PolygonSoup> broken(5, whole);
+  broken[0].corners[7] = static_cast<std::int32_t>(whole.positions.rows());
+  broken[1].corners[7] = 999999999;
+  broken[2].corners[7] = -1;
+  broken[3].offsets.back() += 3;
+  std::swap(broken[4].offsets[1], broken[4].offsets[2]);
+  for (const PolygonSoup& soup : broken) {
+    const auto is_refused = [](const auto& stage) {
+      try {
+        stage();
+      } catch (const Error& error) {
+        return error.fault() == Fault::input;
+      }
+      return false;
+    };
+    EXPECT_TRUE(is_refused([&] { (void)triangulate(soup); }));
+    EXPECT_TRUE(is_refused([&] { (void)clean(soup); }));
+    EXPECT_TRUE(is_refused([&] { (void)repair(soup); }));
+  }
+}
 
 TEST(Refusing, AnOpenSurfaceNamesTheEdgeAndCountsThemAll) {
   PolygonSoup soup = cube();
