@@ -191,6 +191,7 @@ bool spreads_wings(const CurveTree& tree, const Limbs& limbs, PlanFound& found) 
   if (wings < 0 || (!found.legs.empty() && found.legs.front() == wings)) return false;
   found.plan = BodyKind::bird;
   found.arms = wings;
+  found.spreads_wings = true;
   found.reason = std::string("flat wings beside a level trunk, ") +
                  (found.legs.empty() ? "no pair of legs" : "one pair of legs");
   return true;

@@ -46,9 +46,9 @@ Explained explained_by(const Outlook& outlook) {
   return {explained, whole > 0 ? explained / whole : 1};
 }
 
-bool has_flat_wings(const Outlook& outlook) {
-  return outlook.found.plan == BodyKind::bird && outlook.found.arms >= 0 &&
-         flat_wings(outlook.tree, outlook.limbs) == outlook.found.arms;
+bool is_sure_bird(const Outlook& outlook) {
+  return outlook.found.spreads_wings &&
+         has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
 }
 
 namespace {

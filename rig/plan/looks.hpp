@@ -32,8 +32,8 @@ struct Outlook {
 /// Two pairs of limbs that are where they should be are no accident.
 [[nodiscard]] bool is_clear(BodyKind plan);
 
-/// True for a bird whose wings are flat, see `flat_wings`.
-[[nodiscard]] bool has_flat_wings(const Outlook& outlook);
+/// True for a bird that spreads flat wings between a head and a flat tail.
+[[nodiscard]] bool is_sure_bird(const Outlook& outlook);
 
 /// The middle of a human's shin lies in the lowest fifth: a leg whose tip does not has no foot
 /// there, whatever of the surface about it is on the ground.

@@ -19,11 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// With a head at one end and a flat tail at the other.
-bool is_sure_bird(const Outlook& outlook) {
-  return has_flat_wings(outlook) && has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
-}
-
 /// In frames that are not the usual one: a tailed biped whose head is no lower than its hips, and
 /// a bird with flat wings. No fish and no other bird, as any long thing and any cross is one from
 /// somewhere.
@@ -118,8 +113,8 @@ std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
 Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Outlook best = look(Sides::images, body, frames.front(), options.plan);
-  for (std::size_t k = 1; k < frames.size() && !is_clear(best.found.plan) && !has_flat_wings(best);
-       ++k) {
+  for (std::size_t k = 1;
+       k < frames.size() && !is_clear(best.found.plan) && !best.found.spreads_wings; ++k) {
     Outlook other = look(Sides::images, body, frames[k], options.plan);
     const double off = asymmetry(other.tree, 0, other.tree.middle);
     if (is_sure_bird(other) && off < symmetric) best = std::move(other);

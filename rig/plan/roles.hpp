@@ -15,9 +15,10 @@ constexpr double near_ground = 0.06;  ///< of the height, that feet are off it a
 struct PlanFound {
   BodyKind plan = BodyKind::other;
   std::string reason;
-  std::vector<int> legs;  ///< pairs; of quadrupeds two
-  int arms = -1;          ///< pair; -1 = none
-  double lean = 0;        ///< of a biped's trunk from upright, in degrees
+  std::vector<int> legs;       ///< pairs; of quadrupeds two
+  int arms = -1;               ///< pair; -1 = none
+  bool spreads_wings = false;  ///< a bird whose arms are flat, see `flat_wings`
+  double lean = 0;             ///< of a biped's trunk from upright, in degrees
 };
 
 /// The feet of a body in a pose may be off the ground, but for one.

@@ -36,14 +36,13 @@ double share_of_largest_component(const Surface& surface, const std::vector<std:
 /// nothing about humans, and wings and fans of tails may have more area than all the rest.
 bool is_put_together(const Outlook& outlook, const Surface& surface, const PlanOptions& options) {
   constexpr double most_of_it = 0.5;
-  return !has_flat_wings(outlook) &&
+  return !outlook.found.spreads_wings &&
          share_of_largest_component(surface, options.sheets) < most_of_it;
 }
 
 /// Of a bird that spreads its wings the curve may be a cross, but a tail is flat and a head is not.
 bool has_a_head(const Outlook& outlook) {
-  if (!is_alike_from_both_ends(outlook)) return true;
-  return has_flat_wings(outlook) && has_a_flat_end(outlook.tree, outlook.limbs, outlook.found.arms);
+  return !is_alike_from_both_ends(outlook) || is_sure_bird(outlook);
 }
 
 /// Of the box along the body's axes the share that the components' volumes have together.
@@ -130,7 +129,7 @@ bool has_body_of_tubes(const Outlook& outlook) {
   const CurveTree& tree = outlook.tree;
   const Limbs& limbs = outlook.limbs;
   const PlanFound& found = outlook.found;
-  if (has_flat_wings(outlook)) {
+  if (found.spreads_wings) {
     return tubes_but_for_wings(tree, limbs, found.arms) >= tube_share_needed;
   }
   if (found.plan != BodyKind::humanoid) return false;

@@ -23,6 +23,17 @@ namespace {
 
 using Eigen::RowVector3d;
 
+/// The usual plan of a body that stands in these axes instead.
+void expect_turned(const BodyPlan& found, const BodyPlan& usual, const Eigen::Matrix3d& axes) {
+  ASSERT_EQ(found.plan, usual.plan) << found.reason;
+  EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
+  ASSERT_EQ(found.joints.size(), usual.joints.size());
+  for (std::size_t k = 0; k < found.joints.size(); ++k) {
+    EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
+    EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
+  }
+}
+
 TEST(FindPlan, FollowsUpAndFront) {
   const RigSubject subject = human();
   const BodyPlan upright = find_plan(subject.surface, subject.skeleton);
@@ -71,13 +82,7 @@ TEST(FindPlan, UpAndFrontAreFound) {
       options.z_is_up = z_is_up;
       z_is_up = !z_is_up;
       const BodyPlan found = find_plan(stands.surface, stands.skeleton, options);
-      EXPECT_EQ(found.plan, usual.plan) << found.reason;
-      EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
-      ASSERT_EQ(found.joints.size(), usual.joints.size());
-      for (std::size_t k = 0; k < found.joints.size(); ++k) {
-        EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
-        EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
-      }
+      expect_turned(found, usual, axes);
     }
   }
 }
@@ -157,13 +162,7 @@ TEST(FindPlan, ALyingBodyIsWhatItIsUpright) {
       SCOPED_TRACE(testing::Message() << subject.name << "\n" << axes);
       const RigSubject lies = standing_in(subject, axes);
       const BodyPlan found = find_plan(lies.surface, lies.skeleton);
-      ASSERT_EQ(found.plan, usual.plan) << found.reason;
-      EXPECT_LT((found.axes - axes).norm(), 1e-12) << found.axes;
-      ASSERT_EQ(found.joints.size(), usual.joints.size());
-      for (std::size_t k = 0; k < found.joints.size(); ++k) {
-        EXPECT_EQ(found.joints[k].role, usual.joints[k].role);
-        EXPECT_LT((found.joints[k].position - usual.joints[k].position * axes).norm(), 0.4);
-      }
+      expect_turned(found, usual, axes);
       PlanOptions options;
       options.up = Direction::y;  // what is said holds
       EXPECT_NE(find_plan(lies.surface, lies.skeleton, options).plan, usual.plan);

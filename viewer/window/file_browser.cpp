@@ -4,12 +4,12 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include "viewer/window/reading_order.hpp"
 
 namespace curveskel::viewer {
@@ -128,11 +128,8 @@ bool FileBrowser::draw_name() {
 }
 
 bool FileBrowser::asks_for(const FieldsForName& fields) const {
-  const std::size_t letters = fields.ending.size();
-  if (purpose_ != Purpose::save || letters == 0 || name_.size() < letters) return false;
-  return std::equal(
-      fields.ending.begin(), fields.ending.end(), name_.end() - letters,
-      [](char wanted, char c) { return wanted == std::tolower(static_cast<unsigned char>(c)); });
+  return purpose_ == Purpose::save && !fields.extension.empty() &&
+         lower_extension(name_) == fields.extension;
 }
 
 float FileBrowser::height_of_hint() const {

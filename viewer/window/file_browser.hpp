@@ -9,9 +9,9 @@
 
 namespace curveskel::viewer {
 
-/// Controls beneath the list of files, for names with this ending.
+/// Controls beneath the list of files, for names with this extension.
 struct FieldsForName {
-  std::string ending;  ///< in lower case; none: never
+  std::string extension;  ///< in lower case, without its dot; none: never
   int lines = 0;
   /// Of true: the keys are for the first that lacks a text. Returns true where Enter ended one.
   std::function<bool(bool)> draw;

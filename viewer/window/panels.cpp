@@ -224,7 +224,7 @@ FieldsForName vrm_fields(VrmMeta& meta) {
     return field("licence", "https://vrm.dev/licenses/1.0/", meta.licence_url, true) || first ||
            second;
   };
-  return {".vrm", 3, draw, [&meta] { return missing_of(meta); }};
+  return {"vrm", 3, draw, [&meta] { return missing_of(meta); }};
 }
 
 void browser(Workbench& bench, Panels& panels) {
