@@ -1,12 +1,16 @@
 // Soups to repair, and what repairs leave of them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 
+#include <curveskel/error.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
@@ -63,6 +67,18 @@ inline PolygonSoup open_tube() {
   const shapes::Shape tube = shapes::tube("tube", shapes::straight(6), shapes::constant(0.5), 24);
   const PolygonSoup soup = soup_of(tube.surface);
   return with_polygons(soup, [&](std::size_t p) { return std::abs(middle_of(soup, p).x()) < 2.5; });
+}
+
+/// The message with which the soup is refused, as it must be.
+inline std::string refusal_of(const PolygonSoup& soup) {
+  try {
+    (void)repair(soup, {}, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::input);
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace curveskel
