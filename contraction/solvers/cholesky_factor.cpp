@@ -95,7 +95,7 @@ struct CholeskyFactor::Implementation {
     std::size_t size_ = 0;
   };
 
-  explicit Implementation(int most_threads) : threads(most_threads) {}
+  explicit Implementation(int threads_at_most) : threads(threads_at_most) {}
 
   [[nodiscard]] bool same_pattern(const SparseMatrix& h) const {
     return outer.size() == idx(h.outerSize()) + 1 && inner.size() == idx(h.nonZeros()) &&
