@@ -29,11 +29,11 @@ struct SplitMesh {
 /// Of each corner the vertex: the file's own for the first corner there and those like it.
 class Splitting {
  public:
-  Splitting(std::size_t first_place, std::size_t places)
-      : first_(static_cast<std::int32_t>(first_place)), split_(places), named_(places, false) {}
+  explicit Splitting(const std::vector<std::int32_t>& places)
+      : places_(places), split_(places.size()), named_(places.size(), false) {}
 
   std::int32_t vertex_of(const DressedCorner& corner) {
-    const auto own = idx(corner.place - first_);
+    const std::size_t own = number_of(corner.place);
     if (!named_[own]) {
       named_[own] = true;
       split_[own] = corner;
@@ -42,7 +42,7 @@ class Splitting {
       return other.texture == corner.texture && other.normal == corner.normal &&
              other.colour == corner.colour;
     };
-    if (is_same(split_[own])) return corner.place - first_;
+    if (is_same(split_[own])) return static_cast<std::int32_t>(own);
     const std::array<std::int32_t, 4> key{corner.place, corner.texture, corner.normal,
                                           corner.colour};
     const auto [copy, is_new] = copies_.try_emplace(key, static_cast<std::int32_t>(split_.size()));
@@ -51,40 +51,63 @@ class Splitting {
   }
 
   std::vector<DressedCorner> take() {
-    for (std::size_t v = 0; v < named_.size(); ++v) {
-      split_[v].place = first_ + static_cast<std::int32_t>(v);
-    }
+    for (std::size_t v = 0; v < named_.size(); ++v) split_[v].place = places_[v];
     return std::move(split_);
   }
 
  private:
-  std::int32_t first_;
+  /// Places mostly follow each other without a gap.
+  [[nodiscard]] std::size_t number_of(std::int32_t place) const {
+    const auto guess = static_cast<std::size_t>(place - places_.front());
+    if (guess < places_.size() && places_[guess] == place) return guess;
+    return idx(std::lower_bound(places_.begin(), places_.end(), place) - places_.begin());
+  }
+
+  const std::vector<std::int32_t>& places_;  ///< ascending
   std::vector<DressedCorner> split_;
   std::vector<bool> named_;
   std::map<std::array<std::int32_t, 4>, std::int32_t> copies_;
 };
 
-/// Places and faces of one part of a mesh.
+/// Places, ascending, and faces of one part of a mesh.
 struct PartRange {
   std::size_t number;
   const DressedPart& part;
-  std::size_t first_place;
-  std::size_t end_place;
+  std::vector<std::int32_t> places;
   std::size_t first_face;
   std::size_t end_face;
 };
 
-/// They refer to the mesh's parts.
+/// Those that its faces have, in `part.places`.
+void find_places(const DressedMesh& mesh, PartRange& part) {
+  const auto begin = mesh.corners.begin() + mesh.offsets[part.first_face];
+  const auto end = mesh.corners.begin() + mesh.offsets[part.end_face];
+  part.places.reserve(idx(end - begin));
+  for (auto corner = begin; corner != end; ++corner) part.places.push_back(corner->place);
+  std::sort(part.places.begin(), part.places.end());
+  part.places.erase(std::unique(part.places.begin(), part.places.end()), part.places.end());
+}
+
+/// Parts refer to the mesh's.
 std::vector<PartRange> ranges_of(const DressedMesh& mesh) {
   std::vector<PartRange> ranges;
+  std::vector<bool> has_faces(mesh.places.size() / 3, false);
   for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
-    const DressedPart& part = mesh.parts[k];
     const bool is_last = k + 1 == mesh.parts.size();
-    ranges.push_back({k, part, part.first_place,
-                      is_last ? mesh.places.size() / 3 : mesh.parts[k + 1].first_place,
-                      part.first_face,
+    ranges.push_back({k,
+                      mesh.parts[k],
+                      {},
+                      mesh.parts[k].first_face,
                       is_last ? mesh.material_of_face.size() : mesh.parts[k + 1].first_face});
+    find_places(mesh, ranges.back());
+    for (const std::int32_t place : ranges.back().places) has_faces[idx(place)] = true;
   }
+  std::size_t k = 0;
+  for (std::size_t place = 0; place < has_faces.size(); ++place) {
+    while (k + 1 < ranges.size() && mesh.parts[k + 1].first_place <= place) ++k;
+    if (!has_faces[place]) ranges[k].places.push_back(static_cast<std::int32_t>(place));
+  }
+  for (PartRange& range : ranges) std::sort(range.places.begin(), range.places.end());
   return ranges;
 }
 
@@ -93,7 +116,7 @@ SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes&
   const std::size_t materials = mesh.materials.size();
   result.corners.resize(materials + 1);
   result.offsets.resize(materials + 1, {0});
-  Splitting splitting(part.first_place, part.end_place - part.first_place);
+  Splitting splitting(part.places);
   const auto is_placed = [&](const DressedCorner& corner) {
     const double* place = mesh.places.data() + 3 * idx(corner.place);
     return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);

@@ -41,13 +41,14 @@ struct DressedShape {
   std::map<std::int32_t, Eigen::Vector3d> moves;  ///< by place
 };
 
-/// A mesh of a file that has several: places and faces from its first ones to the next mesh's.
+/// A mesh of a file that has several: its faces from the first one to the next mesh's, the places
+/// of these, and from the first place to the next mesh's those that no face has.
 struct DressedPart {
   std::string name;
   std::size_t first_place = 0;
   std::size_t first_face = 0;
   std::vector<std::string> texture_sets = {};  ///< the names of those that it has; may be empty
-  std::vector<std::string> colour_sets = {};   ///< likewise
+  std::vector<std::string> colour_sets = {};   ///< likewise; without use where there are no colours
 };
 
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].
@@ -72,8 +73,8 @@ struct DressedMesh {
 
   /// Nothing that a file without looks would lose.
   [[nodiscard]] bool is_bare() const {
-    return textures.empty() && normals.empty() && materials.empty() && shapes.empty() &&
-           colours.empty() && to_gltf.matrix().isIdentity(0);
+    return parts.size() < 2 && textures.empty() && normals.empty() && materials.empty() &&
+           shapes.empty() && colours.empty() && to_gltf.matrix().isIdentity(0);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/gltf/colours.hpp"
@@ -81,6 +82,31 @@ void read_colour(TextCursor& text, DressedMesh& mesh) {
   mesh.colours.push_back({r, g, b, a});
 }
 
+/// What follows is of the object of this name.
+void begin_object(const std::string& name, DressedMesh& mesh) {
+  if (!mesh.parts.empty() && mesh.parts.back().name == name) return;
+  mesh.parts.push_back({name, mesh.places.size() / 3, mesh.material_of_face.size()});
+}
+
+/// Objects without faces go; each other has the sets that its corners name.
+void finish_objects(DressedMesh& mesh) {
+  std::vector<DressedPart> objects;
+  for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
+    DressedPart& object = mesh.parts[k];
+    const std::size_t end_face =
+        k + 1 < mesh.parts.size() ? mesh.parts[k + 1].first_face : mesh.material_of_face.size();
+    if (object.first_face == end_face) continue;
+    if (std::any_of(mesh.corners.begin() + mesh.offsets[object.first_face],
+                    mesh.corners.begin() + mesh.offsets[end_face],
+                    [](const DressedCorner& corner) { return corner.texture >= 0; })) {
+      object.texture_sets = {""};
+    }
+    if (!mesh.colours.empty()) object.colour_sets = {""};
+    objects.push_back(std::move(object));
+  }
+  mesh.parts = std::move(objects);
+}
+
 int number_of(std::vector<std::string>& names, const std::string& name) {
   const auto known = std::find(names.begin(), names.end(), name);
   const auto number = static_cast<int>(known - names.begin());
@@ -94,6 +120,7 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
   ObjFile obj;
   DressedMesh& mesh = obj.mesh;
   int material = -1;
+  begin_object("", mesh);
   TextCursor text(file);
   for (std::int64_t row = 0; !text.done(); ++row) {
     if (row % rows_per_report == 0) monitor.report("write", text.fraction());
@@ -106,8 +133,10 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
       mesh.textures.push_back({u, v});
     } else if (text.accept("vn")) {
       mesh.normals.push_back(read_numbers<3>(text));
-    } else if (text.accept("f")) {
+    } else if (text.accept("f") || text.accept("fo")) {
       read_face(text, mesh, material);
+    } else if (text.accept("o")) {
+      begin_object(rest_of_line(text), mesh);
     } else if (text.accept("usemtl")) {
       material = number_of(mesh.materials, rest_of_line(text));
     } else if (text.accept("mtllib")) {
@@ -129,6 +158,7 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     if (corner.normal >= static_cast<std::int64_t>(mesh.normals.size())) corner.normal = -1;
     if (!mesh.colours.empty()) corner.colour = corner.place;
   }
+  finish_objects(mesh);
   return obj;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_materials.hpp>
@@ -243,6 +244,114 @@ TEST_F(DressObj, PolygonsKeepTheirTextureCoordinates) {
   }
   for (const float number : glb.values<float>(primitive["attributes"]["POSITION"])) {
     EXPECT_TRUE(std::isfinite(number));
+  }
+}
+
+/// The faces of a torus in `objects` runs of their own name; vertices all before the first object,
+/// or those that an object has first in front of its faces.
+std::string text_of_objects(const Surface& torus, int objects, bool vertices_first, bool textures) {
+  std::ostringstream obj;
+  obj.precision(17);
+  std::vector<int> number(idx(torus.positions.rows()), 0);  // in the file, from 1
+  int written = 0;
+  const auto write_vertex = [&](int v) {
+    if (number[idx(v)] > 0) return;
+    number[idx(v)] = ++written;
+    const auto at = torus.positions.row(v);
+    obj << "v " << at.x() << ' ' << at.y() << ' ' << at.z() << '\n';
+  };
+  const auto run_of = [&](Eigen::Index f) { return f * objects / torus.triangles.rows(); };
+  for (int v = 0; vertices_first && v < torus.positions.rows(); ++v) write_vertex(v);
+  if (textures) obj << "vt 0.5 0.5\n";
+  for (int object = 0; object < objects; ++object) {
+    obj << "o empty " << object << "\no part " << object << '\n';
+    for (const bool faces : {false, true}) {
+      for (Eigen::Index f = 0; f < torus.triangles.rows(); ++f) {
+        if (run_of(f) != object) continue;
+        if (faces) obj << 'f';
+        for (const int v : torus.triangles.row(f)) {
+          if (faces) obj << ' ' << number[idx(v)] << (textures ? "/1" : "");
+          if (!faces) write_vertex(v);
+        }
+        if (faces) obj << '\n';
+      }
+    }
+  }
+  return obj.str();
+}
+
+using PlacedFace = std::array<float, 9>;
+
+PlacedFace placed_face(const std::vector<float>& places, const std::array<std::size_t, 3>& face) {
+  PlacedFace placed{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(3 * face.at(c)), 3,
+                placed.begin() + static_cast<std::ptrdiff_t>(3 * c));
+  }
+  return placed;
+}
+
+struct ObjObjects {
+  int count = 2;
+  bool vertices_first = false;
+  bool textures = false;
+};
+
+/// The faces of `face` on, those of object `object`; returns the next face.
+Eigen::Index expect_object(const Glb& glb, const ObjObjects& objects, int object,
+                           Eigen::Index face) {
+  const Surface torus = torus_surface();
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> at = torus.positions.cast<float>();
+  const std::vector<float> places(at.data(), at.data() + at.size());
+  const Json& mesh = glb.json["meshes"][static_cast<std::size_t>(object)];
+  const Json& node = glb.json["nodes"][static_cast<std::size_t>(object)];
+  EXPECT_EQ(mesh["name"], "part " + std::to_string(object));
+  EXPECT_EQ(node["name"], mesh["name"]);
+  EXPECT_EQ(node["mesh"], object);
+  EXPECT_TRUE(node.contains("skin"));
+  const Json& attributes = mesh["primitives"][0]["attributes"];
+  EXPECT_EQ(attributes.contains("TEXCOORD_0"), objects.textures);
+  const auto found = glb.values<float>(attributes["POSITION"]);
+  const auto corners = glb.values<std::uint32_t>(mesh["primitives"][0]["indices"]);
+  const std::set<std::uint32_t> used(corners.begin(), corners.end());
+  EXPECT_EQ(3 * used.size(), found.size());  // none that its faces do not have
+  for (std::size_t c = 0; c < corners.size(); c += 3, ++face) {
+    const auto expected = torus.triangles.row(face);
+    EXPECT_EQ(placed_face(found, {corners[c], corners[c + 1], corners[c + 2]}),
+              placed_face(places, {idx(expected[0]), idx(expected[1]), idx(expected[2])}));
+  }
+  return face;
+}
+
+/// As in Blender, which makes an object of each; none of those that have no faces.
+TEST_F(DressObj, AnObjectIsANodeWithItsNameAndItsFaces) {
+  const Surface torus = torus_surface();
+  for (const int number : {0, 1, 2, 3, 4, 5}) {
+    const ObjObjects objects{2 + number, number % 2 == 0, number % 3 == 0};
+    const std::string text =
+        text_of_objects(torus, objects.count, objects.vertices_first, objects.textures);
+    const PolygonSoup soup = read_polygons(folder_.write("objects.obj", text), {});
+    const Rig rig = random_rig(soup.positions.rows(), 9, "bone ");
+    const EditedFile edited = dressed(text, rig);
+    const Glb glb = glb_of(edited.bytes);
+    ASSERT_EQ(glb.json["meshes"].size(), static_cast<std::size_t>(objects.count));
+    Eigen::Index face = 0;
+    for (int object = 0; object < objects.count; ++object) {
+      face = expect_object(glb, objects, object, face);
+    }
+    EXPECT_EQ(face, torus.triangles.rows());
+    const fs::path file = folder_.write("dressed.glb", edited.bytes);
+    const Positions written = read_polygons(file, {}).positions;
+    const Eigen::MatrixXf weights = read_rig(file, {})->weights;
+    const Surface bare{soup.positions, triangulate(soup)};
+    const fs::path bare_file =
+        folder_.write("bare.glb", format_rig(bare, rig, RigFormat::glb, "", ""));
+    const Eigen::MatrixXf expected = read_rig(bare_file, {})->weights;
+    for (Eigen::Index v = 0; v < written.rows(); ++v) {
+      Eigen::Index own = 0;
+      (soup.positions.rowwise() - written.row(v)).rowwise().norm().minCoeff(&own);
+      EXPECT_LT((weights.row(v) - expected.row(own)).norm(), 1e-6F);
+    }
   }
 }
 
