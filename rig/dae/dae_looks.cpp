@@ -35,11 +35,10 @@ class DaeLookReader {
         monitor_(monitor),
         meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read(bool as_bound) {
+  DressedFile read(bool as_bound) {
     for_each_dae_mesh(document_, monitor_, as_bound,
                       [this](const DaeShownMesh& shown) { add(shown); });
     made_.mesh.to_gltf = dae_to_gltf(document_);
-    if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::dae));
     return std::move(made_);
   }
@@ -181,8 +180,8 @@ class DaeLookReader {
 
 }  // namespace
 
-std::optional<DressedFile> read_dae_looks(const FileBytes& file, bool as_bound,
-                                          std::vector<std::string>& notes, const Monitor& monitor) {
+DressedFile read_dae_looks(const FileBytes& file, bool as_bound, std::vector<std::string>& notes,
+                           const Monitor& monitor) {
   const XmlElement root = parse_dae(file);
   return DaeLookReader(file, DaeDocument(file, root), notes, monitor).read(as_bound);
 }

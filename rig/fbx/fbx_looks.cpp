@@ -26,13 +26,12 @@ class FbxLookReader {
                 const Monitor& monitor)
       : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
 
-  std::optional<DressedFile> read(bool as_bound) {
+  DressedFile read(bool as_bound) {
     std::optional<FbxBind> bind;
     if (as_bound) bind.emplace(scene_);
     for_each_fbx_mesh(file_, scene_, bind ? &*bind : nullptr,
                       [this](const FbxShownMesh& mesh) { add(mesh); });
     made_.mesh.to_gltf = fbx_to_gltf(root_);
-    if (made_.mesh.is_bare()) return std::nullopt;
     rows_.place(meshes_.soup(SurfaceFormat::fbx));
     return std::move(made_);
   }
@@ -144,8 +143,7 @@ class FbxLookReader {
 
 }  // namespace
 
-std::optional<DressedFile> read_fbx_looks(const FileBytes& file, bool as_bound,
-                                          const Monitor& monitor) {
+DressedFile read_fbx_looks(const FileBytes& file, bool as_bound, const Monitor& monitor) {
   const FbxRecord root = parse_fbx(file);
   require_fbx_version(file, root);
   const FbxScene scene(file, root);

@@ -92,10 +92,12 @@ class MeshReader {
         std::pair(primitive.attributes, primitive.targets), made_.places.size() / 3);
     if (is_new) add_vertices(primitive);
     const std::int32_t material = material_number(primitive.material);
+    made_.material_of_primitive.push_back(material);
     for (const auto& [a, b, c] : triangles(primitive)) {
       for (const std::size_t corner : {a, b, c}) {
         made_.corners.push_back(static_cast<std::int32_t>(block->second + corner));
       }
+      made_.offsets.push_back(static_cast<std::int64_t>(made_.corners.size()));
       made_.material_of_face.push_back(material);
     }
   }
@@ -212,8 +214,15 @@ FbxRows by_corner(const FbxRows& rows, const std::vector<std::int32_t>& corners)
 }
 
 /// A polygon's last corner is told by its sign.
-std::vector<std::int32_t> polygons(std::vector<std::int32_t> corners) {
-  for (std::size_t k = 2; k < corners.size(); k += 3) corners[k] = -corners[k] - 1;
+std::vector<std::int32_t> signed_polygons(const FbxMesh& mesh) {
+  std::vector<std::int32_t> corners = mesh.corners;
+  if (!mesh.place_of_vertex.empty()) {
+    for (std::int32_t& corner : corners) corner = mesh.place_of_vertex[idx(corner)];
+  }
+  for (std::size_t face = 1; face < mesh.offsets.size(); ++face) {
+    std::int32_t& last = corners[idx(mesh.offsets[face] - 1)];
+    last = -last - 1;
+  }
   return corners;
 }
 
@@ -227,8 +236,9 @@ void begin_layer(FbxRecords& records, const char* type, std::int32_t number,
   records.record("ReferenceInformationType", reference);
 }
 
-void write_layer(FbxRecords& records, std::int32_t number,
-                 const std::vector<std::pair<const char*, std::int32_t>>& elements) {
+using LayerElements = std::vector<std::pair<const char*, std::int32_t>>;
+
+void write_layer(FbxRecords& records, std::int32_t number, const LayerElements& elements) {
   records.begin("Layer");
   records.add(number);
   records.record("Version", 100);
@@ -241,11 +251,24 @@ void write_layer(FbxRecords& records, std::int32_t number,
   records.end();
 }
 
+/// The first layer has `first`, each a set of colours and one of texture coordinates.
+void write_layers(FbxRecords& records, const FbxMesh& mesh, LayerElements first) {
+  const std::size_t sets = std::max(mesh.maps.size(), mesh.colours.size());
+  for (std::size_t k = 0; k < std::max<std::size_t>(1, sets); ++k) {
+    const auto number = static_cast<std::int32_t>(k);
+    LayerElements layer = std::exchange(first, {});
+    if (k < mesh.colours.size()) layer.emplace_back("LayerElementColor", number);
+    if (k < mesh.maps.size()) layer.emplace_back("LayerElementUV", number);
+    write_layer(records, number, layer);
+  }
+}
+
 void write_geometry(FbxRecords& records, const FbxMesh& mesh) {
   records.record("GeometryVersion", 124);
   records.record("Vertices", mesh.places);
-  records.record("PolygonVertexIndex", polygons(mesh.corners));
-  std::vector<std::pair<const char*, std::int32_t>> layer{{"LayerElementMaterial", 0}};
+  records.record("PolygonVertexIndex", signed_polygons(mesh));
+  LayerElements layer;
+  if (mesh.has_materials()) layer.emplace_back("LayerElementMaterial", 0);
   if (!mesh.normals.empty()) {
     begin_layer(records, "LayerElementNormal", 0, "", "ByPolygonVertex", "Direct");
     records.record("Normals", by_corner(mesh.normals, mesh.corners));
@@ -266,17 +289,12 @@ void write_geometry(FbxRecords& records, const FbxMesh& mesh) {
     records.record("UVIndex", mesh.corners);
     records.end();
   }
-  begin_layer(records, "LayerElementMaterial", 0, "", "ByPolygon", "IndexToDirect");
-  records.record("Materials", mesh.material_of_face);
-  records.end();
-  for (std::size_t k = 0;
-       k < std::max<std::size_t>(1, std::max(mesh.maps.size(), mesh.colours.size())); ++k) {
-    const auto number = static_cast<std::int32_t>(k);
-    if (k < mesh.colours.size()) layer.emplace_back("LayerElementColor", number);
-    if (k < mesh.maps.size()) layer.emplace_back("LayerElementUV", number);
-    write_layer(records, number, layer);
-    layer.clear();
+  if (mesh.has_materials()) {
+    begin_layer(records, "LayerElementMaterial", 0, "", "ByPolygon", "IndexToDirect");
+    records.record("Materials", mesh.material_of_face);
+    records.end();
   }
+  write_layers(records, mesh, std::move(layer));
 }
 
 /// The vertices that the shape moves, and how far.
@@ -336,6 +354,21 @@ FbxMesh read_fbx_mesh(const FileBytes& file, const tinygltf::Model& model, int m
       .read();
 }
 
+void take_polygons(FbxMesh& mesh, const MeshPolygons& polygons) {
+  mesh.place_of_vertex = polygons.place_of_vertex;
+  mesh.places.resize(3 * polygons.places);
+  for (FbxMesh::Shape& shape : mesh.shapes) shape.offsets.resize(3 * polygons.places);
+  for (auto& vertices : mesh.moved) {
+    std::erase_if(vertices, [&](const auto& one) { return idx(one.first) >= polygons.places; });
+  }
+  mesh.corners = polygons.corners;
+  mesh.offsets = polygons.offsets;
+  mesh.material_of_face.clear();
+  for (const std::size_t primitive : polygons.primitive_of_face) {
+    mesh.material_of_face.push_back(mesh.material_of_primitive.at(primitive));
+  }
+}
+
 void move(FbxMesh& mesh, const Eigen::Affine3d& frame) {
   const Eigen::Vector3d nowhere = Eigen::Vector3d::Zero();
   move_rows(mesh.places, frame.linear(), frame.translation());
@@ -348,8 +381,9 @@ void move(FbxMesh& mesh, const Eigen::Affine3d& frame) {
     normal.normalize();
   }
   if (volume > 0) return;
-  for (std::size_t k = 0; k + 2 < mesh.corners.size(); k += 3) {
-    std::swap(mesh.corners[k + 1], mesh.corners[k + 2]);
+  for (std::size_t face = 0; face + 1 < mesh.offsets.size(); ++face) {
+    const auto begin = mesh.corners.begin();
+    std::reverse(begin + mesh.offsets[face] + 1, begin + mesh.offsets[face + 1]);
   }
 }
 

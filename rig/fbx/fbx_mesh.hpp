@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rig/fbx/fbx_document.hpp"
+#include "rig/gltf/mesh_polygons.hpp"
 #include "surface/read/file_bytes.hpp"
 
 namespace tinygltf {
@@ -16,7 +17,7 @@ class Model;
 
 namespace curveskel {
 
-/// Rows of numbers, one a vertex.
+/// Rows of numbers, one a vertex or place.
 using FbxRows = std::vector<double>;
 
 struct FbxMesh {
@@ -32,13 +33,17 @@ struct FbxMesh {
     FbxRows offsets;
   };
   std::vector<Shape> shapes;
-  std::vector<std::int32_t> corners;           ///< three a triangle
-  std::vector<std::int32_t> material_of_face;  ///< one of `materials`
-  std::vector<int> materials;                  ///< of the file; -1 = the file names none
+  std::vector<std::int32_t> corners;  ///< face k has those from offsets[k] on
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> place_of_vertex;        ///< where seams parted vertices; none = its own
+  std::vector<std::int32_t> material_of_face;       ///< one of `materials`
+  std::vector<std::int32_t> material_of_primitive;  ///< likewise
+  std::vector<int> materials;                       ///< of the file; -1 = the file names none
   /// Of each of the skin's joints the vertices that it moves, and their weights.
   std::vector<std::vector<std::pair<std::int32_t, double>>> moved;
 
   [[nodiscard]] bool empty() const { return corners.empty(); }
+  [[nodiscard]] bool has_materials() const { return materials != std::vector<int>{-1}; }
 };
 
 /// The triangles of all its primitives; vertices that primitives share come once. `joints` is the
@@ -46,6 +51,10 @@ struct FbxMesh {
 /// Error(Fault::input) where numbers are wrong.
 [[nodiscard]] FbxMesh read_fbx_mesh(const FileBytes& file, const tinygltf::Model& model, int mesh,
                                     std::size_t joints, std::vector<std::string> map_names);
+
+/// In place of its triangles. Places, moves and weights are then of places, what a corner has else
+/// is of vertices.
+void take_polygons(FbxMesh& mesh, const MeshPolygons& polygons);
 
 void move(FbxMesh& mesh, const Eigen::Affine3d& frame);
 

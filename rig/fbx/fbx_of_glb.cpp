@@ -61,6 +61,13 @@ LocalMove local_move(const Affine3d& frame) {
   return move;
 }
 
+/// A frame times its inverse, which a file has in single precision.
+bool is_rounding(const Affine3d& move, const Affine3d& frame) {
+  constexpr double single = 1e-6;
+  return (move.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= single &&
+         move.translation().norm() <= single * frame.translation().norm();
+}
+
 void write_model(FbxRecords& records, const LocalMove& move) {
   records.record("Version", 232);
   records.begin("Properties70");
@@ -78,9 +85,11 @@ void write_model(FbxRecords& records, const LocalMove& move) {
 
 class SceneWriter {
  public:
-  SceneWriter(const FileBytes& file, const tinygltf::Model& model, const Monitor& monitor)
+  SceneWriter(const FileBytes& file, const tinygltf::Model& model,
+              const std::vector<MeshPolygons>& polygons, const Monitor& monitor)
       : file_(file),
         model_(model),
+        polygons_(polygons),
         scene_(read_gltf_scene(file, model, monitor)),
         map_names_(fbx_map_names(model)),
         is_joint_(model.nodes.size(), false) {
@@ -185,7 +194,9 @@ class SceneWriter {
     const std::size_t joints =
         skin < 0 ? 0 : gltf_element(file_, model_.skins, skin, "skin").joints.size();
     gltf_element(file_, model_.meshes, given.mesh, "mesh");
-    FbxMesh mesh = read_fbx_mesh(file_, model_, given.mesh, joints, map_names_[idx(given.mesh)]);
+    const auto number = idx(given.mesh);
+    FbxMesh mesh = read_fbx_mesh(file_, model_, given.mesh, joints, map_names_[number]);
+    if (number < polygons_.size()) take_polygons(mesh, polygons_[number]);
     if (mesh.empty()) return;
     const std::string& own = model_.meshes[idx(given.mesh)].name;
     const std::string name = given.name.empty() ? own : given.name;
@@ -202,7 +213,7 @@ class SceneWriter {
       holder = add_model(name, "Mesh", Affine3d::Identity());
       document_.connect(holder, model_of_node_.at(node));
     }
-    for (const int material : mesh.materials) {
+    for (const int material : mesh.has_materials() ? mesh.materials : std::vector<int>{}) {
       document_.connect(material < 0 ? plain_material() : materials_[idx(material)], holder);
     }
     const auto moved = std::move(mesh.moved);
@@ -225,7 +236,9 @@ class SceneWriter {
     for (std::size_t k = 0; k < skin.joints.size(); ++k) {
       from_joint.push_back(inverse_bind(skin, k).inverse());
     }
-    const Affine3d placed = scene_.frames[idx(skin.joints.front())] * from_joint.front().inverse();
+    const Affine3d& frame_of_first = scene_.frames[idx(skin.joints.front())];
+    const Affine3d placed = frame_of_first * from_joint.front().inverse();
+    if (is_rounding(placed, frame_of_first)) return from_joint;
     move(mesh, placed);
     for (Affine3d& frame : from_joint) frame = placed * frame;
     return from_joint;
@@ -309,6 +322,7 @@ class SceneWriter {
 
   const FileBytes& file_;
   const tinygltf::Model& model_;
+  const std::vector<MeshPolygons>& polygons_;  // by mesh, or none
   GltfScene scene_;
   std::vector<std::vector<std::string>> map_names_;  // by mesh
   std::vector<bool> is_joint_;                       // by node
@@ -323,10 +337,11 @@ class SceneWriter {
 
 }  // namespace
 
-std::string fbx_of_glb(std::string glb, const std::string& provenance, const Monitor& monitor) {
+std::string fbx_of_glb(std::string glb, const std::string& provenance,
+                       const std::vector<MeshPolygons>& polygons, const Monitor& monitor) {
   const FileBytes file{"rig.glb", std::move(glb)};
   const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
-  return SceneWriter(file, model, monitor).write(provenance);
+  return SceneWriter(file, model, polygons, monitor).write(provenance);
 }
 
 }  // namespace curveskel

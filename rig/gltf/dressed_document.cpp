@@ -24,7 +24,16 @@ struct SplitMesh {
   std::vector<DressedCorner> vertices;  ///< the first corner there of the file's; then the copies
   std::vector<std::vector<std::int32_t>> corners;  ///< by material, the last: of none
   std::vector<std::vector<std::int64_t>> offsets;  ///< likewise
+  std::vector<std::size_t> group_of_face;          ///< the material's number, in the file's order
+  std::vector<std::int32_t> place_of_vertex;       ///< the number of the part's place
 };
+
+/// Places ascend, mostly without a gap.
+std::size_t number_of_place(const std::vector<std::int32_t>& places, std::int32_t place) {
+  const auto guess = static_cast<std::size_t>(place - places.front());
+  if (guess < places.size() && places[guess] == place) return guess;
+  return idx(std::lower_bound(places.begin(), places.end(), place) - places.begin());
+}
 
 /// Of each corner the vertex: the file's own for the first corner there and those like it.
 class Splitting {
@@ -33,7 +42,7 @@ class Splitting {
       : places_(places), split_(places.size()), named_(places.size(), false) {}
 
   std::int32_t vertex_of(const DressedCorner& corner) {
-    const std::size_t own = number_of(corner.place);
+    const std::size_t own = number_of_place(places_, corner.place);
     if (!named_[own]) {
       named_[own] = true;
       split_[own] = corner;
@@ -56,13 +65,6 @@ class Splitting {
   }
 
  private:
-  /// Places mostly follow each other without a gap.
-  [[nodiscard]] std::size_t number_of(std::int32_t place) const {
-    const auto guess = static_cast<std::size_t>(place - places_.front());
-    if (guess < places_.size() && places_[guess] == place) return guess;
-    return idx(std::lower_bound(places_.begin(), places_.end(), place) - places_.begin());
-  }
-
   const std::vector<std::int32_t>& places_;  ///< ascending
   std::vector<DressedCorner> split_;
   std::vector<bool> named_;
@@ -130,9 +132,14 @@ SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes&
     for (auto corner = begin; corner != end; ++corner) {
       result.corners[group].push_back(splitting.vertex_of(*corner));
     }
+    result.group_of_face.push_back(group);
     result.offsets[group].push_back(static_cast<std::int64_t>(result.corners[group].size()));
   }
   result.vertices = splitting.take();
+  for (const DressedCorner& vertex : result.vertices) {
+    result.place_of_vertex.push_back(
+        static_cast<std::int32_t>(number_of_place(part.places, vertex.place)));
+  }
   std::vector<double> coordinates;
   for (const DressedCorner& vertex : result.vertices) {
     const double* place = mesh.places.data() + 3 * idx(vertex.place);
@@ -314,6 +321,28 @@ OrderedJson targets_of(GltfDocument& document, const DressedMesh& mesh, const Pa
   return targets;
 }
 
+/// Without those of one or two corners; `groups` with triangles are primitives.
+MeshPolygons polygons_of(const SplitMesh& split, std::size_t places,
+                         const std::vector<Triangles>& groups) {
+  MeshPolygons mesh{places, split.place_of_vertex, {}, {0}, {}};
+  std::vector<std::size_t> primitive_of_group;
+  std::size_t primitives = 0;
+  for (const Triangles& triangles : groups) {
+    primitive_of_group.push_back(primitives);
+    if (triangles.rows() > 0) ++primitives;
+  }
+  std::vector<std::size_t> next(groups.size(), 0);  // the group's polygon
+  for (const std::size_t group : split.group_of_face) {
+    const std::int64_t* ends = split.offsets[group].data() + next[group]++;
+    if (ends[1] - ends[0] < 3) continue;
+    const auto begin = split.corners[group].begin();
+    mesh.corners.insert(mesh.corners.end(), begin + ends[0], begin + ends[1]);
+    mesh.offsets.push_back(static_cast<std::int64_t>(mesh.corners.size()));
+    mesh.primitive_of_face.push_back(primitive_of_group[group]);
+  }
+  return mesh;
+}
+
 /// A node with a mesh, a primitive for each material; nothing of a part without faces.
 void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& part,
               const FileBytes& file) {
@@ -345,6 +374,7 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
     primitives.push_back(std::move(primitive));
   }
   written["primitives"] = std::move(primitives);
+  made.polygons.push_back(polygons_of(split, part.places.size(), groups));
   array_in(document.json, "meshes").push_back(std::move(written));
   array_in(document.json, "nodes").push_back({{"name", as_utf8(part.part.name)}, {"mesh", number}});
   array_in(document.json["scenes"][0], "nodes").push_back(number);

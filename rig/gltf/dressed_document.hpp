@@ -7,6 +7,7 @@
 #include <curveskel/monitor.hpp>
 #include "rig/gltf/dressed_mesh.hpp"
 #include "rig/gltf/gltf_document.hpp"
+#include "rig/gltf/mesh_polygons.hpp"
 #include "surface/read/file_bytes.hpp"
 #include "surface/read/gltf_scene.hpp"
 
@@ -15,7 +16,8 @@ namespace curveskel {
 struct DressedDocument {
   GltfDocument document;
   std::vector<GltfPart> parts;
-  std::vector<int> row_of_vertex;  ///< of each vertex written the vertex of the file
+  std::vector<int> row_of_vertex;      ///< of each vertex written the vertex of the file
+  std::vector<MeshPolygons> polygons;  ///< by mesh
 };
 
 /// A node with a mesh for each part, of a file without parts one named `name`; a primitive for each

@@ -16,10 +16,16 @@ struct DressedFile {
   std::vector<DressedMaterial> materials;
 };
 
+struct LookOptions {
+  bool as_bound = false;       ///< as of `ReadOptions`
+  bool with_polygons = false;  ///< a file is taken, too, if all it has are polygons
+};
+
 /// Of OBJ, COLLADA, FBX and PLY; nothing where the file has no look, or is of another format.
-/// `as_bound` as of `ReadOptions`; `notes` has a line for each thing that is left out. Throws
-/// Error(Fault::input) as `read_polygons`.
-[[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file, bool as_bound,
+/// `notes` has a line for each thing that is left out. Throws Error(Fault::input) as
+/// `read_polygons`.
+[[nodiscard]] std::optional<DressedFile> read_dressed_file(const FileBytes& file,
+                                                           const LookOptions& options,
                                                            std::vector<std::string>& notes,
                                                            const Monitor& monitor);
 

@@ -71,6 +71,10 @@ struct DressedMesh {
     for (DressedCorner& corner : corners) corner.colour = -1;
   }
 
+  [[nodiscard]] bool has_polygons() const {
+    return offsets.size() > 1 && corners.size() > 3 * (offsets.size() - 1);
+  }
+
   /// Nothing that a file without looks would lose.
   [[nodiscard]] bool is_bare() const {
     return parts.size() < 2 && textures.empty() && normals.empty() && materials.empty() &&

@@ -177,11 +177,13 @@ void sign(GltfDocument& document, const std::string& provenance) {
 }
 
 void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const EditOptions& options,
-            const Monitor& monitor) {
+            const Monitor& monitor, const std::vector<MeshPolygons>& polygons = {}) {
   if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
   const bool is_fbx = options.format == RigFormat::fbx;
   edited.bytes = format_gltf(std::move(document), is_fbx ? RigFormat::glb : options.format);
-  if (is_fbx) edited.bytes = fbx_of_glb(std::move(edited.bytes), options.provenance, monitor);
+  if (is_fbx) {
+    edited.bytes = fbx_of_glb(std::move(edited.bytes), options.provenance, polygons, monitor);
+  }
 }
 
 /// Of a file with its new joints, which keep the names of their roles: programs find them by these.
@@ -242,7 +244,8 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
-  auto dressed = read_dressed_file(file, options.as_bound, edited.notes, monitor);
+  const LookOptions looks{options.as_bound, options.format == RigFormat::fbx};
+  auto dressed = read_dressed_file(file, looks, edited.notes, monitor);
   if (!dressed) return std::nullopt;
   const auto format = surface_format_of(file);
   const bool states_axes = format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
@@ -256,7 +259,7 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   add_gltf_rig(made.document, made.parts, placed(rig, dressed->mesh.to_gltf), options.name);
   note_shared_names(made.document.json, edited.notes);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
-  finish(edited, std::move(made.document), rig, options, monitor);
+  finish(edited, std::move(made.document), rig, options, monitor, made.polygons);
   return edited;
 }
 

@@ -65,7 +65,7 @@ class PlyLookReader {
     with_ply_values(file, header_, [this](auto values) { read(std::move(values)); });
   }
 
-  std::optional<DressedFile> dressed(const FileBytes& file) {
+  DressedFile dressed(const FileBytes& file) {
     DressedFile made;
     made.mesh.offsets = soup_.offsets;
     made.mesh.places.assign(soup_.positions.data(),
@@ -74,7 +74,6 @@ class PlyLookReader {
     if (has(0) && has(1) && has(2)) colour(made.mesh);
     if (has(4) && has(5) && has(6)) add_normals(made.mesh);
     add_textures(made.mesh);
-    if (made.mesh.is_bare()) return std::nullopt;
     made.mesh.material_of_face.assign(soup_.offsets.size() - 1, -1);
     const std::string picture = named_picture(file);
     if (!made.mesh.textures.empty() && !picture.empty()) {

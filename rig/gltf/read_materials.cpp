@@ -263,7 +263,7 @@ std::optional<SurfaceMaterials> read_materials(const std::filesystem::path& path
     const tinygltf::Model model = parse_gltf(file, monitor, GltfAttributes::all);
     return materials_in(file, read_gltf_document(file, model, notes, monitor), model, monitor);
   }
-  const auto dressed = read_dressed_file(file, false, notes, monitor);
+  const auto dressed = read_dressed_file(file, {}, notes, monitor);
   if (!dressed || dressed->materials.empty()) return std::nullopt;
   DressedDocument made =
       dressed_document(dressed->mesh, dressed->materials, file, "surface", notes, monitor);

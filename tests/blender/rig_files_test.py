@@ -11,6 +11,8 @@ import subprocess
 import tempfile
 import unittest
 
+from in_blender import result_of
+
 SOURCE = pathlib.Path(os.environ["CURVESKEL_SOURCE_DIR"])
 PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 
@@ -131,19 +133,6 @@ def rigged_files():
         # Its old armature is scaled by 100, so that joints lay too near each other for Blender.
         files += sorted((folder.parent / "real").glob("quaternius-Swat.glb"))
     return files
-
-
-def result_of(script, folder):
-    """The content of result.json, which Blender writes."""
-    (folder / "script.py").write_text(script)
-    environment = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
-    done = subprocess.run(
-        [shutil.which("blender"), "--background", "--python-exit-code", "1", "--python",
-         folder / "script.py", "--", folder], capture_output=True, text=True,
-        stdin=subprocess.DEVNULL, env=environment, check=False)
-    if done.returncode != 0:
-        raise AssertionError(done.stdout[-2000:] + done.stderr[-2000:])
-    return json.loads((folder / "result.json").read_text())
 
 
 @unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")

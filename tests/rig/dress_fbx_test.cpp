@@ -218,7 +218,10 @@ TEST_F(DressFbx, TheFilesOfARigCanBeRiggedAgain) {
                       "newmtl glass\nKd .25 .5 1\nd .5\nPm 1\nPr .25\nKe .5 0 0\n");
   (void)folder_.write("skin.png", png);
   std::string obj = "mtllib looks.mtl\n";
-  for (const auto& p : encodings::corners) obj += "v " + encodings::spaced(p) + "\n";
+  for (auto p : encodings::corners) {  // no face a rectangle, whose diagonals are alike
+    p[0] = 25 * p[0] + p[1] + p[1] * p[2];
+    obj += "v " + encodings::spaced(p) + "\n";
+  }
   obj += "vt 0 0\nvt .5 0\nvt .5 1\nvt 0 .25\n";
   for (int face = 0; face < faces; ++face) {
     obj += face % 3 == 0 ? (face == 0 ? "usemtl skin\nf" : "usemtl glass\nf") : "f";
