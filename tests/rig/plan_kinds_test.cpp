@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,6 +103,27 @@ TEST(FindPlan, AForkIsNoAnimal) {
   const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
   EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
   EXPECT_TRUE(plan.joints.empty());
+}
+
+/// A robe that trails, its arms not told from it, is no animal with a tail; nor is a helmet with a
+/// plume. What leans is: a bird that runs, without wings.
+TEST(FindPlan, AnUprightBodyWithoutArmsHasNoTail) {
+  for (const double lean : {0.0, 10.0, 20.0, 45.0, 60.0}) {
+    SCOPED_TRACE(lean);
+    const double turn = lean * std::numbers::pi / 180;
+    const auto up_trunk = [&](double way) {
+      return Eigen::RowVector3d(0, 8 + way * std::cos(turn), way * std::sin(turn));
+    };
+    BodyCurve figure;
+    const int hips = figure.add({0, 8, 0}, 1.4);
+    const int chest = figure.add(up_trunk(6), 1.5, hips);
+    figure.add(up_trunk(10), 1.2, chest);
+    figure.add({0, 6, -7}, 0.6, hips);
+    figure.add_pair(hips, {{1.6, 7, 0}, {1.6, 4, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+    const RigSubject subject = subject_of("no arms", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, lean < 30 ? BodyKind::other : BodyKind::tailed_biped) << plan.reason;
+  }
 }
 
 /// A room's corners, say.
