@@ -271,13 +271,13 @@ class SceneWriter {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const auto joint = model_of_node_.find(joints[k]);
       if (joint == model_of_node_.end()) continue;  // outside the scene
+      const bool is_new = is_bound_.emplace(joint->second, true).second;
+      if (moved[k].empty() && !is_new) continue;  // a thousand meshes have a thousand joints
       const std::int64_t cluster =
           add_cluster(name_of(joints[k]), moved[k], bound[k], armature_of(joints[k]));
       document_.connect(cluster, skin);
       document_.connect(joint->second, cluster);
-      if (is_bound_.emplace(joint->second, true).second) {
-        bind_pose_.emplace_back(joint->second, bound[k]);
-      }
+      if (is_new) bind_pose_.emplace_back(joint->second, bound[k]);
     }
   }
 

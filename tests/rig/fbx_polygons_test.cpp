@@ -14,6 +14,8 @@
 #include <curveskel/read.hpp>
 #include <curveskel/rig_files.hpp>
 #include "rig/gltf/dressed_file.hpp"
+#include "surface/read/fbx_scene.hpp"
+#include "surface/read/fbx_tree.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
 
@@ -156,6 +158,31 @@ TEST_F(FbxPolygons, AreThoseOfTheFileAndSoAreVertices) {
       EXPECT_EQ(found.mesh.parts.size(), std::size_t(subject.objects));
     }
   }
+}
+
+// A file of two thousand objects was 2.9 GB, a cluster for each of them with each of the joints.
+TEST_F(FbxPolygons, AMeshNamesTheJointsThatMoveItAndEachJointIsNamed) {
+  constexpr int joints = 40;
+  const PolygonSubject subject{.seed = 7, .objects = 5};
+  const fs::path given = folder_.write("given.obj", subject.text());
+  const Eigen::Index vertices = read_polygons(given, {}).positions.rows();
+  Rig rig = random_rig(vertices, joints, "bone ");
+  rig.weights.setZero();  // an object has two joints of its own
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    rig.weights.insert(v, 2 * (v * subject.objects / vertices) + v % 2) = 1;
+  }
+  const auto edited =
+      format_rig_into(given, rig, {RigFormat::fbx, OldRig::replaced, "rig", "a test"});
+  ASSERT_TRUE(edited);
+  const FileBytes file{"rig.fbx", edited->bytes};
+  const FbxRecord root = parse_fbx(file);
+  int moving = 0;
+  int idle = 0;
+  for (const FbxRecord* deformer : FbxScene(file, root).all("Deformer")) {
+    if (deformer->text(2) == "Cluster") ++(deformer->child("Indexes") != nullptr ? moving : idle);
+  }
+  EXPECT_EQ(moving, 2 * subject.objects);
+  EXPECT_EQ(idle, joints - 2);  // of the first object, which names all
 }
 
 }  // namespace
