@@ -71,7 +71,7 @@ class Splitting {
   std::map<std::array<std::int32_t, 4>, std::int32_t> copies_;
 };
 
-/// Places, ascending, and faces of one part of a mesh.
+/// Places, ascending, and faces of one part of a mesh, to which it refers.
 struct PartRange {
   std::size_t number;
   const DressedPart& part;
@@ -80,38 +80,48 @@ struct PartRange {
   std::size_t end_face;
 };
 
-/// Those that its faces have, in `part.places`.
-void find_places(const DressedMesh& mesh, PartRange& part) {
-  const auto begin = mesh.corners.begin() + mesh.offsets[part.first_face];
-  const auto end = mesh.corners.begin() + mesh.offsets[part.end_face];
-  part.places.reserve(idx(end - begin));
-  for (auto corner = begin; corner != end; ++corner) part.places.push_back(corner->place);
-  std::sort(part.places.begin(), part.places.end());
-  part.places.erase(std::unique(part.places.begin(), part.places.end()), part.places.end());
-}
+/// Of each part the places that its faces have, and of its own those that no face has.
+class PlacesOfParts {
+ public:
+  explicit PlacesOfParts(const DressedMesh& mesh)
+      : mesh_(mesh), last_part_(mesh.places.size() / 3, none) {}
 
-/// Parts refer to the mesh's.
-std::vector<PartRange> ranges_of(const DressedMesh& mesh) {
-  std::vector<PartRange> ranges;
-  std::vector<bool> has_faces(mesh.places.size() / 3, false);
-  for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
-    const bool is_last = k + 1 == mesh.parts.size();
-    ranges.push_back({k,
-                      mesh.parts[k],
-                      {},
-                      mesh.parts[k].first_face,
-                      is_last ? mesh.material_of_face.size() : mesh.parts[k + 1].first_face});
-    find_places(mesh, ranges.back());
-    for (const std::int32_t place : ranges.back().places) has_faces[idx(place)] = true;
+  std::vector<PartRange> ranges() {
+    std::vector<PartRange> ranges;
+    for (std::size_t k = 0; k < mesh_.parts.size(); ++k) {
+      const bool is_last = k + 1 == mesh_.parts.size();
+      ranges.push_back({k,
+                        mesh_.parts[k],
+                        {},
+                        mesh_.parts[k].first_face,
+                        is_last ? mesh_.material_of_face.size() : mesh_.parts[k + 1].first_face});
+      add_places_of_faces(ranges.back());
+    }
+    std::size_t k = 0;
+    for (std::size_t place = 0; place < last_part_.size(); ++place) {
+      while (k + 1 < ranges.size() && mesh_.parts[k + 1].first_place <= place) ++k;
+      if (last_part_[place] == none) ranges[k].places.push_back(static_cast<std::int32_t>(place));
+    }
+    for (PartRange& range : ranges) std::sort(range.places.begin(), range.places.end());
+    return ranges;
   }
-  std::size_t k = 0;
-  for (std::size_t place = 0; place < has_faces.size(); ++place) {
-    while (k + 1 < ranges.size() && mesh.parts[k + 1].first_place <= place) ++k;
-    if (!has_faces[place]) ranges[k].places.push_back(static_cast<std::int32_t>(place));
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  void add_places_of_faces(PartRange& part) {
+    const auto begin = mesh_.corners.begin() + mesh_.offsets[part.first_face];
+    const auto end = mesh_.corners.begin() + mesh_.offsets[part.end_face];
+    for (auto corner = begin; corner != end; ++corner) {
+      std::size_t& last = last_part_[idx(corner->place)];
+      if (last != part.number) part.places.push_back(corner->place);
+      last = part.number;
+    }
   }
-  for (PartRange& range : ranges) std::sort(range.places.begin(), range.places.end());
-  return ranges;
-}
+
+  const DressedMesh& mesh_;
+  std::vector<std::size_t> last_part_;  // whose faces have the place
+};
 
 SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes& file) {
   SplitMesh result;
@@ -399,7 +409,7 @@ DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMate
     if (part.name.empty()) part.name = name;
   }
   show_colours(mesh, with_pictures(document, materials.size()));
-  for (const PartRange& part : ranges_of(mesh)) add_part(made, mesh, part, file);
+  for (const PartRange& part : PlacesOfParts(mesh).ranges()) add_part(made, mesh, part, file);
   return made;
 }
 
