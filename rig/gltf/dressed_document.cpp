@@ -1,7 +1,6 @@
 #include "rig/gltf/dressed_document.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -11,155 +10,12 @@
 #include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/shown_colours.hpp"
 #include "rig/gltf/skin_numbers.hpp"
+#include "rig/gltf/split_mesh.hpp"
 #include "surface/mesh/single_precision.hpp"
 #include "surface/read/formats.hpp"
-#include "surface/read/placed_vertices.hpp"
 
 namespace curveskel {
 namespace {
-
-/// Vertices, each with one row of texture coordinates, one normal and one colour.
-struct SplitMesh {
-  PolygonSoup soup;                     ///< without faces
-  std::vector<DressedCorner> vertices;  ///< the first corner there of the file's; then the copies
-  std::vector<std::vector<std::int32_t>> corners;  ///< by material, the last: of none
-  std::vector<std::vector<std::int64_t>> offsets;  ///< likewise
-  std::vector<std::size_t> group_of_face;          ///< the material's number, in the file's order
-  std::vector<std::int32_t> place_of_vertex;       ///< the number of the part's place
-};
-
-/// Places ascend, mostly without a gap.
-std::size_t number_of_place(const std::vector<std::int32_t>& places, std::int32_t place) {
-  const auto guess = static_cast<std::size_t>(place - places.front());
-  if (guess < places.size() && places[guess] == place) return guess;
-  return idx(std::lower_bound(places.begin(), places.end(), place) - places.begin());
-}
-
-/// Of each corner the vertex: the file's own for the first corner there and those like it.
-class Splitting {
- public:
-  explicit Splitting(const std::vector<std::int32_t>& places)
-      : places_(places), split_(places.size()), named_(places.size(), false) {}
-
-  std::int32_t vertex_of(const DressedCorner& corner) {
-    const std::size_t own = number_of_place(places_, corner.place);
-    if (!named_[own]) {
-      named_[own] = true;
-      split_[own] = corner;
-    }
-    const auto is_same = [&](const DressedCorner& other) {
-      return other.texture == corner.texture && other.normal == corner.normal &&
-             other.colour == corner.colour;
-    };
-    if (is_same(split_[own])) return static_cast<std::int32_t>(own);
-    const std::array<std::int32_t, 4> key{corner.place, corner.texture, corner.normal,
-                                          corner.colour};
-    const auto [copy, is_new] = copies_.try_emplace(key, static_cast<std::int32_t>(split_.size()));
-    if (is_new) split_.push_back(corner);
-    return copy->second;
-  }
-
-  std::vector<DressedCorner> take() {
-    for (std::size_t v = 0; v < named_.size(); ++v) split_[v].place = places_[v];
-    return std::move(split_);
-  }
-
- private:
-  const std::vector<std::int32_t>& places_;  ///< ascending
-  std::vector<DressedCorner> split_;
-  std::vector<bool> named_;
-  std::map<std::array<std::int32_t, 4>, std::int32_t> copies_;
-};
-
-/// Places, ascending, and faces of one part of a mesh, to which it refers.
-struct PartRange {
-  std::size_t number;
-  const DressedPart& part;
-  std::vector<std::int32_t> places;
-  std::size_t first_face;
-  std::size_t end_face;
-};
-
-/// Of each part the places that its faces have, and of its own those that no face has.
-class PlacesOfParts {
- public:
-  explicit PlacesOfParts(const DressedMesh& mesh)
-      : mesh_(mesh), last_part_(mesh.places.size() / 3, none) {}
-
-  std::vector<PartRange> ranges() {
-    std::vector<PartRange> ranges;
-    for (std::size_t k = 0; k < mesh_.parts.size(); ++k) {
-      const bool is_last = k + 1 == mesh_.parts.size();
-      ranges.push_back({k,
-                        mesh_.parts[k],
-                        {},
-                        mesh_.parts[k].first_face,
-                        is_last ? mesh_.material_of_face.size() : mesh_.parts[k + 1].first_face});
-      add_places_of_faces(ranges.back());
-    }
-    std::size_t k = 0;
-    for (std::size_t place = 0; place < last_part_.size(); ++place) {
-      while (k + 1 < ranges.size() && mesh_.parts[k + 1].first_place <= place) ++k;
-      if (last_part_[place] == none) ranges[k].places.push_back(static_cast<std::int32_t>(place));
-    }
-    for (PartRange& range : ranges) std::sort(range.places.begin(), range.places.end());
-    return ranges;
-  }
-
- private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-  void add_places_of_faces(PartRange& part) {
-    const auto begin = mesh_.corners.begin() + mesh_.offsets[part.first_face];
-    const auto end = mesh_.corners.begin() + mesh_.offsets[part.end_face];
-    for (auto corner = begin; corner != end; ++corner) {
-      std::size_t& last = last_part_[idx(corner->place)];
-      if (last != part.number) part.places.push_back(corner->place);
-      last = part.number;
-    }
-  }
-
-  const DressedMesh& mesh_;
-  std::vector<std::size_t> last_part_;  // whose faces have the place
-};
-
-SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes& file) {
-  SplitMesh result;
-  const std::size_t materials = mesh.materials.size();
-  result.corners.resize(materials + 1);
-  result.offsets.resize(materials + 1, {0});
-  Splitting splitting(part.places);
-  const auto is_placed = [&](const DressedCorner& corner) {
-    const double* place = mesh.places.data() + 3 * idx(corner.place);
-    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-  };
-  for (std::size_t face = part.first_face; face < part.end_face; ++face) {
-    const auto begin = mesh.corners.begin() + mesh.offsets[face];
-    const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
-    if (!std::all_of(begin, end, is_placed)) continue;
-    const int material = mesh.material_of_face[face];
-    const std::size_t group = material < 0 ? materials : idx(material);
-    for (auto corner = begin; corner != end; ++corner) {
-      result.corners[group].push_back(splitting.vertex_of(*corner));
-    }
-    result.group_of_face.push_back(group);
-    result.offsets[group].push_back(static_cast<std::int64_t>(result.corners[group].size()));
-  }
-  result.vertices = splitting.take();
-  for (const DressedCorner& vertex : result.vertices) {
-    result.place_of_vertex.push_back(
-        static_cast<std::int32_t>(number_of_place(part.places, vertex.place)));
-  }
-  std::vector<double> coordinates;
-  for (const DressedCorner& vertex : result.vertices) {
-    const double* place = mesh.places.data() + 3 * idx(vertex.place);
-    coordinates.insert(coordinates.end(), place, place + 3);
-  }
-  result.soup.positions = positions_from(coordinates);
-  result.soup.offsets = {0};
-  drop_unplaced_vertices(result.soup, file);
-  return result;
-}
 
 std::size_t add_normals(GltfDocument& document, const DressedMesh& mesh, const SplitMesh& split,
                         const Positions& computed) {
@@ -409,7 +265,7 @@ DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMate
     if (part.name.empty()) part.name = name;
   }
   show_colours(mesh, with_pictures(document, materials.size()));
-  for (const PartRange& part : PlacesOfParts(mesh).ranges()) add_part(made, mesh, part, file);
+  for (const PartRange& part : ranges_of(mesh)) add_part(made, mesh, part, file);
   return made;
 }
 
