@@ -19,6 +19,7 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/utf8.hpp"
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
 #include "rig/gltf/bent_vertices.hpp"

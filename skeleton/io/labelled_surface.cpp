@@ -11,6 +11,7 @@
 #include <curveskel/clean.hpp>
 #include "base/decimal.hpp"
 #include "base/one_line.hpp"
+#include "base/utf8.hpp"
 #include "skeleton/io/xml_lines.hpp"
 
 namespace curveskel {
@@ -188,7 +189,8 @@ std::string glb_of(const Labelled& labelled) {
   const nlohmann::ordered_json primitive = {
       {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}, {"_BRANCH", 2}}}, {"indices", 3}};
   nlohmann::ordered_json document;
-  document["asset"] = {{"version", "2.0"}, {"generator", std::string(labelled.provenance)}};
+  document["asset"] = {{"version", "2.0"},
+                       {"generator", as_utf8(std::string(labelled.provenance))}};
   document["scene"] = 0;
   document["scenes"] = {{{"nodes", {0}}}};
   document["nodes"] = {{{"mesh", 0}, {"name", "branches"}}};

@@ -12,6 +12,7 @@
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/view.hpp>
 #include "base/base64.hpp"
+#include "base/utf8.hpp"
 #include "skeleton/page/page.hpp"
 
 namespace curveskel {
@@ -89,7 +90,7 @@ PageJson rows_of(const Eigen::Matrix3d& axes) {
 /// Text that stands in a script element, where no tag may begin.
 std::string in_script(const PageJson& data) {
   std::string text;
-  for (const char c : data.dump()) {
+  for (const char c : data.dump(-1, ' ', false, PageJson::error_handler_t::replace)) {
     if (c == '<') {
       text += "\\u003c";
     } else {
@@ -151,7 +152,7 @@ std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
       {"junctions", format_junctions(skeleton)}};
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(content.title) + "</title>\n<style>\n" + std::string(page_style_source) +
+         escaped(as_utf8(content.title)) + "</title>\n<style>\n" + std::string(page_style_source) +
          "</style>\n</head>\n<body>\n" + std::string(page_body_source) +
          "<script id=\"data\" type=\"application/json\">" + in_script(data) +
          "</script>\n<script>\n" + std::string(page_script_source) +
