@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/coarsen.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_profiles.hpp>
@@ -13,6 +14,7 @@
 #include <curveskel/view.hpp>
 #include "base/base64.hpp"
 #include "base/utf8.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/page/page.hpp"
 
 namespace curveskel {
@@ -118,6 +120,9 @@ std::string escaped(const std::string& text) {
 
 std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
                       const PageContent& content, int threads) {
+  require_sound(surface, "html_page");
+  require_sound(skeleton, "html_page");
+  require_map_of(skeleton, surface, "html_page");
   const BranchTerritories territories = branch_territories(surface, skeleton);
   SkeletonContext context;
   context.territories = &territories;
