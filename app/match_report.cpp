@@ -55,7 +55,7 @@ std::string match_json(const MatchRecord& record) {
                      {"vertices", std::vector<int>(record.found.vertex_of_a.data(),
                                                    record.found.vertex_of_a.data() +
                                                        record.found.vertex_of_a.size())}};
-  return json.dump() + "\n";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace curveskel

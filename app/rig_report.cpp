@@ -112,7 +112,7 @@ std::string rig_report_json(const RigRecord& record) {
                {"joints", joints_of(record.character.rig)},
                {"checks", checks_of(record)},
                {"seconds", record.seconds}});
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace curveskel

@@ -5,11 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "base/utf8.hpp"
+
 namespace curveskel {
 
-/// With blanks for control characters: a line end in a file's name would end a comment.
+/// As UTF-8, with blanks for control characters: a line end in a file's name would end a comment.
 [[nodiscard]] inline std::string in_one_line(std::string_view text) {
-  std::string line(text);
+  std::string line = as_utf8(std::string(text));
   std::replace_if(
       line.begin(), line.end(),
       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');

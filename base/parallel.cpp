@@ -6,12 +6,15 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #ifdef __linux__
 #include <sys/resource.h>
+#include <unistd.h>
 #endif
 
 namespace curveskel {
@@ -130,12 +133,31 @@ int niceness() {
 #endif
 }
 
+int process() {
+#ifdef __linux__
+  return getpid();
+#else
+  return 0;
+#endif
+}
+
+/// A forked process has its parent's crews without their threads: to end those would take for ever.
+struct EndOwnCrew {
+  int its_process;
+  void operator()(const Crew* crew) const {
+    if (its_process == process()) delete crew;
+  }
+};
+
 /// A thread is as nice as the one that started it, so callers that give way have a crew that does.
 Crew& crew() {
   static std::mutex mutex;
-  static std::map<int, Crew> crews;
+  static std::map<std::pair<int, int>, std::unique_ptr<Crew, EndOwnCrew>> crews;
   const std::lock_guard lock(mutex);
-  return crews[niceness()];
+  const std::pair whose(process(), niceness());
+  const auto found = crews.find(whose);
+  if (found != crews.end()) return *found->second;
+  return *crews.try_emplace(whose, new Crew, EndOwnCrew{whose.first}).first->second;
 }
 
 }  // namespace

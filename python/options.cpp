@@ -23,8 +23,8 @@ void set_options(const py::dict& options, const OptionSetters& setters) {
     }
     try {
       setter->second(value);
-    } catch (const py::cast_error&) {
-      throw Error(Fault::usage, fmt::format("{}: a value of another type is needed than {}", name,
+    } catch (const NeededInstead& other) {
+      throw Error(Fault::usage, fmt::format("{}: needs {}, not {}", name, other.needed,
                                             py::repr(value).cast<std::string>()));
     }
   }
@@ -34,7 +34,10 @@ OptionSetters repair_setters(RepairOptions& options) {
   const auto set_components = [&options](const py::handle& value) {
     const bool is_word = py::isinstance<py::str>(value);
     const auto word = is_word ? value.cast<std::string>() : std::string();
-    options.components = word == "all" ? 0 : word == "largest" ? 1 : value.cast<int>();
+    options.components = word == "all" ? 0
+                         : word == "largest"
+                             ? 1
+                             : option_of<int>(value, "a whole number, \"largest\" or \"all\"");
   };
   return {{"components", set_components},
           {"least_sheet", sets(options.least_sheet)},
@@ -47,7 +50,7 @@ OptionSetters repair_setters(RepairOptions& options) {
 OptionSetters extract_setters(ExtractOptions& options) {
   const auto set_resolution = [&options](const py::handle& value) {
     const bool is_full = py::isinstance<py::str>(value) && value.cast<std::string>() == "full";
-    options.resolution = is_full ? 0 : value.cast<int>();
+    options.resolution = is_full ? 0 : option_of<int>(value, "a whole number or \"full\"");
     if (!is_full && options.resolution < options.least_resolution) {
       throw Error(
           Fault::usage,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <type_traits>
 
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/error.hpp>
@@ -21,17 +22,34 @@ using OptionSetters = std::map<std::string, std::function<void(const pybind11::h
 /// that its setter does not take.
 void set_options(const pybind11::dict& options, const OptionSetters& setters);
 
+/// A value of another type than its option has; `set_options` says so, and what is needed.
+struct NeededInstead {
+  std::string needed;
+};
+
+template <typename Value>
+[[nodiscard]] Value option_of(const pybind11::handle& given, const std::string& needed) {
+  try {
+    return given.cast<Value>();
+  } catch (const pybind11::cast_error&) {
+    throw NeededInstead{needed};
+  }
+}
+
 /// A setter of a number or a flag.
 template <typename Value>
 auto sets(Value& value) {
-  return [&value](const pybind11::handle& given) { value = given.cast<Value>(); };
+  constexpr const char* needed = std::is_same_v<Value, bool> ? "True or False"
+                                 : std::is_integral_v<Value> ? "a whole number"
+                                                             : "a number";
+  return [&value](const pybind11::handle& given) { value = option_of<Value>(given, needed); };
 }
 
 /// A setter of a choice by its name.
 template <typename Choice, std::size_t Count>
 auto sets(Choice& value, const char* option, const NameTable<Choice, Count>& table) {
   return [&value, option, &table](const pybind11::handle& given) {
-    const auto name = given.cast<std::string>();
+    const auto name = option_of<std::string>(given, "one of: " + names_in(table));
     const auto found = choice_of(table, name);
     if (!found) {
       throw Error(Fault::usage,

@@ -5,6 +5,7 @@
 #include <curveskel/advanced/inscribed_balls.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/topology.hpp>
 
 namespace curveskel {
@@ -40,6 +41,15 @@ RepairedContraction contract_repaired(const RepairedSurface& repaired,
 
 Surface moved_vertices(const PolygonSoup& soup, const RepairedSurface& repaired,
                        const Positions& positions) {
+  if (repaired.vertex_of_input.size() != soup.positions.rows() ||
+      (repaired.vertex_of_input.array() >= static_cast<int>(positions.rows())).any()) {
+    throw Error(Fault::input, "moved_vertices: found a map of " +
+                                  std::to_string(repaired.vertex_of_input.size()) +
+                                  " vertices to " + std::to_string(positions.rows()) +
+                                  " positions or beyond, needed one of the polygons' " +
+                                  std::to_string(soup.positions.rows()) +
+                                  " vertices to positions that are there");
+  }
   Surface moved{soup.positions, triangulate(soup)};
   for (Eigen::Index v = 0; v < moved.positions.rows(); ++v) {
     const int vertex = repaired.vertex_of_input[v];

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 
-Path = Union[str, PathLike[str]]
+Path = Union[str, bytes, PathLike[str]]
 Progress = Union[None, bool, Callable[[str, float], None]]
 
 class _Mesh(Protocol):

@@ -1,12 +1,10 @@
 """Graphs of other libraries, from skeletons and back."""
 
-import os
-
 import numpy
 
 from . import _core
 from .errors import Error, UsageError
-from .inputs import path_of
+from .inputs import array_of, is_path, path_of
 
 
 def to_networkx(skeleton):
@@ -86,7 +84,7 @@ def graph_of(skeleton, name):
 
     Raises UsageError or InputError.
     """
-    if isinstance(skeleton, (str, os.PathLike)):
+    if is_path(skeleton):
         return _core.read_skeleton(path_of(skeleton, name))
     if hasattr(skeleton, "_graph"):
         return skeleton._graph
@@ -97,11 +95,13 @@ def graph_of(skeleton, name):
             nodes, edges = skeleton.vertices, skeleton.edges
         else:
             nodes, edges = skeleton
-        nodes = numpy.asarray(nodes, dtype=numpy.float64)
-        edges = numpy.asarray(edges)
+        nodes = array_of(nodes, "nodes", numpy.float64)
+        edges = array_of(edges, "edges")
+        if not edges.size:
+            edges = numpy.empty((0, 2), dtype=numpy.int64)
         if nodes.ndim != 2 or nodes.shape[1] != 3:
             raise UsageError(f"nodes: needs shape (n, 3), not {nodes.shape}")
-        if edges.size and not numpy.issubdtype(edges.dtype, numpy.integer):
+        if not numpy.issubdtype(edges.dtype, numpy.integer):
             raise UsageError(f"edges: needs integers, not {edges.dtype}")
         return _core.skeleton_of_arrays(nodes, edges.astype(numpy.int64))
     except (TypeError, ValueError) as error:

@@ -1,10 +1,12 @@
 """Surfaces as callers give them, and progress and limits as they want them."""
 
+import atexit
 import contextlib
 import math
 import operator
 import os
 import re
+import threading
 import time
 import warnings
 
@@ -17,6 +19,25 @@ from .errors import SolverError, UsageError
 MOST_THREADS = _core.most_threads
 
 
+# A daemon thread that wakes while the interpreter is taken down ends the process by an abort, so
+# the work of such threads is ended before.
+_at_work = set()
+_has_ended = threading.Event()
+_LONGEST_WAIT = 5.0  # seconds at exit: work looks ten times a second
+
+
+@atexit.register
+def _end_work():
+    _has_ended.set()
+    latest = time.monotonic() + _LONGEST_WAIT
+    while _at_work and time.monotonic() < latest:
+        time.sleep(0.01)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_at_work.clear)
+
+
 class _Listener:
     """What the core tells of its work, and asks whether its time is over."""
 
@@ -26,6 +47,8 @@ class _Listener:
         self._end = time.monotonic() + limit if limit else math.inf
 
     def look(self):
+        if _has_ended.is_set():
+            raise SystemExit  # threads end by it without a word
         if time.monotonic() >= self._end:
             raise SolverError(f"the time limit of {self._limit:g} s was reached; allow more, or "
                               "decimate the surface first")
@@ -33,7 +56,7 @@ class _Listener:
 
 @contextlib.contextmanager
 def listening(progress, time_limit=0):
-    """The listener for the core, or None if nothing is to be told or asked.
+    """The listener for the core.
 
     progress: a callable (stage, fraction); True moves a tqdm bar, if there is tqdm; None.
     time_limit: seconds from now; 0 = none. Raises UsageError for another value.
@@ -47,12 +70,14 @@ def listening(progress, time_limit=0):
     if progress and progress is not True and not callable(progress):
         raise UsageError(f"progress: needs a callable, True or None, not {progress!r}")
     if progress is not True:
-        yield _Listener(progress, seconds) if progress or seconds else None
+        with _working(_Listener(progress, seconds)) as listener:
+            yield listener
         return
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        yield _Listener(None, seconds) if seconds else None
+        with _working(_Listener(None, seconds)) as listener:
+            yield listener
         return
     with tqdm(total=1.0, bar_format="{desc}: {percentage:3.0f}% {bar} {elapsed}") as bar:
 
@@ -61,7 +86,18 @@ def listening(progress, time_limit=0):
             bar.n = fraction
             bar.refresh()
 
-        yield _Listener(show, seconds)
+        with _working(_Listener(show, seconds)) as listener:
+            yield listener
+
+
+@contextlib.contextmanager
+def _working(listener):
+    _at_work.add(listener)
+    try:
+        listener.look()
+        yield listener
+    finally:
+        _at_work.discard(listener)
 
 
 def index(value, name, least, most):
@@ -73,6 +109,11 @@ def index(value, name, least, most):
     if number is None or not least <= number <= most:
         raise UsageError(f"{name}: needs a whole number, {least} to {most}, not {value!r}")
     return number
+
+
+def is_path(given):
+    """True of what names a file."""
+    return isinstance(given, (str, bytes, os.PathLike))
 
 
 def path_of(path, name):
@@ -93,10 +134,24 @@ def warn_of(findings, stacklevel):
         warnings.warn(finding, UserWarning, stacklevel=stacklevel + 1)
 
 
+def array_of(values, name, dtype=None):
+    """As numpy.asarray; raises UsageError where something would be lost without a word."""
+    if numpy.ma.is_masked(values):
+        raise UsageError(f"{name}: found {numpy.ma.count_masked(values)} masked values, needed "
+                         "none; leave their rows out, or fill them (a vertex with NaN loses its "
+                         "faces)")
+    values = numpy.asarray(values)
+    if values.dtype.kind in "cSU" and dtype is not None:
+        raise UsageError(f"{name}: needs real numbers, not {values.dtype}")
+    return values if dtype is None else numpy.ascontiguousarray(values, dtype=dtype)
+
+
 def _corners_of(faces):
     """Corners one face after the other, and where each face begins: an array, or a list of faces."""
     try:
-        faces = numpy.asarray(faces)
+        faces = array_of(faces, "faces")
+    except UsageError:
+        raise
     except ValueError:
         faces = list(faces)  # of several sizes
     if isinstance(faces, list) or faces.dtype == object:
@@ -119,17 +174,19 @@ def _corners_of(faces):
 
 def soup_of(mesh, listener, as_bound=False):
     """A path, a pair (vertices, faces), or an object that has both, as the core takes it."""
-    if isinstance(mesh, (str, os.PathLike)):
+    if is_path(mesh):
         return _core.read_surface(path_of(mesh, "mesh"), as_bound, listener)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         mesh = (mesh.vertices, mesh.faces)
     try:
-        vertices, faces = mesh
+        vertices, faces = () if isinstance(mesh, dict) else mesh
     except (TypeError, ValueError) as error:
         raise UsageError("mesh: needs a path, a pair (vertices, faces), or an object with "
                          f"vertices and faces, not {type(mesh).__name__}") from error
     try:
-        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
+        vertices = array_of(vertices, "vertices", numpy.float64)
+    except UsageError:
+        raise
     except (TypeError, ValueError) as error:
         raise UsageError(f"vertices: needs numbers of shape (n, 3): {error}") from error
     if vertices.ndim != 2 or vertices.shape[1] != 3:

@@ -9,7 +9,7 @@ import numpy
 
 from . import _core
 from .errors import CertificateWarning, UsageError
-from .inputs import listening, path_of, soup_of, warn_of
+from .inputs import is_path, listening, path_of, soup_of, warn_of
 from .skeleton import Skeleton, read
 
 
@@ -133,14 +133,13 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
         raise UsageError(f"joints and {'keep_rig' if keep_rig else 'skeleton'} exclude each other")
     if keep_rig and as_shown:
         raise UsageError("keep_rig and as_shown exclude each other")
-    if isinstance(skeleton, (str, os.PathLike)):
+    if is_path(skeleton):
         skeleton = read(skeleton)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise UsageError(f"skeleton: needs a Skeleton or a path, not {type(skeleton).__name__}")
     if joints is not None:
         joints = path_of(joints, "joints")
-    is_path = isinstance(mesh, (str, os.PathLike))
-    if is_path and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
+    if is_path(mesh) and joints is not None and os.path.exists(mesh) and os.path.exists(joints):
         as_shown = as_shown or os.path.samefile(mesh, joints)
     with listening(progress, time_limit) as listener:
         as_bound = not (as_shown or keep_rig)

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/free_name.hpp"
+#include "base/utf8.hpp"
 #include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/bone_axes.hpp"

@@ -5,11 +5,11 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/clean.hpp>
+#include "base/utf8.hpp"
 #include "rig/gltf/dressed_materials.hpp"
 #include "rig/gltf/number_bytes.hpp"
 #include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/shown_colours.hpp"
-#include "rig/gltf/skin_numbers.hpp"
 #include "rig/gltf/split_mesh.hpp"
 #include "surface/mesh/single_precision.hpp"
 #include "surface/read/formats.hpp"

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/utf8.hpp"
 #include "rig/gltf/gltf_pictures.hpp"
 #include "rig/gltf/picture_as_png.hpp"
-#include "rig/gltf/skin_numbers.hpp"
 #include "surface/read/file_bytes.hpp"
 
 namespace curveskel {

@@ -19,6 +19,7 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/utf8.hpp"
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
 #include "rig/gltf/bent_vertices.hpp"
@@ -32,6 +33,7 @@
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "rig/joints/placed_rig.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/placed_vertices.hpp"
@@ -286,6 +288,7 @@ void require_editable(const std::filesystem::path& input, OldRig old_rig, const 
 std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
                                           const EditOptions& options, const Monitor& monitor) {
   if (!keeps_the_file(options.format)) return std::nullopt;
+  require_sound(rig, "format_rig_into");
   if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);

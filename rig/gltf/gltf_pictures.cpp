@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/uri.hpp"
-#include "rig/gltf/skin_numbers.hpp"
+#include "base/utf8.hpp"
 
 namespace curveskel {
 namespace {

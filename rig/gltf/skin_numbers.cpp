@@ -116,9 +116,4 @@ void require_gltf_joints(const Rig& rig) {
   require_single_range(rig.joints, "glTF");
 }
 
-std::string as_utf8(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
 }  // namespace curveskel

@@ -45,7 +45,4 @@ struct LocalFrame {
 /// single precision.
 void require_gltf_joints(const Rig& rig);
 
-/// Names of files need not be UTF-8, but JSON is.
-[[nodiscard]] std::string as_utf8(const std::string& text);
-
 }  // namespace curveskel

@@ -12,6 +12,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
+#include "base/utf8.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/figure_name.hpp"
 

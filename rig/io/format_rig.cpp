@@ -1,10 +1,12 @@
 #include <string>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/rig_files.hpp>
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_writers.hpp"
 #include "rig/joints/placed_rig.hpp"
+#include "rig/joints/sound_rig.hpp"
 
 namespace curveskel {
 namespace {
@@ -16,6 +18,9 @@ bool has_y_up(RigFormat format) { return keeps_the_file(format) || format == Rig
 
 std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                        const std::string& name, const std::string& provenance, const VrmMeta& vrm) {
+  require_sound(surface, "format_rig");
+  require_sound(rig, "format_rig");
+  require_weights_of(rig, surface.positions.rows(), "format_rig");
   if (has_y_up(format) && !rig.to_y_up.isIdentity(0)) {
     const Surface turned{surface.positions * rig.to_y_up.transpose(), surface.triangles};
     return format_rig(turned, placed(rig, Eigen::Affine3d(rig.to_y_up)), format, name, provenance,

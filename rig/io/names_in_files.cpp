@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/free_name.hpp"
-#include "rig/gltf/skin_numbers.hpp"
+#include "base/utf8.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "rig/io/rig_writers.hpp"
 

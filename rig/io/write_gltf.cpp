@@ -16,6 +16,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/utf8.hpp"
 #include "rig/gltf/seam_normals.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"

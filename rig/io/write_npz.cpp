@@ -10,6 +10,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "base/utf8.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "base/utf8.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"
 #include "rig/joints/bone_axes.hpp"

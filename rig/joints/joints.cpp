@@ -446,6 +446,20 @@ class JointPlacer {
   Joints joints_;
 };
 
+void require_sound_plan(const std::vector<PlannedJoint>& planned, Eigen::Index nodes) {
+  for (std::size_t k = 0; k < planned.size(); ++k) {
+    const PlannedJoint& joint = planned[k];
+    const bool is_sound = joint.node >= -1 && joint.node < nodes && joint.parent >= -1 &&
+                          joint.parent < static_cast<int>(k) && joint.position.allFinite();
+    if (is_sound) continue;
+    throw Error(Fault::input, "place_joints: the planned joint " + std::to_string(k) +
+                                  " has the node " + std::to_string(joint.node) +
+                                  " and the parent " + std::to_string(joint.parent) +
+                                  ", needed one of " + std::to_string(nodes) +
+                                  " nodes or -1, a joint before it or -1, and a finite place");
+  }
+}
+
 }  // namespace
 
 void require_valid(const JointOptions& options) {
@@ -469,6 +483,7 @@ Joints place_planned_joints(const CurveSkeleton& skeleton, const std::vector<Pla
                             const Eigen::Vector3d& up) {
   require_valid(options);
   require_sound(skeleton, "place_joints");
+  require_sound_plan(planned, skeleton.nodes.rows());
   const Eigen::Index nodes = skeleton.nodes.rows();
   if (nodes == 0) {
     throw Error(Fault::input, "a skeleton without nodes, needed one at least; extract it again");

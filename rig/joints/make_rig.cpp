@@ -11,6 +11,7 @@
 #include "rig/joints/ground_nodes.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/joints/sides.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "rig/skin/skin_bones.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -89,10 +90,9 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
   require_closed_manifold(surface, "weights_on_joints", options.threads);
   require_sound(skeleton, "weights_on_joints");
   require_vertices_of(skeleton, surface, "weights_on_joints");
-  if (given.joints.rows() == 0 || given.joints.rows() != given.parents.size()) {
-    throw Error(Fault::input, "weights_on_joints: " + std::to_string(given.joints.rows()) +
-                                  " joints and " + std::to_string(given.parents.size()) +
-                                  " parents, needed one parent for each of at least one joint");
+  require_hierarchy(given, "weights_on_joints");
+  if (given.joints.rows() == 0) {
+    throw Error(Fault::input, "weights_on_joints: the rig has no joints, needed at least one");
   }
   monitor.report("joints", 0);
   Rig rig{given.joints, given.parents,  given.names,  {}, given.roles,
@@ -114,6 +114,7 @@ CurveSkeleton skeleton_of_repaired(CurveSkeleton skeleton, const Eigen::VectorXi
                                   "of the surface's " + std::to_string(vertex_of_input.size()) +
                                   "; extract it again, from this surface");
   }
+  require_below(vertex_of_input, vertices, "skeleton_of_repaired");
   skeleton.node_of_vertex.setConstant(vertices, -1);
   for (Eigen::Index v = 0; v < given.size(); ++v) {
     if (vertex_of_input[v] >= 0) skeleton.node_of_vertex[vertex_of_input[v]] = given[v];

@@ -6,8 +6,11 @@
 #include <map>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
+#include "rig/joints/sound_rig.hpp"
 #include "rig/measure/turned_joints.hpp"
 #include "rig/skin/weight_pieces.hpp"
 
@@ -201,6 +204,14 @@ class WeightChecker {
 
 WeightChecks check_weights(const Surface& surface, const Rig& rig,
                            const std::vector<bool>& follows) {
+  require_sound(surface, "check_weights");
+  require_sound(rig, "check_weights");
+  require_weights_of(rig, surface.positions.rows(), "check_weights");
+  if (!follows.empty() && follows.size() != idx(surface.positions.rows())) {
+    throw Error(Fault::input, "check_weights: found " + std::to_string(follows.size()) +
+                                  " vertices that follow or do not, needed all " +
+                                  std::to_string(surface.positions.rows()) + ", or none");
+  }
   return WeightChecker(surface, rig, follows).check();
 }
 

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include "base/least_pairs.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "rig/measure/limb_poses.hpp"
 #include "rig/measure/rig_bones.hpp"
 
@@ -178,10 +180,22 @@ void compare_places(const Rig& rig, const RiggedSurface& truth, double size,
   result.by_thickness = joint_hits(distances, pairs, half_thickness(truth.surface, theirs, fixed));
 }
 
+void require_comparable(const RiggedSurface& one) {
+  require_corners(one.surface, "compare_rigs");
+  require_sound(one.rig, "compare_rigs");
+  if (one.rig.joints.rows() == 0) {
+    throw Error(Fault::input, "compare_rigs: found a rig without joints, needed at least one");
+  }
+  if (one.rig.weights.rows() == 0) return;
+  require_weights_of(one.rig, one.surface.positions.rows(), "compare_rigs");
+}
+
 }  // namespace
 
 RigComparison compare_rigs(const RiggedSurface& rig, const RiggedSurface& truth,
                            const Monitor& monitor) {
+  require_comparable(rig);
+  require_comparable(truth);
   monitor.report("compare", 0);
   const double size = longest_box_side(truth.surface);
   RigComparison result;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/topology.hpp>
@@ -13,6 +14,7 @@
 #include "base/option_ranges.hpp"
 #include "rig/parts/body.hpp"
 #include "rig/parts/nearest_first.hpp"
+#include "rig/parts/sound_parts.hpp"
 #include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/select_components.hpp"
@@ -184,12 +186,14 @@ bool RigParts::all_body() const {
 
 RigParts find_parts(const Surface& surface, const PartOptions& options, const Monitor& monitor) {
   require_valid(options);
+  require_sound(surface, "find_parts");
   return PartFinder(surface, options, monitor).find();
 }
 
 RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts) {
   RepairedSurface body = repaired;
   if (parts.all_body()) return body;
+  require_parts_of(parts, repaired.surface.positions.rows(), "body_of");
   const Topology counted = topology(repaired.surface);
   std::vector<Fate> fates;
   for (const RigPart& part : parts.parts) {

@@ -6,12 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/make_rig.hpp>
+#include "rig/joints/sound_rig.hpp"
 #include "rig/parts/nearest_first.hpp"
 #include "rig/skin/weight_pieces.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
@@ -147,7 +151,16 @@ class Following {
 
 Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
                  const Eigen::VectorXi& vertex_of_input, const Surface& given) {
+  require_sound(rig, "rig_of_given");
+  require_weights_of(rig, surface.positions.rows(), "rig_of_given");
+  require_corners(given, "rig_of_given");
+  require_below(vertex_of_input, surface.positions.rows(), "rig_of_given");
   const Eigen::Index count = given.positions.rows();
+  if (vertex_of_input.size() != count) {
+    throw Error(Fault::input, "rig_of_given: found a map of " +
+                                  std::to_string(vertex_of_input.size()) +
+                                  " vertices, needed one of the file's " + std::to_string(count));
+  }
   std::vector<WeightRow> rows(idx(count));
   for (Eigen::Index v = 0; v < count; ++v) {
     if (vertex_of_input[v] < 0) continue;

@@ -12,7 +12,9 @@
 #include <curveskel/rig_character.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/sides.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "rig/pipeline/kept_joints.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/spatial/segment.hpp"
 
 namespace curveskel {
@@ -114,6 +116,9 @@ std::vector<double> lives_of_joints(const Rig& rig, const CurveSkeleton& skeleto
 CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                 double least_life) {
   const Rig& rig = character.rig;
+  require_sound(rig, "level_of_character");
+  require_planned_joints(character, "level_of_character");
+  require_sound(skeleton, "level_of_character");
   if (skeleton.lives.size() == 0 || skeleton.edges.rows() == 0 || !(least_life > 0)) {
     return character;
   }

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include <curveskel/rig_character.hpp>
 #include "base/option_ranges.hpp"
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/sides.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 #include "surface/mesh/triangle_area.hpp"
 
@@ -160,6 +162,10 @@ class TipTaker {
 
 CharacterRig within_budget(CharacterRig character, const Surface& given, int joints) {
   OptionCheck("CharacterOptions").number("joint_budget", joints, {0});
+  require_sound(character.rig, "within_budget");
+  require_planned_joints(character, "within_budget");
+  require_corners(given, "within_budget");
+  require_weights_of(character.rig, given.positions.rows(), "within_budget");
   const std::size_t count = character.rig.names.size();
   if (joints == 0 || count <= static_cast<std::size_t>(joints)) return character;
   const auto most = static_cast<std::size_t>(joints);

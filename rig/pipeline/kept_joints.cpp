@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
 
@@ -42,6 +43,23 @@ bool is_required(const CharacterRig& character, std::size_t joint) {
   const std::array<std::string_view, 3> trunk{"spine", "neck", "head"};
   return std::any_of(trunk.begin(), trunk.end(),
                      [&role](std::string_view word) { return role.own.starts_with(word); });
+}
+
+void require_planned_joints(const CharacterRig& character, std::string_view purpose) {
+  const auto joints = static_cast<std::size_t>(character.rig.joints.rows());
+  for (std::size_t figure = 0; figure <= character.other_plans.size(); ++figure) {
+    const std::vector<PlannedJoint>& planned = plan_of(character, figure).joints;
+    const std::size_t first = figure == 0 ? 0 : first_joint_of(character.rig, figure);
+    const auto count = static_cast<int>(planned.size());
+    const bool has_parents = std::all_of(planned.begin(), planned.end(), [&](const auto& joint) {
+      return joint.parent >= -1 && joint.parent < count;
+    });
+    if (first + planned.size() <= joints && has_parents) continue;
+    throw Error(Fault::input,
+                std::string(purpose) + ": found a plan of " + std::to_string(count) +
+                    " joints, needed one whose joints are the first of its figure's " +
+                    "in the rig, of " + std::to_string(joints) + ", with parents among them");
+  }
 }
 
 CharacterRig with_joints(CharacterRig character, std::vector<char> stays) {

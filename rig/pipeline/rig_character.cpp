@@ -9,8 +9,10 @@
 #include <curveskel/topology.hpp>
 #include "rig/joints/contacts.hpp"
 #include "rig/joints/idle_joints.hpp"
+#include "rig/parts/sound_parts.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "skeleton/certify/tube_share.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
@@ -84,6 +86,8 @@ std::vector<Contact> contacts_among(const std::vector<Contact>& contacts,
 }  // namespace
 
 CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
+  require_sound(skeleton, "skeleton_of_body");
+  require_parts_of(parts, skeleton.node_of_vertex.size(), "skeleton_of_body");
   const std::vector<int> nodes = nodes_of_body(skeleton, parts);
   std::vector<int> number(idx(skeleton.nodes.rows()), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) number[idx(nodes[k])] = static_cast<int>(k);

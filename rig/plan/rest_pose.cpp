@@ -13,6 +13,7 @@
 #include <curveskel/error.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
+#include "rig/joints/sound_rig.hpp"
 #include "rig/measure/rig_bones.hpp"
 
 namespace curveskel {
@@ -81,6 +82,7 @@ void add_t_pose(const Rig& rig, const BodyPlan& plan, const std::string& figure,
 }  // namespace
 
 void rest_in_t_pose(Rig& rig, const BodyPlan& plan, const std::vector<BodyPlan>& other_plans) {
+  require_sound(rig, "rest_in_t_pose");
   const auto count = static_cast<std::size_t>(rig.parents.size());
   Turns turns{std::vector<Quaterniond>(count, Quaterniond::Identity()),
               std::vector<char>(count, 0)};
@@ -107,6 +109,12 @@ void rest_in_t_pose(Rig& rig, const BodyPlan& plan, const std::vector<BodyPlan>&
 }
 
 Rig with_ground_root(const Rig& rig, const Surface& surface, const Eigen::RowVector3d& up) {
+  require_sound(rig, "with_ground_root");
+  if (rig.joints.rows() == 0 || surface.positions.rows() == 0) {
+    throw Error(Fault::input, "with_ground_root: found " + std::to_string(rig.joints.rows()) +
+                                  " joints and " + std::to_string(surface.positions.rows()) +
+                                  " vertices, needed at least one of each");
+  }
   Rig result;
   result.to_y_up = rig.to_y_up;
   const Eigen::Index count = rig.joints.rows();
@@ -147,6 +155,7 @@ Rig with_one_root(const Rig& rig, const Surface& surface, const Eigen::RowVector
 }
 
 Rig without_ends(const Rig& rig) {
+  require_sound(rig, "without_ends");
   const Eigen::Index count = rig.joints.rows();
   const std::vector<bool> moves = moving_joints(rig);
   std::vector<char> stays(moves.begin(), moves.end());

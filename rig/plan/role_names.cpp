@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "rig/joints/sound_rig.hpp"
 #include "rig/plan/limb_names.hpp"
 
 namespace curveskel {
@@ -235,6 +237,12 @@ void rename(std::vector<std::string>& names, std::size_t at, const std::string& 
 }  // namespace
 
 void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
+  require_sound(rig, "name_roles");
+  if (plan.joints.size() > rig.names.size()) {
+    throw Error(Fault::input, "name_roles: the plan has " + std::to_string(plan.joints.size()) +
+                                  " joints, needed no more than the rig's " +
+                                  std::to_string(rig.names.size()));
+  }
   std::vector<std::string> readable;
   for (const PlannedJoint& joint : plan.joints) {
     readable.push_back(name_of_role(joint.role, plan.plan, NameStyle::automatic));
@@ -283,6 +291,11 @@ std::vector<std::string> roles_of(BodyKind kind) {
 }
 
 void assign_role(Rig& rig, BodyPlan& plan, int joint, const std::string& role, NameStyle style) {
+  require_sound(rig, "assign_role");
+  if (joint < 0 || joint >= rig.joints.rows()) {
+    throw Error(Fault::usage, "assign_role: found joint " + std::to_string(joint) +
+                                  ", needed one of the rig's " + std::to_string(rig.joints.rows()));
+  }
   rig.roles.resize(rig.names.size());
   const std::size_t at = idx(joint);
   const auto with = [](const std::vector<std::string>& texts, const std::string& text) {

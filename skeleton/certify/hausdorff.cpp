@@ -4,6 +4,7 @@
 #include <curveskel/certificate.hpp>
 #include "skeleton/certify/curve_samples.hpp"
 #include "skeleton/graph/skeleton_segments.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -32,10 +33,14 @@ double mean(const CurveSkeleton& from, const SkeletonSegments& to, double spacin
 }  // namespace
 
 double mean_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing) {
+  require_sound(a, "mean_distance");
+  require_sound(b, "mean_distance");
   return (mean(a, SkeletonSegments(b), spacing) + mean(b, SkeletonSegments(a), spacing)) / 2;
 }
 
 double hausdorff_distance(const CurveSkeleton& a, const CurveSkeleton& b, double spacing) {
+  require_sound(a, "hausdorff_distance");
+  require_sound(b, "hausdorff_distance");
   const SkeletonSegments segments_of_a(a);
   const SkeletonSegments segments_of_b(b);
   return std::max(farthest(a, segments_of_b, spacing), farthest(b, segments_of_a, spacing));

@@ -7,11 +7,13 @@
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 
 std::vector<Branch> branches(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "branches");
   // Rows are sorted with i < j, so the neighbours of a node are ascending.
   const Graph graph = graph_of(skeleton.nodes.rows(), skeleton.edges);
   std::vector<bool> taken(static_cast<std::size_t>(skeleton.edges.rows()), false);
@@ -57,6 +59,9 @@ std::vector<int> branch_of_edges(const CurveSkeleton& skeleton) {
       branch_of_edge[idx(edge)] = static_cast<int>(b);
     }
   }
+  if (std::find(branch_of_edge.begin(), branch_of_edge.end(), -1) != branch_of_edge.end()) {
+    throw Error(Fault::input, "branch_of_edges: found an edge twice, needed each row once");
+  }
   return branch_of_edge;
 }
 
@@ -75,10 +80,12 @@ int edge_between(const CurveSkeleton& skeleton, int a, int b) {
 }
 
 std::vector<int> component_of_node(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "component_of_node");
   return connected_components(skeleton.nodes.rows(), skeleton.edges);
 }
 
 GraphTopology graph_topology(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "graph_topology");
   GraphTopology topology;
   const std::vector<int> component = component_of_node(skeleton);
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);

@@ -5,6 +5,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
@@ -22,10 +24,12 @@ std::pair<int, int> ascending_pair(int a, int b) { return {std::min(a, b), std::
 }  // namespace
 
 void require_node(const CurveSkeleton& skeleton, int node, const std::string& edit) {
+  require_sound(skeleton, edit);
   require_index(node, skeleton.nodes.rows(), edit, "node");
 }
 
 void require_edge(const CurveSkeleton& skeleton, int edge, const std::string& edit) {
+  require_sound(skeleton, edit);
   require_index(edge, skeleton.edges.rows(), edit, "edge");
 }
 
@@ -70,9 +74,10 @@ void Draft::place(int node, const Eigen::Vector3d& point, double without_tree,
 
 int Draft::add(const Eigen::Vector3d& point, double without_tree, const SurfaceTree* tree) {
   const auto node = static_cast<int>(skeleton_.nodes.rows());
+  const bool with_lives = has_lives(skeleton_);
   skeleton_.nodes.conservativeResize(node + 1, 3);
   if (skeleton_.radii.size() > 0) skeleton_.radii.conservativeResize(node + 1);
-  if (skeleton_.lives.size() > 0) {
+  if (with_lives) {
     skeleton_.lives.conservativeResize(node + 1);
     skeleton_.lives[node] = 0;
   }
@@ -102,7 +107,7 @@ CurveSkeleton Draft::finish() const {
   CurveSkeleton result;
   result.nodes = skeleton_.nodes(kept, Eigen::all);
   if (skeleton_.radii.size() > 0) result.radii = skeleton_.radii(kept);
-  if (skeleton_.lives.size() > 0) result.lives = skeleton_.lives(kept);
+  if (has_lives(skeleton_)) result.lives = skeleton_.lives(kept);
   result.edges.resize(static_cast<Eigen::Index>(edges_.size()), 2);
   Eigen::Index row = 0;
   for (const auto& [i, j] : edges_) result.edges.row(row++) << number[idx(i)], number[idx(j)];

@@ -1,9 +1,11 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/edit.hpp>
 #include "skeleton/graph/draft.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 Path shortest_path(const CurveSkeleton& skeleton, int a, int b) {
+  require_sound(skeleton, "shortest_path");
   require_node(skeleton, a, "shortest_path");
   require_node(skeleton, b, "shortest_path");
   ShortestPaths paths(skeleton.nodes.rows());

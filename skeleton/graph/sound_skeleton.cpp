@@ -38,11 +38,27 @@ int require_edge(const CurveSkeleton& skeleton, int a, int b, std::string_view p
 void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
                          std::string_view purpose) {
   const Eigen::Index mapped = skeleton.node_of_vertex.size();
-  if (mapped == 0 || mapped == surface.positions.rows()) return;
+  if (mapped == 0) return;
+  require_map_of(skeleton, surface, purpose);
+}
+
+void require_map_of(const CurveSkeleton& skeleton, const Surface& surface,
+                    std::string_view purpose) {
+  const Eigen::Index mapped = skeleton.node_of_vertex.size();
+  if (mapped == surface.positions.rows()) return;
   throw Error(Fault::input, std::string(purpose) + ": the skeleton has nodes for " +
                                 std::to_string(mapped) + " vertices, needed one for each of the " +
-                                "surface's " + std::to_string(surface.positions.rows()) +
-                                ", or none");
+                                "surface's " + std::to_string(surface.positions.rows()));
+}
+
+void require_below(const Eigen::VectorXi& numbers, Eigen::Index count, std::string_view purpose) {
+  for (Eigen::Index k = 0; k < numbers.size(); ++k) {
+    if (numbers[k] < count) continue;
+    throw Error(Fault::input, std::string(purpose) + ": found vertex " +
+                                  std::to_string(numbers[k]) + " for vertex " + std::to_string(k) +
+                                  ", needed one of the surface's " + std::to_string(count) +
+                                  ", or -1 for none");
+  }
 }
 
 }  // namespace curveskel

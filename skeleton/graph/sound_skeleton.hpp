@@ -21,4 +21,12 @@ void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
 void require_vertices_of(const CurveSkeleton& skeleton, const Surface& surface,
                          std::string_view purpose);
 
+/// The same, and it must not be empty. O(1).
+void require_map_of(const CurveSkeleton& skeleton, const Surface& surface,
+                    std::string_view purpose);
+
+/// Throws Error(Fault::input) that begins with `purpose` unless each of `numbers` is below `count`;
+/// negative ones stand for none. O(numbers).
+void require_below(const Eigen::VectorXi& numbers, Eigen::Index count, std::string_view purpose);
+
 }  // namespace curveskel

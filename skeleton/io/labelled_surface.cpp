@@ -9,9 +9,13 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/clean.hpp>
+#include <curveskel/error.hpp>
 #include "base/decimal.hpp"
 #include "base/one_line.hpp"
+#include "base/utf8.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/io/xml_lines.hpp"
+#include "surface/repair/sound_soup.hpp"
 
 namespace curveskel {
 namespace {
@@ -188,7 +192,8 @@ std::string glb_of(const Labelled& labelled) {
   const nlohmann::ordered_json primitive = {
       {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}, {"_BRANCH", 2}}}, {"indices", 3}};
   nlohmann::ordered_json document;
-  document["asset"] = {{"version", "2.0"}, {"generator", std::string(labelled.provenance)}};
+  document["asset"] = {{"version", "2.0"},
+                       {"generator", as_utf8(std::string(labelled.provenance))}};
   document["scene"] = 0;
   document["scenes"] = {{{"nodes", {0}}}};
   document["nodes"] = {{{"mesh", 0}, {"name", "branches"}}};
@@ -234,6 +239,7 @@ std::array<std::uint8_t, 3> branch_colour(int branch) {
 
 BranchLabels labels_of_input(const PolygonSoup& soup, const RepairedSurface& repaired,
                              const CurveSkeleton& skeleton) {
+  require_below(repaired.vertex_of_input, repaired.surface.positions.rows(), "labels_of_input");
   const Eigen::VectorXi of_surface =
       branch_territories(repaired.surface, skeleton).branch_of_vertex;
   BranchLabels labels;
@@ -245,6 +251,17 @@ BranchLabels labels_of_input(const PolygonSoup& soup, const RepairedSurface& rep
 
 std::string format_labelled_surface(const PolygonSoup& soup, const BranchLabels& labels,
                                     LabelledFormat format, std::string_view provenance) {
+  const auto polygons =
+      static_cast<Eigen::Index>(std::max(soup.offsets.size(), std::size_t{1}) - 1);
+  require_sound(soup);
+  if (labels.of_vertex.size() != soup.positions.rows() || labels.of_polygon.size() != polygons) {
+    throw Error(Fault::input, "format_labelled_surface: found labels of " +
+                                  std::to_string(labels.of_vertex.size()) + " vertices and " +
+                                  std::to_string(labels.of_polygon.size()) +
+                                  " polygons, needed one for each of " +
+                                  std::to_string(soup.positions.rows()) + " and of " +
+                                  std::to_string(polygons));
+  }
   const Labelled labelled{soup, labels.of_vertex, labels.of_polygon, provenance};
   switch (format) {
     case LabelledFormat::ply:

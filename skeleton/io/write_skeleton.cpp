@@ -1,12 +1,14 @@
 // The choice of the format, and the formats that are little more than a list of points and lines.
 #include <cstdint>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "base/decimal.hpp"
 #include "base/one_line.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 #include "skeleton/picture/picture.hpp"
 
@@ -122,6 +124,8 @@ std::string polylines_from(const CurveSkeleton& skeleton) {
 
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                             const SkeletonContext& context) {
+  require_sound(skeleton, "format_skeleton");
+  if (context.surface != nullptr) require_corners(*context.surface, "format_skeleton");
   if (context.root < -1 || context.root >= skeleton.nodes.rows()) {
     throw Error(Fault::output, "the skeleton's root is node " + std::to_string(context.root) +
                                    ", needed one of its " + std::to_string(skeleton.nodes.rows()) +

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/io/skeleton_formats.hpp"
 
 namespace curveskel {
@@ -110,6 +111,7 @@ std::string format_profiles(const std::vector<BranchSection>& sections) {
 }
 
 std::string format_junctions(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "format_junctions");
   std::string text = "node,x,y,z,degree,branches,angles,planarity\n";
   for (const JunctionMeasures& junction : junction_measures(skeleton)) {
     append_decimal(text, junction.node);

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include "skeleton/embed/tuning.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
@@ -187,6 +188,14 @@ bool has_lives(const CurveSkeleton& skeleton) {
 }
 
 void set_lives(CurveSkeleton& skeleton, const std::vector<TipLife>& lives) {
+  require_sound(skeleton, "set_lives");
+  for (const TipLife& life : lives) {
+    if (life.vertex >= 0 && life.vertex < skeleton.node_of_vertex.size()) continue;
+    throw Error(Fault::input, "set_lives: found a life of vertex " + std::to_string(life.vertex) +
+                                  ", needed one of the " +
+                                  std::to_string(skeleton.node_of_vertex.size()) +
+                                  " that have a node");
+  }
   skeleton.lives.setZero(skeleton.nodes.rows());
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   std::vector<int> tip_of(idx(skeleton.nodes.rows()), -1);  // by node, of the leaf it lies on
@@ -212,6 +221,11 @@ void set_lives(CurveSkeleton& skeleton, const std::vector<TipLife>& lives) {
 }
 
 Eigen::VectorXd edge_lives(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "edge_lives");
+  if ((skeleton.edges.col(0).array() == skeleton.edges.col(1).array()).any()) {
+    throw Error(Fault::input,
+                "edge_lives: found an edge from a node to itself, needed edges between two nodes");
+  }
   return LifeTree(skeleton).edge_lives();
 }
 
@@ -248,6 +262,7 @@ std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton) {
 }
 
 CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
+  require_sound(skeleton, "level_of");
   if (!has_lives(skeleton)) return skeleton;
   const Eigen::VectorXd lives = edge_lives(skeleton);
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);

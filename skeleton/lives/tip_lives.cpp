@@ -6,6 +6,7 @@
 #include <queue>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/laplacian.hpp>
 #include <curveskel/advanced/measures.hpp>
@@ -270,6 +271,7 @@ std::vector<TipLife> tip_lives(const Surface& surface, const LifeOptions& option
                                const Monitor& monitor) {
   require_valid(options);
   if (surface.positions.rows() == 0) return {};
+  require_closed_manifold(surface, "tip_lives", options.threads);
   monitor.report("lives", 0);
   return Lives(surface, options).find(options.least_height, monitor);
 }

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_territories.hpp>
 #include <curveskel/error.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/match/branch_overlaps.hpp"
 #include "skeleton/match/branch_pairs.hpp"
 #include "skeleton/match/component_pairs.hpp"
@@ -131,6 +132,14 @@ SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
 
 InputMatch match_inputs(const MatchInput& a, const MatchInput& b, const MatchOptions& options,
                         const Monitor& monitor) {
+  for (const MatchInput& side : {a, b}) {
+    require_below(side.repaired.vertex_of_input, side.repaired.surface.positions.rows(), "match");
+    if (side.repaired.vertex_of_input.size() == side.soup.positions.rows()) continue;
+    throw Error(Fault::input, "match: found a map of " +
+                                  std::to_string(side.repaired.vertex_of_input.size()) +
+                                  " vertices, needed one of the polygons' " +
+                                  std::to_string(side.soup.positions.rows()));
+  }
   const MatchSide side_a{a.repaired.surface, a.skeleton};
   const MatchSide side_b{b.repaired.surface, b.skeleton};
   InputMatch found;

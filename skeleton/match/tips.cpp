@@ -5,8 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/mesh/triangle_area.hpp"
 
 namespace curveskel {
@@ -26,6 +29,10 @@ void require_whole(const MatchSide& side, const std::string& name) {
     refuse("a map of " + std::to_string(skeleton.node_of_vertex.size()) + " vertices",
            "one of its surface's " + std::to_string(side.surface.positions.rows()));
   }
+  require_sound(skeleton, "match");
+  require_closed_manifold(side.surface, "match");
+  if (area(side.surface) > 0) return;
+  throw Error(Fault::input, "match: the surface of " + name + " has no area, needed some");
 }
 
 class FeatureFinder {

@@ -9,7 +9,9 @@
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 #include "skeleton/measure/branch_orders.hpp"
 
@@ -91,6 +93,12 @@ double angle_between(const Branch& child, const BranchCurve& of_child, const Bra
 }  // namespace
 
 std::vector<BranchMeasures> branch_measures(const CurveSkeleton& skeleton, int root) {
+  require_sound(skeleton, "branch_measures");
+  if (root < -1 || root >= skeleton.nodes.rows()) {
+    throw Error(Fault::usage, "branch_measures: the root is " + std::to_string(root) +
+                                  ", needed one of the " + std::to_string(skeleton.nodes.rows()) +
+                                  " nodes, or -1 for none");
+  }
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   const std::vector<Branch> all_branches = branches(skeleton);
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
@@ -123,6 +131,7 @@ std::vector<BranchMeasures> branch_measures(const CurveSkeleton& skeleton, int r
 }
 
 std::vector<JunctionMeasures> junction_measures(const CurveSkeleton& skeleton) {
+  require_sound(skeleton, "junction_measures");
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   std::vector<JunctionMeasures> of_node(idx(skeleton.nodes.rows()));
   std::vector<std::vector<Eigen::Vector3d>> directions(of_node.size());

@@ -15,6 +15,7 @@
 #include <curveskel/error.hpp>
 #include "base/decimal.hpp"
 #include "base/parallel.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 #include "skeleton/measure/plane_section.hpp"
 #include "surface/mesh/lids.hpp"
@@ -147,6 +148,10 @@ std::vector<BranchSection> branch_profiles(const Surface& surface, const CurveSk
     std::string message = "the spacing of sections is ";
     append_decimal(message, options.spacing);
     throw Error(Fault::usage, message + ", needed 0 (at the nodes) or more");
+  }
+  require_sound(skeleton, "branch_profiles");
+  if (skeleton.node_of_vertex.size() > 0) {
+    require_vertices_of(skeleton, surface, "branch_profiles");
   }
   const SurfaceTree tree(surface, options.threads);
   const Surface open = without_lids(surface, options.rims);

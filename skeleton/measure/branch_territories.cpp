@@ -5,10 +5,13 @@
 #include <array>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/measure/branch_curve.hpp"
 #include "surface/mesh/triangle_area.hpp"
+#include "surface/repair/sound_soup.hpp"
 
 namespace curveskel {
 namespace {
@@ -216,6 +219,9 @@ void close_territories(const Surface& surface, const CurveSkeleton& skeleton,
 }  // namespace
 
 BranchTerritories branch_territories(const Surface& surface, const CurveSkeleton& skeleton) {
+  require_sound(surface, "branch_territories");
+  require_sound(skeleton, "branch_territories");
+  require_map_of(skeleton, surface, "branch_territories");
   const std::vector<Branch> all = branches(skeleton);
   BranchTerritories territories;
   territories.branch_of_vertex = label_vertices(surface, skeleton, all);
@@ -243,6 +249,7 @@ BranchTerritories branch_territories(const Surface& surface, const CurveSkeleton
 Eigen::VectorXi majority_labels(const Eigen::VectorXi& label_of_vertex,
                                 const std::vector<std::int32_t>& corners,
                                 const std::vector<std::int64_t>& offsets) {
+  require_sound_polygons(label_of_vertex.size(), corners, offsets, "majority_labels");
   const std::size_t faces = offsets.empty() ? 0 : offsets.size() - 1;
   Eigen::VectorXi labels(static_cast<Eigen::Index>(faces));
   for (std::size_t face = 0; face < faces; ++face) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/coarsen.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/branch_profiles.hpp>
@@ -12,6 +13,8 @@
 #include <curveskel/labelled_surface.hpp>
 #include <curveskel/view.hpp>
 #include "base/base64.hpp"
+#include "base/utf8.hpp"
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/page/page.hpp"
 
 namespace curveskel {
@@ -89,7 +92,7 @@ PageJson rows_of(const Eigen::Matrix3d& axes) {
 /// Text that stands in a script element, where no tag may begin.
 std::string in_script(const PageJson& data) {
   std::string text;
-  for (const char c : data.dump()) {
+  for (const char c : data.dump(-1, ' ', false, PageJson::error_handler_t::replace)) {
     if (c == '<') {
       text += "\\u003c";
     } else {
@@ -117,6 +120,9 @@ std::string escaped(const std::string& text) {
 
 std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
                       const PageContent& content, int threads) {
+  require_sound(surface, "html_page");
+  require_sound(skeleton, "html_page");
+  require_map_of(skeleton, surface, "html_page");
   const BranchTerritories territories = branch_territories(surface, skeleton);
   SkeletonContext context;
   context.territories = &territories;
@@ -151,7 +157,7 @@ std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
       {"junctions", format_junctions(skeleton)}};
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(content.title) + "</title>\n<style>\n" + std::string(page_style_source) +
+         escaped(as_utf8(content.title)) + "</title>\n<style>\n" + std::string(page_style_source) +
          "</style>\n</head>\n<body>\n" + std::string(page_body_source) +
          "<script id=\"data\" type=\"application/json\">" + in_script(data) +
          "</script>\n<script>\n" + std::string(page_script_source) +

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/resample/principal_frame.hpp"
 
 namespace curveskel {
@@ -203,10 +205,12 @@ std::array<View, 2> best_views_of(const Positions& positions, const Eigen::Matri
 }  // namespace
 
 std::array<View, 2> best_views(const Surface& surface, int width, int height) {
+  require_corners(surface, "best_views");
   return best_views_of(surface.positions, principal_axes(surface), width, height);
 }
 
 std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height) {
+  require_sound(skeleton, "best_views");
   return best_views_of(skeleton.nodes, principal_axes(skeleton), width, height);
 }
 

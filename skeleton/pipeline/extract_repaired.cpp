@@ -11,6 +11,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
+#include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/wrap_losses.hpp"
@@ -253,6 +254,7 @@ RepairedExtraction extract_repaired(const RepairedSurface& repaired,
 
 CurveSkeleton on_input_vertices(const RepairedSurface& repaired, CurveSkeleton skeleton) {
   const Eigen::VectorXi of_surface = std::move(skeleton.node_of_vertex);
+  require_below(repaired.vertex_of_input, of_surface.size(), "on_input_vertices");
   skeleton.node_of_vertex = repaired.vertex_of_input.unaryExpr(
       [&](int vertex) { return vertex < 0 ? -1 : of_surface[vertex]; });
   return skeleton;

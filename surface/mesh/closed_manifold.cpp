@@ -173,11 +173,8 @@ void require_usual_size(const Surface& surface, std::string_view purpose) {
 
 }  // namespace
 
-void require_sound(const Surface& surface, std::string_view purpose) {
+void require_corners(const Surface& surface, std::string_view purpose) {
   const Eigen::Index vertices = surface.positions.rows();
-  if (surface.triangles.rows() == 0) {
-    refuse(purpose, std::to_string(vertices) + " vertices without faces", "a surface with faces");
-  }
   const auto out_of_range = [vertices](std::int32_t v) { return v < 0 || v >= vertices; };
   const std::int32_t* const corners = surface.triangles.data();
   const std::int32_t* const end = corners + surface.triangles.size();
@@ -187,6 +184,14 @@ void require_sound(const Surface& surface, std::string_view purpose) {
                std::to_string(*wrong),
            "a surface whose corners are vertices, 0.." + std::to_string(vertices - 1));
   }
+}
+
+void require_sound(const Surface& surface, std::string_view purpose) {
+  if (surface.triangles.rows() == 0) {
+    refuse(purpose, std::to_string(surface.positions.rows()) + " vertices without faces",
+           "a surface with faces");
+  }
+  require_corners(surface, purpose);
   if (surface.positions.allFinite()) return;
   Eigen::Index vertex = 0;
   while (surface.positions.row(vertex).allFinite()) ++vertex;

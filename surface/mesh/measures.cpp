@@ -1,3 +1,4 @@
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@ Eigen::Vector3d point(const Surface& surface, Eigen::Index face, int corner) {
 }  // namespace
 
 double area(const Surface& surface) {
+  require_corners(surface, "area");
   double twice = 0;
   for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
     twice += twice_area(surface, face);
@@ -24,6 +26,7 @@ double area(const Surface& surface) {
 }
 
 double volume(const Surface& surface) {
+  require_corners(surface, "volume");
   if (surface.positions.rows() == 0) return 0;
   const Eigen::Vector3d origin = surface.positions.row(0).transpose();
   double six_fold = 0;
@@ -46,6 +49,7 @@ double bounding_box_diagonal(const Positions& positions) {
 }
 
 Positions vertex_normals(const Surface& surface) {
+  require_corners(surface, "vertex_normals");
   Positions normals = Positions::Zero(surface.positions.rows(), 3);
   for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
     const Eigen::Vector3d a = point(surface, face, 0);

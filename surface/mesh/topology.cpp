@@ -4,11 +4,14 @@
 #include <cstddef>
 #include <numeric>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 
 Topology topology(const Surface& surface) {
+  require_corners(surface, "topology");
   const Eigen::Index vertex_count = surface.positions.rows();
   const Triangles& triangles = surface.triangles;
   UnionFind sets(vertex_count);
@@ -42,6 +45,13 @@ Topology topology(const Surface& surface) {
 }
 
 std::vector<Component> split_components(const Surface& surface, const Topology& topology) {
+  require_corners(surface, "split_components");
+  if (topology.component_of_vertex.size() != surface.positions.rows()) {
+    throw Error(Fault::input, "split_components: found the topology of " +
+                                  std::to_string(topology.component_of_vertex.size()) +
+                                  " vertices, needed that of the surface's " +
+                                  std::to_string(surface.positions.rows()));
+  }
   std::vector<Component> components(static_cast<std::size_t>(topology.components()));
   if (components.size() == 1) {
     components[0].surface = surface;

@@ -9,22 +9,25 @@
 namespace curveskel {
 
 void require_sound(const PolygonSoup& soup) {
+  require_sound_polygons(soup.positions.rows(), soup.corners, soup.offsets,
+                         soup.file.empty() ? "surface" : soup.file.string());
+}
+
+void require_sound_polygons(Eigen::Index vertices, const std::vector<std::int32_t>& all_corners,
+                            const std::vector<std::int64_t>& offsets, std::string_view purpose) {
   const auto refuse = [&](const std::string& found, const std::string& needed) {
-    const std::string file = soup.file.empty() ? "surface" : soup.file.string();
-    throw Error(Fault::input, file + ": found " + found + ", needed " + needed);
+    throw Error(Fault::input, std::string(purpose) + ": found " + found + ", needed " + needed);
   };
-  const auto vertices = soup.positions.rows();
-  const auto wrong = std::find_if(soup.corners.begin(), soup.corners.end(),
+  const auto wrong = std::find_if(all_corners.begin(), all_corners.end(),
                                   [&](auto corner) { return corner < 0 || corner >= vertices; });
-  if (wrong != soup.corners.end()) {
+  if (wrong != all_corners.end()) {
     refuse("corner " + std::to_string(*wrong),
            "corners that are vertices, 0.." + std::to_string(vertices - 1));
   }
-  const auto corners = static_cast<std::int64_t>(soup.corners.size());
-  if (soup.offsets.empty() && corners == 0) return;
-  const bool lead_through = !soup.offsets.empty() && soup.offsets.front() == 0 &&
-                            soup.offsets.back() == corners &&
-                            std::is_sorted(soup.offsets.begin(), soup.offsets.end());
+  const auto corners = static_cast<std::int64_t>(all_corners.size());
+  if (offsets.empty() && corners == 0) return;
+  const bool lead_through = !offsets.empty() && offsets.front() == 0 && offsets.back() == corners &&
+                            std::is_sorted(offsets.begin(), offsets.end());
   if (!lead_through) {
     refuse("offsets of polygons that skip corners",
            "offsets that rise from 0 to " + std::to_string(corners));

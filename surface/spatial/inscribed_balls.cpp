@@ -4,6 +4,7 @@
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 
@@ -80,6 +81,12 @@ InscribedBalls inscribed_balls(const Surface& surface, const SurfaceTree& tree, 
 }
 
 Positions smoothed_centres(const Surface& surface, const InscribedBalls& balls, int rounds) {
+  require_corners(surface, "smoothed_centres");
+  if (balls.centres.rows() != surface.positions.rows()) {
+    throw Error(Fault::input, "smoothed_centres: found " + std::to_string(balls.centres.rows()) +
+                                  " balls, needed one for each of the surface's " +
+                                  std::to_string(surface.positions.rows()) + " vertices");
+  }
   Positions centres = balls.centres;
   for (int round = 0; round < rounds; ++round) {
     Positions sum = Positions::Zero(centres.rows(), 3);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
 #include "base/decimal.hpp"
 #include "base/one_line.hpp"
@@ -117,6 +118,7 @@ std::string format_stl(const Surface& surface, std::string_view provenance) {
 
 std::string format_surface(const Surface& surface, SurfaceFormat format,
                            std::string_view provenance) {
+  require_corners(surface, "format_surface");
   switch (format) {
     case SurfaceFormat::obj:
       return format_obj(surface, provenance);

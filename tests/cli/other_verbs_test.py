@@ -4,6 +4,7 @@ import json
 import os
 import struct
 import unittest
+import xml.etree.ElementTree
 import zipfile
 
 from program import LINKED_RINGS, TORUS, Y, CommandLineTest, run
@@ -481,6 +482,30 @@ class Rig(CommandLineTest):
         scene = self.glb(self.rig("x.glb", "-q", mesh=mesh)[0])
         self.assertEqual(scene["meshes"][0]["name"],
                          "caf\N{REPLACEMENT CHARACTER}")
+
+    def test_texts_are_utf8_whatever_the_name_of_the_file(self):
+        """Names from old archives are Latin-1, Shift-JIS or anything; even control characters."""
+        for name in (b"caf\xe9.off", b"\x83\x82.off", b"\xff\x01 --> <&.off"):
+            mesh = os.fsdecode(name)
+            (self.folder / mesh).write_bytes(Y.read_bytes())
+            skeletons = [f"s.{format}" for format in
+                         ("obj", "ply", "cgal", "swc", "vtp", "csv", "graphml", "json", "svg")]
+            tables = ["--html", "s.html", "--report", "s.report.json", "--profiles", "p.csv",
+                      "--labelled", "l.vtp", "-o", "l.labelled.glb"]
+            wanted = [word for output in skeletons for word in ("-o", output)]
+            self.run_ok("extract", mesh, *wanted, *tables, "-q", cwd=self.folder)
+            self.run_ok("match", mesh, mesh, "-o", "m.json", "-q", cwd=self.folder)
+            rigs = ["r.gltf", "r.usda", "r.bvh", "r.json", "r.txt"]
+            for rig in rigs:
+                self.run_ok("rig", mesh, "-o", rig, "--report", "r.report.json", "-q", cwd=self.folder)
+            texts = {output: (self.folder / output).read_bytes().decode("utf-8")
+                     for output in (*skeletons, "s.html", "s.report.json", "p.csv", "l.vtp",
+                                    "m.json", *rigs, "r.report.json") if output != "s.ply"}
+            for output, text in texts.items():
+                if output.endswith((".json", ".gltf")):
+                    json.loads(text)
+                if output.endswith((".vtp", ".graphml", ".svg")):
+                    xml.etree.ElementTree.fromstring(text)
 
     def test_a_rig_is_a_surface_that_can_be_rigged(self):
         self.rig("y.glb")

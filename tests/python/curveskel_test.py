@@ -176,6 +176,28 @@ class Arrays(Folder):
         numpy.testing.assert_array_equal(by_arrays.vertices, by_file.vertices)
         numpy.testing.assert_array_equal(by_arrays.mesh_map, by_file.mesh_map)
 
+    def test_nothing_of_an_array_is_lost_without_a_word(self):
+        places, faces = map(numpy.array, curveskel.extract(Y).mesh)
+        expected = curveskel.extract((places, faces))
+        of_vertex = numpy.ma.masked_array(places, mask=places == places[3])
+        of_face = numpy.ma.masked_array(faces, mask=faces == 3)
+        nodes = numpy.ma.masked_array(expected.vertices, mask=expected.vertices > 0)
+        for says, call in (
+                ("vertices: found [0-9]+ masked", lambda: curveskel.extract((of_vertex, faces))),
+                ("faces: found [0-9]+ masked", lambda: curveskel.extract((places, of_face))),
+                ("nodes: found [0-9]+ masked",
+                 lambda: curveskel.evaluate(Y, (nodes, expected.edges))),
+                ("vertices: .*complex", lambda: curveskel.fair((places + 1j, faces))),
+                ("vertices: .*<U", lambda: curveskel.rig((places.astype(str), faces))),
+                ("mesh: .*dict", lambda: curveskel.extract({"vertices": places, "faces": faces}))):
+            with self.assertRaisesRegex(curveskel.UsageError, says):
+                call()
+        whole = numpy.ma.masked_array(places, mask=False)
+        for vertices in (whole, places.tolist(), places.astype(object), numpy.asfortranarray(places),
+                         places.astype(">f8"), numpy.repeat(places, 2, axis=0)[::2]):
+            found = curveskel.extract((vertices, faces))
+            numpy.testing.assert_array_equal(found.vertices, expected.vertices)
+
     def test_the_size_of_the_surface_is_in_its_units(self):
         skeleton = curveskel.extract(Y)
         vertices, faces = skeleton.mesh
@@ -348,6 +370,8 @@ class Certificates(Folder):
                 curveskel.evaluate(TORUS, (skeleton.vertices, edges))
         with self.assertRaises(curveskel.UsageError):
             curveskel.evaluate(TORUS, 7)
+        alone = curveskel.evaluate(TORUS, ([[3, 0, 0]], []))
+        self.assertEqual((alone["components"], alone["cycle_rank"]), (1, 0))
 
 
 class Errors(Folder):
@@ -372,6 +396,17 @@ class Errors(Folder):
             self.assertEqual(caught.exception.exit_status, status)
             self.assertIsInstance(caught.exception, curveskel.Error)
             self.assertNotEqual(str(caught.exception), "")
+
+    def test_options_of_another_type_are_told_what_is_needed(self):
+        for options, needed in (
+                ({"detail": "fine"}, "detail: needs a number, not 'fine'"),
+                ({"threads": 1.5}, "threads: needs a whole number, not 1.5"),
+                ({"merge_overlapping": "no"}, "merge_overlapping: needs True or False, not 'no'"),
+                ({"wrap": True}, "wrap: needs one of: never, needed, all, not True"),
+                ({"components": 1.5}, "components: needs .*largest.*, not 1.5"),
+                ({"resolution": None}, "resolution: needs .*full.*, not None")):
+            with self.assertRaisesRegex(curveskel.UsageError, needed):
+                curveskel.extract(Y, **options)
 
     def test_a_certificate_that_fails_warns_or_is_an_error(self):
         plate = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 0.01)], float)
@@ -470,6 +505,22 @@ class Running(Folder):
         _, error = child.communicate(timeout=60)
         self.assertIn(b"KeyboardInterrupt", error)
         self.assertNotEqual(child.returncode, 0)
+
+    def test_a_daemon_s_work_ends_with_the_interpreter(self):
+        program = ("import curveskel, os, sys, threading, time\n"
+                   "def work():\n"
+                   "    while True: curveskel.extract(sys.argv[1], resolution='full')\n"
+                   "for _ in range(3): threading.Thread(target=work, daemon=True).start()\n"
+                   "time.sleep(0.5)\n"
+                   "child = os.fork()\n"  # which has neither the parent's work nor its threads
+                   "if not child: curveskel.extract(sys.argv[1])\n"
+                   "if child: assert os.waitpid(child, 0)[1] == 0\n")
+        for _ in range(3):
+            start = time.monotonic()
+            child = subprocess.run([sys.executable, "-c", program, str(Y)], capture_output=True,
+                                   timeout=60)
+            self.assertEqual((child.returncode, child.stderr), (0, b""))
+            self.assertLess(time.monotonic() - start, 30)
 
     def test_numpy_keeps_its_blas_threads(self):
         try:

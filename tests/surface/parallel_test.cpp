@@ -14,6 +14,7 @@
 
 #ifdef __linux__
 #include <sys/resource.h>
+#include <unistd.h>
 #endif
 
 namespace curveskel::parallel_laws {
@@ -111,6 +112,22 @@ TEST(ParallelFor, HelpersGiveWayAsTheirCallerDoes) {
       expect_all_as_nice();
     }).join();
   }
+}
+
+TEST(ParallelFor, AForkedProcessHasThreadsOfItsOwnAndEnds) {
+  parallel_for(100, 1, 4, [](std::size_t, std::size_t) {});  // so that there are some
+  const auto in_child = [] {
+    alarm(60);
+    std::atomic<int> at_work{0};
+    std::atomic<bool> met{false};
+    parallel_for(2, 1, 2, [&](std::size_t, std::size_t) {
+      ++at_work;
+      while (at_work < 2) std::this_thread::yield();  // for ever, if it is alone
+      met = true;
+    });
+    std::exit(met ? 0 : 1);
+  };
+  EXPECT_EXIT(in_child(), testing::ExitedWithCode(0), "");
 }
 #endif
 

@@ -13,6 +13,9 @@ namespace curveskel {
 /// fault. One pass over the arrays.
 void require_sound(const Surface& surface, std::string_view purpose);
 
+/// The same of corners alone: a surface without faces is let in, and coordinates are not looked at.
+void require_corners(const Surface& surface, std::string_view purpose);
+
 /// The same, and the surface must be closed and manifold: every edge lies in two faces that run
 /// through it in opposite directions, every vertex has one fan of faces, no two faces have the same
 /// three vertices. The message counts the open and the non-manifold edges and names the first. The
