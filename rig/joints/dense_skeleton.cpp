@@ -82,7 +82,7 @@ void hand_vertices_on(CurveSkeleton& dense, const Surface& surface, const CurveS
 
 CurveSkeleton dense_skeleton(const Surface& surface, const CurveSkeleton& skeleton,
                              const Monitor& monitor) {
-  require_sound(skeleton, "dense_skeleton");
+  require_sound_places(skeleton, "dense_skeleton");
   require_vertices_of(skeleton, surface, "dense_skeleton");
   const Eigen::Index nodes = skeleton.nodes.rows();
   if (nodes < 2) return skeleton;

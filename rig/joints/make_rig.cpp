@@ -61,7 +61,7 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
                      const RigOptions& options, const Monitor& monitor) {
   require_valid(options);
   require_closed_manifold(surface, "make_rig", options.skin.threads);
-  require_sound(skeleton, "make_rig");
+  require_sound_places(skeleton, "make_rig");
   require_vertices_of(skeleton, surface, "make_rig");
   monitor.report("joints", 0);
   Joints joints =

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
@@ -181,7 +182,8 @@ void require_valid(const PlanOptions& options) { (void)frames_of(options); }
 
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
-  require_sound(skeleton, "find_plan");
+  require_sound(surface, "find_plan");
+  require_sound_places(skeleton, "find_plan");
   require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;

@@ -1,5 +1,6 @@
 #include "skeleton/graph/sound_skeleton.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <curveskel/error.hpp>
@@ -24,6 +25,22 @@ void require_sound(const CurveSkeleton& skeleton, std::string_view purpose) {
     if (node < nodes) continue;
     refuse("node " + std::to_string(node) + " for vertex " + std::to_string(v));
   }
+}
+
+void require_sound_places(const CurveSkeleton& skeleton, std::string_view purpose) {
+  require_sound(skeleton, purpose);
+  const auto nodes = static_cast<int>(skeleton.nodes.rows());
+  const auto is_node = [nodes](const ContactSide& side) {
+    return side.node >= 0 && side.node < nodes;
+  };
+  const bool are_nodes =
+      std::all_of(skeleton.contacts.begin(), skeleton.contacts.end(),
+                  [&](const Contact& one) { return is_node(one.one) && is_node(one.other); });
+  if (are_nodes && skeleton.nodes.allFinite()) return;
+  throw Error(Fault::input,
+              std::string(purpose) + ": the skeleton has a " +
+                  (are_nodes ? "coordinate that is no finite number" : "contact of no node") +
+                  ", needed finite ones and nodes");
 }
 
 int require_edge(const CurveSkeleton& skeleton, int a, int b, std::string_view purpose) {

@@ -12,6 +12,9 @@ namespace curveskel {
 /// radii are as many as nodes or none, and no vertex has a node that there is not. O(#N + #E + #V).
 void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
 
+/// The same, and places are finite, contacts have nodes. O(#N + #E + #V).
+void require_sound_places(const CurveSkeleton& skeleton, std::string_view purpose);
+
 /// `edge_between` of neighbours on a branch. Throws Error(Fault::input) that begins with `purpose`
 /// where no row is found, as in edges that are not sorted. O(log #E).
 [[nodiscard]] int require_edge(const CurveSkeleton& skeleton, int a, int b,

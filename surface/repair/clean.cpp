@@ -209,6 +209,7 @@ void describe_changes(Changes& changes, const Monitor& monitor) {
 CleanSurface clean(const PolygonSoup& soup, const Monitor& monitor, int threads) {
   monitor.report("clean", 0);
   require_sound(soup);
+  require_polygons(soup);
   Draft draft{soup, {soup.positions, {}}, {}};
   const auto once = without_repeated_polygons(soup, draft.changes.duplicate_faces_dropped);
   draft.surface.triangles = triangulate(once ? *once : soup, monitor.stop);

@@ -396,6 +396,7 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
                        const Monitor& monitor, int threads) {
   require_valid(options);
   require_sound(soup);
+  require_polygons(soup);
   RepairOptions its = options;
   if (lies_in_plane(soup)) {
     if (options.least_sheet <= 0 || options.wrap == Wrapping::all) {

@@ -13,6 +13,12 @@ void require_sound(const PolygonSoup& soup) {
                          soup.file.empty() ? "surface" : soup.file.string());
 }
 
+void require_polygons(const PolygonSoup& soup) {
+  if (!soup.offsets.empty()) return;
+  throw Error(Fault::input, (soup.file.empty() ? "surface" : soup.file.string()) +
+                                ": found no polygons, needed a closed surface");
+}
+
 void require_sound_polygons(Eigen::Index vertices, const std::vector<std::int32_t>& all_corners,
                             const std::vector<std::int64_t>& offsets, std::string_view purpose) {
   const auto refuse = [&](const std::string& found, const std::string& needed) {
@@ -25,7 +31,7 @@ void require_sound_polygons(Eigen::Index vertices, const std::vector<std::int32_
            "corners that are vertices, 0.." + std::to_string(vertices - 1));
   }
   const auto corners = static_cast<std::int64_t>(all_corners.size());
-  if (offsets.empty() && corners == 0) return;
+  if (offsets.empty() && corners == 0) return;  // as PolygonSoup{} is
   const bool lead_through = !offsets.empty() && offsets.front() == 0 && offsets.back() == corners &&
                             std::is_sorted(offsets.begin(), offsets.end());
   if (!lead_through) {

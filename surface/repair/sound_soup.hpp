@@ -13,7 +13,10 @@ namespace curveskel {
 /// offsets lead through all corners. One pass over the arrays.
 void require_sound(const PolygonSoup& soup);
 
-/// The same of polygons alone, with so many vertices; the message begins with `purpose`.
+/// Throws Error(Fault::input) of PolygonSoup{}, which has not even the first offset. O(1).
+void require_polygons(const PolygonSoup& soup);
+
+/// As the first, of polygons alone, with so many vertices; the message begins with `purpose`.
 void require_sound_polygons(Eigen::Index vertices, const std::vector<std::int32_t>& all_corners,
                             const std::vector<std::int64_t>& offsets, std::string_view purpose);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -312,6 +313,21 @@ TEST(SoundValues, PolygonsThatSkipCornersAreRefused) {
   }
   expect_guarded(entrances, soup_of(torus()), spoilt_polygons());
   EXPECT_THROW((void)format_labelled_surface(soup_of(torus()), {}, LabelledFormat::ply), Error);
+}
+
+TEST(SoundValues, WhatWasNeverFilledIsRefused) {
+  EXPECT_THROW((void)clean({}), Error);
+  EXPECT_THROW((void)repair({}), Error);
+  EXPECT_THROW((void)rig_polygons({}), Error);
+  CurveSkeleton nowhere = a_skeleton();
+  nowhere.nodes(2, 0) = std::numeric_limits<double>::quiet_NaN();
+  CurveSkeleton apart = a_skeleton();
+  apart.contacts.emplace_back();
+  for (const CurveSkeleton& spoilt : {nowhere, apart}) {
+    EXPECT_THROW((void)dense_skeleton(torus(), spoilt), Error);
+    EXPECT_THROW((void)make_rig(torus(), spoilt), Error);
+    EXPECT_THROW((void)find_plan(torus(), spoilt), Error);
+  }
 }
 
 TEST(SoundValues, MapsToNoVertexAreRefused) {
