@@ -96,7 +96,8 @@ void require_valid(const PlanOptions& options);
 /// and the tips in the mirror plane is the trunk. Pairs that reach the ground are legs. Places
 /// along limbs are shares of their height or length, means over artists' rigs, and features of the
 /// curve: where legs part, where an arm leaves the trunk, the narrowest place of a wrist and of a
-/// neck. docs/rigging.md has the rules. O(#V + #N times the number of tips). Throws as
+/// neck. docs/rigging.md has the rules. Unless one is asked for, no plan is found of curves with
+/// more than 2,000 ends, as trees and crowds have. O(#V + #N times the number of tips). Throws as
 /// `require_valid`, and Error(Fault::input) for a skeleton whose numbers are none of its nodes, or
 /// whose node_of_vertex is of another surface.
 [[nodiscard]] BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,

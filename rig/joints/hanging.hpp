@@ -5,15 +5,9 @@
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
+#include "rig/joints/component_links.hpp"
 
 namespace curveskel {
-
-/// The place from which a component hangs.
-struct Hinge {
-  int node = -1;   ///< its own
-  int above = -1;  ///< of the component that it hangs from; -1 = of none
-  double gap = 0;  ///< between the balls of the two
-};
 
 /// By component, none for the first: the least spanning tree of links, each between two balls of
 /// different components. A link is as long as their gap, less than nothing where they overlap, but
@@ -34,5 +28,29 @@ struct Hinge {
     const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
     const std::vector<std::vector<int>>& components, const std::vector<int>& ground = {},
     const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
+
+/// The same in several directions up, for which links are found once. Refers to the skeleton.
+class HangingComponents {
+ public:
+  HangingComponents(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
+                    const std::vector<std::vector<int>>& components,
+                    const std::vector<int>& ground);
+  HangingComponents(const HangingComponents&) = delete;
+  HangingComponents& operator=(const HangingComponents&) = delete;
+  HangingComponents(HangingComponents&&) = delete;
+  HangingComponents& operator=(HangingComponents&&) = delete;
+  ~HangingComponents() = default;
+
+  [[nodiscard]] std::vector<Hinge> hinges(const Eigen::Vector3d& up) const;
+
+ private:
+  [[nodiscard]] Hinge at_contact(const ComponentLink& link, const Eigen::Vector3d& up) const;
+  [[nodiscard]] Hinge moved_to_end(Hinge hinge) const;
+  void let_go(std::vector<Hinge>& hinges) const;
+
+  const CurveGraph curves_;
+  const Eigen::VectorXd radii_;
+  const ComponentLinks links_;
+};
 
 }  // namespace curveskel

@@ -9,19 +9,12 @@
 #include <curveskel/error.hpp>
 #include "base/median.hpp"
 #include "base/option_ranges.hpp"
+#include "rig/joints/limb_bones.hpp"
 #include "rig/joints/rooted_tree.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
 namespace {
-
-/// A place on a limb, from its upper end on.
-struct LimbSample {
-  Eigen::Vector3d point;
-  double radius;
-  double way;      ///< from the upper end, in radii of where it is
-  std::size_t at;  ///< index of the last node up to here
-};
 
 /// A chain of nodes between two that a joint is sure of.
 struct Limb {
@@ -267,7 +260,7 @@ class JointPlacer {
   void sample(Limb& limb, double length) const {
     constexpr double step_radii = 0.25;
     constexpr double most_samples = 400;
-    limb.samples.push_back({point(limb.nodes[0]), radii_[limb.nodes[0]], 0, 0});
+    limb.samples.push_back({point(limb.nodes[0]), radii_[limb.nodes[0]], 0, 0, true});
     double way = 0;
     double since = 0;  // the last sample
     for (std::size_t k = 1; k < limb.nodes.size(); ++k) {
@@ -286,7 +279,9 @@ class JointPlacer {
         const bool is_last = piece == pieces && k + 1 == limb.nodes.size();
         if (since < 0.5 * finest && !is_last) continue;
         since = 0;
-        limb.samples.push_back({from + share * step, radius, way, piece == pieces ? k : k - 1});
+        const bool is_at_node = piece == pieces;
+        limb.samples.push_back(
+            {from + share * step, radius, way, is_at_node ? k : k - 1, is_at_node});
       }
     }
   }
@@ -326,57 +321,13 @@ class JointPlacer {
     return entry > first && radii_[lower] > much_larger * thinnest ? entry : last;
   }
 
-  /// The cost of one bone from sample i to sample j, or any cost over `most` if it is more.
-  [[nodiscard]] double cost(const Limb& limb, std::size_t i, std::size_t j, double most) const {
-    const double length = (limb.samples[j].way - limb.samples[i].way) / options_.bone_length;
-    const double straight = 1 + length * length;
-    const Eigen::Vector3d from = limb.samples[i].point;
-    const Eigen::Vector3d bone = limb.samples[j].point - from;
-    const double squared = std::max(bone.squaredNorm(), std::numeric_limits<double>::min());
-    double bent = straight;
-    for (std::size_t k = i + 1; k < j && bent <= most; ++k) {
-      const Eigen::Vector3d arm = limb.samples[k].point - from;
-      const double share = std::clamp(arm.dot(bone) / squared, 0.0, 1.0);
-      const double off = (arm - share * bone).squaredNorm();
-      const double radius = std::max(limb.samples[k].radius, least_radius_);
-      const double deviation = off / (radius * radius);
-      bent = std::max(bent, straight + deviation / (options_.bend * options_.bend));
-    }
-    return bent;
-  }
-
-  /// Samples where joints are, from `first` to `last`.
-  [[nodiscard]] std::vector<std::size_t> best_joints(const Limb& limb, std::size_t first,
-                                                     std::size_t last) const {
-    const double longest = 3 * options_.bone_length;  // longer ones never pay
-    const std::size_t count = last + 1;
-    std::vector<double> sum(count, std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> before(count, first);
-    sum[first] = 0;
-    for (std::size_t j = first + 1; j < count; ++j) {
-      for (std::size_t i = j; i-- > first;) {
-        if (i + 1 < j && limb.samples[j].way - limb.samples[i].way > longest) break;
-        const bool is_whole = i == first && j == last;
-        const double chord = (limb.samples[j].point - limb.samples[i].point).norm();
-        if (!is_whole && chord < least_length_) continue;
-        const double with = sum[i] + cost(limb, i, j, sum[j] - sum[i]);
-        if (with < sum[j]) {
-          sum[j] = with;
-          before[j] = i;
-        }
-      }
-    }
-    std::vector<std::size_t> places{last};
-    while (places.back() > first) places.push_back(before[places.back()]);
-    std::reverse(places.begin(), places.end());
-    return places;
-  }
-
   /// Samples where joints are, below the upper one.
   [[nodiscard]] std::vector<std::size_t> places_on(const Limb& limb) const {
     const std::size_t first = beginning(limb);
     const std::size_t last = ending(limb, first);
-    std::vector<std::size_t> places = best_joints(limb, first, last);
+    std::vector<std::size_t> places =
+        best_joints(limb.samples, first, last,
+                    {options_.bone_length, options_.bend, least_radius_, least_length_});
     if (last + 1 < limb.samples.size()) places.push_back(limb.samples.size() - 1);
     if (first == 0) places.erase(places.begin());  // the upper joint is there
     return places;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -17,53 +18,67 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-class Rooting {
+}  // namespace
+
+class RootedTrees::Rooting {
  public:
-  explicit Rooting(const CurveSkeleton& skeleton)
+  Rooting(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground)
       : skeleton_(skeleton),
         graph_(graph_of(skeleton.nodes.rows(), skeleton.edges)),
         mass_(idx(skeleton.nodes.rows())),
-        paths_(skeleton.nodes.rows()) {
+        paths_(skeleton.nodes.rows()),
+        wanted_(wanted) {
     for (const auto& edge : skeleton.edges.rowwise()) {
       const double half = 0.5 * length(edge[0], edge[1]);
       mass_[idx(edge[0])] += half * radius(edge[0]);
       mass_[idx(edge[1])] += half * radius(edge[1]);
     }
-    tree_.parent.assign(mass_.size(), -1);
-    tree_.children.resize(mass_.size());
+    components_ = find_components();
+    std::stable_partition(components_.begin(), components_.end(),
+                          [this](const auto& nodes) { return has_wanted(nodes); });
+    if (components_.empty()) return;
+    hanging_ = std::make_unique<HangingComponents>(skeleton_, usable_radii(skeleton_), components_,
+                                                   ground);
   }
 
-  RootedTree grow(int wanted, const std::vector<int>& ground, const Eigen::Vector3d& up) {
-    std::vector<std::vector<int>> components = find_components();
-    const auto has_wanted = [wanted](const std::vector<int>& nodes) {
-      return std::binary_search(nodes.begin(), nodes.end(), wanted);
-    };
-    std::stable_partition(components.begin(), components.end(), has_wanted);
-    std::vector<Hinge> hinges;
-    if (!components.empty()) {
-      hinges = hang_components(skeleton_, usable_radii(skeleton_), components, ground, up);
-      hinges.front().node = has_wanted(components.front())
-                                ? wanted
-                                : root_of(components.front(), components.size() > 1);
-      for (std::size_t k = 1; k < components.size(); ++k) {
-        if (hinges[k].above < 0) hinges[k].node = root_of(components[k], true);
-      }
-    }
-    for (const std::size_t component : outwards(components, hinges)) {
-      const std::vector<int>& nodes = components[component];
+  RootedTree grow(const Eigen::Vector3d& up) {
+    RootedTree tree;
+    tree.parent.assign(mass_.size(), -1);
+    tree.children.resize(mass_.size());
+    const std::vector<Hinge> hinges = rooted_hinges(up);
+    for (const std::size_t component : outwards(hinges)) {
+      const std::vector<int>& nodes = components_[component];
       const int root = hinges[component].node;
-      tree_.roots.push_back(root);
-      tree_.above.push_back(hinges[component].above);
+      tree.roots.push_back(root);
+      tree.above.push_back(hinges[component].above);
       walk(root, cut_at(nodes, root));
       for (const int node : nodes) {
-        const int parent = tree_.parent[idx(node)] = paths_.before(node);
-        if (parent >= 0) tree_.children[idx(parent)].push_back(node);
+        const int parent = tree.parent[idx(node)] = paths_.before(node);
+        if (parent >= 0) tree.children[idx(parent)].push_back(node);
       }
     }
-    return std::move(tree_);
+    return tree;
   }
 
  private:
+  [[nodiscard]] bool has_wanted(const std::vector<int>& nodes) const {
+    return std::binary_search(nodes.begin(), nodes.end(), wanted_);
+  }
+
+  /// Those that hang from none have a root of their own.
+  [[nodiscard]] std::vector<Hinge> rooted_hinges(const Eigen::Vector3d& up) {
+    if (components_.empty()) return {};
+    std::vector<Hinge> hinges = hanging_->hinges(up);
+    for (std::size_t k = 0; k < components_.size(); ++k) {
+      if (k == 0 && has_wanted(components_[k])) {
+        hinges[k].node = wanted_;
+      } else if (k == 0 || hinges[k].above < 0) {
+        hinges[k].node = root_of(components_[k], components_.size() > 1);
+      }
+    }
+    return hinges;
+  }
+
   [[nodiscard]] double length(int a, int b) const {
     return (skeleton_.nodes.row(a) - skeleton_.nodes.row(b)).norm();
   }
@@ -108,15 +123,14 @@ class Rooting {
   }
 
   /// Each after the one that it hangs from, the first one first.
-  [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<std::vector<int>>& components,
-                                                  const std::vector<Hinge>& hinges) const {
+  [[nodiscard]] std::vector<std::size_t> outwards(const std::vector<Hinge>& hinges) const {
     std::vector<std::size_t> component_of(mass_.size());
-    for (std::size_t component = 0; component < components.size(); ++component) {
-      for (const int node : components[component]) component_of[idx(node)] = component;
+    for (std::size_t component = 0; component < components_.size(); ++component) {
+      for (const int node : components_[component]) component_of[idx(node)] = component;
     }
-    std::vector<std::vector<std::size_t>> below(components.size());
+    std::vector<std::vector<std::size_t>> below(components_.size());
     std::vector<std::size_t> order;
-    for (std::size_t component = 0; component < components.size(); ++component) {
+    for (std::size_t component = 0; component < components_.size(); ++component) {
       const int above = hinges[component].above;
       if (above < 0) order.push_back(component);
       if (above >= 0) below[component_of[idx(above)]].push_back(component);
@@ -221,10 +235,17 @@ class Rooting {
   Graph graph_;
   std::vector<double> mass_;  // by node: length times radius of what is nearest to it
   ShortestPaths paths_;       // from the root of the last walk
-  RootedTree tree_;
+  int wanted_;
+  std::vector<std::vector<int>> components_;
+  std::unique_ptr<const HangingComponents> hanging_;
 };
 
-}  // namespace
+RootedTrees::RootedTrees(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground)
+    : rooting_(std::make_unique<Rooting>(skeleton, wanted, ground)) {}
+
+RootedTrees::~RootedTrees() = default;
+
+RootedTree RootedTrees::with_up(const Eigen::Vector3d& up) const { return rooting_->grow(up); }
 
 Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
   const bool has_radii = skeleton.radii.size() > 0 && skeleton.radii.maxCoeff() > 0;
@@ -235,7 +256,7 @@ Eigen::VectorXd usable_radii(const CurveSkeleton& skeleton) {
 
 RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground,
                        const Eigen::Vector3d& up) {
-  return Rooting(skeleton).grow(wanted, ground, up);
+  return RootedTrees(skeleton, wanted, ground).with_up(up);
 }
 
 }  // namespace curveskel

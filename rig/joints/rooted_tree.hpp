@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -26,5 +27,22 @@ struct RootedTree {
 [[nodiscard]] RootedTree rooted_tree(const CurveSkeleton& skeleton, int wanted,
                                      const std::vector<int>& ground = {},
                                      const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
+
+/// The same in several directions up, for which the links are found once. Refers to the skeleton.
+class RootedTrees {
+ public:
+  RootedTrees(const CurveSkeleton& skeleton, int wanted, const std::vector<int>& ground);
+  RootedTrees(const RootedTrees&) = delete;
+  RootedTrees& operator=(const RootedTrees&) = delete;
+  RootedTrees(RootedTrees&&) = delete;
+  RootedTrees& operator=(RootedTrees&&) = delete;
+  ~RootedTrees();
+
+  [[nodiscard]] RootedTree with_up(const Eigen::Vector3d& up) const;
+
+ private:
+  class Rooting;
+  std::unique_ptr<Rooting> rooting_;
+};
 
 }  // namespace curveskel

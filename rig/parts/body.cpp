@@ -21,6 +21,9 @@ constexpr Eigen::Index most_balls = 1000;  // of a component
 // only.
 constexpr double about_radii = 1.25;
 
+// Of distances: what a query finds another finds, too.
+constexpr double rounding = 1e-12;
+
 Eigen::Index stride_of(Eigen::Index vertices, Eigen::Index most) {
   return std::max<Eigen::Index>(1, vertices / most);
 }
@@ -42,7 +45,23 @@ double largest_about(const std::vector<SurfaceTree::Ball>& balls, const Vector3d
   return largest > 0 ? largest : of_nearest;
 }
 
+Eigen::AlignedBox3d box_of(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : surface.positions.rowwise()) box.extend(p.transpose());
+  return box;
+}
+
+Positions middles_of(const std::vector<Component>& components) {
+  Positions middles(static_cast<Eigen::Index>(components.size()), 3);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    middles.row(static_cast<Eigen::Index>(c)) = box_of(components[c].surface).center().transpose();
+  }
+  return middles;
+}
+
 }  // namespace
+
+BodySoFar::BodySoFar(const std::vector<Component>& components) : boxes_(middles_of(components)) {}
 
 ProbedPart probed(const Component& component) {
   ProbedPart part;
@@ -52,14 +71,13 @@ ProbedPart probed(const Component& component) {
   for (Eigen::Index v = 0; v < positions.rows(); v += stride) {
     part.places.emplace_back(positions.row(v));
   }
-  for (const auto& p : positions.rowwise()) part.box.extend(p.transpose());
+  part.box = box_of(component.surface);
   return part;
 }
 
 void BodySoFar::add(int number, const Component& component, int threads) {
   const Surface& surface = component.surface;
-  Piece piece{number, {}, SurfaceTree(surface, threads), {}, {}};
-  for (const auto& p : surface.positions.rowwise()) piece.box.extend(p.transpose());
+  Piece piece{number, box_of(surface), SurfaceTree(surface, threads), {}, {}};
   const Positions normals = vertex_normals(surface);
   const double diagonal = piece.box.diagonal().norm();
   const Eigen::Index stride = stride_of(surface.positions.rows(), most_balls);
@@ -78,34 +96,42 @@ void BodySoFar::add(int number, const Component& component, int threads) {
   for (const SurfaceTree::Ball& ball : piece.balls) {
     most_thickness_ = std::max(most_thickness_, ball.radius);
   }
+  boxes_.put(idx(number), {piece.box});
   piece_of_number_[number] = pieces_.size();
   pieces_.push_back(std::move(piece));
 }
 
 std::vector<BodySoFar::NearestPlace> BodySoFar::contacts(const ProbedPart& part) const {
-  std::vector<const Piece*> near(pieces_.size());
-  std::transform(pieces_.begin(), pieces_.end(), near.begin(), [](const Piece& p) { return &p; });
+  const std::vector<const Piece*> pieces = near(part);
   std::vector<NearestPlace> found;
   found.reserve(part.places.size());
   const Piece* last = nullptr;  // the nearest of the place before
-  for (const Vector3d& place : part.places) {
-    found.push_back(nearest_of(near, place, last));
-    if (found.size() > 1) continue;
-    // No place of the part is further from the body than the first one and the part's extent.
-    const double most = found.front().distance + part.diagonal();
-    near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](const Piece* piece) {
-                                return part.box.exteriorDistance(piece->box) > most;
-                              }),
-               near.end());
-  }
+  for (const Vector3d& place : part.places) found.push_back(nearest_of(pieces, place, last));
   return found;
+}
+
+std::vector<const BodySoFar::Piece*> BodySoFar::near(const ProbedPart& part) const {
+  const Vector3d& first = part.places.front();
+  double distance = std::numeric_limits<double>::infinity();
+  boxes_.search([&](const BoxTree::Item& item) { return item.box.exteriorDistance(first); },
+                distance,
+                [&](std::size_t number) {
+                  const SurfaceTree& tree = pieces_[piece_of_number_.at(int(number))].tree;
+                  distance = std::min(distance, tree.nearest(first).distance);
+                });
+  // No place of the part is further from the body than the first one and the part's extent.
+  const double most = (1 + rounding) * (distance + part.diagonal());
+  std::vector<const Piece*> pieces;
+  boxes_.search(
+      [&](const BoxTree::Item& item) { return part.box.exteriorDistance(item.box); }, most,
+      [&](std::size_t number) { pieces.push_back(&pieces_[piece_of_number_.at(int(number))]); });
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
 }
 
 BodySoFar::NearestPlace BodySoFar::nearest_of(const std::vector<const Piece*>& pieces,
                                               const Vector3d& place, const Piece*& guess) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr double rounding = 1e-12;  // of two queries, so that the guess itself is found again
   const auto within = [&](double limit) {
     NearestPlace contact{limit, -1, place};
     for (const Piece* piece : pieces) {
@@ -133,10 +159,10 @@ double BodySoFar::thickness_within(const ProbedPart& part, double distance) cons
   constexpr std::size_t centres = 60;  // among the part's places
   const std::size_t stride = std::max<std::size_t>(1, part.places.size() / centres);
   std::vector<double> found;
-  for (const Piece& piece : pieces_) {
-    const Vector3d apart =
-        (part.box.min() - piece.box.max()).cwiseMax(piece.box.min() - part.box.max());
-    if (apart.cwiseMax(0).norm() > distance) continue;
+  const double most = (1 + rounding) * distance;
+  const auto apart = [&](const BoxTree::Item& item) { return part.box.exteriorDistance(item.box); };
+  boxes_.search(apart, most, [&](std::size_t number) {
+    const Piece& piece = pieces_[piece_of_number_.at(int(number))];
     for (const Vector3d& place : piece.places) {
       if (part.box.exteriorDistance(place) > distance) continue;
       for (std::size_t k = 0; k < part.places.size(); k += stride) {
@@ -145,7 +171,7 @@ double BodySoFar::thickness_within(const ProbedPart& part, double distance) cons
         break;
       }
     }
-  }
+  });
   if (found.empty()) return 0;
   const auto quartile = found.begin() + static_cast<std::ptrdiff_t>(found.size() * 3 / 4);
   std::nth_element(found.begin(), quartile, found.end());
@@ -154,9 +180,11 @@ double BodySoFar::thickness_within(const ProbedPart& part, double distance) cons
 
 double BodySoFar::distance_to_boxes(const Eigen::AlignedBox3d& box) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Piece& piece : pieces_) {
+  const auto apart = [&](const BoxTree::Item& item) { return box.exteriorDistance(item.box); };
+  boxes_.search(apart, least, [&](std::size_t number) {
+    const Piece& piece = pieces_[piece_of_number_.at(int(number))];
     least = std::min(least, box.exteriorDistance(piece.box));
-  }
+  });
   return least;
 }
 

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/topology.hpp>
+#include "surface/spatial/box_tree.hpp"
 
 namespace curveskel {
 
@@ -22,6 +23,9 @@ struct ProbedPart {
 
 class BodySoFar {
  public:
+  /// Of some of the components.
+  explicit BodySoFar(const std::vector<Component>& components);
+
   void add(int number, const Component& component, int threads);
 
   struct NearestPlace {
@@ -50,12 +54,15 @@ class BodySoFar {
     std::vector<Eigen::Vector3d> places;   // on the surface
     std::vector<SurfaceTree::Ball> balls;  // that touch it there
   };
+  /// All that may hold the nearest place of one of the part's, in their order.
+  [[nodiscard]] std::vector<const Piece*> near(const ProbedPart& part) const;
   /// `guess` is one of the pieces or null, and becomes the nearest.
   [[nodiscard]] static NearestPlace nearest_of(const std::vector<const Piece*>& pieces,
                                                const Eigen::Vector3d& place, const Piece*& guess);
 
   std::vector<Piece> pieces_;
   std::map<int, std::size_t> piece_of_number_;
+  BoxTree boxes_;  // by number of the component
   double most_thickness_ = 0;
 };
 

@@ -41,9 +41,14 @@ Vector3d centroid(const Surface& surface) {
 class PartFinder {
  public:
   PartFinder(const Surface& surface, const PartOptions& options, const Monitor& monitor)
-      : options_(options), monitor_(monitor) {
-    const Topology counted = topology(surface);
-    components_ = split_components(surface, counted);
+      : PartFinder(surface, topology(surface), options, monitor) {}
+
+  PartFinder(const Surface& surface, const Topology& counted, const PartOptions& options,
+             const Monitor& monitor)
+      : options_(options),
+        monitor_(monitor),
+        components_(split_components(surface, counted)),
+        body_(components_) {
     found_.part_of_vertex = counted.component_of_vertex;
     found_.parts.resize(components_.size());
     double all = 0;

@@ -15,6 +15,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/limb_name.hpp"
+#include "rig/plan/looks.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "surface/mesh/component_areas.hpp"
 #include "surface/mesh/meeting_boxes.hpp"
@@ -156,9 +157,13 @@ class Groups {
     const Boxes boxes = boxes_of(body_.surface, group_of_vertex, groups);
     constexpr int least_tips = 4;  // two pairs of limbs: no plan has fewer
     const std::vector<int> tips = tips_of(skeleton_, group_of_vertex, groups);
+    const std::vector<int> not_of_sheets =
+        tips_of(skeleton_, without_sheets(group_of_vertex), groups);
+    const bool is_bounded = options_.plan.plan == BodyKind::automatic;
     std::vector<std::pair<int, BodyPlan>> planned;
     for (int wanted = 0; wanted < groups; ++wanted) {
       if (tips[idx(wanted)] < least_tips) continue;
+      if (is_bounded && not_of_sheets[idx(wanted)] > most_ends) continue;
       BodyPlan plan = plan_of(group, wanted);
       if (!is_planned(plan) || !stands_on(plan, group, wanted, ground)) continue;
       planned.emplace_back(wanted, std::move(plan));
@@ -189,6 +194,16 @@ class Groups {
                                 : with_all_that_joins(group, joined, wanted, std::move(plan)));
     }
     return found;
+  }
+
+  /// No group (-1) for vertices of components that were made of sheets.
+  [[nodiscard]] Eigen::VectorXi without_sheets(Eigen::VectorXi group_of_vertex) const {
+    std::vector<char> is_sheet(idx(counted_.components()), 0);
+    for (const std::int32_t v : body_.sheets) is_sheet[idx(counted_.component_of_vertex[v])] = 1;
+    for (Eigen::Index v = 0; v < group_of_vertex.size(); ++v) {
+      if (is_sheet[idx(counted_.component_of_vertex[v])] != 0) group_of_vertex[v] = -1;
+    }
+    return group_of_vertex;
   }
 
   [[nodiscard]] RigParts parts_of(const std::vector<int>& group, int wanted) const {

@@ -26,7 +26,7 @@ const RootedTree& LookedAt::rooted(const Vector3d& up) {
   const auto found = std::find_if(known_.begin(), known_.end(),
                                   [&](const auto& known) { return known.first == up; });
   if (found != known_.end()) return found->second;
-  return known_.emplace_back(up, rooted_tree(skeleton_, -1, {}, up)).second;
+  return known_.emplace_back(up, trees_.with_up(up)).second;
 }
 
 CurveTree LookedAt::tree(const Eigen::Matrix3d& axes) {

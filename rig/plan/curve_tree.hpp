@@ -37,7 +37,7 @@ struct CurveTree {
 class LookedAt {
  public:
   LookedAt(const Surface& surface, const CurveSkeleton& skeleton)
-      : surface_(surface), skeleton_(skeleton) {}
+      : surface_(surface), skeleton_(skeleton), trees_(skeleton, -1, {}) {}
 
   /// In the frame of these axes. Components hang together as in the rig; cycles are cut.
   [[nodiscard]] CurveTree tree(const Eigen::Matrix3d& axes);
@@ -47,6 +47,7 @@ class LookedAt {
 
   const Surface& surface_;
   const CurveSkeleton& skeleton_;
+  RootedTrees trees_;
   std::vector<Eigen::Vector3d> spread_;                        // over the surface, as it lies
   std::vector<std::pair<Eigen::Vector3d, RootedTree>> known_;  // by up
 };

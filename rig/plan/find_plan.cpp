@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
@@ -173,6 +174,11 @@ std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFoun
   }
 }
 
+int ends_of(const CurveSkeleton& skeleton) {
+  const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
+  return static_cast<int>(std::count(degree.begin(), degree.end(), 1));
+}
+
 constexpr const char* not_made_of_tubes =
     "the surface is not made of tubes, as bodies are; a plan can be asked for";
 
@@ -187,6 +193,14 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;
   if (options.plan == BodyKind::none || skeleton.nodes.rows() < 2) return result;
+  const int ends = ends_of(skeleton);
+  if (options.plan == BodyKind::automatic && ends > most_ends) {
+    result.plan = BodyKind::other;
+    result.axes = frames_of(options).front().array() + 0.0;
+    result.reason = std::to_string(ends) + " ends of curves, more than a body has with its hair (" +
+                    std::to_string(most_ends) + "); a plan can be asked for";
+    return result;
+  }
   Outlook outlook = best_outlook(surface, skeleton, options);
   const bool is_found = options.plan == BodyKind::automatic;
   if (is_found && !options.made_of_tubes && !has_body_of_tubes(outlook)) {

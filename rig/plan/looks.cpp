@@ -145,8 +145,6 @@ Outlook look_at_images(LookedAt& body, const Eigen::Matrix3d& axes, BodyKind wan
   return outlook;
 }
 
-constexpr std::size_t most_tips = 1000;  // of a body, with all of its hair
-
 /// True for a leg of which one side ends above the ground, on which the other one stands.
 bool is_peg(const LimbPair& leg, const Completed& body) {
   const CurveTree& tree = body.tree;

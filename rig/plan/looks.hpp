@@ -9,6 +9,11 @@
 
 namespace curveskel {
 
+/// Of a body, with all of its hair.
+constexpr std::size_t most_tips = 1000;
+/// Of its curves: a hair that is a part of its own has two. More are a tree's or a crowd's.
+constexpr int most_ends = 2 * most_tips;
+
 /// The places of the joints of limbs. Of bodies whose sides are not quite images of each other they
 /// lie on their own side's curve, and so where a limb is missing; of bodies in a pose where the
 /// unposed limb has them.

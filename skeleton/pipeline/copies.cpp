@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include "surface/mesh/mean_values.hpp"
 
 namespace curveskel {
 namespace {
@@ -90,6 +91,17 @@ class KindsOfParts {
   std::map<std::vector<int>, std::multimap<double, Sized>> by_triangles_;
 };
 
+/// Each place as it lies among the vertices, in which the digits of a file leave no two leaves
+/// alike: a leaf is thinner than they are apart.
+Positions carried_over(const Positions& places, const Surface& first, const Surface& copy) {
+  Positions there(places.rows(), 3);
+  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+    there.row(k) =
+        mean_value_coordinates(first, places.row(k).transpose()).transpose() * copy.positions;
+  }
+  return there;
+}
+
 /// By the nodes and the middles of the edges.
 bool lies_inside(const CurveSkeleton& skeleton, const SurfaceTree& tree) {
   const auto is_inside = [&](const Eigen::Vector3d& place) { return tree.inside(place); };
@@ -117,12 +129,15 @@ std::vector<std::size_t> firsts_of_kind(const std::vector<Part>& parts,
 
 std::optional<ComponentResult> result_of_copy(const Part& first, const ComponentResult& result,
                                               const Part& copy) {
+  const Surface& its = first.component.surface;
   const Surface& surface = copy.component.surface;
-  CurveSkeleton skeleton = *result.skeleton;
-  skeleton.nodes =
-      moved(skeleton.nodes, motion_between(first.component.surface.positions, surface.positions));
   const SurfaceTree tree(surface);
-  if (!lies_inside(skeleton, tree)) return std::nullopt;
+  CurveSkeleton skeleton = *result.skeleton;
+  skeleton.nodes = moved(result.skeleton->nodes, motion_between(its.positions, surface.positions));
+  if (!lies_inside(skeleton, tree)) {
+    skeleton.nodes = carried_over(result.skeleton->nodes, its, surface);
+    if (!lies_inside(skeleton, tree)) return std::nullopt;
+  }
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     skeleton.radii[node] = tree.inscribed_radius(skeleton.nodes.row(node).transpose());
   }

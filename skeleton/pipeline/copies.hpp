@@ -17,8 +17,9 @@ namespace curveskel {
 [[nodiscard]] std::vector<std::size_t> firsts_of_kind(const std::vector<Part>& parts,
                                                       const std::vector<std::size_t>& asked);
 
-/// The first one's result as that of its copy, with radii of its own; none where its curve would
-/// leave the copy. Without times and tries.
+/// The first one's result as that of its copy, moved as a whole or, where it would leave the copy
+/// so, as its nodes lie among the vertices; with radii of its own. None where it would leave the
+/// copy all the same. Without times and tries.
 [[nodiscard]] std::optional<ComponentResult> result_of_copy(const Part& first,
                                                             const ComponentResult& result,
                                                             const Part& copy);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -275,6 +276,55 @@ TEST(Hanging, LetsTheBodiesOfASceneStandApart) {
     EXPECT_EQ(apart, bodies);
     const Joints joints = place_joints(all.skeleton, {});
     EXPECT_EQ((joints.parents.array() < 0).count(), bodies);
+  }
+}
+
+/// No contacts, two nodes each: see `hang_components`.
+double link_length(const CurveSkeleton& skeleton, int node, int above) {
+  const auto along = [&](int of) -> Eigen::Vector3d {
+    const int first = of - of % 2;
+    return (skeleton.nodes.row(first + 1) - skeleton.nodes.row(first)).normalized().transpose();
+  };
+  const Eigen::Vector3d way = (skeleton.nodes.row(above) - skeleton.nodes.row(node)).transpose();
+  const double smaller = std::min(skeleton.radii[node], skeleton.radii[above]);
+  const double gap = way.norm() - skeleton.radii[node] - skeleton.radii[above];
+  const double ahead = std::max(std::abs(along(node).dot(way)), std::abs(along(above).dot(way)));
+  return std::max(gap, -2 * smaller) + smaller * (1 - ahead / way.norm());
+}
+
+/// More than others hang from, of all sizes, in a heap.
+TEST(Hanging, OfThousandsEachHangsFromTheNearest) {
+  constexpr int parts = 1300;
+  constexpr int above = 1000;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Assembled all;
+  all.skeleton.nodes.resize(2 * parts, 3);
+  all.skeleton.radii.resize(2 * parts);
+  all.skeleton.edges.resize(parts, 2);
+  for (int k = 0; k < parts; ++k) {
+    const Point at = 10 * Point(unit(random), unit(random), unit(random));
+    const double size = k % 100 == 0 ? 5 : 0.5;
+    all.skeleton.nodes.row(2 * k) = at;
+    all.skeleton.nodes.row(2 * k + 1) = at + size * Point(unit(random), unit(random), 0.1);
+    all.skeleton.radii[2 * k] = size * (0.01 + 0.2 * unit(random));
+    all.skeleton.radii[2 * k + 1] = size * (0.01 + 0.2 * unit(random));
+    all.skeleton.edges.row(k) << 2 * k, 2 * k + 1;
+    all.components.push_back({2 * k, 2 * k + 1});
+  }
+  const std::vector<Hinge> hinges =
+      hang_components(all.skeleton, all.skeleton.radii, all.components);
+  for (int part = above; part < parts; ++part) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int node : all.components[idx(part)]) {
+      for (int other = 0; other < 2 * above; ++other) {
+        least = std::min(least, link_length(all.skeleton, node, other));
+      }
+    }
+    const Hinge& hinge = hinges[idx(part)];
+    ASSERT_GE(hinge.above, 0);
+    ASSERT_LT(hinge.above, 2 * above);
+    EXPECT_NEAR(link_length(all.skeleton, hinge.node, hinge.above), least, 1e-9) << part;
   }
 }
 

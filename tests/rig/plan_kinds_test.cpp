@@ -324,5 +324,32 @@ TEST(FindPlan, NamesNoHumanOnATree) {
   }
 }
 
+/// Each hair a curve of its own. With more of them than a body has it is a tree or a crowd, whose
+/// plan need not be looked for; whoever asks for one gets it.
+TEST(FindPlan, AHumanHasAThousandHairsAtMost) {
+  for (const int hairs : {400, 1100}) {
+    RigSubject subject = human();
+    CurveSkeleton& skeleton = subject.skeleton;
+    const Eigen::Index nodes = skeleton.nodes.rows();
+    const Eigen::Index edges = skeleton.edges.rows();
+    skeleton.nodes.conservativeResize(nodes + 2 * hairs, 3);
+    skeleton.radii.conservativeResize(nodes + 2 * hairs);
+    skeleton.edges.conservativeResize(edges + hairs, 2);
+    for (int k = 0; k < hairs; ++k) {
+      const double side = k % 2 == 0 ? 1 : -1;
+      const double turn = 0.01 * (k / 2);
+      const Eigen::Index first = nodes + 2 * k;
+      skeleton.nodes.row(first) = RowVector3d(0.4 * side, 18.6, 0.4 * std::sin(turn));
+      skeleton.nodes.row(first + 1) = RowVector3d(0.6 * side, 18.7, 0.6 * std::sin(turn));
+      skeleton.radii.segment(first, 2).setConstant(0.01);
+      skeleton.edges.row(edges + k) << static_cast<int>(first), static_cast<int>(first) + 1;
+    }
+    const BodyPlan plan = find_plan(subject.surface, skeleton);
+    EXPECT_EQ(plan.plan, hairs < 1000 ? BodyKind::humanoid : BodyKind::other) << plan.reason;
+    const BodyPlan asked = find_plan(subject.surface, skeleton, {.plan = BodyKind::humanoid});
+    EXPECT_EQ(asked.plan, BodyKind::humanoid) << asked.reason;
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::plan_kind_laws

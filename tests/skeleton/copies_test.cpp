@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/certificate.hpp>
@@ -112,6 +113,42 @@ TEST(Copies, HaveCurvesAsGoodAsTheirOwn) {
   EXPECT_GT(found.skeleton.radii.minCoeff(), 0);
   for (int component = 0; component < 4 * copies; ++component) {
     EXPECT_TRUE(is_kept(found.history, try_as_asked, component)) << component;
+  }
+}
+
+/// Those that the first is the first of, and that take its curve over.
+std::pair<int, int> copies_and_taken_over(const Surface& scene) {
+  const Parts whole = apart(scene);
+  const std::vector<Part> parts = parts_of(whole, {});
+  std::vector<std::size_t> asked(parts.size());
+  std::iota(asked.begin(), asked.end(), 0);
+  const std::vector<std::size_t> firsts = firsts_of_kind(parts, asked);
+  TryLog log;
+  const ComponentResult made = component_result(parts.front(), {}, {}, nullptr, log, -1);
+  int copies = 0;
+  int taken_over = 0;
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    if (firsts[k] != 0) continue;
+    ++copies;
+    if (result_of_copy(parts.front(), made, parts[k])) ++taken_over;
+  }
+  return {copies, taken_over};
+}
+
+// The curves of thin leaves lie among the vertices of each as among those of the first, so that
+// none is made by itself, although the last digits of a file leave the vertices apart.
+TEST(Copies, OfThinLeavesStayInside) {
+  constexpr int leaves = 200;
+  for (const double thickness : {0.0004, 0.0008, 0.0016}) {
+    for (const double decimals : {3.7, 4.0}) {
+      SCOPED_TRACE(testing::Message() << thickness << " thick, " << decimals << " decimals");
+      std::mt19937 draw(9);
+      const Surface leaf = shapes::ellipsoid({0.04, 0.02, thickness}, 1).surface;
+      std::vector<shapes::Shape> all(leaves);
+      for (shapes::Shape& one : all) one.surface = copy_of(leaf, 1, decimals, draw);
+      const Surface scene = shapes::together("leaves", all).surface;
+      EXPECT_EQ(copies_and_taken_over(scene), std::pair(leaves - 1, leaves - 1));
+    }
   }
 }
 
