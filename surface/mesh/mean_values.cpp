@@ -6,7 +6,7 @@
 namespace curveskel {
 namespace {
 
-/// What a triangle adds to its corners' weights, times their distances: of its image on the unit
+/// A triangle's share of its corners' weights, times their distances: of its image on the unit
 /// sphere, whose corners are the columns. Nothing where the place lies in the triangle's plane.
 Eigen::Array3d weights_within(const Eigen::Matrix3d& corners) {
   constexpr double nothing = 1e-12;

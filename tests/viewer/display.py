@@ -118,7 +118,7 @@ class Window:
     def exit_code(self, seconds=PATIENCE):
         return self.process.wait(timeout=seconds)
 
-    # What can be seen.
+    # All that can be seen.
 
     def title(self):
         if self.process.poll() is not None:
@@ -170,7 +170,7 @@ class Window:
         see = see or self.picture
         until(lambda: different(see(), before) > least, "another picture")
 
-    # What a person does.
+    # All that a person does.
 
     def key(self, *names):
         self.display.xdotool("key", "--delay", 5, *names)

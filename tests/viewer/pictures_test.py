@@ -40,7 +40,7 @@ PICTURES = {
               "--skeleton-colour", "radius", "--map", "magma", "--thickness", "2", "--camera", "0,0"),
 }
 
-# What a right picture must be told from: options added to those above.
+# A right picture must be told from these: options added to those above.
 WRONG = {
     "turned by 2 degrees": {"glass": ["--camera", "37,25"], "nodes": ["--camera", "32,20"],
                             "balls": ["--camera", "22,15"], "contraction": ["--camera", "27,35"],
