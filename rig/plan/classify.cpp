@@ -164,7 +164,7 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const double leg_length = limbs.pairs[idx(leg)].length;
   const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;
   constexpr double level = 90;
-  constexpr double upright = level / 3;
+  constexpr double upright = level / 3;  // so stand people in robes, whose hem is no tail
   if (found.arms >= 0 && posture.lean < 35 && posture.back < 0.2) {
     const std::string why = why_no_human(tree, limbs, found);
     if (why.empty()) found.plan = BodyKind::humanoid;
@@ -174,9 +174,7 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
     found.plan = BodyKind::bird;
     found.reason = "one pair of legs, wings longer than these; " + leans;
-  } else if (found.arms < 0 && posture.lean < upright) {
-    found.reason = "one pair of legs below an upright trunk without arms; " + leans;
-  } else if (found.arms >= 0 || posture.back > 0.1) {
+  } else if (found.arms >= 0 || (posture.back > 0.1 && posture.lean >= upright)) {
     found.plan = BodyKind::tailed_biped;
     found.reason = "one pair of legs; " + leans;
   } else {

@@ -188,7 +188,7 @@ void require_valid(const PlanOptions& options) { (void)frames_of(options); }
 
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
-  require_sound(surface, "find_plan");
+  require_corners(surface, "find_plan");
   require_sound_places(skeleton, "find_plan");
   require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;

@@ -368,11 +368,18 @@ class Rig(CommandLineTest):
         self.assertNotIn(words, quiet)
 
     def test_the_look_of_fbx_is_read(self):
-        self.run_ok("rig", Y, "-o", "y.fbx", cwd=self.folder)
-        said = self.run_ok("rig", "y.fbx", "-o", "z.glb", cwd=self.folder).err
-        self.assertNotIn("warning", said)
-        materials = self.glb((self.folder / "z.glb").read_bytes())["materials"]
-        self.assertEqual(materials[0]["pbrMetallicRoughness"]["metallicFactor"], 0)
+        self.run_ok("fair", Y, "--iterations", "0", "-o", "y.obj", cwd=self.folder)
+        surface = (self.folder / "y.obj").read_text()
+        (self.folder / "y.mtl").write_text("newmtl skin\nKd .5 .25 .125\n")
+        (self.folder / "y.obj").write_text("mtllib y.mtl\nusemtl skin\n" + surface)
+        for name, materials in (("y.obj", ["skin"]), (Y, [])):
+            self.run_ok("rig", name, "-o", "y.fbx", cwd=self.folder)
+            said = self.run_ok("rig", "y.fbx", "-o", "z.glb", cwd=self.folder).err
+            self.assertNotIn("warning", said)
+            found = self.glb((self.folder / "z.glb").read_bytes()).get("materials", [])
+            self.assertEqual([material["name"] for material in found], materials)
+            for material in found:
+                self.assertEqual(material["pbrMetallicRoughness"]["metallicFactor"], 0)
 
     def test_another_extension_is_a_usage_error_that_lists_the_formats(self):
         for name in ("y.x3d", "y.obj", "y"):
