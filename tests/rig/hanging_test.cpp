@@ -299,18 +299,19 @@ TEST(Hanging, OfThousandsEachHangsFromTheNearest) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   Assembled all;
-  all.skeleton.nodes.resize(2 * parts, 3);
-  all.skeleton.radii.resize(2 * parts);
+  all.skeleton.nodes.resize(Eigen::Index{2} * parts, 3);
+  all.skeleton.radii.resize(Eigen::Index{2} * parts);
   all.skeleton.edges.resize(parts, 2);
   for (int k = 0; k < parts; ++k) {
+    const int first = 2 * k;
     const Point at = 10 * Point(unit(random), unit(random), unit(random));
     const double size = k % 100 == 0 ? 5 : 0.5;
-    all.skeleton.nodes.row(2 * k) = at;
-    all.skeleton.nodes.row(2 * k + 1) = at + size * Point(unit(random), unit(random), 0.1);
-    all.skeleton.radii[2 * k] = size * (0.01 + 0.2 * unit(random));
-    all.skeleton.radii[2 * k + 1] = size * (0.01 + 0.2 * unit(random));
-    all.skeleton.edges.row(k) << 2 * k, 2 * k + 1;
-    all.components.push_back({2 * k, 2 * k + 1});
+    all.skeleton.nodes.row(first) = at;
+    all.skeleton.nodes.row(first + 1) = at + size * Point(unit(random), unit(random), 0.1);
+    all.skeleton.radii[first] = size * (0.01 + 0.2 * unit(random));
+    all.skeleton.radii[first + 1] = size * (0.01 + 0.2 * unit(random));
+    all.skeleton.edges.row(k) << first, first + 1;
+    all.components.push_back({first, first + 1});
   }
   const std::vector<Hinge> hinges =
       hang_components(all.skeleton, all.skeleton.radii, all.components);

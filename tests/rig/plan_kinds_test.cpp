@@ -327,7 +327,7 @@ TEST(FindPlan, NamesNoHumanOnATree) {
 /// Each hair a curve of its own. With more of them than a body has it is a tree or a crowd, whose
 /// plan need not be looked for; whoever asks for one gets it.
 TEST(FindPlan, AHumanHasAThousandHairsAtMost) {
-  for (const int hairs : {400, 1100}) {
+  for (const Eigen::Index hairs : {400, 1100}) {
     RigSubject subject = human();
     CurveSkeleton& skeleton = subject.skeleton;
     const Eigen::Index nodes = skeleton.nodes.rows();
@@ -335,9 +335,9 @@ TEST(FindPlan, AHumanHasAThousandHairsAtMost) {
     skeleton.nodes.conservativeResize(nodes + 2 * hairs, 3);
     skeleton.radii.conservativeResize(nodes + 2 * hairs);
     skeleton.edges.conservativeResize(edges + hairs, 2);
-    for (int k = 0; k < hairs; ++k) {
+    for (Eigen::Index k = 0; k < hairs; ++k) {
       const double side = k % 2 == 0 ? 1 : -1;
-      const double turn = 0.01 * (k / 2);
+      const double turn = 0.005 * static_cast<double>(k - k % 2);
       const Eigen::Index first = nodes + 2 * k;
       skeleton.nodes.row(first) = RowVector3d(0.4 * side, 18.6, 0.4 * std::sin(turn));
       skeleton.nodes.row(first + 1) = RowVector3d(0.6 * side, 18.7, 0.6 * std::sin(turn));
