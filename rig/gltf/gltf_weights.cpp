@@ -29,9 +29,9 @@ void separate_meshes(OrderedJson& file, const std::set<int>& nodes) {
     return file["nodes"][node]["mesh"];
   };
   for (std::size_t node = 0; node < file["nodes"].size(); ++node) {
-    const bool is_other = !nodes.contains(static_cast<int>(node));
-    if (is_other && file["nodes"][node].contains("mesh"))
-      taken.insert(mesh_of(node).get<std::size_t>());
+    if (nodes.contains(static_cast<int>(node)) || !file["nodes"][node].contains("mesh")) continue;
+    const OrderedJson& mesh = mesh_of(node);
+    if (mesh.is_number_unsigned()) taken.insert(mesh.get<std::size_t>());  // else of no mesh
   }
   for (const int node : nodes) {
     OrderedJson& mesh = mesh_of(static_cast<std::size_t>(node));
