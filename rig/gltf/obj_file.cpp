@@ -82,7 +82,7 @@ void read_colour(TextCursor& text, DressedMesh& mesh) {
   mesh.colours.push_back({r, g, b, a});
 }
 
-/// What follows is of the object of this name.
+/// The object of this name has the places and faces to come.
 void begin_object(const std::string& name, DressedMesh& mesh) {
   if (!mesh.parts.empty() && mesh.parts.back().name == name) return;
   mesh.parts.push_back({name, mesh.places.size() / 3, mesh.material_of_face.size()});
