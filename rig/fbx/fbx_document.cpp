@@ -25,7 +25,7 @@ void write_header(FbxRecords& records, const std::string& provenance) {
 }
 
 /// y up, +z ahead, metres: as glTF.
-void write_settings(FbxRecords& records) {
+void write_settings(FbxRecords& records, bool moves) {
   records.begin("GlobalSettings");
   records.record("Version", 1000);
   records.begin("Properties70");
@@ -43,6 +43,8 @@ void write_settings(FbxRecords& records) {
   constexpr double centimetres_a_metre = 100;
   records.property("UnitScaleFactor", "double", "Number", "", centimetres_a_metre);
   records.property("OriginalUnitScaleFactor", "double", "Number", "", centimetres_a_metre);
+  constexpr std::int32_t thirty_frames_a_second = 6;
+  if (moves) records.property("TimeMode", "enum", "", "", thirty_frames_a_second);
   records.end();
   records.end();
 }
@@ -124,7 +126,7 @@ void FbxDocument::write_connections(FbxRecords& records) const {
 std::string FbxDocument::bytes(const std::string& provenance) const {
   FbxRecords records;
   write_header(records, provenance);
-  write_settings(records);
+  write_settings(records, count_.contains("AnimationStack"));
   write_scene(records);
   write_definitions(records);
   write_objects(records);

@@ -314,13 +314,13 @@ void write_shape(FbxRecords& records, const FbxRows& offsets) {
   records.record("Normals", FbxRows(moves.size(), 0));
 }
 
-void add_shapes(FbxDocument& document, std::int64_t geometry,
+void add_shapes(FbxDocument& document, FbxGeometry& geometry,
                 const std::shared_ptr<const FbxMesh>& mesh, const std::string& name) {
   if (mesh->shapes.empty()) return;
   const std::int64_t all =
       document.add("Deformer", name, "Deformer", "BlendShape",
                    [](FbxRecords& records) { records.record("Version", 100); });
-  document.connect(all, geometry);
+  document.connect(all, geometry.number);
   constexpr double percent = 100;
   for (const FbxMesh::Shape& shape : mesh->shapes) {  // stays where it is as long as the mesh
     const std::int64_t channel =
@@ -333,6 +333,7 @@ void add_shapes(FbxDocument& document, std::int64_t geometry,
     const std::int64_t form =
         document.add("Geometry", shape.name, "Geometry", "Shape",
                      [mesh, &shape](FbxRecords& records) { write_shape(records, shape.offsets); });
+    geometry.sliders.push_back(channel);
     document.connect(channel, all);
     document.connect(form, channel);
   }
@@ -387,9 +388,10 @@ void move(FbxMesh& mesh, const Eigen::Affine3d& frame) {
   }
 }
 
-std::int64_t add_fbx_geometry(FbxDocument& document, const std::string& name, FbxMesh mesh) {
+FbxGeometry add_fbx_geometry(FbxDocument& document, const std::string& name, FbxMesh mesh) {
   const auto shared = std::make_shared<const FbxMesh>(std::move(mesh));
-  const std::int64_t geometry =
+  FbxGeometry geometry;
+  geometry.number =
       document.add("Geometry", name, "Geometry", "Mesh",
                    [shared](FbxRecords& records) { write_geometry(records, *shared); });
   add_shapes(document, geometry, shared, name);

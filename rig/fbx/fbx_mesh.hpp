@@ -58,7 +58,13 @@ void take_polygons(FbxMesh& mesh, const MeshPolygons& polygons);
 
 void move(FbxMesh& mesh, const Eigen::Affine3d& frame);
 
-/// The geometry with its shapes; the weights of shapes connect to it. Returns its number.
-std::int64_t add_fbx_geometry(FbxDocument& document, const std::string& name, FbxMesh mesh);
+struct FbxGeometry {
+  std::int64_t number = 0;
+  std::vector<std::int64_t> sliders;  ///< one of each shape
+};
+
+/// The geometry with its shapes; the weights of shapes connect to it.
+[[nodiscard]] FbxGeometry add_fbx_geometry(FbxDocument& document, const std::string& name,
+                                           FbxMesh mesh);
 
 }  // namespace curveskel

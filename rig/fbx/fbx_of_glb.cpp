@@ -14,10 +14,12 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/fbx/fbx_animations.hpp"
 #include "rig/fbx/fbx_document.hpp"
 #include "rig/fbx/fbx_materials.hpp"
 #include "rig/fbx/fbx_mesh.hpp"
 #include "rig/fbx/fbx_set_names.hpp"
+#include "rig/fbx/local_move.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/gltf_numbers.hpp"
@@ -28,38 +30,6 @@ namespace {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
-
-/// Angles in degrees about x, then y, then z, that make this rotation.
-Vector3d angles_of(const Eigen::Matrix3d& turn) {
-  const double sine = std::clamp(-turn(2, 0), -1.0, 1.0);
-  constexpr double upright = 1 - 1e-12;
-  Vector3d angles(0, std::asin(sine), 0);
-  if (std::abs(sine) < upright) {
-    angles.x() = std::atan2(turn(2, 1), turn(2, 2));
-    angles.z() = std::atan2(turn(1, 0), turn(0, 0));
-  } else {
-    angles.z() = std::atan2(-turn(0, 1), turn(1, 1));
-  }
-  return angles * (180 / std::numbers::pi);
-}
-
-struct LocalMove {
-  Vector3d shift;
-  Vector3d angles;
-  Vector3d scale;
-};
-
-/// Without the shear, if there is any.
-LocalMove local_move(const Affine3d& frame) {
-  LocalMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
-  if (frame.linear().determinant() < 0) move.scale.x() *= -1;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (move.scale[axis] != 0) turn.col(axis) = frame.linear().col(axis) / move.scale[axis];
-  }
-  move.angles = angles_of(Eigen::Quaterniond(turn).normalized().toRotationMatrix());
-  return move;
-}
 
 /// A frame times its inverse, which a file has in single precision.
 bool is_rounding(const Affine3d& move, const Affine3d& frame) {
@@ -90,6 +60,7 @@ class SceneWriter {
       : file_(file),
         model_(model),
         polygons_(polygons),
+        monitor_(monitor),
         scene_(read_gltf_scene(file, model, monitor)),
         map_names_(fbx_map_names(model)),
         is_joint_(model.nodes.size(), false) {
@@ -104,6 +75,7 @@ class SceneWriter {
     for (const int node : scene_.nodes) add_node(node);
     for (const int node : scene_.nodes) add_mesh(node);
     add_bind_pose();
+    add_fbx_animations(document_, file_, model_, made_, monitor_);
     return document_.bytes(provenance);
   }
 
@@ -170,9 +142,9 @@ class SceneWriter {
     const bool is_joint = is_joint_[idx(node)];
     const char* kind = is_joint ? "LimbNode" : is_plain_mesh(node) ? "Mesh" : "Null";
     const std::int64_t number = add_model(name_of(node), kind, local(node));
-    model_of_node_[node] = number;
-    const auto parent = model_of_node_.find(scene_.parents[idx(node)]);
-    document_.connect(number, parent == model_of_node_.end() ? FbxDocument::root : parent->second);
+    made_.models[node] = number;
+    const auto parent = made_.models.find(scene_.parents[idx(node)]);
+    document_.connect(number, parent == made_.models.end() ? FbxDocument::root : parent->second);
     if (is_plain_mesh(node)) return;
     const std::int64_t attribute = document_.add(
         "NodeAttribute", name_of(node), "NodeAttribute", kind, [is_joint](FbxRecords& records) {
@@ -208,19 +180,19 @@ class SceneWriter {
       document_.connect(holder, FbxDocument::root);
       bind_pose_.emplace_back(holder, Affine3d::Identity());
     } else if (is_plain_mesh(node)) {
-      holder = model_of_node_.at(node);
+      holder = made_.models.at(node);
     } else {  // on a joint
       holder = add_model(name, "Mesh", Affine3d::Identity());
-      document_.connect(holder, model_of_node_.at(node));
+      document_.connect(holder, made_.models.at(node));
     }
     for (const int material : mesh.has_materials() ? mesh.materials : std::vector<int>{}) {
       document_.connect(material < 0 ? plain_material() : materials_[idx(material)], holder);
     }
     const auto moved = std::move(mesh.moved);
-    const std::int64_t geometry =
-        add_fbx_geometry(document_, own.empty() ? name : own, std::move(mesh));
-    document_.connect(geometry, holder);
-    if (skin >= 0) add_skin(skin, bound, moved, geometry, name);
+    FbxGeometry geometry = add_fbx_geometry(document_, own.empty() ? name : own, std::move(mesh));
+    document_.connect(geometry.number, holder);
+    if (!geometry.sliders.empty()) made_.sliders[node] = std::move(geometry.sliders);
+    if (skin >= 0) add_skin(skin, bound, moved, geometry.number, name);
   }
 
   std::int64_t plain_material() {
@@ -269,8 +241,8 @@ class SceneWriter {
     document_.connect(skin, geometry);
     const std::vector<int>& joints = model_.skins[idx(number)].joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      const auto joint = model_of_node_.find(joints[k]);
-      if (joint == model_of_node_.end()) continue;  // outside the scene
+      const auto joint = made_.models.find(joints[k]);
+      if (joint == made_.models.end()) continue;  // outside the scene
       const bool is_new = is_bound_.emplace(joint->second, true).second;
       if (moved[k].empty() && !is_new) continue;  // a thousand meshes have a thousand joints
       const std::int64_t cluster =
@@ -323,6 +295,7 @@ class SceneWriter {
   const FileBytes& file_;
   const tinygltf::Model& model_;
   const std::vector<MeshPolygons>& polygons_;  // by mesh, or none
+  const Monitor& monitor_;
   GltfScene scene_;
   std::vector<std::vector<std::string>> map_names_;  // by mesh
   std::vector<bool> is_joint_;                       // by node
@@ -330,7 +303,7 @@ class SceneWriter {
   FbxDocument document_;
   std::vector<std::int64_t> materials_;
   std::int64_t plain_material_ = 0;
-  std::map<int, std::int64_t> model_of_node_;
+  FbxNodes made_;
   std::map<std::int64_t, bool> is_bound_;
   std::vector<std::pair<std::int64_t, Affine3d>> bind_pose_;
 };

@@ -107,8 +107,16 @@ void FbxRecords::add(const std::vector<double>& values) {
   put_array('d', values.data(), values.size(), sizeof(double));
 }
 
+void FbxRecords::add(const std::vector<float>& values) {
+  put_array('f', values.data(), values.size(), sizeof(float));
+}
+
 void FbxRecords::add(const std::vector<std::int32_t>& values) {
   put_array('i', values.data(), values.size(), sizeof(std::int32_t));
+}
+
+void FbxRecords::add(const std::vector<std::int64_t>& values) {
+  put_array('l', values.data(), values.size(), sizeof(std::int64_t));
 }
 
 void FbxRecords::put_array(char type, const void* values, std::size_t count, std::size_t size) {

@@ -26,7 +26,9 @@ class FbxRecords {
   void add(const std::string& text) { add(std::string_view(text)); }
   void add(const char* text) { add(std::string_view(text)); }
   void add(const std::vector<double>& values);
+  void add(const std::vector<float>& values);
   void add(const std::vector<std::int32_t>& values);
+  void add(const std::vector<std::int64_t>& values);
   void add_bytes(std::string_view bytes);
 
   template <typename... Values>

@@ -28,8 +28,9 @@
 namespace curveskel::fbx_laws {
 namespace {
 
-using Values = std::variant<std::int32_t, std::int64_t, double, std::string, std::vector<double>,
-                            std::vector<std::int32_t>>;
+using Values =
+    std::variant<std::int32_t, std::int64_t, double, std::string, std::vector<double>,
+                 std::vector<std::int32_t>, std::vector<float>, std::vector<std::int64_t>>;
 
 struct Branch {
   std::string name;
@@ -53,7 +54,7 @@ class RandomTree {
   int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
 
   Values value() {
-    switch (below(6)) {
+    switch (below(8)) {
       case 0:
         return static_cast<std::int32_t>(random_());
       case 1:
@@ -64,6 +65,10 @@ class RandomTree {
         return std::string(idx(below(300)), 'x');
       case 4:
         return std::vector<double>(idx(below(300)), static_cast<double>(random_()) / 7);
+      case 5:
+        return std::vector<float>(idx(below(300)), static_cast<float>(random_()) / 7);
+      case 6:
+        return std::vector<std::int64_t>(idx(below(300)), std::int64_t{below(1000)} << 40);
       default:
         return std::vector<std::int32_t>(idx(below(300)), below(1000));
     }

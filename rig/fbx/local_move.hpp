@@ -1,0 +1,21 @@
+// A frame as FBX has it: a shift, three angles and a scale. Internal to rig/.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace curveskel {
+
+struct LocalMove {
+  Eigen::Vector3d shift;
+  Eigen::Vector3d angles;  ///< in degrees, about x, then y, then z
+  Eigen::Vector3d scale;
+};
+
+/// Without the shear, if there is any.
+[[nodiscard]] LocalMove local_move(const Eigen::Affine3d& frame);
+
+/// Of all angles that make the same rotation those nearest to `before`.
+[[nodiscard]] Eigen::Vector3d nearest_angles(const Eigen::Vector3d& angles,
+                                             const Eigen::Vector3d& before);
+
+}  // namespace curveskel
