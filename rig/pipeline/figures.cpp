@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -13,8 +14,7 @@
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
-#include "rig/joints/figure_name.hpp"
-#include "rig/joints/limb_name.hpp"
+#include "rig/pipeline/divided_body.hpp"
 #include "rig/plan/looks.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "surface/mesh/component_areas.hpp"
@@ -68,71 +68,20 @@ std::vector<int> tips_of(const CurveSkeleton& skeleton, const Eigen::VectorXi& g
 
 bool is_planned(const BodyPlan& plan) { return !plan.joints.empty(); }
 
-template <typename Rows>
-void append_rows(Rows& rows, const Rows& more) {
-  const Eigen::Index before = rows.rows();
-  rows.conservativeResize(before + more.rows(), more.cols());
-  rows.bottomRows(more.rows()) = more;
-}
-
-/// `shift` is added to what is not negative.
-template <typename Numbers>
-Numbers shifted(Numbers numbers, Eigen::Index shift) {
-  for (auto& number : numbers.reshaped()) number += number < 0 ? 0 : static_cast<int>(shift);
-  return numbers;
-}
-
-void append(RiggedBody& all, const RiggedBody& more) {
-  const Eigen::Index vertices = all.body.surface.positions.rows();
-  const Eigen::Index nodes = all.skeleton.nodes.rows();
-  const Eigen::VectorXi own = shifted(more.body.vertex_of_input, vertices);
-  for (Eigen::Index v = 0; v < own.size(); ++v) {
-    if (own[v] >= 0) all.body.vertex_of_input[v] = own[v];
-  }
-  append_rows(all.body.surface.positions, more.body.surface.positions);
-  append_rows(all.body.surface.triangles, shifted(more.body.surface.triangles, vertices));
-  append_rows(all.skeleton.nodes, more.skeleton.nodes);
-  append_rows(all.skeleton.edges, shifted(more.skeleton.edges, nodes));
-  append_rows(all.skeleton.radii, more.skeleton.radii);
-  append_rows(all.skeleton.node_of_vertex, shifted(more.skeleton.node_of_vertex, nodes));
-}
-
-void append(Rig& all, const Rig& more) {
-  const Eigen::Index joints = all.joints.rows();
-  const Eigen::Index vertices = all.weights.rows();
-  SkinWeights weights(vertices + more.weights.rows(), joints + more.weights.cols());
-  weights.reserve(all.weights.nonZeros() + more.weights.nonZeros());
-  const auto insert = [&](const SkinWeights& from, Eigen::Index row, Eigen::Index column) {
-    for (Eigen::Index v = 0; v < from.rows(); ++v) {
-      for (SkinWeights::InnerIterator it(from, v); it; ++it) {
-        weights.insert(row + v, column + it.col()) = it.value();
-      }
-    }
-  };
-  insert(all.weights, 0, 0);
-  insert(more.weights, vertices, joints);
-  weights.makeCompressed();
-  all.weights.swap(weights);
-  append_rows(all.joints, more.joints);
-  append_rows(all.parents, shifted(more.parents, joints));
-  if (!all.readable.empty() || !more.readable.empty()) {
-    const std::vector<std::string>& added = readable_names(more);
-    all.readable = readable_names(all);
-    all.readable.insert(all.readable.end(), added.begin(), added.end());
-  }
-  all.names.insert(all.names.end(), more.names.begin(), more.names.end());
-  all.roles.insert(all.roles.end(), more.roles.begin(), more.roles.end());
-}
-
 /// The groups of a scene's components, one of which may be a figure.
 class Groups {
  public:
   Groups(const RepairedSurface& body, const CurveSkeleton& skeleton, const Topology& counted,
          const FigureOptions& options, const std::stop_token& stop)
-      : body_(body), skeleton_(skeleton), counted_(counted), options_(options), stop_(stop) {}
+      : body_(body),
+        skeleton_(skeleton),
+        counted_(counted),
+        options_(options),
+        stop_(stop),
+        divided_(body, skeleton, counted) {}
 
   /// Of components whose boxes meet. `ground` (-1: none) is one that groups with no other.
-  [[nodiscard]] std::vector<Figure> figures(int ground) const {
+  [[nodiscard]] std::vector<Figure> figures(int ground) {
     return figures_among(
         groups_that_meet(
             boxes_of(body_.surface, counted_.component_of_vertex, counted_.components()), ground),
@@ -140,7 +89,7 @@ class Groups {
   }
 
   /// All that stands on the ground as one, as a doll of parts with gaps between them.
-  [[nodiscard]] std::vector<Figure> figure_on(int ground) const {
+  [[nodiscard]] std::vector<Figure> figure_on(int ground) {
     std::vector<int> group(idx(counted_.components()), 0);
     group[idx(ground)] = 1;
     return figures_among(group, ground);
@@ -149,7 +98,7 @@ class Groups {
  private:
   /// Those that are each built to a plan, the largest first; all else goes with the one whose box
   /// is nearest.
-  [[nodiscard]] std::vector<Figure> figures_among(const std::vector<int>& group, int ground) const {
+  [[nodiscard]] std::vector<Figure> figures_among(const std::vector<int>& group, int ground) {
     const int groups = 1 + *std::max_element(group.begin(), group.end());
     if (groups < 2) return {};
     Eigen::VectorXi group_of_vertex = counted_.component_of_vertex;
@@ -228,12 +177,20 @@ class Groups {
     return of_ground.max()[0] < of_group.center()[0];
   }
 
-  /// As if it were alone. A scene that is not made of tubes may have a figure that is.
-  [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) const {
+  [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) {
+    std::vector<int> members;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (group[k] == wanted) members.push_back(static_cast<int>(k));
+    }
+    const auto known = plans_.find(members);
+    if (known != plans_.end()) return known->second;
+    return plans_[members] = plan_alone(members);
+  }
+
+  /// As if there were nothing else. A scene that is not made of tubes may have a figure that is.
+  [[nodiscard]] BodyPlan plan_alone(const std::vector<int>& components) {
     throw_if_stopped(stop_);
-    const RigParts parts = parts_of(group, wanted);
-    const RepairedSurface body = body_of(body_, parts);
-    const CurveSkeleton skeleton = skeleton_of_body(skeleton_, parts);
+    const auto [body, skeleton] = divided_.part(components);
     PlanOptions options = options_.plan;
     if (!options.made_of_tubes) {
       const double share = tube_share(body.surface, skeleton, {.threads = options_.threads});
@@ -280,6 +237,8 @@ class Groups {
   const Topology& counted_;
   const FigureOptions& options_;
   const std::stop_token& stop_;
+  DividedBody divided_;
+  std::map<std::vector<int>, BodyPlan> plans_;  // by components: a group may be asked for again
 };
 
 /// True if the plan has joints on each of them: pieces of one body, as a doll's upper and lower
@@ -306,7 +265,7 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   if (!says_of || wanted == BodyKind::none || wanted == BodyKind::other) return whole;
   const Topology counted = topology(body.surface);
   if (counted.components() < 2) return whole;
-  const Groups groups(body, skeleton, counted, options, stop);
+  Groups groups(body, skeleton, counted, options, stop);
   constexpr int no_ground = -1;
   std::vector<Figure> figures = groups.figures(no_ground);
   const std::size_t planned = whole.front().plan.joints.size();
@@ -322,23 +281,6 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   figures = groups.figures(ground);
   if (figures.empty()) figures = groups.figure_on(ground);
   return figures.empty() ? whole : figures;
-}
-
-RiggedBody side_by_side(std::vector<RiggedBody> figures) {
-  RiggedBody all = std::move(figures.front());
-  all.rig.roles.resize(all.rig.names.size());
-  for (std::size_t k = 1; k < figures.size(); ++k) {
-    Rig& rig = figures[k].rig;
-    rig.roles.resize(rig.names.size());
-    for (auto* const names : {&rig.names, &rig.readable, &rig.roles}) {
-      for (std::string& name : *names) {
-        if (!name.empty()) name.insert(0, figure_prefix(k));
-      }
-    }
-    append(all, figures[k]);
-    append(all.rig, figures[k].rig);
-  }
-  return all;
 }
 
 }  // namespace curveskel

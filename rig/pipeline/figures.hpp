@@ -44,8 +44,8 @@ struct FigureOptions {
 /// Else the whole body is the only figure. Of a scene that is not made of tubes
 /// each group is judged alone. `skeleton` has node_of_vertex, by the body's
 /// vertices; without it there is one figure. Throws Cancelled on a stop.
-/// O((#V + #N) times the number of groups with four tips or more, and the square
-/// of the number of components).
+/// Each group is looked at once, in the time that its own size takes; pairs of boxes that meet come
+/// on top, in the worst case the square of the number of components.
 [[nodiscard]] std::vector<Figure> find_figures(const RepairedSurface& body,
                                                const CurveSkeleton& skeleton,
                                                const FigureOptions& options,

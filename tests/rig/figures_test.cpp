@@ -11,7 +11,10 @@
 #include <curveskel/repair.hpp>
 #include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_character.hpp>
+#include <curveskel/rig_parts.hpp>
+#include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "rig/pipeline/divided_body.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "tests/rig/plan_subjects.hpp"
 
@@ -59,6 +62,80 @@ CharacterRig rig_of(const RigSubject& subject, const CharacterOptions& options =
   body.vertex_of_input = Eigen::VectorXi::LinSpaced(
       subject.surface.positions.rows(), 0, static_cast<int>(subject.surface.positions.rows()) - 1);
   return rig_body(subject.surface, body, subject.skeleton, options);
+}
+
+/// A body of four components and its curves, the last of which no vertex collapsed to; some
+/// components are sheets and some touch.
+struct Divisible {
+  RepairedSurface body;
+  CurveSkeleton skeleton;
+  Topology counted;
+
+  Divisible() {
+    const RigSubject all = scene({{beast(1), 16}, {human(), 0}, {human(), -16}, {beast(1), 40}});
+    body.surface = all.surface;
+    body.vertex_of_input = Eigen::VectorXi::LinSpaced(
+        all.surface.positions.rows(), 0, static_cast<int>(all.surface.positions.rows()) - 1);
+    skeleton = all.skeleton;
+    counted = topology(body.surface);
+    for (int c = 0; c < counted.components(); ++c) {
+      const int vertex = vertex_of(c);
+      if (c % 2 == 0) body.sheets.insert(body.sheets.begin(), vertex);
+      for (const int other : {c + 1, c + 2}) {
+        if (other >= counted.components()) continue;
+        Contact contact;
+        contact.one = {skeleton.node_of_vertex[vertex], {skeleton.node_of_vertex[vertex]}};
+        contact.other = {skeleton.node_of_vertex[vertex_of(other)], {}};
+        contact.area = 1 + c + 10 * other;
+        skeleton.contacts.push_back(contact);
+      }
+    }
+    const int last = counted.components() - 1;
+    for (Eigen::Index v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+      if (counted.component_of_vertex[v] == last) skeleton.node_of_vertex[v] = -1;
+    }
+  }
+
+  [[nodiscard]] int vertex_of(int component) const {
+    int v = 0;
+    while (counted.component_of_vertex[v] != component) ++v;
+    return v;
+  }
+};
+
+/// Whatever else is there, and in whatever order parts are asked for.
+TEST(DividedBodies, HaveThePartsThatAreLeftIfAllElseFollows) {
+  const Divisible whole;
+  const int components = whole.counted.components();
+  ASSERT_GE(components, 4);
+  DividedBody divided(whole.body, whole.skeleton, whole.counted);
+  for (int chosen = (1 << components) - 1; chosen > 0; --chosen) {
+    RigParts parts;
+    parts.part_of_vertex = whole.counted.component_of_vertex;
+    std::vector<int> members;
+    for (int c = 0; c < components; ++c) {
+      const bool is_member = (chosen >> c) % 2 != 0;
+      parts.parts.push_back({.follows = !is_member});
+      if (is_member) members.push_back(c);
+    }
+    const auto [body, skeleton] = divided.part(members);
+    const RepairedSurface left = body_of(whole.body, parts);
+    const CurveSkeleton curves = skeleton_of_body(whole.skeleton, parts);
+    EXPECT_EQ(body.surface.positions, left.surface.positions);
+    EXPECT_EQ(body.surface.triangles, left.surface.triangles);
+    EXPECT_EQ(body.sheets, left.sheets);
+    EXPECT_EQ(skeleton.nodes, curves.nodes);
+    EXPECT_EQ(skeleton.edges, curves.edges);
+    EXPECT_EQ(skeleton.radii, curves.radii);
+    EXPECT_EQ(skeleton.node_of_vertex, curves.node_of_vertex);
+    ASSERT_EQ(skeleton.contacts.size(), curves.contacts.size());
+    for (std::size_t k = 0; k < curves.contacts.size(); ++k) {
+      EXPECT_EQ(skeleton.contacts[k].one.node, curves.contacts[k].one.node);
+      EXPECT_EQ(skeleton.contacts[k].one.tips, curves.contacts[k].one.tips);
+      EXPECT_EQ(skeleton.contacts[k].other.node, curves.contacts[k].other.node);
+      EXPECT_EQ(skeleton.contacts[k].area, curves.contacts[k].area);
+    }
+  }
 }
 
 /// There may be a thousand of them to look at.
