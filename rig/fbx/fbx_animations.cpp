@@ -56,8 +56,12 @@ std::vector<double> moments(const std::vector<const GltfTrack*>& tracks) {
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
     constexpr double rounding = 1e-3;  // of a frame: keys at frames get none between them
     const double length = keys[k + 1] - keys[k];
-    const double parts = std::max(1.0, std::ceil(length * frames_a_second - rounding));
-    for (double part = 0; part < parts; ++part) all.push_back(keys[k] + part / parts * length);
+    constexpr double most = 1000;  // the whole of what glTF turns between two keys is half a turn
+    const double wanted = std::ceil(length * frames_a_second - rounding);
+    const auto parts = static_cast<int>(std::clamp(wanted, 1.0, most));
+    for (int part = 0; part < parts; ++part) {
+      all.push_back(keys[k] + part / static_cast<double>(parts) * length);
+    }
   }
   if (!keys.empty()) all.push_back(keys.back());
   return all;

@@ -23,8 +23,9 @@ struct FbxNodes {
 
 /// A stack of one layer for each animation that moves one of the nodes. FBX turns by three angles,
 /// between which it draws lines, so a curve has the keys of glTF and as many between these as make
-/// 30 a second; a step is a line of a tenth of a millisecond. Curves that only say what the node
-/// has at rest are left out. Throws as `read_gltf_animations`. O(nodes times keys).
+/// 30 a second, but no more than a thousand; a step is a line of a tenth of a millisecond. Curves
+/// that only say what the node has at rest are left out. Throws as `read_gltf_animations`. O(nodes
+/// times keys).
 void add_fbx_animations(FbxDocument& document, const FileBytes& file, const tinygltf::Model& model,
                         const FbxNodes& nodes, const Monitor& monitor);
 

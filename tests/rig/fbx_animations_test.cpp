@@ -189,6 +189,16 @@ TEST(FbxAnimations, WithoutThemThereAreNoCurves) {
   EXPECT_TRUE(FbxScene(rested, other).all("AnimationCurve").empty());
 }
 
+/// A file that says milliseconds where seconds are meant, or years.
+TEST(FbxAnimations, KeysFarApartGetNoMoreThanAThousandBetweenThem) {
+  MovingBar bar;
+  bar.add(1, "scale", "LINEAR", {{0, 1e8F}, {1, 1, 1, 2, 2, 2}});
+  const FileBytes file{"bar.fbx", bar.as_fbx().bytes};
+  const FbxRecord root = parse_fbx(file);
+  const Curves curves = curves_of(file, FbxScene(file, root), "joint 1", "Lcl Scaling");
+  EXPECT_EQ(curves.seconds.size(), 1001U);
+}
+
 TEST(FbxAnimations, BrokenOnesAreRefusedByName) {
   MovingBar backwards;
   backwards.add(1, "scale", "LINEAR", {{1, 0}, {1, 1, 1, 1, 1, 1}});
