@@ -23,7 +23,8 @@ constexpr double frames_a_second = 30;
 
 std::int64_t ticks(double seconds) {
   constexpr double ticks_a_second = 46186158000;
-  return std::llround(ticks_a_second * seconds);
+  constexpr double longest = 1e8;  // seconds; twice as many go into the number
+  return std::llround(ticks_a_second * std::clamp(seconds, -longest, longest));
 }
 
 /// The first and the last second.
