@@ -1,0 +1,91 @@
+"""The FBX of an animated character whose rig is kept moves in Blender as its glTF does. Characters
+are the collection's, named by CURVESKEL_COLLECTION. Skipped without it or Blender (Debian package
+blender)."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from in_blender import result_of
+
+PROGRAM = os.environ["CURVESKEL_PROGRAM"]
+COLLECTION = os.environ.get("CURVESKEL_COLLECTION")
+
+MOVES = """
+import json, pathlib, sys
+import bpy, numpy
+numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
+
+def load(file):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    if file.suffix == ".fbx":
+        bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
+    else:
+        bpy.ops.import_scene.gltf(filepath=str(file))
+    armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
+    if file.suffix != ".fbx":  # a track for each clip, of which one is also the action
+        for track in [*armature.animation_data.nla_tracks]:
+            armature.animation_data.nla_tracks.remove(track)
+    return armature.animation_data.action.name
+
+def places(seconds):
+    scene = bpy.context.scene
+    frame = seconds * scene.render.fps / scene.render.fps_base
+    scene.frame_set(int(frame), subframe=frame - int(frame))
+    graph = bpy.context.evaluated_depsgraph_get()
+    rows = []
+    for thing in sorted(bpy.data.objects, key=lambda thing: thing.name):
+        if thing.type != "MESH" or not thing.vertex_groups:
+            continue
+        shown = thing.evaluated_get(graph)
+        mesh = shown.to_mesh()
+        rows += [shown.matrix_world @ vertex.co for vertex in mesh.vertices]
+        shown.to_mesh_clear()
+    return numpy.array(rows)
+
+folder = pathlib.Path(sys.argv[-1])
+result = {}
+for file in sorted(folder.glob("*.glb")):
+    seconds = [k / 48 for k in range(4, 29)]  # keys of the files, and halfway between them
+    found = {}
+    for one in (file, file.with_suffix(".fbx")):
+        clip = load(one)
+        found[one.suffix] = (clip, len(bpy.data.actions), [places(moment) for moment in seconds])
+    (clip, clips, gltf), (other, others, fbx) = found[".glb"], found[".fbx"]
+    size = numpy.ptp(gltf[0], axis=0).max()
+    apart = [float(numpy.abs(a - b).max()) / size for a, b in zip(gltf, fbx)]
+    result[file.stem] = {
+        "clips": [clips, others], "names": [clip, other],
+        "at keys": max(apart[::2]), "between": max(apart[1::2]),
+        "moved": max(float(numpy.abs(a - gltf[0]).max()) for a in gltf) / size}
+(folder / "result.json").write_text(json.dumps(result))
+"""
+
+
+@unittest.skipUnless(shutil.which("blender"), "needs Blender: install the Debian package blender")
+@unittest.skipUnless(COLLECTION, "needs the animated characters of the collection")
+class Animations(unittest.TestCase):
+    def test_move_as_those_of_gltf(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            for source in sorted((pathlib.Path(COLLECTION) / "clips").glob("*.glb")):
+                name = folder / source.stem
+                subprocess.run([PROGRAM, "rig", source, "--keep-rig", "-q", "-o", f"{name}.glb",
+                                "-o", f"{name}.fbx"], check=True, stderr=subprocess.DEVNULL)
+            found = result_of(MOVES, folder)
+        self.assertTrue(found)
+        for name, result in found.items():
+            with self.subTest(name):
+                print(f"{name}: {result}")
+                self.assertEqual(*result["clips"])
+                self.assertGreater(result["moved"], 0.005)
+                self.assertLess(result["at keys"], 1e-4)
+                # There Blender blends the numbers of glTF's turns, and the angles of FBX's.
+                self.assertLess(result["between"], 1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
