@@ -173,6 +173,7 @@ class AnimationWriter {
     const std::vector<double> times = moments({&motion.shift, &motion.turn, &motion.scale});
     if (model == nodes_.models.end() || times.empty()) return;
     const tinygltf::Node& given = model_.nodes[idx(node)];
+    if (!given.matrix.empty()) return;  // which the standard forbids, as nothing could be moved
     const LocalMove rest = move_at(given, {}, 0);
     std::array<FbxCurves, 3> curves;
     Vector3d before = rest.angles;

@@ -21,8 +21,8 @@ class DividedBody {
   /// O(#V + #F + #N log #N).
   DividedBody(const RepairedSurface& body, const CurveSkeleton& skeleton, const Topology& counted);
 
-  /// What `body_of` and `skeleton_of_body` make where all other components follow, as fast as it is
-  /// large. Precondition: ascending numbers.
+  /// The same as `body_of` and `skeleton_of_body` make where all other components follow, in time
+  /// that its own size takes. Precondition: ascending numbers.
   [[nodiscard]] PartOfBody part(const std::vector<int>& components);
 
  private:

@@ -52,6 +52,13 @@ class MovingBar {
                                      {"target", {{"node", joint + 1}, {"path", path}}}});
   }
 
+  void place_by_matrix(int joint) {
+    nlohmann::json& node = json_["nodes"][idx(joint + 1)];
+    node.erase("translation");
+    node.erase("rotation");
+    node["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1};
+  }
+
   [[nodiscard]] EditedFile as_fbx() {
     json_["buffers"][0] = {
         {"byteLength", numbers_.size()},
@@ -107,6 +114,12 @@ Curves curves_of(const FileBytes& file, const FbxScene& scene, const std::string
   return found;
 }
 
+Curves curves_of(MovingBar& bar, const std::string& joint, std::string_view property) {
+  const FileBytes file{"bar.fbx", bar.as_fbx().bytes};
+  const FbxRecord root = parse_fbx(file);
+  return curves_of(file, FbxScene(file, root), joint, property);
+}
+
 Quaterniond turn_of(const Vector3d& degrees) {
   const Vector3d angles = degrees * (std::numbers::pi / 180);
   return Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) *
@@ -152,9 +165,7 @@ TEST(FbxAnimations, JointsTurnAsInGltf) {
 TEST(FbxAnimations, AStepStaysOne) {
   MovingBar bar;
   bar.add(2, "translation", "STEP", {{0, 1}, {1, 2, 3, 4, 5, 6}});
-  const FileBytes file{"bar.fbx", bar.as_fbx().bytes};
-  const FbxRecord root = parse_fbx(file);
-  const Curves curves = curves_of(file, FbxScene(file, root), "joint 2", "Lcl Translation");
+  const Curves curves = curves_of(bar, "joint 2", "Lcl Translation");
   ASSERT_FALSE(curves.seconds.empty());
   for (std::size_t k = 0; k < curves.seconds.size(); ++k) {
     const Vector3d wanted = curves.seconds[k] < 1 - 1e-6 ? Vector3d(1, 2, 3) : Vector3d(4, 5, 6);
@@ -167,9 +178,7 @@ TEST(FbxAnimations, CurvesBendBySlopesAsInGltf) {
   MovingBar bar;
   bar.add(0, "scale", "CUBICSPLINE",
           {{0, 2}, {0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 0, 1, 2, 1, 0, 0, 0}});
-  const FileBytes file{"bar.fbx", bar.as_fbx().bytes};
-  const FbxRecord root = parse_fbx(file);
-  const Curves curves = curves_of(file, FbxScene(file, root), "joint 0", "Lcl Scaling");
+  const Curves curves = curves_of(bar, "joint 0", "Lcl Scaling");
   ASSERT_FALSE(curves.seconds.empty());
   for (std::size_t k = 0; k < curves.seconds.size(); ++k) {
     const double t = curves.seconds[k] / 2;
@@ -193,10 +202,16 @@ TEST(FbxAnimations, WithoutThemThereAreNoCurves) {
 TEST(FbxAnimations, KeysFarApartGetNoMoreThanAThousandBetweenThem) {
   MovingBar bar;
   bar.add(1, "scale", "LINEAR", {{0, 1e30F}, {1, 1, 1, 2, 2, 2}});
-  const FileBytes file{"bar.fbx", bar.as_fbx().bytes};
-  const FbxRecord root = parse_fbx(file);
-  const Curves curves = curves_of(file, FbxScene(file, root), "joint 1", "Lcl Scaling");
+  const Curves curves = curves_of(bar, "joint 1", "Lcl Scaling");
   EXPECT_EQ(curves.seconds.size(), 1001U);
+}
+
+TEST(FbxAnimations, ANodePlacedByAMatrixStaysWhereItIs) {
+  MovingBar bar;
+  bar.place_by_matrix(3);
+  bar.add(3, "scale", "LINEAR", {{0, 1}, {1, 1, 1, 2, 2, 2}});
+  EXPECT_TRUE(curves_of(bar, "joint 3", "Lcl Scaling").seconds.empty());
+  EXPECT_TRUE(curves_of(bar, "joint 3", "Lcl Translation").seconds.empty());
 }
 
 TEST(FbxAnimations, BrokenOnesAreRefusedByName) {
