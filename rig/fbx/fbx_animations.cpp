@@ -76,7 +76,7 @@ std::array<double, Count> numbers_or(const std::vector<double>& given,
 }
 
 /// A node's frame in that of its parent.
-LocalMove move_at(const tinygltf::Node& node, const GltfMotion& motion, double seconds) {
+FbxMove move_at(const tinygltf::Node& node, const GltfMotion& motion, double seconds) {
   const auto shift = numbers_or<3>(node.translation, {0, 0, 0});
   const auto turn = numbers_or<4>(node.rotation, {0, 0, 0, 1});
   const auto scale = numbers_or<3>(node.scale, {1, 1, 1});
@@ -174,11 +174,11 @@ class AnimationWriter {
     if (model == nodes_.models.end() || times.empty()) return;
     const tinygltf::Node& given = model_.nodes[idx(node)];
     if (!given.matrix.empty()) return;  // which the standard forbids, as nothing could be moved
-    const LocalMove rest = move_at(given, {}, 0);
+    const FbxMove rest = move_at(given, {}, 0);
     std::array<FbxCurves, 3> curves;
     Vector3d before = rest.angles;
     for (const double seconds : times) {
-      const LocalMove move = move_at(given, motion, seconds);
+      const FbxMove move = move_at(given, motion, seconds);
       before = nearest_angles(move.angles, before);
       curves[0].add(seconds, row_of(move.shift));
       curves[1].add(seconds, row_of(before));

@@ -38,7 +38,7 @@ bool is_rounding(const Affine3d& move, const Affine3d& frame) {
          move.translation().norm() <= single * frame.translation().norm();
 }
 
-void write_model(FbxRecords& records, const LocalMove& move) {
+void write_model(FbxRecords& records, const FbxMove& move) {
   records.record("Version", 232);
   records.begin("Properties70");
   const auto property = [&](const char* name, const Vector3d& value) {
@@ -154,7 +154,7 @@ class SceneWriter {
   }
 
   std::int64_t add_model(const std::string& name, const char* kind, const Affine3d& frame) {
-    const LocalMove move = local_move(frame);
+    const FbxMove move = local_move(frame);
     return document_.add("Model", name, "Model", kind,
                          [move](FbxRecords& records) { write_model(records, move); });
   }

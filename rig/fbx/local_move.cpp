@@ -30,8 +30,8 @@ Vector3d moved_near(const Vector3d& angles, const Vector3d& before) {
 
 }  // namespace
 
-LocalMove local_move(const Eigen::Affine3d& frame) {
-  LocalMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
+FbxMove local_move(const Eigen::Affine3d& frame) {
+  FbxMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
   if (frame.linear().determinant() < 0) move.scale.x() *= -1;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   for (int axis = 0; axis < 3; ++axis) {

@@ -3,16 +3,12 @@
 
 #include <Eigen/Geometry>
 
+#include "surface/read/fbx_scene.hpp"
+
 namespace curveskel {
 
-struct LocalMove {
-  Eigen::Vector3d shift;
-  Eigen::Vector3d angles;  ///< in degrees, about x, then y, then z
-  Eigen::Vector3d scale;
-};
-
-/// Without the shear, if there is any.
-[[nodiscard]] LocalMove local_move(const Eigen::Affine3d& frame);
+/// Angles about x, then y, then z; without the shear, if there is any.
+[[nodiscard]] FbxMove local_move(const Eigen::Affine3d& frame);
 
 /// Of all angles that make the same rotation those nearest to `before`.
 [[nodiscard]] Eigen::Vector3d nearest_angles(const Eigen::Vector3d& angles,

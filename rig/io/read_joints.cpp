@@ -11,7 +11,10 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
+#include "rig/dae/dae_joints.hpp"
+#include "rig/fbx/fbx_joints.hpp"
 #include "rig/io/rig_formats.hpp"
+#include "rig/joints/parents_first.hpp"
 #include "surface/read/dae_nodes.hpp"
 #include "surface/read/dae_scene.hpp"
 #include "surface/read/fbx_scene.hpp"
@@ -36,28 +39,13 @@ struct GivenJoint {
   std::string role;
 };
 
-/// Parents before children; of several that may come next the first given.
-std::vector<int> parents_first(const std::vector<GivenJoint>& joints, const FileBytes& file) {
-  std::vector<int> order;
-  std::vector<char> done(joints.size(), 0);
-  std::vector<std::vector<int>> children(joints.size());
-  std::vector<int> open;
-  for (std::size_t k = joints.size(); k-- > 0;) {
-    const int parent = joints[k].parent;
-    if (parent < 0) {
-      open.push_back(static_cast<int>(k));
-    } else {
-      children[idx(parent)].push_back(static_cast<int>(k));
-    }
-  }
-  while (!open.empty()) {
-    const int joint = open.back();
-    open.pop_back();
-    order.push_back(joint);
-    done[idx(joint)] = 1;
-    open.insert(open.end(), children[idx(joint)].begin(), children[idx(joint)].end());
-  }
+std::vector<int> order_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
+  std::vector<int> parents;
+  for (const GivenJoint& joint : joints) parents.push_back(joint.parent);
+  std::vector<int> order = parents_first(parents);
   if (order.size() == joints.size()) return order;
+  std::vector<char> done(joints.size(), 0);
+  for (const int joint : order) done[idx(joint)] = 1;
   const auto lost = std::find(done.begin(), done.end(), 0) - done.begin();
   file.fail("joint " + in_quotes(joints[idx(lost)].name) + ", which hangs from itself",
             "parents that lead to a root", "mend its parent");
@@ -65,7 +53,7 @@ std::vector<int> parents_first(const std::vector<GivenJoint>& joints, const File
 
 Rig rig_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
   if (joints.empty()) file.fail("no joint", "one at least", joints_remedy);
-  const std::vector<int> order = parents_first(joints, file);
+  const std::vector<int> order = order_of(joints, file);
   std::vector<int> number(joints.size(), -1);
   Rig rig;
   rig.joints.resize(static_cast<Eigen::Index>(order.size()), 3);
@@ -167,21 +155,9 @@ Rig joints_of_fbx(const FileBytes& file) {
   const FbxRecord root = parse_fbx(file);
   const FbxScene scene(file, root);
   std::vector<GivenJoint> joints;
-  std::map<const FbxRecord*, int> number;
-  std::vector<const FbxRecord*> models;
-  for (const FbxRecord* model : scene.all("Model")) {
-    if (!is_fbx_joint(*model)) continue;
-    number.emplace(model, static_cast<int>(models.size()));
-    models.push_back(model);
-  }
-  for (const FbxRecord* model : models) {
-    GivenJoint joint;
-    joint.name = fbx_name(*model);
-    joint.position = scene.frame(*model).translation().transpose();
-    const FbxRecord* above = scene.parent(*model);
-    while (above != nullptr && !number.contains(above)) above = scene.parent(*above);
-    if (above != nullptr) joint.parent = number.at(above);
-    joints.push_back(std::move(joint));
+  for (const FbxJoint& joint : fbx_joints(scene)) {
+    joints.push_back({fbx_name(*joint.model), joint.parent,
+                      scene.frame(*joint.model).translation().transpose(), ""});
   }
   return rig_of(joints, file);
 }
@@ -190,16 +166,13 @@ Rig joints_of_fbx(const FileBytes& file) {
 Rig joints_of_dae(const FileBytes& file, const Monitor& monitor) {
   const XmlElement root = parse_dae(file);
   const DaeDocument document(file, root);
+  const std::vector<DaeNode> nodes = dae_nodes(document, monitor);
   std::vector<GivenJoint> joints;
-  std::vector<int> number;  // of each node its own, or that of the nearest joint above it
-  for (const DaeNode& node : dae_nodes(document, monitor)) {
-    const int above = node.parent < 0 ? -1 : number[idx(node.parent)];
-    const bool is_joint = node.element->attribute("type") == "JOINT";
-    number.push_back(is_joint ? static_cast<int>(joints.size()) : above);
-    if (!is_joint) continue;
+  for (const DaeJoint& joint : dae_joints(nodes)) {
+    const DaeNode& node = nodes[idx(joint.node)];
     const std::string_view id = node.element->attribute("id");
     const std::string name(node.element->attribute("name", id));
-    joints.push_back({name, above, node.frame.translation().transpose(), ""});
+    joints.push_back({name, joint.parent, node.frame.translation().transpose(), ""});
   }
   return rig_of(joints, file);
 }

@@ -108,7 +108,7 @@ void FbxScene::place_models() {
       const auto parent = parent_of_.find(one);
       const Eigen::Affine3d outer =
           parent == parent_of_.end() ? Eigen::Affine3d::Identity() : frame_of_.at(parent->second);
-      frame_of_.emplace(one, outer * local(*one));
+      frame_of_.emplace(one, outer * local(*one, move(*one)));
     }
   }
 }
@@ -141,12 +141,20 @@ std::vector<const FbxRecord*> FbxScene::below(const FbxRecord& object, std::stri
 
 const FbxRecord* FbxScene::at_property(const FbxRecord& object, std::string_view property,
                                        std::string_view kind) const {
+  const std::vector<const FbxRecord*> all = all_at_property(object, property, kind);
+  return all.empty() ? nullptr : all.front();
+}
+
+std::vector<const FbxRecord*> FbxScene::all_at_property(const FbxRecord& object,
+                                                        std::string_view property,
+                                                        std::string_view kind) const {
+  std::vector<const FbxRecord*> all;
   const auto found = at_property_.find(&object);
-  if (found == at_property_.end()) return nullptr;
+  if (found == at_property_.end()) return all;
   for (const AtProperty& one : found->second) {
-    if (one.property == property && one.object->name == kind) return one.object;
+    if (one.property == property && one.object->name == kind) all.push_back(one.object);
   }
-  return nullptr;
+  return all;
 }
 
 const FbxRecord* FbxScene::property(const FbxRecord& object, std::string_view name) const {
@@ -166,14 +174,18 @@ Eigen::Vector3d FbxScene::vector(const FbxRecord& model, std::string_view name,
   return result;
 }
 
+FbxMove FbxScene::move(const FbxRecord& model) const {
+  return {vector(model, "Lcl Translation"), vector(model, "Lcl Rotation"),
+          vector(model, "Lcl Scaling", 1)};
+}
+
 /// T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1. Rotations before and after count, and another
 /// order than XYZ, only where RotationActive says so.
-Eigen::Affine3d FbxScene::local(const FbxRecord& model) const {
+Eigen::Affine3d FbxScene::local(const FbxRecord& model, const FbxMove& move) const {
   const FbxRecord* active = property(model, "RotationActive");
   const bool is_active = active != nullptr && active->integer(first_property_value, 0) != 0;
   const FbxRecord* order = is_active ? property(model, "RotationOrder") : nullptr;
-  Eigen::Matrix3d rotation = turned(vector(model, "Lcl Rotation"),
-                                    order == nullptr ? 0 : order->integer(first_property_value, 0));
+  Eigen::Matrix3d rotation = turned(move.angles, order == nullptr ? 0 : order->integer(first_property_value, 0));
   if (is_active) {
     rotation = turned(vector(model, "PreRotation")) * rotation *
                turned(vector(model, "PostRotation")).transpose();
@@ -181,10 +193,10 @@ Eigen::Affine3d FbxScene::local(const FbxRecord& model) const {
   const Eigen::Translation3d pivot(vector(model, "RotationPivot"));
   const Eigen::Translation3d scaling_pivot(vector(model, "ScalingPivot"));
   Eigen::Affine3d result =
-      Eigen::Translation3d(vector(model, "Lcl Translation") + vector(model, "RotationOffset")) *
+      Eigen::Translation3d(move.shift + vector(model, "RotationOffset")) *
       (pivot * affine(rotation) * pivot.inverse()) *
       Eigen::Translation3d(vector(model, "ScalingOffset")) *
-      (scaling_pivot * Eigen::Scaling(vector(model, "Lcl Scaling", 1)) * scaling_pivot.inverse());
+      (scaling_pivot * Eigen::Scaling(move.scale) * scaling_pivot.inverse());
   if (!result.matrix().allFinite()) {
     file_.fail("a transform of no numbers in the model at byte " + std::to_string(model.position),
                "numbers", fbx_remedy);

@@ -26,6 +26,13 @@ namespace curveskel {
 /// Of a property's values, which stand behind name, two types and flags, the first.
 inline constexpr std::size_t first_property_value = 4;
 
+/// The numbers of a model that animations move.
+struct FbxMove {
+  Eigen::Vector3d shift;
+  Eigen::Vector3d angles;  ///< in degrees about x, y and z, in the model's order: mostly x first
+  Eigen::Vector3d scale;
+};
+
 class FbxScene {
  public:
   /// Both must outlive the scene. Throws Error(Fault::input) for a file without objects, and for
@@ -41,6 +48,10 @@ class FbxScene {
   /// The first of a kind that is connected with a property of `object`, or nullptr.
   [[nodiscard]] const FbxRecord* at_property(const FbxRecord& object, std::string_view property,
                                              std::string_view kind) const;
+  /// All of them, in the file's order.
+  [[nodiscard]] std::vector<const FbxRecord*> all_at_property(const FbxRecord& object,
+                                                              std::string_view property,
+                                                              std::string_view kind) const;
 
   /// The property of an object, of its own or as the file defines it for all of the kind
   /// ("Model", "Material"), or nullptr.
@@ -53,6 +64,11 @@ class FbxScene {
   [[nodiscard]] const Eigen::Affine3d& frame(const FbxRecord& model) const {
     return frame_of_.at(&model);
   }
+  /// As the scene shows it.
+  [[nodiscard]] FbxMove move(const FbxRecord& model) const;
+  /// From a model's coordinates to those of its parent, with these numbers for its own. Throws
+  /// Error(Fault::input) where it is not finite.
+  [[nodiscard]] Eigen::Affine3d local(const FbxRecord& model, const FbxMove& move) const;
   /// From the coordinates of a model's mesh to the model's: what only the mesh feels.
   [[nodiscard]] Eigen::Affine3d geometric(const FbxRecord& model) const;
 
@@ -62,7 +78,6 @@ class FbxScene {
  private:
   [[nodiscard]] Eigen::Vector3d vector(const FbxRecord& model, std::string_view name,
                                        double otherwise = 0) const;
-  [[nodiscard]] Eigen::Affine3d local(const FbxRecord& model) const;
   void connect(const FbxRecord& connections);
   void place_models();
 
