@@ -117,7 +117,7 @@ RigSources sources_of(const Wanted& wanted, PythonRig& result, const Monitor& mo
     const std::filesystem::path& file = result.soup.file;
     if (file.empty()) throw Error(Fault::usage, "keep_rig needs a file, not arrays");
     sources.joints = rig_in(file, result.soup.format, monitor);
-    if (!keeps_joints_alone(result.soup.format)) result.old_rig = OldRig::kept;
+    result.old_rig = OldRig::kept;
   }
   if (!wanted.joints) return sources;
   GivenJoints given = joints_for(*wanted.joints, result.soup, monitor);

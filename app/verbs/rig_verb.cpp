@@ -140,11 +140,10 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   return formats;
 }
 
-RigSources sources_of(RigArguments& arguments, const PolygonSoup& soup, Session& session) {
+RigSources sources_of(const RigArguments& arguments, const PolygonSoup& soup, Session& session) {
   const Monitor monitor = session.monitor();
   RigSources sources;
   if (arguments.keep_rig) sources.joints = rig_in(arguments.mesh, soup.format, monitor);
-  if (keeps_joints_alone(soup.format)) arguments.keep_rig = false;
   if (!arguments.joints.empty()) {
     GivenJoints given = joints_for(arguments.joints, soup, monitor);
     if (!given.finding.empty()) session.terminal.warn(given.finding);

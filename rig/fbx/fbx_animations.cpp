@@ -11,6 +11,8 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/animations/moments.hpp"
+#include "rig/fbx/fbx_time.hpp"
 #include "rig/fbx/local_move.hpp"
 #include "rig/gltf/gltf_animations.hpp"
 
@@ -19,12 +21,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double frames_a_second = 30;
-
 std::int64_t ticks(double seconds) {
-  constexpr double ticks_a_second = 46186158000;
   constexpr double longest = 1e8;  // seconds; twice as many go into the number
-  return std::llround(ticks_a_second * std::clamp(seconds, -longest, longest));
+  return std::llround(fbx_ticks_a_second * std::clamp(seconds, -longest, longest));
 }
 
 /// The first and the last second.
@@ -41,31 +40,17 @@ struct TimeSpan {
 
 /// Keys of all tracks, and times between them.
 std::vector<double> moments(const std::vector<const GltfTrack*>& tracks) {
-  constexpr double step = 1e-4;  // seconds
   std::vector<double> keys;
   for (const GltfTrack* track : tracks) {
     keys.insert(keys.end(), track->times().begin(), track->times().end());
     if (track->between() != GltfTrack::Between::step) continue;
     for (std::size_t k = 1; k < track->times().size(); ++k) {
       const double before = track->times()[k - 1];
-      keys.push_back(std::max(track->times()[k] - step, 0.5 * (before + track->times()[k])));
+      const double now = track->times()[k];
+      keys.push_back(std::max(now - step_seconds, 0.5 * (before + now)));
     }
   }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  std::vector<double> all;
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-    constexpr double rounding = 1e-3;  // of a frame: keys at frames get none between them
-    const double length = keys[k + 1] - keys[k];
-    constexpr double most = 1000;  // the whole of what glTF turns between two keys is half a turn
-    const double wanted = std::ceil(length * frames_a_second - rounding);
-    const auto parts = static_cast<int>(std::clamp(wanted, 1.0, most));
-    for (int part = 0; part < parts; ++part) {
-      all.push_back(keys[k] + part / static_cast<double>(parts) * length);
-    }
-  }
-  if (!keys.empty()) all.push_back(keys.back());
-  return all;
+  return moments_between(std::move(keys));
 }
 
 template <int Count>

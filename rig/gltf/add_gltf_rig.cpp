@@ -84,8 +84,8 @@ void add_missing_nodes(GltfDocument& document) {
   scenes.at(file.value("scene", std::size_t{0}))["nodes"] = std::move(all);
 }
 
-void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, const Rig& rig,
-                  const std::string& name, int holder) {
+std::size_t add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, const Rig& rig,
+                         const std::string& name, int holder) {
   require_gltf_joints(rig);
   const std::vector<Eigen::Quaterniond> axes = bone_axes(rig);
   const std::size_t above = holder >= 0 ? idx(holder) : add_holder(document.json, name);
@@ -112,6 +112,7 @@ void add_gltf_rig(GltfDocument& document, const std::vector<GltfPart>& parts, co
   for (const auto& [node, first_of_node] : first_part) {
     document.json["nodes"][idx(node)]["skin"] = skin_for(first_of_node->move);
   }
+  return first;
 }
 
 }  // namespace curveskel

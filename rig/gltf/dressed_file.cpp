@@ -44,7 +44,7 @@ std::optional<DressedFile> read_dressed_file(const FileBytes& file, const LookOp
                                              std::vector<std::string>& notes,
                                              const Monitor& monitor) {
   std::optional<DressedFile> found = looks_of(file, options.as_bound, notes, monitor);
-  if (!found || !found->mesh.is_bare()) return found;
+  if (!found || !found->mesh.is_bare() || options.without_look) return found;
   if (options.with_polygons && found->mesh.has_polygons()) return found;
   return std::nullopt;
 }

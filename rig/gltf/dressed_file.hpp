@@ -19,6 +19,7 @@ struct DressedFile {
 struct LookOptions {
   bool as_bound = false;       ///< as of `ReadOptions`
   bool with_polygons = false;  ///< a file is taken, too, if all it has are polygons
+  bool without_look = false;   ///< every file is taken
 };
 
 /// Of OBJ, COLLADA, FBX and PLY; nothing where the file has no look, or is of another format.

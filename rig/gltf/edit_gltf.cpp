@@ -20,6 +20,8 @@
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
 #include "base/utf8.hpp"
+#include "rig/animations/add_joint_animations.hpp"
+#include "rig/animations/read_joint_animations.hpp"
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
 #include "rig/gltf/bent_vertices.hpp"
@@ -242,11 +244,27 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   return edited;
 }
 
+/// Of the file's own joints.
+AnimatedJoints read_animations(const FileBytes& file, const Rig& rig,
+                               std::vector<std::string>& notes, const Monitor& monitor) {
+  AnimatedJoints animated = read_joint_animations(file, notes, monitor);
+  if (!animated.animations.empty() && animated.rest.size() != idx(rig.parents.size())) {
+    file.fail(std::to_string(animated.rest.size()) + " joints in the file",
+              "the " + std::to_string(rig.parents.size()) + " of the rig",
+              "give the joints that `read_joints` finds in this file");
+  }
+  return animated;
+}
+
 /// Nothing: the file has no more than a bare rig has.
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
-  const LookOptions looks{options.as_bound, options.format == RigFormat::fbx};
+  const bool keeps = options.old_rig == OldRig::kept;
+  AnimatedJoints animated;
+  if (keeps) animated = read_animations(file, rig, edited.notes, monitor);
+  const LookOptions looks{options.as_bound && !keeps, options.format == RigFormat::fbx,
+                          !animated.animations.empty()};
   auto dressed = read_dressed_file(file, looks, edited.notes, monitor);
   if (!dressed) return std::nullopt;
   const auto format = surface_format_of(file);
@@ -258,7 +276,9 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
-  add_gltf_rig(made.document, made.parts, placed(rig, dressed->mesh.to_gltf), options.name);
+  const Rig upright = placed(rig, dressed->mesh.to_gltf);
+  const std::size_t first_joint = add_gltf_rig(made.document, made.parts, upright, options.name);
+  add_joint_animations(made.document, animated, upright, first_joint, dressed->mesh.to_gltf);
   note_shared_names(made.document.json, edited.notes);
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
   finish(edited, std::move(made.document), rig, options, monitor, made.polygons);

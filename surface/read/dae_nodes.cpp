@@ -30,11 +30,13 @@ const XmlElement* shown_scene(const DaeDocument& document) {
 }
 
 /// The product of a node's transformations in their order.
-Eigen::Affine3d transform(const DaeDocument& document, const XmlElement& node) {
+Eigen::Affine3d transform(const DaeDocument& document, const XmlElement& node,
+                          const MovedNumbers& moved) {
   Eigen::Affine3d frame = Eigen::Affine3d::Identity();
   for (const XmlElement& child : node.children) {
     const auto numbers = [&](std::size_t count) {
-      std::vector<double> values = document.numbers(child);
+      const auto found = moved.find(&child);
+      std::vector<double> values = found == moved.end() ? document.numbers(child) : found->second;
       if (values.size() != count) {
         document.fail(child, std::to_string(values.size()) + " numbers in <" + child.name + ">",
                       std::to_string(count));
@@ -64,7 +66,8 @@ Eigen::Affine3d transform(const DaeDocument& document, const XmlElement& node) {
 
 }  // namespace
 
-std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor) {
+std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor,
+                               const MovedNumbers& moved) {
   constexpr std::size_t most_nodes = 1000000;  // instances of nodes may refer in circles
   std::vector<DaeNode> placed;
   const XmlElement* scene = shown_scene(document);
@@ -74,7 +77,7 @@ std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monit
     monitor.report("read", 0.3);
     DaeNode node = open.back();
     open.pop_back();
-    node.frame = node.frame * transform(document, *node.element);
+    node.frame = node.frame * transform(document, *node.element, moved);
     const auto number = static_cast<int>(placed.size());
     placed.push_back(node);
     if (placed.size() + open.size() > most_nodes) {

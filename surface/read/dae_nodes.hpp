@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <unordered_map>
 #include <vector>
 
 #include <curveskel/monitor.hpp>
@@ -16,8 +17,12 @@ struct DaeNode {
   int parent = -1;        ///< its number; -1 = the scene itself, which is the first
 };
 
+/// Of elements that move nodes (<matrix>, <rotate>) the numbers in place of their own.
+using MovedNumbers = std::unordered_map<const XmlElement*, std::vector<double>>;
+
 /// All nodes of the scene, depth first, in the file's order; none in a file without a scene. Throws
 /// Error(Fault::input) with the line.
-[[nodiscard]] std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor);
+[[nodiscard]] std::vector<DaeNode> dae_nodes(const DaeDocument& document, const Monitor& monitor,
+                                             const MovedNumbers& moved = {});
 
 }  // namespace curveskel

@@ -185,18 +185,18 @@ Eigen::Affine3d FbxScene::local(const FbxRecord& model, const FbxMove& move) con
   const FbxRecord* active = property(model, "RotationActive");
   const bool is_active = active != nullptr && active->integer(first_property_value, 0) != 0;
   const FbxRecord* order = is_active ? property(model, "RotationOrder") : nullptr;
-  Eigen::Matrix3d rotation = turned(move.angles, order == nullptr ? 0 : order->integer(first_property_value, 0));
+  Eigen::Matrix3d rotation =
+      turned(move.angles, order == nullptr ? 0 : order->integer(first_property_value, 0));
   if (is_active) {
     rotation = turned(vector(model, "PreRotation")) * rotation *
                turned(vector(model, "PostRotation")).transpose();
   }
   const Eigen::Translation3d pivot(vector(model, "RotationPivot"));
   const Eigen::Translation3d scaling_pivot(vector(model, "ScalingPivot"));
-  Eigen::Affine3d result =
-      Eigen::Translation3d(move.shift + vector(model, "RotationOffset")) *
-      (pivot * affine(rotation) * pivot.inverse()) *
-      Eigen::Translation3d(vector(model, "ScalingOffset")) *
-      (scaling_pivot * Eigen::Scaling(move.scale) * scaling_pivot.inverse());
+  Eigen::Affine3d result = Eigen::Translation3d(move.shift + vector(model, "RotationOffset")) *
+                           (pivot * affine(rotation) * pivot.inverse()) *
+                           Eigen::Translation3d(vector(model, "ScalingOffset")) *
+                           (scaling_pivot * Eigen::Scaling(move.scale) * scaling_pivot.inverse());
   if (!result.matrix().allFinite()) {
     file_.fail("a transform of no numbers in the model at byte " + std::to_string(model.position),
                "numbers", fbx_remedy);
