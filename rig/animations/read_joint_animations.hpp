@@ -16,4 +16,12 @@ namespace curveskel {
                                                    std::vector<std::string>& notes,
                                                    const Monitor& monitor);
 
+struct FileJoints {
+  int joints = 0;
+  int channels = 0;  ///< that move them, of all animations
+};
+
+/// Of FBX and COLLADA; none in other files. O(bytes).
+[[nodiscard]] FileJoints count_joints(const FileBytes& file, const Monitor& monitor);
+
 }  // namespace curveskel

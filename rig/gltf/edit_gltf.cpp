@@ -280,6 +280,11 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   const std::size_t first_joint = add_gltf_rig(made.document, made.parts, upright, options.name);
   add_joint_animations(made.document, animated, upright, first_joint, dressed->mesh.to_gltf);
   note_shared_names(made.document.json, edited.notes);
+  if (!keeps) {
+    const FileJoints old = count_joints(file, monitor);
+    edited.joints_replaced = old.joints;
+    edited.channels_removed = old.channels;
+  }
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
   finish(edited, std::move(made.document), rig, options, monitor, made.polygons);
   return edited;
