@@ -140,6 +140,13 @@ class FbxTextReader {
 
 }  // namespace
 
-FbxRecord parse_text_fbx(const FileBytes& file) { return FbxTextReader(file).read(); }
+FbxRecord parse_text_fbx(const FileBytes& file) {
+  if (file.content.starts_with("Kaydara FBX Binary")) {
+    file.fail("binary FBX with other bytes in its mark",
+              "the zero bytes that it had when it was written",
+              "a transfer as text has changed them: fetch the file again, as binary");
+  }
+  return FbxTextReader(file).read();
+}
 
 }  // namespace curveskel

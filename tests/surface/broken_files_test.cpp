@@ -23,6 +23,11 @@ struct Broken {
   friend void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
 };
 
+std::string gltf_uri() {
+  return R"("uri": "data:application/octet-stream;base64,)" +
+         encodings::base64(encodings::gltf_buffer()) + R"(", )";
+}
+
 std::string ply_header(const std::string& vertices, const std::string& faces,
                        const std::string& encoding = "ascii") {
   return "ply\nformat " + encoding + " 1.0\nelement vertex " + vertices +
@@ -215,6 +220,18 @@ std::vector<Broken> broken_files() {
        R"({"asset": {"version": "2.0", "extras": )" + std::string(100000, '[') +
            std::string(100000, ']') + "}}",
        {"nested 100002 deep"}},
+      {"gltf_points",
+       "a.gltf",
+       encodings::gltf_json(gltf_uri(), encodings::one_node, R"("mode": 0)"),
+       {"a point cloud", "reconstruct a surface"}},
+      {"gltf_lines",
+       "a.gltf",
+       encodings::gltf_json(gltf_uri(), encodings::one_node, R"("mode": 3)"),
+       {"a drawing of lines"}},
+      {"fbx_sent_as_text",
+       "a.fbx",
+       "Kaydara FBX Binary     \x1A \xE8 rest",
+       {"binary FBX", "fetch the file again, as binary"}},
       {"gltf_nothing", "a.gltf", R"({"asset": {"version": "2.0"}})", {"0 vertices"}},
       {"unknown",
        "a.xyz",
