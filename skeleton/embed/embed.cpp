@@ -12,6 +12,7 @@
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/place/mirror.hpp"
 #include "skeleton/embed/steps.hpp"
+#include "surface/resample/canonical.hpp"
 
 namespace curveskel {
 namespace {
@@ -62,7 +63,10 @@ CurveSkeleton embed_tuned(const EmbedInput& input, const EmbedOptions& options,
   const Surface& surface = input.surface;
   const SurfaceTree& tree = input.tree;
   monitor.report("embed", 0);
-  HomologyGuard guard = clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop); });
+  // The surface given, of which this one is a rounded copy, may lie as far beside it.
+  const double rounding = options.go_below ? 2 * canonical_step : 0;
+  HomologyGuard guard =
+      clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop, rounding); });
   const WorkingSurface working(surface, input.balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   const std::vector<MirrorPlane> planes = clock(

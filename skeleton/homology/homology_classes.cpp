@@ -65,6 +65,11 @@ bool HomologyClasses::homologous(const std::vector<Eigen::Vector3d>& there,
   return number == 0;
 }
 
+std::uint64_t HomologyClasses::number(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const linking::Projection& projection = implementation_->loops.projection;
+  return implementation_->number_of({projection(from), projection(to)});
+}
+
 std::vector<BitRow> HomologyClasses::linking_numbers(
     const std::vector<std::vector<Eigen::Vector3d>>& polygons) const {
   linking::SeenLoops& loops = implementation_->loops;

@@ -41,6 +41,11 @@ class HomologyClasses {
   [[nodiscard]] bool homologous(const std::vector<Eigen::Vector3d>& there,
                                 const std::vector<Eigen::Vector3d>& back);
 
+  /// The sum modulo 2 of the numbers of the loops over which a straight line crosses. A closed
+  /// polygon goes round no handle where the sum over its sides is 0. O(its length, with short
+  /// edges).
+  [[nodiscard]] std::uint64_t number(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
   /// The linking numbers of closed polygons (the last point is joined to the first) with the loops
   /// that generate the homology outside: a row for each, zero where the polygon goes round no
   /// handle.

@@ -57,11 +57,26 @@ auto& point_of(Graph& graph, int arc, std::size_t k) {
   return s.points[k - 1];
 }
 
-bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line) {
+bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line, double near) {
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    if (crosses(tree, line[k], line[k + 1])) return true;
+    if (crosses(tree, line[k], line[k + 1], near)) return true;
   }
   return false;
+}
+
+/// In balls of which each begins where the last ends; a line along the surface that needs very many
+/// counts as near.
+bool comes_near(const SurfaceTree& tree, const Point& from, const Point& direction, double length,
+                double near) {
+  constexpr int most_balls = 100;
+  double at = 0;
+  for (int ball = 0; ball < most_balls; ++ball) {
+    const double clear = tree.nearest(from + at * direction, length - at + near).distance;
+    if (clear <= near) return true;
+    at += clear - 0.5 * near;
+    if (at >= length) return false;
+  }
+  return true;
 }
 
 bool put_back(CurvePoint& now, const CurvePoint& before) {
@@ -72,13 +87,16 @@ bool put_back(CurvePoint& now, const CurvePoint& before) {
 
 }  // namespace
 
-bool crosses(const SurfaceTree& tree, const Point& from, const Point& to) {
+bool crosses(const SurfaceTree& tree, const Point& from, const Point& to, double near) {
   const double length = (to - from).norm();
-  return length > 0 && tree.ray(from, (to - from) / length, length).triangle >= 0;
+  if (!(length > 0)) return false;
+  const Point direction = (to - from) / length;
+  return tree.ray(from, direction, length).triangle >= 0 ||
+         (near > 0 && comes_near(tree, from, direction, length, near));
 }
 
-HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop)
-    : stop_(std::move(stop)) {
+HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop, double near)
+    : stop_(std::move(stop)), near_(near) {
   const Eigen::Index euler = surface.positions.rows() - surface.triangles.rows() / 2;
   if (euler != 2) classes_.emplace(surface);
 }
@@ -97,8 +115,8 @@ void HomologyGuard::restore_arcs(const SkeletonGraph& before, SkeletonGraph& gra
       const auto was = before.polyline(old);
       const auto is = graph.polyline(arc);
       if (was == is) continue;
-      const bool stays =
-          classes_->homologous(was, is) && (!any_crosses(tree, is) || any_crosses(tree, was));
+      const bool stays = classes_->homologous(was, is) &&
+                         (!any_crosses(tree, is, near_) || any_crosses(tree, was, near_));
       if (stays) continue;
       arc.points = old.points;
       graph.nodes[idx(arc.from)].point = before.nodes[idx(arc.from)].point;
@@ -114,7 +132,7 @@ void HomologyGuard::pull_taut(SkeletonGraph& graph, const SurfaceTree& tree) {
   const auto line_of_sight = [&](const std::vector<Point>& way, double clear) {
     const Point& from = way.front();
     const Point& to = way.back();
-    if (crosses(tree, from, to)) return false;
+    if (crosses(tree, from, to, near_)) return false;
     const double least = clearance * clear;
     for (int k = 1; k < places; ++k) {
       const double share = static_cast<double>(k) / places;
@@ -200,8 +218,9 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
       bool here = false;
       for (std::size_t k = 0; k + 1 < was.size(); ++k) {
         if (was[k] == is[k] && was[k + 1] == is[k + 1]) continue;
-        const bool stays = classes_->homologous({was[k], was[k + 1]}, {is[k], is[k + 1]}) &&
-                           (!crosses(tree, is[k], is[k + 1]) || crosses(tree, was[k], was[k + 1]));
+        const bool stays =
+            classes_->homologous({was[k], was[k + 1]}, {is[k], is[k + 1]}) &&
+            (!crosses(tree, is[k], is[k + 1], near_) || crosses(tree, was[k], was[k + 1], near_));
         if (stays) continue;
         here = put_back(point_of(graph, s, k), point_of(before, s, k)) || here;
         here = put_back(point_of(graph, s, k + 1), point_of(before, s, k + 1)) || here;

@@ -1,6 +1,7 @@
 // The homology guard: no change of a SkeletonGraph leads a cycle off its handle.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -18,8 +19,9 @@ namespace curveskel {
 /// lie on cycles, and arcs that join these.
 [[nodiscard]] std::vector<int> core(const SkeletonGraph& graph);
 
-/// True if a straight line meets the surface.
-[[nodiscard]] bool crosses(const SurfaceTree& tree, const Point& from, const Point& to);
+/// True if a straight line meets the surface, or comes as near to it as that.
+[[nodiscard]] bool crosses(const SurfaceTree& tree, const Point& from, const Point& to,
+                           double near = 0);
 
 /// Compares graphs before and after a change that leaves arcs and nodes their numbers, and
 /// takes back what leads an arc round a handle or off one. Arcs that lie on no cycle may go
@@ -27,8 +29,9 @@ namespace curveskel {
 class HomologyGuard {
  public:
   HomologyGuard() = default;  ///< lets everything go where it likes
-  /// One closed component. Whatever takes long throws Cancelled soon after a stop was requested.
-  explicit HomologyGuard(const Surface& surface, std::stop_token stop = {});
+  /// One closed component. Arcs stay farther than `near` from it where they were. Whatever takes
+  /// long throws Cancelled soon after a stop was requested.
+  explicit HomologyGuard(const Surface& surface, std::stop_token stop = {}, double near = 0);
 
   [[nodiscard]] bool has_handles() const { return classes_ && classes_->has_handles(); }
 
@@ -36,6 +39,11 @@ class HomologyGuard {
 
   [[nodiscard]] bool homologous(const std::vector<Point>& there, const std::vector<Point>& back) {
     return classes_->homologous(there, back);
+  }
+
+  /// See HomologyClasses. Precondition: the surface has handles.
+  [[nodiscard]] std::uint64_t number(const Point& from, const Point& to) {
+    return classes_->number(from, to);
   }
 
   /// A row for each closed polygon, see HomologyClasses. Precondition: the surface has handles.
@@ -68,6 +76,7 @@ class HomologyGuard {
  private:
   std::optional<HomologyClasses> classes_;
   std::stop_token stop_;
+  double near_ = 0;
 };
 
 }  // namespace curveskel

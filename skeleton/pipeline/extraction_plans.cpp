@@ -114,7 +114,7 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
   const auto may_help = [embeds](const ComponentRecord& one, const Certificate& found) {
     const bool leaves = embeds && !found.inside_enough;
     const bool is_wrong = leaves || !found.topology_correct();
-    return is_wrong && is_quick_from_all_vertices(one) && (leaves || was_coarsened(one));
+    return is_wrong && is_quick_from_all_vertices(one) && (embeds || was_coarsened(one));
   };
   const auto why = [&options, may_help](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;

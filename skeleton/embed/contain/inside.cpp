@@ -91,7 +91,7 @@ class Keeper {
 
   /// To the next point straight or bent, else by a detour to the next one inside; where none leads
   /// there, as in a pocket where the surface meets itself, to one of the points after it.
-  Stretch next_stretch(const Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
+  Stretch next_stretch(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
                        bool on_cycle) {
     constexpr std::size_t most_left_out = 4;
     Stretch straight{i + 1, {}, 0};
@@ -113,18 +113,31 @@ class Keeper {
       if (best->uncovered == 0) break;
     }
     if (!best) best = std::move(straight);
-    // So close to the surface a line says nothing about handles.
-    if (best->uncovered == 0 || on_cycle || !ways_below_) return std::move(*best);
-    auto below = stretch_below(line, i);
+    if (best->uncovered == 0 || !ways_below_) return std::move(*best);
+    auto below = stretch_below(arc, line, i, on_cycle);
     return below ? std::move(*below) : std::move(*best);
   }
 
-  /// Just below the full surface to the next point that is inside.
-  std::optional<Stretch> stretch_below(const std::vector<CurvePoint>& line, std::size_t i) {
+  /// Just below the full surface to the next point that is inside. A line that crosses the surface
+  /// goes round no handle of the inside, so of a cycle any way will do with which the graph goes
+  /// round all of them.
+  std::optional<Stretch> stretch_below(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
+                                       bool on_cycle) {
     std::size_t next = i + 1;
     while (next + 1 < line.size() && line[next].radius(tree_) <= 0) ++next;
     if (line[i].radius(tree_) <= 0 || line[next].radius(tree_) <= 0) return std::nullopt;
-    const auto way = ways_below_->between(line[i], line[next]);
+    const auto finds_all = [&](const std::vector<Point>& way) {
+      const std::vector<CurvePoint> before = arc.points;
+      const auto at = [&](std::size_t k) { return line.begin() + static_cast<std::ptrdiff_t>(k); };
+      arc.points.assign(at(1), std::max(at(1), at(i + 1)));
+      for (const Point& point : way) arc.points.emplace_back(point);
+      arc.points.insert(arc.points.end(), at(next), std::max(at(next), line.end() - 1));
+      const bool all = handles_.finds_all_handles(graph_, partition_);
+      arc.points = before;
+      return all;
+    };
+    const auto way = on_cycle ? ways_below_->between(line[i], line[next], handles_, finds_all)
+                              : ways_below_->between(line[i], line[next]);
     if (!way) return std::nullopt;
     Stretch stretch{next, {}, 0};
     for (const Point& point : *way) stretch.between.emplace_back(point);

@@ -26,8 +26,8 @@ struct InsideOptions {
 /// cheapest chain of the vertices' own inscribed balls through the arc's part of the surface, or
 /// goes along just below the surface from one ball to the next. An edge whose ends are inside and
 /// that meets no triangle counts as covered, too.
-/// An arc on no cycle for which that leads outside, too, goes just below the surface, if it is
-/// given, see WaysBelow.
+/// An arc for which that leads outside, too, goes just below the surface, if it is given, see
+/// WaysBelow.
 /// An arc that needs more than four such ways takes a single one from node to node instead.
 /// Changes that would lead an arc on a cycle off its handle are left out. Returns the number of
 /// edges that are still not covered. Precondition: D = 1. Throws Cancelled if a stop was requested.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -34,77 +35,115 @@ bool line_stays_inside(const SurfaceTree& tree, const Point& from, const Point& 
 }  // namespace
 
 std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, const CurvePoint& to) {
+  return way_for(from, to, {});
+}
+
+std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, const CurvePoint& to,
+                                                     HomologyGuard& handles,
+                                                     const IsGood& is_good) {
+  Task task;
+  task.handles = &handles;
+  task.is_good = &is_good;
+  return way_for(from, to, task);
+}
+
+std::optional<std::vector<Point>> WaysBelow::way_for(const CurvePoint& from, const CurvePoint& to,
+                                                     Task task) {
   constexpr int most_tries = 100;  // each finds a way round the places where the last one left
-  const auto first = tree_.nearest(from.place());
-  const auto last = tree_.nearest(to.place());
-  if (first.triangle < 0 || last.triangle < 0) return std::nullopt;
-  const Point start = below(first.triangle, first.point);
-  const Point end = below(last.triangle, last.point);
-  const auto stays = [this](const Point& p, const Point& q) {
-    return line_stays_inside(tree_, p, q);
-  };
-  if (!stays(from.place(), start) || !stays(end, to.place())) return std::nullopt;
+  task.from = tree_.nearest(from.place());
+  task.to = tree_.nearest(to.place());
+  if (task.from.triangle < 0 || task.to.triangle < 0) return std::nullopt;
+  task.start = below(task.from.triangle, task.from.point);
+  task.end = below(task.to.triangle, task.to.point);
+  if (!line_stays_inside(tree_, from.place(), task.start) ||
+      !line_stays_inside(tree_, task.end, to.place())) {
+    return std::nullopt;
+  }
   std::set<Step> avoided;
   for (int t = 0; t < most_tries && more_fruitless_tries_ > 0; ++t) {
     throw_if_stopped(stop_);
-    const auto edges = edges_between(first, last, avoided);
-    if (!edges) return std::nullopt;
-    std::vector<Point> line{start};
-    for (const std::int32_t h : *edges) line.push_back(below_edge(h));
-    line.push_back(end);
     const std::size_t known = avoided.size();
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      if (stays(line[k], line[k + 1])) continue;
-      avoided.insert({k == 0 ? -1 : (*edges)[k - 1], k == edges->size() ? -1 : (*edges)[k]});
-    }
-    if (avoided.size() == known) return line;
+    auto line = search(task, avoided);
+    if (line || avoided.size() == known) return line;
     --more_fruitless_tries_;
   }
   return std::nullopt;
 }
 
-/// A* over the edges' middles; each edge by the half-edge of the face that it is reached from.
-std::optional<std::vector<std::int32_t>> WaysBelow::edges_between(const SurfaceTree::Nearest& from,
-                                                                  const SurfaceTree::Nearest& to,
-                                                                  const std::set<Step>& avoided) {
+std::vector<Point> WaysBelow::line_of(const Task& task,
+                                      const std::vector<std::int32_t>& edges) const {
+  std::vector<Point> line{task.start};
+  for (const std::int32_t h : edges) line.push_back(below_edge(h));
+  line.push_back(task.end);
+  return line;
+}
+
+/// `avoided` gets the steps that don't.
+bool WaysBelow::stays_inside(const std::vector<Point>& line, const std::vector<std::int32_t>& edges,
+                             std::set<Step>& avoided) const {
+  bool all = true;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    if (line_stays_inside(tree_, line[k], line[k + 1])) continue;
+    avoided.insert({k == 0 ? -1 : edges[k - 1], k == edges.size() ? -1 : edges[k]});
+    all = false;
+  }
+  return all;
+}
+
+/// A* over the edges' middles; each edge by the half-edge of the face that it is reached from, and
+/// as often as ways to it go round other handles.
+std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<Step>& avoided) {
+  constexpr std::size_t most_places = 300000;
+  constexpr int most_ways = 20;
   if (!half_edges_) {
     half_edges_ =
         pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
   }
-  reached_.resize(idx(3 * surface_.triangles.rows() + 1));
-  ++searches_;
-  const auto reached = [this](std::int32_t h) -> Reached& { return reached_[idx(h + 1)]; };
-  using Entry = std::pair<double, std::int32_t>;
+  std::unordered_map<Place, Reached, HashOfPlace> reached;
+  using Entry = std::pair<double, Place>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto reach = [&](std::int32_t h, std::int32_t by, const Point& at, double length) {
-    if (avoided.count({by, h}) != 0) return;
-    const Point place = h < 0 ? Point(to.point) : middle(h);
+  const auto reach = [&](std::int32_t h, const Place& by, const Point& at, double length) {
+    if (!avoided.empty() && avoided.contains({by.half_edge, h})) return;
+    Place to{h, by.number};
+    if (task.handles != nullptr) {
+      const Point here = by.half_edge < 0 ? task.start : below_edge(by.half_edge);
+      to.number ^= task.handles->number(here, h < 0 ? task.end : below_edge(h));
+    }
+    const Point place = h < 0 ? Point(task.to.point) : middle(h);
     const double its = length + (place - at).norm();
-    Reached& entry = reached(h);
-    if (entry.search == searches_ && (entry.done || entry.length <= its)) return;
-    entry = {its, by, false, searches_};
-    open.emplace(its + (to.point - place).norm(), h);
+    const auto [entry, is_new] = reached.try_emplace(to);
+    if (!is_new && (entry->second.done || entry->second.length <= its)) return;
+    entry->second = {its, by, false};
+    open.emplace(its + (task.to.point - place).norm(), to);
   };
-  const auto leave = [&](std::int32_t face, std::int32_t by, const Point& at, double length) {
-    if (face == to.triangle) reach(-1, by, at, length);
+  const auto leave = [&](std::int32_t face, const Place& by, const Point& at, double length) {
+    if (face == task.to.triangle) reach(-1, by, at, length);
     for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-      if (by < 0 || h != half_edges_->twin[idx(by)]) reach(h, by, at, length);
+      if (by.half_edge < 0 || h != half_edges_->twin[idx(by.half_edge)]) reach(h, by, at, length);
     }
   };
-  leave(from.triangle, -1, from.point, 0);
-  while (!open.empty()) {
-    const std::int32_t h = open.top().second;
+  leave(task.from.triangle, {}, task.from.point, 0);
+  int ways = 0;
+  while (!open.empty() && ways < most_ways &&
+         (task.handles == nullptr || reached.size() < most_places)) {
+    const Place place = open.top().second;
     open.pop();
-    Reached& here = reached(h);
+    Reached& here = reached.at(place);
     if (std::exchange(here.done, true)) continue;
-    if (h >= 0) {
-      leave(half_edges_->twin[idx(h)] / 3, h, middle(h), here.length);
+    if (place.half_edge >= 0) {
+      const double length = here.length;  // `here` moves as more are reached
+      leave(half_edges_->twin[idx(place.half_edge)] / 3, place, middle(place.half_edge), length);
       continue;
     }
-    std::vector<std::int32_t> way;
-    for (std::int32_t e = here.before; e >= 0; e = reached(e).before) way.push_back(e);
-    std::reverse(way.begin(), way.end());
-    return way;
+    ++ways;
+    std::vector<std::int32_t> edges;
+    for (Place e = here.before; e.half_edge >= 0; e = reached.at(e).before) {
+      edges.push_back(e.half_edge);
+    }
+    std::reverse(edges.begin(), edges.end());
+    std::vector<Point> line = line_of(task, edges);
+    if (!stays_inside(line, edges, avoided)) continue;
+    if (task.is_good == nullptr || (*task.is_good)(line)) return line;
   }
   return std::nullopt;
 }

@@ -1,7 +1,10 @@
 // Ways that keep just below the triangles of a surface.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <stop_token>
@@ -11,6 +14,7 @@
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/surface.hpp>
 #include "skeleton/embed/skeleton_graph.hpp"
+#include "skeleton/homology/homology_guard.hpp"
 #include "surface/mesh/half_edges.hpp"
 
 namespace curveskel {
@@ -33,18 +37,52 @@ class WaysBelow {
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
                                                           const CurvePoint& to);
 
+  /// The same by the shortest of those ways that go round different handles that `is_good` takes.
+  /// Of ways round many handles there are too many: nothing, either, if none of the 20 shortest is
+  /// good, or these are not found among 300,000 places. Precondition: the handles' surface has
+  /// handles.
+  using IsGood = std::function<bool(const std::vector<Point>& way)>;
+  [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
+                                                          const CurvePoint& to,
+                                                          HomologyGuard& handles,
+                                                          const IsGood& is_good);
+
  private:
   using Step = std::pair<std::int32_t, std::int32_t>;  // half-edges; -1: one of the two points
+  /// A half-edge and the sum of the handles' numbers on the way to it, see HomologyClasses.
+  struct Place {
+    std::int32_t half_edge = -1;
+    std::uint64_t number = 0;
+    auto operator<=>(const Place&) const = default;
+  };
+  struct HashOfPlace {
+    std::size_t operator()(const Place& place) const {
+      return static_cast<std::size_t>(place.half_edge) ^ place.number;
+    }
+  };
   struct Reached {
     double length = 0;
-    std::int32_t before = -1;
+    Place before;
     bool done = false;
-    int search = 0;  // in which it was reached
+  };
+  /// The ends of a way, below their triangles, and what is wanted of it.
+  struct Task {
+    SurfaceTree::Nearest from;
+    SurfaceTree::Nearest to;
+    Point start = Point::Zero();
+    Point end = Point::Zero();
+    HomologyGuard* handles = nullptr;  ///< none if handles are all one
+    const IsGood* is_good = nullptr;   ///< none if any way will do
   };
 
-  [[nodiscard]] std::optional<std::vector<std::int32_t>> edges_between(
-      const SurfaceTree::Nearest& from, const SurfaceTree::Nearest& to,
-      const std::set<Step>& avoided);
+  [[nodiscard]] std::optional<std::vector<Point>> way_for(const CurvePoint& from,
+                                                          const CurvePoint& to, Task task);
+  [[nodiscard]] std::optional<std::vector<Point>> search(const Task& task, std::set<Step>& avoided);
+  [[nodiscard]] std::vector<Point> line_of(const Task& task,
+                                           const std::vector<std::int32_t>& edges) const;
+  [[nodiscard]] bool stays_inside(const std::vector<Point>& line,
+                                  const std::vector<std::int32_t>& edges,
+                                  std::set<Step>& avoided) const;
   [[nodiscard]] Point below(std::int32_t face, const Point& place) const;
   [[nodiscard]] Point below_edge(std::int32_t half_edge) const;
   [[nodiscard]] Point middle(std::int32_t half_edge) const;
@@ -53,8 +91,6 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
-  std::vector<Reached> reached_;         // the end, then by half-edge
-  int searches_ = 0;                     // so far
   int more_fruitless_tries_ = 1000;      // for all ways, as a surface may meet itself everywhere
 };
 
