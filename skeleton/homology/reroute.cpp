@@ -28,20 +28,26 @@ class InnerCurves {
 
   [[nodiscard]] const BelowSurface& below() const { return below_; }
 
-  /// Each vertex is the next one's neighbour.
+  /// Each vertex is the next one's neighbour. Balls that are as good as outside are passed below
+  /// the surface.
   [[nodiscard]] std::vector<Point> deep(const std::vector<int>& vertices) const {
     std::vector<Point> points;
     const auto centre = [this](int v) -> Point { return balls_.centres.row(v); };
+    const auto has_ball = [this](int v) { return balls_.radii[v] > least_radius; };
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      if (i > 0 && vertices[i] != vertices[i - 1]) {
-        const Point from = centre(vertices[i - 1]);
-        const Point to = centre(vertices[i]);
-        const auto step = below_.step(vertices[i - 1], vertices[i]);
-        if (crosses(tree_, from, to) || !guard_.homologous(step, {from, to})) {
+      const int here = vertices[i];
+      const int before = i == 0 ? -1 : vertices[i - 1];
+      if (here == before) continue;
+      if (before >= 0) {
+        const Point from = centre(before);
+        const Point to = centre(here);
+        const auto step = below_.step(before, here);
+        if (!has_ball(before) || !has_ball(here) || crosses(tree_, from, to) ||
+            !guard_.homologous(step, {from, to})) {
           points.insert(points.end(), step.begin(), step.end());
         }
       }
-      if (i == 0 || vertices[i] != vertices[i - 1]) points.push_back(centre(vertices[i]));
+      if (has_ball(here)) points.push_back(centre(here));
     }
     return points;
   }
@@ -140,7 +146,8 @@ class HandleReroute {
       const int in = i == 0 ? first : gate(pieces[i - 1], pieces[i]);
       const int out = i + 1 == pieces.size() ? last : gate(pieces[i + 1], pieces[i]);
       if (in < 0 || out < 0) return {};
-      const auto through = chains_.way(in, out, {pieces[i]});
+      auto through = chains_.way(in, out, {pieces[i]});
+      if (through.empty()) through = chains_.way_through_all(in, out, {pieces[i]});
       if (through.empty()) return {};
       vertices.insert(vertices.end(), through.begin(), through.end());
     }

@@ -63,6 +63,13 @@ std::vector<int> BallChains::way(int from, int to, const std::vector<int>& group
   return paths_.path_to(to);
 }
 
+std::vector<int> BallChains::way_through_all(int from, int to, const std::vector<int>& groups) {
+  passes_all_ = true;
+  std::vector<int> found = way(from, to, groups);
+  passes_all_ = false;
+  return found;
+}
+
 std::vector<int> BallChains::holders(const std::vector<Point>& places,
                                      const std::vector<int>& groups) {
   prepare();
@@ -104,13 +111,14 @@ void BallChains::search(int source, int target, const std::vector<int>& groups) 
   paths_.search(working_.neighbours(), source, target, [&](int v, int next, int /*edge*/) {
     if (!may_pass(next) || is_avoided(v, next)) return ShortestPaths::unreachable;
     const double step = (balls_.centres.row(v) - balls_.centres.row(next)).norm();
-    return step / std::min(balls_.radii[v], balls_.radii[next]);
+    return step / std::max(least_radius, std::min(balls_.radii[v], balls_.radii[next]));
   });
   for (const int group : groups) allowed_[idx(group)] = 0;
 }
 
 bool BallChains::may_pass(int v) const {
-  return allowed_[idx(partition_.group_of_vertex[v])] != 0 && balls_.radii[v] > least_radius;
+  return allowed_[idx(partition_.group_of_vertex[v])] != 0 &&
+         (passes_all_ || balls_.radii[v] > least_radius);
 }
 
 void BallChains::avoid(int one, int other) { avoided_.insert(std::minmax(one, other)); }

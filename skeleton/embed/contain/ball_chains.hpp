@@ -51,6 +51,8 @@ class BallChains {
 
   /// The vertices of a cheapest chain from one to another, both included; empty if there is no way.
   [[nodiscard]] std::vector<int> way(int from, int to, const std::vector<int>& groups);
+  /// The same, through balls that are as good as outside, too.
+  [[nodiscard]] std::vector<int> way_through_all(int from, int to, const std::vector<int>& groups);
 
   /// No chain takes the step between these two neighbours any more, until all are allowed again.
   void avoid(int one, int other);
@@ -77,6 +79,7 @@ class BallChains {
   std::vector<std::vector<int>> vertices_;  // of each group, those with a ball
   std::set<std::pair<int, int>> avoided_;   // lesser vertex first
   std::vector<char> allowed_;               // per group, while a search runs
+  bool passes_all_ = false;                 // balls of any size, while a search runs
   ShortestPaths paths_;
 };
 

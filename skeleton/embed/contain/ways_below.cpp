@@ -10,11 +10,17 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/monitor.hpp>
 #include "skeleton/embed/contain/below_surface.hpp"
+#include "surface/resample/canonical.hpp"
 
 namespace curveskel {
 namespace {
 
-constexpr double depth_share = 1e-3;  // of a triangle's height
+/// A share of a triangle's height, and more than the rounding of its corners.
+double depth_below(double height) {
+  constexpr double share = 1e-3;
+  constexpr double least = 4 * canonical_step;
+  return std::max(least, share * height);
+}
 
 /// True if no part of the straight line is outside. Where the surface meets itself a line may cross
 /// it and yet stay inside, so the middle between any two crossings is asked.
@@ -150,13 +156,13 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
 
 Point WaysBelow::below(std::int32_t face, const Point& place) const {
   const InnerSide side = inner_side(surface_, face);
-  return place + depth_share * side.height * side.inwards;
+  return place + depth_below(side.height) * side.inwards;
 }
 
 Point WaysBelow::below_edge(std::int32_t h) const {
   const InnerSide one = inner_side(surface_, h / 3);
   const InnerSide other = inner_side(surface_, half_edges_->twin[idx(h)] / 3);
-  const double depth = depth_share * std::min(one.height, other.height);
+  const double depth = depth_below(std::min(one.height, other.height));
   return middle(h) + depth * (one.inwards + other.inwards).normalized();
 }
 
