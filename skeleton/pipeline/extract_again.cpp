@@ -96,7 +96,8 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
     std::optional<Certificate> was;
     if (!single) {
       was = judged(c, before.components[c]);
-      if (!way.may_help(before.components[c], *was)) continue;
+      const Surface& own = before.parts->components[c].surface;
+      if (!way.may_help(before.components[c], own, *was)) continue;
     }
     auto made = tries.make(c);
     if (!made) continue;

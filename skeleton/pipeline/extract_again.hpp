@@ -14,7 +14,7 @@ namespace curveskel {
 struct AnotherWay {
   std::string_view name;  ///< of the try
   const ExtractOptions& options;
-  std::function<bool(const ComponentResult&, const Certificate&)> may_help;
+  std::function<bool(const ComponentResult&, const Surface&, const Certificate&)> may_help;
 };
 
 /// The best so far with the components for which the way may help by their own certificates, made

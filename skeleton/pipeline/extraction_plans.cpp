@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "skeleton/pipeline/extract_again.hpp"
+#include "surface/mesh/crosses_itself.hpp"
 
 namespace curveskel {
 namespace {
@@ -94,7 +95,8 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
     gentler.fairing = true;
     gentler.fair.iterations = 30;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->faired);
-    const AnotherWay way{try_faired, gentler, [](const ComponentResult&, const Certificate& own) {
+    const AnotherWay way{try_faired, gentler,
+                         [](const ComponentResult&, const Surface&, const Certificate& own) {
                            return own.topology_correct() && !own.inside_enough;
                          }};
     Extracted made = extract_again(surface, way, kept != nullptr ? &kept->faired : nullptr, room);
@@ -116,24 +118,34 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
     const bool is_wrong = leaves || !found.topology_correct();
     return is_wrong && is_quick_from_all_vertices(one) && (embeds || was_coarsened(one));
   };
-  const auto why = [&options, may_help](const SoFar& so_far) -> std::optional<std::string> {
+  // A surface that crosses itself has no inside that all its handles bound.
+  const auto has_hope = [](const ComponentRecord& one, const Surface& own,
+                           const Certificate& found) {
+    return !found.inside_enough || was_coarsened(one) || !crosses_itself(own);
+  };
+  const auto why = [&surface, &options, may_help,
+                    has_hope](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
     const Extraction& found = so_far.best->found.extraction;
-    const bool helps =
-        std::any_of(found.components.begin(), found.components.end(),
-                    [&](const ComponentRecord& one) { return may_help(one, found.certificate); });
+    const bool single = found.components.size() == 1;
+    const bool helps = std::any_of(found.components.begin(), found.components.end(),
+                                   [&](const ComponentRecord& one) {
+                                     return may_help(one, found.certificate) &&
+                                            (!single || has_hope(one, surface, found.certificate));
+                                   });
     if (!helps) return std::nullopt;
     return failures(found.certificate, options.certificate);
   };
-  const auto make = [&surface, &options, kept, may_help](const Room& room) {
+  const auto make = [&surface, &options, kept, may_help, has_hope](const Room& room) {
     ExtractOptions finest = options;
     finest.resolution = 0;
     finest.embed.go_below = true;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
-    const AnotherWay way{try_all_vertices, finest,
-                         [&](const ComponentResult& one, const Certificate& own) {
-                           return may_help(one.record, own);
-                         }};
+    const AnotherWay way{
+        try_all_vertices, finest,
+        [&](const ComponentResult& one, const Surface& itself, const Certificate& own) {
+          return may_help(one.record, own) && has_hope(one.record, itself, own);
+        }};
     Extracted made =
         extract_again(surface, way, kept != nullptr ? &kept->all_vertices : nullptr, room);
     made.note = "the certificate failed, so " + again(made, room.number) + " from all vertices";

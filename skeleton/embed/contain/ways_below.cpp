@@ -66,7 +66,7 @@ std::optional<std::vector<Point>> WaysBelow::way_for(const CurvePoint& from, con
     return std::nullopt;
   }
   std::set<Step> avoided;
-  for (int t = 0; t < most_tries && more_fruitless_tries_ > 0; ++t) {
+  for (int t = 0; t < most_tries && more_fruitless_tries_ > 0 && more_places_ > 0; ++t) {
     throw_if_stopped(stop_);
     const std::size_t known = avoided.size();
     auto line = search(task, avoided);
@@ -99,8 +99,9 @@ bool WaysBelow::stays_inside(const std::vector<Point>& line, const std::vector<s
 /// A* over the edges' middles; each edge by the half-edge of the face that it is reached from, and
 /// as often as ways to it go round other handles.
 std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<Step>& avoided) {
-  constexpr std::size_t most_places = 300000;
+  constexpr std::int64_t most_places = 300000;
   constexpr int most_ways = 20;
+  const std::int64_t last_place = std::min(most_places, more_places_);
   if (!half_edges_) {
     half_edges_ =
         pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
@@ -129,9 +130,9 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
     }
   };
   leave(task.from.triangle, {}, task.from.point, 0);
+  const auto count = [&reached] { return static_cast<std::int64_t>(reached.size()); };
   int ways = 0;
-  while (!open.empty() && ways < most_ways &&
-         (task.handles == nullptr || reached.size() < most_places)) {
+  while (!open.empty() && ways < most_ways && (task.handles == nullptr || count() < last_place)) {
     const Place place = open.top().second;
     open.pop();
     Reached& here = reached.at(place);
@@ -151,6 +152,7 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
     if (!stays_inside(line, edges, avoided)) continue;
     if (task.is_good == nullptr || (*task.is_good)(line)) return line;
   }
+  if (task.handles != nullptr) more_places_ -= count();
   return std::nullopt;
 }
 

@@ -39,8 +39,8 @@ class WaysBelow {
 
   /// The same by the shortest of those ways that go round different handles that `is_good` takes.
   /// Of ways round many handles there are too many: nothing, either, if none of the 20 shortest is
-  /// good, or these are not found among 300,000 places. Precondition: the handles' surface has
-  /// handles.
+  /// good, or these are not found among 300,000 places, a million for all ways together.
+  /// Precondition: the handles' surface has handles.
   using IsGood = std::function<bool(const std::vector<Point>& way)>;
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
                                                           const CurvePoint& to,
@@ -91,7 +91,9 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
-  int more_fruitless_tries_ = 1000;      // for all ways, as a surface may meet itself everywhere
+  // For all ways, as a surface may meet itself everywhere.
+  int more_fruitless_tries_ = 1000;
+  std::int64_t more_places_ = 1000000;  // with handles
 };
 
 }  // namespace curveskel
