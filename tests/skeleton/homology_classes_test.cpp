@@ -11,6 +11,7 @@
 #include <stop_token>
 #include <vector>
 
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/error.hpp>
@@ -189,6 +190,22 @@ TEST(IndependentRows, AreThoseThatAreNoSumOfOthers) {
   EXPECT_FALSE(rows.add({0, 0}));
   EXPECT_TRUE(rows.add({0, 1ULL << 63U}));
   EXPECT_EQ(rows.size(), 3);
+}
+
+// By rounding alone, a curve that passed an edge so near went outside of the surface given.
+TEST(HomologyGuard, ALineNearerThanThatCrosses) {
+  const SurfaceTree tree(shapes::box({1, 1, 1}, 4).surface);
+  const Vector3d low = tree.nearest({-9, -9, -9}).point;  // a corner
+  const Vector3d past = Vector3d(1, -1, 0).normalized();
+  for (const double off : {1e-3, 1e-5, 1e-7}) {
+    const Vector3d nearest = low + Vector3d(0, 0, 0.5) - off * Vector3d(1, 1, 0).normalized();
+    const Vector3d from = nearest - 0.3 * past;
+    const Vector3d to = nearest + 0.2 * past;
+    EXPECT_FALSE(crosses(tree, from, to)) << off;
+    EXPECT_FALSE(crosses(tree, from, to, 0.4 * off)) << off;
+    EXPECT_TRUE(crosses(tree, from, to, 1.5 * off)) << off;
+  }
+  EXPECT_TRUE(crosses(tree, low - Vector3d(1, 1, 1), low + Vector3d(1, 1, 1)));
 }
 
 }  // namespace

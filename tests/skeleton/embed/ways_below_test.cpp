@@ -16,6 +16,7 @@
 #include <curveskel/error.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "skeleton/homology/homology_guard.hpp"
 
 namespace curveskel::ways_below_laws {
 namespace {
@@ -33,6 +34,12 @@ bool stays_inside(const SurfaceTree& tree, const std::vector<Point>& line) {
     }
   }
   return true;
+}
+
+double length_of(const std::vector<Point>& line) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) length += (line[k + 1] - line[k]).norm();
+  return length;
 }
 
 /// A figure of eight in the xy plane.
@@ -92,6 +99,34 @@ TEST(WaysBelow, GoRoundPlacesWhereTheSurfaceGoesThroughItself) {
     line.push_back(to);
     EXPECT_TRUE(stays_inside(tree, line)) << t;
   }
+}
+
+/// Round a ring there are as many as one likes; the second goes the other way.
+TEST(WaysBelow, AreAsGoodAsIsWanted) {
+  const Surface surface = of_unit_size(shapes::torus(3, 1, 12).surface);
+  const SurfaceTree tree(surface);
+  HomologyGuard handles(surface);
+  WaysBelow ways(surface, tree);
+  const double radius = 3 / bounding_box_diagonal(shapes::torus(3, 1, 12).surface.positions);
+  const Point from(radius, 0, 0);
+  const Point to(0, radius, 0);
+  std::vector<std::vector<Point>> offered;
+  const auto whole = [&](const std::vector<Point>& way) {
+    std::vector<Point> line{from};
+    line.insert(line.end(), way.begin(), way.end());
+    line.push_back(to);
+    return line;
+  };
+  const auto way = ways.between(from, to, handles, [&](const std::vector<Point>& one) {
+    offered.push_back(whole(one));
+    return offered.size() == 2;
+  });
+  ASSERT_TRUE(way);
+  EXPECT_EQ(whole(*way), offered.back());
+  EXPECT_FALSE(handles.homologous(offered.front(), offered.back()));
+  for (const auto& line : offered) EXPECT_TRUE(stays_inside(tree, line));
+  EXPECT_LT(length_of(offered.front()), length_of(offered.back()));
+  EXPECT_FALSE(ways.between(from, to, handles, [](const std::vector<Point>&) { return false; }));
 }
 
 TEST(WaysBelow, AreNoneBetweenComponents) {
