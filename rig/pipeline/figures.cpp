@@ -254,9 +254,17 @@ bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
   });
 }
 
-}  // namespace
+/// A human who is asked for and is not seen has hidden limbs: of all that there is together, as no
+/// plate of an armour is a human.
+std::vector<Figure> with_hidden_limbs(std::vector<Figure> figures, const PlanOptions& options) {
+  const bool may_be = options.plan == BodyKind::humanoid && options.by_proportion;
+  if (!may_be || figures.size() != 1 || is_planned(figures.front().plan)) return figures;
+  Figure& whole = figures.front();
+  whole.plan = find_plan(whole.body.surface, whole.skeleton, options);
+  return figures;
+}
 
-std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
+std::vector<Figure> seen_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                  const FigureOptions& options, const std::stop_token& stop) {
   std::vector<Figure> whole;
   whole.push_back({body, skeleton, plan_with_sheets(body, skeleton, options.plan)});
@@ -281,6 +289,15 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   figures = groups.figures(ground);
   if (figures.empty()) figures = groups.figure_on(ground);
   return figures.empty() ? whole : figures;
+}
+
+}  // namespace
+
+std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                                 const FigureOptions& options, const std::stop_token& stop) {
+  FigureOptions seen = options;
+  seen.plan.by_proportion = false;
+  return with_hidden_limbs(seen_figures(body, skeleton, seen, stop), options.plan);
 }
 
 }  // namespace curveskel

@@ -11,6 +11,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/mirror_plane.hpp"
+#include "rig/plan/standing.hpp"
 #include "rig/plan/unposed.hpp"
 #include "rig/plan/wings.hpp"
 
@@ -160,7 +161,7 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (found.plan == BodyKind::bird && found.legs.empty()) {
     return flies_back(tree, limbs, found.arms);
   }
-  const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
+  const bool has_toes = (found.plan == BodyKind::humanoid && !found.legs.empty()) || found.plan == BodyKind::bird ||
                         found.plan == BodyKind::tailed_biped;
   return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
 }
@@ -187,11 +188,17 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
   const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
   Outlook outlook =
       may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
+  const bool is_hidden = outlook.found.plan == BodyKind::other && options.by_proportion &&
+                         options.plan == BodyKind::humanoid;
+  std::optional<Outlook> standing = is_hidden ? best_standing(body, options) : std::nullopt;
+  if (standing) outlook = std::move(*standing);
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    outlook = look(outlook.sides, body, axes, options.plan);
+    outlook = outlook.found.hidden
+                  ? as_standing(look(outlook.sides, body, axes, BodyKind::other))
+                  : look(outlook.sides, body, axes, options.plan);
   }
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
   const std::vector<Eigen::Matrix3d> usual = frames_of(options);

@@ -1,0 +1,108 @@
+#include "rig/plan/body_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The node whose ball is nearest.
+int node_nearest_to(const CurveTree& tree, const Vector3d& point) {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int node = 0; node < tree.own_nodes; ++node) {
+    const double off = (tree.nodes[idx(node)] - point).norm() - tree.radii[idx(node)];
+    if (off >= least) continue;
+    least = off;
+    nearest = node;
+  }
+  return nearest;
+}
+
+/// Of most of the values, which are at least one.
+std::pair<double, double> range_of_most(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t left_out = values.size() / 40;
+  return {values[left_out], values[values.size() - 1 - left_out]};
+}
+
+}  // namespace
+
+double BodySection::depth_within(double z) const {
+  const double margin = 0.25 * (front - rear);
+  return std::clamp(z, rear + margin, front - margin);
+}
+
+BodySections::BodySections(const CurveTree& tree, const std::vector<char>& is_limb) : tree_(tree) {
+  const bool has_limbs = std::find(is_limb.begin(), is_limb.end(), 1) != is_limb.end();
+  for (const Vector3d& point : tree.spread) {
+    if (has_limbs && is_limb[idx(node_nearest_to(tree, point))] != 0) continue;
+    points_.push_back(point);
+  }
+}
+
+BodySection BodySections::at(double y) const {
+  constexpr std::size_t least = 16;
+  constexpr double thin = 0.01;  // of the height, at first
+  std::vector<double> x;
+  std::vector<double> z;
+  for (double reach = thin; reach < 2 && x.size() < least; reach *= 2) {
+    x.clear();
+    z.clear();
+    for (const Vector3d& p : points_) {
+      if (std::abs(p.y() - y) > reach * tree_.height) continue;
+      x.push_back(p.x());
+      z.push_back(p.z());
+    }
+  }
+  if (x.empty()) return {tree_.middle, tree_.middle, 0, 0};
+  const auto [right, left] = range_of_most(x);
+  const auto [rear, front] = range_of_most(z);
+  return {right, left, rear, front};
+}
+
+std::optional<double> BodySections::neck() const {
+  constexpr double lowest = 0.65;  // of the height: above the waist
+  constexpr double wider = 1.2;    // than the neck are head and shoulders, at least
+  constexpr int steps = 35;
+  std::vector<double> widths;
+  for (int k = 0; k <= steps; ++k) {
+    widths.push_back(at(height_of(lowest, k, steps)).width());
+  }
+  std::optional<double> neck;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 1; k < steps; ++k) {
+    const auto own = widths.begin() + k;
+    const double below = *std::max_element(widths.begin(), own);
+    const double above = *std::max_element(own + 1, widths.end());
+    if (*own >= least || std::min(below, above) < wider * *own) continue;
+    least = *own;
+    neck = height_of(lowest, k, steps);
+  }
+  return neck;
+}
+
+double BodySections::height_of(double lowest, int step, int steps) const {
+  return tree_.ground + (lowest + (1 - lowest) * step / steps) * tree_.height;
+}
+
+double BodySections::mirror_plane() const {
+  constexpr double waist = 0.5;  // to where the head begins, of the height
+  constexpr double chin = 0.875;
+  constexpr int steps = 8;
+  std::vector<double> middles;
+  for (int k = 0; k <= steps; ++k) {
+    const double share = waist + (chin - waist) * k / steps;
+    middles.push_back(at(tree_.ground + share * tree_.height).middle().x());
+  }
+  return median_of(std::move(middles));
+}
+
+}  // namespace curveskel

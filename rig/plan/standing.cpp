@@ -1,0 +1,236 @@
+#include "rig/plan/standing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "base/median.hpp"
+#include "rig/plan/body_sections.hpp"
+#include "rig/plan/frames.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+// Means over artists' rigs, docs/study/rig.md. Of the body's height.
+constexpr double shoulders_of_height = 0.79;
+constexpr double chin_of_height = 0.875;
+// Of the shoulders' height, which says more of the rest: heads and hats differ most.
+constexpr double hips_of_shoulders = 0.648;
+constexpr double hip_aside = 0.072;
+constexpr double shoulder_aside = 0.11;
+constexpr double arm_reach = 0.5;
+constexpr double arm_radius = 0.04;
+constexpr double foot_reach = 0.157;  // ahead of the ankle
+// Of the hips' height.
+constexpr double knee_of_hips = 0.56;
+constexpr double ankle_of_hips = 0.115;
+// Of the neck's.
+constexpr double shoulders_of_neck = 0.92;
+// Of the arm's reach.
+constexpr double wrist_of_reach = 0.68;
+
+/// The pairs that are a human's by their heights; -1 = none.
+struct HumanPairs {
+  int legs = -1;  ///< they part above the knees: what parts below is a hem, or feet
+  int arms = -1;  ///< from between hips and head, a third of the legs or longer
+};
+
+double share_of_height(const CurveTree& tree, double y) {
+  return tree.height > 0 ? (y - tree.ground) / tree.height : 0;
+}
+
+bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double aside = 0.45;  // of its length, as of upright legs
+  constexpr double knee = knee_of_hips * hips_of_shoulders * shoulders_of_height;
+  const Vector3d& root = tree.nodes[idx(pair.root)];
+  const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
+  return pair.lowest < tree.ground + near_ground * tree.height &&
+         share_of_height(tree, root.y()) > knee && tip.y() < root.y() &&
+         std::abs(tip.x() - root.x()) < aside * pair.length;
+}
+
+bool is_human_arm(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double shortest_arm = 1.0 / 3;  // of the leg
+  constexpr double hips = hips_of_shoulders * shoulders_of_height;
+  const double root = share_of_height(tree, tree.nodes[idx(pair.root)].y());
+  return root > hips && root < chin_of_height &&
+         pair.length > shortest_arm * hips * tree.height &&
+         pair.lowest > tree.ground + near_ground * tree.height;
+}
+
+HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
+  HumanPairs seen;
+  double farthest = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (seen.legs < 0 && is_human_leg(tree, limbs.pairs[idx(k)])) seen.legs = k;
+  }
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    if (k == seen.legs || !is_human_arm(tree, pair)) continue;
+    const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
+    if (aside <= farthest) continue;
+    farthest = aside;
+    seen.arms = k;
+  }
+  return seen;
+}
+
+/// All nodes of the pairs' limbs, of both sides.
+std::vector<char> nodes_of(const CurveTree& tree, const Limbs& limbs, const HumanPairs& pairs) {
+  std::vector<char> is_limb(tree.nodes.size(), 0);
+  for (const int pair : {pairs.legs, pairs.arms}) {
+    if (pair < 0) continue;
+    std::vector<char> seen = limbs.is_trunk;
+    for (const LimbWay& way : limbs.pairs[idx(pair)].ways) {
+      for (const std::vector<int>* path : {&way.path, &way.mirror}) {
+        for (const int first : *path) {
+          if (seen[idx(first)] != 0) continue;
+          for (const int node : part_of(tree, first, seen)) is_limb[idx(node)] = 1;
+        }
+      }
+    }
+  }
+  return is_limb;
+}
+
+/// Places of the limbs that are hidden, and of the trunk.
+class ByProportion {
+ public:
+  ByProportion(const CurveTree& tree, const BodySections& sections, double shoulders)
+      : tree_(tree), sections_(sections), shoulders_(shoulders - tree.ground) {}
+
+  /// Straight down from the hip, a quarter of the width from the middle where a body is slim.
+  [[nodiscard]] HiddenLimbs::Leg leg() const {
+    const double hips = hips_of_shoulders * shoulders_;
+    const double depth = sections_.at(tree_.ground + hips).middle().y();
+    const auto place = [&](double height) -> Vector3d {
+      const double y = tree_.ground + height;
+      const BodySection section = sections_.at(y);
+      const double aside = std::min(hip_aside * shoulders_, 0.25 * section.width());
+      return {tree_.middle + aside, y, section.depth_within(depth)};
+    };
+    HiddenLimbs::Leg leg{place(hips), place(knee_of_hips * hips), place(ankle_of_hips * hips), {},
+                         {}};
+    const double sole = tree_.ground + 0.02 * tree_.height;
+    const double ahead = std::clamp(sections_.at(sole).front - leg.ankle.z(),
+                                    1e-3 * shoulders_, foot_reach * shoulders_);
+    leg.toes = {leg.ankle.x(), sole, leg.ankle.z() + 0.55 * ahead};
+    leg.tip = {leg.ankle.x(), sole, leg.ankle.z() + ahead};
+    return leg;
+  }
+
+  /// Straight down along the side.
+  [[nodiscard]] HiddenLimbs::Arm arm() const {
+    const auto place = [&](double share) -> Vector3d {
+      const double y = tree_.ground + shoulders_ - share * arm_reach * shoulders_;
+      const BodySection section = sections_.at(y);
+      const double within =
+          std::max(0.5 * section.width() - arm_radius * shoulders_, 0.25 * section.width());
+      const double aside = std::min(shoulder_aside * shoulders_, within);
+      return {tree_.middle + aside, y, section.middle().y()};
+    };
+    return {{place(0), place(0.5 * wrist_of_reach), place(wrist_of_reach)}, place(1)};
+  }
+
+  /// The middles of sections, in the mirror plane.
+  [[nodiscard]] std::vector<Vector3d> trunk() const {
+    constexpr int steps = 40;
+    std::vector<Vector3d> trunk;
+    for (int k = 0; k <= steps; ++k) {
+      const double y = tree_.ground + tree_.height * k / steps;
+      trunk.emplace_back(tree_.middle, y, sections_.at(y).middle().y());
+    }
+    return trunk;
+  }
+
+ private:
+  const CurveTree& tree_;
+  const BodySections& sections_;
+  double shoulders_;  // height above the ground
+};
+
+/// Below the neck where one is seen.
+double height_of_shoulders(const CurveTree& tree, const BodySections& sections) {
+  const std::optional<double> neck = sections.neck();
+  return neck ? tree.ground + shoulders_of_neck * (*neck - tree.ground)
+              : tree.ground + shoulders_of_height * tree.height;
+}
+
+std::string reason_of(const HumanPairs& seen) {
+  const std::string limbs = seen.legs >= 0 ? "arms" : seen.arms >= 0 ? "legs" : "legs and arms";
+  return "as asked; " + limbs + " are not seen and stand by a human's proportions";
+}
+
+bool is_wider_than_deep(const CurveTree& tree) {
+  std::vector<Vector3d> upper;
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& p : tree.spread) {
+    if (share_of_height(tree, p.y()) < 0.5) continue;
+    upper.push_back(p);
+    mean += p;
+  }
+  mean /= std::max<double>(1, static_cast<double>(upper.size()));
+  double width = 0;
+  double depth = 0;
+  for (const Vector3d& p : upper) {
+    width += (p.x() - mean.x()) * (p.x() - mean.x());
+    depth += (p.z() - mean.z()) * (p.z() - mean.z());
+  }
+  return width > depth;
+}
+
+}  // namespace
+
+Outlook as_standing(Outlook outlook) {
+  CurveTree& tree = outlook.tree;
+  const HumanPairs seen = human_pairs(tree, outlook.limbs);
+  const BodySections sections(tree, nodes_of(tree, outlook.limbs, seen));
+  const double shoulders =
+      seen.arms < 0 ? height_of_shoulders(tree, sections)
+                    : arm_joints(tree, outlook.limbs.pairs[idx(seen.arms)]).shoulder.y();
+  if (seen.legs < 0 && seen.arms < 0) tree.middle = sections.mirror_plane();
+  PlanFound& found = outlook.found;
+  found = {};
+  found.plan = BodyKind::humanoid;
+  found.reason = reason_of(seen);
+  found.arms = seen.arms;
+  if (seen.legs >= 0) found.legs = {seen.legs};
+  const ByProportion standing(tree, sections, shoulders);
+  HiddenLimbs hidden;
+  if (seen.legs < 0) hidden.leg = standing.leg();
+  if (seen.arms < 0) hidden.arm = standing.arm();
+  hidden.trunk = standing.trunk();
+  found.hidden = std::move(hidden);
+  return outlook;
+}
+
+std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options) {
+  constexpr double upright = 0.75;  // of the size: arms may be held out
+  const bool is_up_said = options.up != Direction::automatic;
+  std::optional<Outlook> best;
+  int most = -1;
+  for (const Sides sides : {Sides::images, Sides::own}) {
+    for (const Eigen::Matrix3d& axes : frames_of(options)) {
+      Outlook outlook = look(sides, body, axes, BodyKind::other);
+      const CurveTree& tree = outlook.tree;
+      if (outlook.limbs.is_trunk.empty()) continue;  // too many tips to look at
+      if (!is_up_said && tree.height < upright * tree.size) continue;
+      const HumanPairs seen = human_pairs(tree, outlook.limbs);
+      const int count = (seen.legs >= 0 ? 2 : 0) + (seen.arms >= 0 ? 2 : 0) +
+                        (is_wider_than_deep(tree) ? 1 : 0);
+      if (count <= most) continue;
+      most = count;
+      best = std::move(outlook);
+    }
+  }
+  if (best) best = as_standing(std::move(*best));
+  return best;
+}
+
+}  // namespace curveskel
