@@ -91,6 +91,7 @@ struct BodyPlan {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: to the body's left, up, its front
   std::vector<PlannedJoint> joints;                    ///< the root first; empty for other and none
   std::vector<std::string> missing;                    ///< required roles that have no joint
+  bool is_forced = false;      ///< as asked: the curve shows another plan, or none
   bool by_proportion = false;  ///< a human's who was asked for: some of its limbs are not seen. The
                                ///< rig has these joints alone, and their bones hold all that is
                                ///< near them

@@ -258,9 +258,10 @@ bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
 /// plate of an armour is a human.
 std::vector<Figure> with_hidden_limbs(std::vector<Figure> figures, const PlanOptions& options) {
   const bool may_be = options.plan == BodyKind::humanoid && options.by_proportion;
-  if (!may_be || figures.size() != 1 || is_planned(figures.front().plan)) return figures;
+  if (!may_be || figures.size() != 1) return figures;
   Figure& whole = figures.front();
-  whole.plan = find_plan(whole.body.surface, whole.skeleton, options);
+  const bool is_seen = is_planned(whole.plan) && !whole.plan.is_forced;
+  if (!is_seen) whole.plan = find_plan(whole.body.surface, whole.skeleton, options);
   return figures;
 }
 

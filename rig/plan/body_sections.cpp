@@ -69,28 +69,24 @@ BodySection BodySections::at(double y) const {
 }
 
 std::optional<double> BodySections::neck() const {
-  constexpr double lowest = 0.65;  // of the height: above the waist
-  constexpr double wider = 1.2;    // than the neck are head and shoulders, at least
-  constexpr int steps = 35;
+  constexpr double wider = 1.2;  // than the neck are head and shoulders, at least
+  constexpr int steps = 100;     // of the height
+  constexpr int hips = 50;
+  constexpr int waist = 65;  // lies lower
   std::vector<double> widths;
-  for (int k = 0; k <= steps; ++k) {
-    widths.push_back(at(height_of(lowest, k, steps)).width());
-  }
+  const auto height_of = [&](int step) { return tree_.ground + tree_.height * step / steps; };
+  for (int k = hips; k <= steps; ++k) widths.push_back(at(height_of(k)).width());
   std::optional<double> neck;
   double least = std::numeric_limits<double>::infinity();
-  for (int k = 1; k < steps; ++k) {
-    const auto own = widths.begin() + k;
+  for (int k = waist; k < steps; ++k) {
+    const auto own = widths.begin() + (k - hips);
     const double below = *std::max_element(widths.begin(), own);
     const double above = *std::max_element(own + 1, widths.end());
     if (*own >= least || std::min(below, above) < wider * *own) continue;
     least = *own;
-    neck = height_of(lowest, k, steps);
+    neck = height_of(k);
   }
   return neck;
-}
-
-double BodySections::height_of(double lowest, int step, int steps) const {
-  return tree_.ground + (lowest + (1 - lowest) * step / steps) * tree_.height;
 }
 
 double BodySections::mirror_plane() const {

@@ -41,8 +41,6 @@ class BodySections {
   [[nodiscard]] double mirror_plane() const;
 
  private:
-  [[nodiscard]] double height_of(double lowest, int step, int steps) const;
-
   const CurveTree& tree_;
   std::vector<Eigen::Vector3d> points_;
 };

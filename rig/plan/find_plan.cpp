@@ -228,6 +228,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
         0, "no " + std::string(name_of(body_kinds, options.plan)) + ", which was asked for: ");
   }
   result.joints = Planner(outlook).joints(places);
+  result.is_forced = outlook.found.is_forced;
   result.by_proportion = outlook.found.hidden.has_value();
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {

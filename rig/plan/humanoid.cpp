@@ -150,10 +150,10 @@ class Humanoid {
     add("leftUpperArm", "leftShoulder", arm.shoulder, found_.arms,
         is_hidden ? "by proportion: below the neck, along the side" : shoulder_reason);
     add("leftLowerArm", "leftUpperArm", arm.elbow, found_.arms,
-        is_hidden ? "by proportion: .17 of the shoulders' height below the shoulder"
+        is_hidden ? "by proportion: .18 of the shoulders' height below the shoulder"
                   : elbow_reason);
     add("leftHand", "leftLowerArm", arm.wrist, found_.arms,
-        is_hidden ? "by proportion: .34 of the shoulders' height below the shoulder"
+        is_hidden ? "by proportion: an upper arm's length from the elbow"
                   : wrist_reason);
     if (is_hidden) {
       places_.back().end = found_.hidden->arm->fingertips;

@@ -166,6 +166,12 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
 }
 
+/// Of a human who is asked for.
+bool hides_limbs(const Outlook& outlook) {
+  return outlook.found.plan == BodyKind::other ||
+         (outlook.found.is_forced && !shows_all_limbs(outlook));
+}
+
 }  // namespace
 
 bool is_alike_from_both_ends(const Outlook& outlook) {
@@ -188,10 +194,9 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
   const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
   Outlook outlook =
       may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
-  const bool is_hidden = outlook.found.plan == BodyKind::other && options.by_proportion &&
-                         options.plan == BodyKind::humanoid;
-  std::optional<Outlook> standing = is_hidden ? best_standing(body, options) : std::nullopt;
-  if (standing) outlook = std::move(*standing);
+  if (options.plan == BodyKind::humanoid && options.by_proportion && hides_limbs(outlook)) {
+    if (std::optional<Outlook> standing = best_standing(body, options)) outlook = *standing;
+  }
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;

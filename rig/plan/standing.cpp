@@ -22,11 +22,13 @@ constexpr double shoulders_of_height = 0.79;
 constexpr double chin_of_height = 0.875;
 // Of the shoulders' height, which says more of the rest: heads and hats differ most.
 constexpr double hips_of_shoulders = 0.648;
-constexpr double hip_aside = 0.072;
+constexpr double hip_aside = 0.07;
 constexpr double shoulder_aside = 0.11;
-constexpr double arm_reach = 0.5;
+constexpr double arm_reach = 0.53;
 constexpr double arm_radius = 0.04;
 constexpr double foot_reach = 0.157;  // ahead of the ankle
+constexpr double knee_ahead = 0.015;  // of the hip
+constexpr double ankle_behind = 0.018;
 // Of the hips' height.
 constexpr double knee_of_hips = 0.56;
 constexpr double ankle_of_hips = 0.115;
@@ -55,13 +57,25 @@ bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
          std::abs(tip.x() - root.x()) < aside * pair.length;
 }
 
-bool is_human_arm(const CurveTree& tree, const LimbPair& pair) {
+/// An arm that hangs down to the hip and touches it is a cycle, which is cut: its tip is none.
+bool ends_at_a_cut(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double whole = 0.75 * (shoulder_aside + arm_reach) * shoulders_of_height;
+  const LimbWay& way = pair.ways.front();
+  const auto is_cut = [&](int node) {
+    return std::binary_search(tree.cuts.begin(), tree.cuts.end(), node);
+  };
+  return pair.length < whole * tree.height && (is_cut(way.path.back()) || is_cut(way.mirror.back()));
+}
+
+bool is_human_arm(const CurveTree& tree, const LimbPair& pair, double neck) {
   constexpr double shortest_arm = 1.0 / 3;  // of the leg
+  constexpr double narrowest = 0.5 * shoulder_aside * shoulders_of_height;  // arms ahead are crossed
   constexpr double hips = hips_of_shoulders * shoulders_of_height;
-  const double root = share_of_height(tree, tree.nodes[idx(pair.root)].y());
-  return root > hips && root < chin_of_height &&
+  const double root = tree.nodes[idx(pair.root)].y();
+  return share_of_height(tree, root) > hips && root < neck &&
          pair.length > shortest_arm * hips * tree.height &&
-         pair.lowest > tree.ground + near_ground * tree.height;
+         pair.lowest > tree.ground + near_ground * tree.height && !ends_at_a_cut(tree, pair) &&
+         arm_joints(tree, pair).shoulder.x() - tree.middle > narrowest * tree.height;
 }
 
 HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
@@ -70,9 +84,11 @@ HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
   for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
     if (seen.legs < 0 && is_human_leg(tree, limbs.pairs[idx(k)])) seen.legs = k;
   }
+  const double chin = tree.ground + chin_of_height * tree.height;
+  const double neck = BodySections(tree, {}).neck().value_or(chin);
   for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
     const LimbPair& pair = limbs.pairs[idx(k)];
-    if (k == seen.legs || !is_human_arm(tree, pair)) continue;
+    if (k == seen.legs || !is_human_arm(tree, pair, neck)) continue;
     const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
     if (aside <= farthest) continue;
     farthest = aside;
@@ -109,14 +125,16 @@ class ByProportion {
   [[nodiscard]] HiddenLimbs::Leg leg() const {
     const double hips = hips_of_shoulders * shoulders_;
     const double depth = sections_.at(tree_.ground + hips).middle().y();
-    const auto place = [&](double height) -> Vector3d {
+    const auto place = [&](double height, double ahead) -> Vector3d {
       const double y = tree_.ground + height;
       const BodySection section = sections_.at(y);
       const double aside = std::min(hip_aside * shoulders_, 0.25 * section.width());
-      return {tree_.middle + aside, y, section.depth_within(depth)};
+      return {tree_.middle + aside, y, section.depth_within(depth + ahead * shoulders_)};
     };
-    HiddenLimbs::Leg leg{place(hips), place(knee_of_hips * hips), place(ankle_of_hips * hips), {},
-                         {}};
+    HiddenLimbs::Leg leg;
+    leg.hip = place(hips, 0);
+    leg.knee = place(knee_of_hips * hips, knee_ahead);
+    leg.ankle = place(ankle_of_hips * hips, -ankle_behind);
     const double sole = tree_.ground + 0.02 * tree_.height;
     const double ahead = std::clamp(sections_.at(sole).front - leg.ankle.z(),
                                     1e-3 * shoulders_, foot_reach * shoulders_);
@@ -125,17 +143,18 @@ class ByProportion {
     return leg;
   }
 
-  /// Straight down along the side.
-  [[nodiscard]] HiddenLimbs::Arm arm() const {
+  /// Straight down along the side; where there is no room for hands beside the hips, the forearms
+  /// are folded ahead of the body. `whole` has the limbs, too: hands may touch the thighs.
+  [[nodiscard]] HiddenLimbs::Arm arm(const BodySections& whole) const {
     const auto place = [&](double share) -> Vector3d {
       const double y = tree_.ground + shoulders_ - share * arm_reach * shoulders_;
-      const BodySection section = sections_.at(y);
-      const double within =
-          std::max(0.5 * section.width() - arm_radius * shoulders_, 0.25 * section.width());
-      const double aside = std::min(shoulder_aside * shoulders_, within);
+      const BodySection section = whole.at(y);
+      const double aside = std::min(shoulder_aside * shoulders_, aside_within(section));
       return {tree_.middle + aside, y, section.middle().y()};
     };
-    return {{place(0), place(0.5 * wrist_of_reach), place(wrist_of_reach)}, place(1)};
+    const ArmJoints arm{place(0), place(0.5 * wrist_of_reach), place(wrist_of_reach)};
+    const bool hangs = arm.wrist.x() > arm.shoulder.x() - 1e-9 * tree_.size;
+    return hangs ? HiddenLimbs::Arm{arm, place(1)} : folded(arm, whole.at(arm.elbow.y()));
   }
 
   /// The middles of sections, in the mirror plane.
@@ -150,6 +169,24 @@ class ByProportion {
   }
 
  private:
+  /// Of an arm's middle: inside by its radius, or half-way.
+  [[nodiscard]] double aside_within(const BodySection& section) const {
+    return std::max(0.5 * section.width() - arm_radius * shoulders_, 0.25 * section.width());
+  }
+
+  /// The forearm reaches ahead as far as the body does, for the rest of its length across.
+  [[nodiscard]] HiddenLimbs::Arm folded(ArmJoints arm, const BodySection& section) const {
+    const double length = 0.5 * wrist_of_reach * arm_reach * shoulders_;
+    const double ahead =
+        std::clamp(section.front - arm_radius * shoulders_ - arm.elbow.z(), 0.0, length);
+    const double across = std::sqrt(length * length - ahead * ahead);
+    arm.wrist = arm.elbow + Vector3d(-across, 0, ahead);
+    const double hand = (1 - wrist_of_reach) * arm_reach * shoulders_;
+    const double side = tree_.middle - aside_within(section);
+    const double fingertips = std::min(std::max(arm.wrist.x() - hand, side), arm.wrist.x());
+    return {arm, {fingertips, arm.wrist.y(), arm.wrist.z()}};
+  }
+
   const CurveTree& tree_;
   const BodySections& sections_;
   double shoulders_;  // height above the ground
@@ -167,7 +204,9 @@ std::string reason_of(const HumanPairs& seen) {
   return "as asked; " + limbs + " are not seen and stand by a human's proportions";
 }
 
-bool is_wider_than_deep(const CurveTree& tree) {
+/// As people are from their side: about half as wide as deep.
+bool shows_side(const CurveTree& tree) {
+  constexpr double deeper = 1.5;
   std::vector<Vector3d> upper;
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : tree.spread) {
@@ -182,10 +221,16 @@ bool is_wider_than_deep(const CurveTree& tree) {
     width += (p.x() - mean.x()) * (p.x() - mean.x());
     depth += (p.z() - mean.z()) * (p.z() - mean.z());
   }
-  return width > depth;
+  return depth > deeper * deeper * width;
 }
 
 }  // namespace
+
+bool shows_all_limbs(const Outlook& outlook) {
+  const HumanPairs seen = human_pairs(outlook.tree, outlook.limbs);
+  const std::vector<int>& legs = outlook.found.legs;
+  return !legs.empty() && legs.front() == seen.legs && outlook.found.arms == seen.arms;
+}
 
 Outlook as_standing(Outlook outlook) {
   CurveTree& tree = outlook.tree;
@@ -204,7 +249,7 @@ Outlook as_standing(Outlook outlook) {
   const ByProportion standing(tree, sections, shoulders);
   HiddenLimbs hidden;
   if (seen.legs < 0) hidden.leg = standing.leg();
-  if (seen.arms < 0) hidden.arm = standing.arm();
+  if (seen.arms < 0) hidden.arm = standing.arm(BodySections(tree, {}));
   hidden.trunk = standing.trunk();
   found.hidden = std::move(hidden);
   return outlook;
@@ -223,7 +268,7 @@ std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options)
       if (!is_up_said && tree.height < upright * tree.size) continue;
       const HumanPairs seen = human_pairs(tree, outlook.limbs);
       const int count = (seen.legs >= 0 ? 2 : 0) + (seen.arms >= 0 ? 2 : 0) +
-                        (is_wider_than_deep(tree) ? 1 : 0);
+                        (shows_side(tree) ? 0 : 1);
       if (count <= most) continue;
       most = count;
       best = std::move(outlook);

@@ -14,8 +14,11 @@ namespace curveskel {
 /// O(#N) for each of the surface's spread points.
 [[nodiscard]] Outlook as_standing(Outlook outlook);
 
+/// True if the humanoid's legs and arms are a human's by their heights and lengths.
+[[nodiscard]] bool shows_all_limbs(const Outlook& outlook);
+
 /// Of looks by place and by own sides the one that shows most of a human's limbs, of several the
-/// first from which the body is wider than deep, as `as_standing`. Nothing where the body is
+/// first that is not from the side, as `as_standing`. Nothing where the body is
 /// upright in none; where up is said, it is.
 [[nodiscard]] std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options);
 
