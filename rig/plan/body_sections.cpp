@@ -89,6 +89,14 @@ std::optional<double> BodySections::neck() const {
   return neck;
 }
 
+Vector3d BodySections::outermost() const {
+  const auto is_right = [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x(); };
+  const auto [right, left] = std::minmax_element(points_.begin(), points_.end(), is_right);
+  Vector3d image = *right;
+  image.x() = 2 * tree_.middle - image.x();
+  return 0.5 * (*left + image);
+}
+
 double BodySections::mirror_plane() const {
   constexpr double waist = 0.5;  // to where the head begins, of the height
   constexpr double chin = 0.875;

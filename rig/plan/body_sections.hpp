@@ -37,6 +37,10 @@ class BodySections {
   /// The height at which the body is narrowest between shoulders and a head that is wider.
   [[nodiscard]] std::optional<double> neck() const;
 
+  /// The mean of the outermost point on the left and of the image of that on the right: the
+  /// fingertips of arms that are held out.
+  [[nodiscard]] Eigen::Vector3d outermost() const;
+
   /// x of the middle of most sections of the trunk.
   [[nodiscard]] double mirror_plane() const;
 

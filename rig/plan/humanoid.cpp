@@ -148,12 +148,12 @@ class Humanoid {
     shoulder_ = arm.shoulder;
     const bool is_hidden = arm_ == nullptr;
     add("leftUpperArm", "leftShoulder", arm.shoulder, found_.arms,
-        is_hidden ? "by proportion: below the neck, along the side" : shoulder_reason);
+        is_hidden ? "by proportion: beside the trunk, below the neck" : shoulder_reason);
     add("leftLowerArm", "leftUpperArm", arm.elbow, found_.arms,
-        is_hidden ? "by proportion: .18 of the shoulders' height below the shoulder"
+        is_hidden ? "by proportion: .34 of the arm's reach from the shoulder"
                   : elbow_reason);
     add("leftHand", "leftLowerArm", arm.wrist, found_.arms,
-        is_hidden ? "by proportion: an upper arm's length from the elbow"
+        is_hidden ? "by proportion: as far from the elbow as that from the shoulder"
                   : wrist_reason);
     if (is_hidden) {
       places_.back().end = found_.hidden->arm->fingertips;
@@ -244,6 +244,7 @@ class Humanoid {
     }
     add("head", "neck", {tree_.middle, head, depth_at(head)}, -1,
         "above the narrowest place of the neck");
+    if (found_.hidden) places_.back().end = trunk_.back();
     Vector3d collar = at(0.78);
     double chest = -std::numeric_limits<double>::infinity();
     for (const Vector3d& p : tree_.spread) {

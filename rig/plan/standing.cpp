@@ -37,6 +37,11 @@ constexpr double shoulders_of_neck = 0.92;
 // Of the arm's reach.
 constexpr double wrist_of_reach = 0.68;
 
+bool is_upright(const CurveTree& tree) {
+  constexpr double least = 0.75;  // of the size: arms may be held out
+  return tree.height > least * tree.size;
+}
+
 /// The pairs that are a human's by their heights; -1 = none.
 struct HumanPairs {
   int legs = -1;  ///< they part above the knees: what parts below is a hem, or feet
@@ -143,7 +148,8 @@ class ByProportion {
     return leg;
   }
 
-  /// Straight down along the side; where there is no room for hands beside the hips, the forearms
+  /// Straight out to what reaches farther aside than any robe; else straight down along the side;
+  /// where there is no room for hands beside the hips, the forearms
   /// are folded ahead of the body. `whole` has the limbs, too: hands may touch the thighs.
   [[nodiscard]] HiddenLimbs::Arm arm(const BodySections& whole) const {
     const auto place = [&](double share) -> Vector3d {
@@ -152,6 +158,12 @@ class ByProportion {
       const double aside = std::min(shoulder_aside * shoulders_, aside_within(section));
       return {tree_.middle + aside, y, section.middle().y()};
     };
+    const Vector3d out = whole.outermost();
+    if (is_held_out(out)) {
+      const Vector3d from = place(0);
+      const Vector3d arm = out - from;
+      return {{from, from + 0.5 * wrist_of_reach * arm, from + wrist_of_reach * arm}, out};
+    }
     const ArmJoints arm{place(0), place(0.5 * wrist_of_reach), place(wrist_of_reach)};
     const bool hangs = arm.wrist.x() > arm.shoulder.x() - 1e-9 * tree_.size;
     return hangs ? HiddenLimbs::Arm{arm, place(1)} : folded(arm, whole.at(arm.elbow.y()));
@@ -169,6 +181,13 @@ class ByProportion {
   }
 
  private:
+  /// By two thirds of its reach: at 45 degrees or more from hanging.
+  [[nodiscard]] bool is_held_out(const Vector3d& fingertips) const {
+    const double least = (shoulder_aside + 2.0 / 3 * arm_reach) * shoulders_;
+    const double hips = tree_.ground + hips_of_shoulders * shoulders_;
+    return fingertips.x() - tree_.middle > least && fingertips.y() > hips;
+  }
+
   /// Of an arm's middle: inside by its radius, or half-way.
   [[nodiscard]] double aside_within(const BodySection& section) const {
     return std::max(0.5 * section.width() - arm_radius * shoulders_, 0.25 * section.width());
@@ -227,6 +246,7 @@ bool shows_side(const CurveTree& tree) {
 }  // namespace
 
 bool shows_all_limbs(const Outlook& outlook) {
+  if (!is_upright(outlook.tree)) return false;
   const HumanPairs seen = human_pairs(outlook.tree, outlook.limbs);
   const std::vector<int>& legs = outlook.found.legs;
   return !legs.empty() && legs.front() == seen.legs && outlook.found.arms == seen.arms;
@@ -256,7 +276,6 @@ Outlook as_standing(Outlook outlook) {
 }
 
 std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options) {
-  constexpr double upright = 0.75;  // of the size: arms may be held out
   const bool is_up_said = options.up != Direction::automatic;
   std::optional<Outlook> best;
   int most = -1;
@@ -265,7 +284,7 @@ std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options)
       Outlook outlook = look(sides, body, axes, BodyKind::other);
       const CurveTree& tree = outlook.tree;
       if (outlook.limbs.is_trunk.empty()) continue;  // too many tips to look at
-      if (!is_up_said && tree.height < upright * tree.size) continue;
+      if (!is_up_said && !is_upright(tree)) continue;
       const HumanPairs seen = human_pairs(tree, outlook.limbs);
       const int count = (seen.legs >= 0 ? 2 : 0) + (seen.arms >= 0 ? 2 : 0) +
                         (shows_side(tree) ? 0 : 1);
