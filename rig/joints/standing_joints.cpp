@@ -48,8 +48,7 @@ Joints standing_joints(const Surface& surface, const CurveSkeleton& skeleton,
   joints.positions.resize(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) joints.positions.row(k) = points[idx(k)];
   joints.parents = Eigen::Map<const Eigen::VectorXi>(parents.data(), count);
-  joints.joint_of_node =
-      joints_of_nodes(skeleton, bones_for_all(joints.positions, joints.parents));
+  joints.joint_of_node = joints_of_nodes(skeleton, bones_for_all(joints.positions, joints.parents));
   return joints;
 }
 

@@ -265,7 +265,6 @@ bool is_doubtful(const BodyPlan& plan, const Surface& body) {
   return !is_planned(plan) || plan.is_forced || is_piece;
 }
 
-
 std::vector<Figure> seen_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                  const FigureOptions& options, const std::stop_token& stop) {
   std::vector<Figure> whole;
@@ -308,7 +307,12 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   }
   // Of all that there is together, as no plate of an armour is a human.
   BodyPlan standing = find_plan(body.surface, skeleton, options.plan);
-  if (!standing.by_proportion) return figures;
+  if (!standing.by_proportion) {
+    if (figures.size() == 1 && !is_planned(figures.front().plan)) {
+      figures.front().plan.reason = standing.reason;
+    }
+    return figures;
+  }
   figures.clear();
   figures.push_back({body, skeleton, std::move(standing)});
   return figures;

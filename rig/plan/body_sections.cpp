@@ -69,8 +69,10 @@ BodySection BodySections::at(double y) const {
 }
 
 std::optional<double> BodySections::neck() const {
-  constexpr double wider = 1.2;  // than the neck are head and shoulders, at least
-  constexpr int steps = 100;     // of the height
+  // Than the neck, at least.
+  constexpr double wider_head = 1.2;
+  constexpr double wider_shoulders = 1.6;
+  constexpr int steps = 100;  // of the height
   constexpr int hips = 50;
   constexpr int waist = 65;  // lies lower
   std::vector<double> widths;
@@ -82,7 +84,7 @@ std::optional<double> BodySections::neck() const {
     const auto own = widths.begin() + (k - hips);
     const double below = *std::max_element(widths.begin(), own);
     const double above = *std::max_element(own + 1, widths.end());
-    if (*own >= least || std::min(below, above) < wider * *own) continue;
+    if (*own >= least || below < wider_shoulders * *own || above < wider_head * *own) continue;
     least = *own;
     neck = height_of(k);
   }

@@ -150,8 +150,7 @@ class Humanoid {
     add("leftUpperArm", "leftShoulder", arm.shoulder, found_.arms,
         is_hidden ? "by proportion: beside the trunk, below the neck" : shoulder_reason);
     add("leftLowerArm", "leftUpperArm", arm.elbow, found_.arms,
-        is_hidden ? "by proportion: .34 of the arm's reach from the shoulder"
-                  : elbow_reason);
+        is_hidden ? "by proportion: .34 of the arm's reach from the shoulder" : elbow_reason);
     add("leftHand", "leftLowerArm", arm.wrist, found_.arms,
         is_hidden ? "by proportion: as far from the elbow as that from the shoulder"
                   : wrist_reason);

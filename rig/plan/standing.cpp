@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 // Means over artists' rigs, docs/study/rig.md. Of the body's height.
 constexpr double shoulders_of_height = 0.79;
 constexpr double chin_of_height = 0.875;
+constexpr double waist_of_height = 0.65;
 // Of the shoulders' height, which says more of the rest: heads and hats differ most.
 constexpr double hips_of_shoulders = 0.648;
 constexpr double hip_aside = 0.07;
@@ -36,6 +37,7 @@ constexpr double ankle_of_hips = 0.115;
 constexpr double shoulders_of_neck = 0.92;
 // Of the arm's reach.
 constexpr double wrist_of_reach = 0.68;
+constexpr double hanging_slope = 0.18;  // outwards, 10 degrees at most
 
 bool is_upright(const CurveTree& tree) {
   constexpr double least = 0.75;  // of the size: arms may be held out
@@ -44,7 +46,7 @@ bool is_upright(const CurveTree& tree) {
 
 /// The pairs that are a human's by their heights; -1 = none.
 struct HumanPairs {
-  int legs = -1;  ///< they part above the knees: what parts below is a hem, or feet
+  int legs = -1;  ///< from between knees and waist: what parts lower is a hem, or feet
   int arms = -1;  ///< from between hips and head, a third of the legs or longer
 };
 
@@ -58,7 +60,8 @@ bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
   const Vector3d& root = tree.nodes[idx(pair.root)];
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   return pair.lowest < tree.ground + near_ground * tree.height &&
-         share_of_height(tree, root.y()) > knee && tip.y() < root.y() &&
+         share_of_height(tree, root.y()) > knee &&
+         share_of_height(tree, root.y()) < waist_of_height && tip.y() < root.y() &&
          std::abs(tip.x() - root.x()) < aside * pair.length;
 }
 
@@ -69,12 +72,14 @@ bool ends_at_a_cut(const CurveTree& tree, const LimbPair& pair) {
   const auto is_cut = [&](int node) {
     return std::binary_search(tree.cuts.begin(), tree.cuts.end(), node);
   };
-  return pair.length < whole * tree.height && (is_cut(way.path.back()) || is_cut(way.mirror.back()));
+  return pair.length < whole * tree.height &&
+         (is_cut(way.path.back()) || is_cut(way.mirror.back()));
 }
 
 bool is_human_arm(const CurveTree& tree, const LimbPair& pair, double neck) {
   constexpr double shortest_arm = 1.0 / 3;  // of the leg
-  constexpr double narrowest = 0.5 * shoulder_aside * shoulders_of_height;  // arms ahead are crossed
+  constexpr double narrowest =
+      0.5 * shoulder_aside * shoulders_of_height;  // arms ahead are crossed
   constexpr double hips = hips_of_shoulders * shoulders_of_height;
   const double root = tree.nodes[idx(pair.root)].y();
   return share_of_height(tree, root) > hips && root < neck &&
@@ -141,8 +146,8 @@ class ByProportion {
     leg.knee = place(knee_of_hips * hips, knee_ahead);
     leg.ankle = place(ankle_of_hips * hips, -ankle_behind);
     const double sole = tree_.ground + 0.02 * tree_.height;
-    const double ahead = std::clamp(sections_.at(sole).front - leg.ankle.z(),
-                                    1e-3 * shoulders_, foot_reach * shoulders_);
+    const double ahead = std::clamp(sections_.at(sole).front - leg.ankle.z(), 1e-3 * shoulders_,
+                                    foot_reach * shoulders_);
     leg.toes = {leg.ankle.x(), sole, leg.ankle.z() + 0.55 * ahead};
     leg.tip = {leg.ankle.x(), sole, leg.ankle.z() + ahead};
     return leg;
@@ -155,7 +160,8 @@ class ByProportion {
     const auto place = [&](double share) -> Vector3d {
       const double y = tree_.ground + shoulders_ - share * arm_reach * shoulders_;
       const BodySection section = whole.at(y);
-      const double aside = std::min(shoulder_aside * shoulders_, aside_within(section));
+      const double outwards = shoulder_aside + hanging_slope * share * arm_reach;
+      const double aside = std::min(outwards * shoulders_, aside_within(section));
       return {tree_.middle + aside, y, section.middle().y()};
     };
     const Vector3d out = whole.outermost();
@@ -193,12 +199,13 @@ class ByProportion {
     return std::max(0.5 * section.width() - arm_radius * shoulders_, 0.25 * section.width());
   }
 
-  /// The forearm reaches ahead as far as the body does, for the rest of its length across.
+  /// The forearm reaches ahead as far as the body does, and up to the mirror plane.
   [[nodiscard]] HiddenLimbs::Arm folded(ArmJoints arm, const BodySection& section) const {
     const double length = 0.5 * wrist_of_reach * arm_reach * shoulders_;
     const double ahead =
         std::clamp(section.front - arm_radius * shoulders_ - arm.elbow.z(), 0.0, length);
-    const double across = std::sqrt(length * length - ahead * ahead);
+    const double across =
+        std::min(std::sqrt(length * length - ahead * ahead), arm.elbow.x() - tree_.middle);
     arm.wrist = arm.elbow + Vector3d(-across, 0, ahead);
     const double hand = (1 - wrist_of_reach) * arm_reach * shoulders_;
     const double side = tree_.middle - aside_within(section);
@@ -256,9 +263,9 @@ Outlook as_standing(Outlook outlook) {
   CurveTree& tree = outlook.tree;
   const HumanPairs seen = human_pairs(tree, outlook.limbs);
   const BodySections sections(tree, nodes_of(tree, outlook.limbs, seen));
-  const double shoulders =
-      seen.arms < 0 ? height_of_shoulders(tree, sections)
-                    : arm_joints(tree, outlook.limbs.pairs[idx(seen.arms)]).shoulder.y();
+  const double shoulders = seen.arms < 0
+                               ? height_of_shoulders(tree, sections)
+                               : arm_joints(tree, outlook.limbs.pairs[idx(seen.arms)]).shoulder.y();
   if (seen.legs < 0 && seen.arms < 0) tree.middle = sections.mirror_plane();
   PlanFound& found = outlook.found;
   found = {};
@@ -286,8 +293,8 @@ std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options)
       if (outlook.limbs.is_trunk.empty()) continue;  // too many tips to look at
       if (!is_up_said && !is_upright(tree)) continue;
       const HumanPairs seen = human_pairs(tree, outlook.limbs);
-      const int count = (seen.legs >= 0 ? 2 : 0) + (seen.arms >= 0 ? 2 : 0) +
-                        (shows_side(tree) ? 0 : 1);
+      const int count =
+          (seen.legs >= 0 ? 2 : 0) + (seen.arms >= 0 ? 2 : 0) + (shows_side(tree) ? 0 : 1);
       if (count <= most) continue;
       most = count;
       best = std::move(outlook);
