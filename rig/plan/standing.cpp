@@ -2,109 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
-#include "base/median.hpp"
 #include "rig/plan/body_sections.hpp"
 #include "rig/plan/frames.hpp"
+#include "rig/plan/human_pairs.hpp"
+#include "rig/plan/human_proportions.hpp"
 
 namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
 
-// Means over artists' rigs, docs/study/rig.md. Of the body's height.
-constexpr double shoulders_of_height = 0.79;
-constexpr double chin_of_height = 0.875;
-constexpr double waist_of_height = 0.65;
-// Of the shoulders' height, which says more of the rest: heads and hats differ most.
-constexpr double hips_of_shoulders = 0.648;
-constexpr double hip_aside = 0.07;
-constexpr double shoulder_aside = 0.11;
-constexpr double arm_reach = 0.53;
-constexpr double arm_radius = 0.04;
-constexpr double foot_reach = 0.157;  // ahead of the ankle
-constexpr double knee_ahead = 0.015;  // of the hip
-constexpr double ankle_behind = 0.018;
-// Of the hips' height.
-constexpr double knee_of_hips = 0.56;
-constexpr double ankle_of_hips = 0.115;
-// Of the neck's.
-constexpr double shoulders_of_neck = 0.92;
-// Of the arm's reach.
-constexpr double wrist_of_reach = 0.68;
-constexpr double hanging_slope = 0.18;  // outwards, 10 degrees at most
-
 bool is_upright(const CurveTree& tree) {
   constexpr double least = 0.75;  // of the size: arms may be held out
   return tree.height > least * tree.size;
-}
-
-/// The pairs that are a human's by their heights; -1 = none.
-struct HumanPairs {
-  int legs = -1;  ///< from between knees and waist: what parts lower is a hem, or feet
-  int arms = -1;  ///< from between hips and head, a third of the legs or longer
-};
-
-double share_of_height(const CurveTree& tree, double y) {
-  return tree.height > 0 ? (y - tree.ground) / tree.height : 0;
-}
-
-bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
-  constexpr double aside = 0.45;  // of its length, as of upright legs
-  constexpr double knee = knee_of_hips * hips_of_shoulders * shoulders_of_height;
-  const Vector3d& root = tree.nodes[idx(pair.root)];
-  const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
-  return pair.lowest < tree.ground + near_ground * tree.height &&
-         share_of_height(tree, root.y()) > knee &&
-         share_of_height(tree, root.y()) < waist_of_height && tip.y() < root.y() &&
-         std::abs(tip.x() - root.x()) < aside * pair.length;
-}
-
-/// An arm that hangs down to the hip and touches it is a cycle, which is cut: its tip is none.
-bool ends_at_a_cut(const CurveTree& tree, const LimbPair& pair) {
-  constexpr double whole = 0.75 * (shoulder_aside + arm_reach) * shoulders_of_height;
-  const LimbWay& way = pair.ways.front();
-  const auto is_cut = [&](int node) {
-    return std::binary_search(tree.cuts.begin(), tree.cuts.end(), node);
-  };
-  return pair.length < whole * tree.height &&
-         (is_cut(way.path.back()) || is_cut(way.mirror.back()));
-}
-
-bool is_human_arm(const CurveTree& tree, const LimbPair& pair, double neck) {
-  constexpr double shortest_arm = 1.0 / 3;  // of the leg
-  constexpr double narrowest =
-      0.5 * shoulder_aside * shoulders_of_height;  // arms ahead are crossed
-  constexpr double hips = hips_of_shoulders * shoulders_of_height;
-  const double root = tree.nodes[idx(pair.root)].y();
-  return share_of_height(tree, root) > hips && root < neck &&
-         pair.length > shortest_arm * hips * tree.height &&
-         pair.lowest > tree.ground + near_ground * tree.height && !ends_at_a_cut(tree, pair) &&
-         arm_joints(tree, pair).shoulder.x() - tree.middle > narrowest * tree.height;
-}
-
-HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
-  HumanPairs seen;
-  double farthest = 0;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    if (seen.legs < 0 && is_human_leg(tree, limbs.pairs[idx(k)])) seen.legs = k;
-  }
-  const double chin = tree.ground + chin_of_height * tree.height;
-  const double neck = BodySections(tree, {}).neck().value_or(chin);
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    const LimbPair& pair = limbs.pairs[idx(k)];
-    if (k == seen.legs || !is_human_arm(tree, pair, neck)) continue;
-    const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
-    if (aside <= farthest) continue;
-    farthest = aside;
-    seen.arms = k;
-  }
-  return seen;
 }
 
 /// All nodes of the pairs' limbs, of both sides.
@@ -236,7 +151,7 @@ bool shows_side(const CurveTree& tree) {
   std::vector<Vector3d> upper;
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : tree.spread) {
-    if (share_of_height(tree, p.y()) < 0.5) continue;
+    if (p.y() < tree.ground + 0.5 * tree.height) continue;
     upper.push_back(p);
     mean += p;
   }
