@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/median.hpp"
+#include "rig/plan/human_proportions.hpp"
 
 namespace curveskel {
 namespace {
@@ -97,6 +99,28 @@ Vector3d BodySections::outermost() const {
   Vector3d image = *right;
   image.x() = 2 * tree_.middle - image.x();
   return 0.5 * (*left + image);
+}
+
+/// x and z, each the median: an arm that is held out on one side moves it less than the box.
+Eigen::Vector2d BodySections::middle_of_most(double y) const {
+  constexpr double thick = 0.03;  // of the height
+  std::vector<double> x;
+  std::vector<double> z;
+  for (const Vector3d& p : points_) {
+    if (std::abs(p.y() - y) > thick * tree_.height) continue;
+    x.push_back(p.x());
+    z.push_back(p.z());
+  }
+  if (x.empty()) return at(y).middle();
+  return {median_of(std::move(x)), median_of(std::move(z))};
+}
+
+double BodySections::lean() const {
+  const double shoulders = shoulders_of_height * tree_.height;
+  const double hips = hips_of_shoulders * shoulders;
+  const double off =
+      (middle_of_most(tree_.ground + shoulders) - middle_of_most(tree_.ground + hips)).norm();
+  return std::atan2(off, shoulders - hips) * 180 / std::numbers::pi;
 }
 
 double BodySections::mirror_plane() const {

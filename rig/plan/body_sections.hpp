@@ -41,10 +41,16 @@ class BodySections {
   /// fingertips of arms that are held out.
   [[nodiscard]] Eigen::Vector3d outermost() const;
 
+  /// Of the trunk from upright, in degrees: between the places of most of the surface at the
+  /// heights of a human's hips and shoulders.
+  [[nodiscard]] double lean() const;
+
   /// x of the middle of most sections of the trunk.
   [[nodiscard]] double mirror_plane() const;
 
  private:
+  [[nodiscard]] Eigen::Vector2d middle_of_most(double y) const;
+
   const CurveTree& tree_;
   std::vector<Eigen::Vector3d> points_;
 };

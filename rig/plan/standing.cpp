@@ -18,8 +18,9 @@ namespace {
 using Eigen::Vector3d;
 
 bool is_upright(const CurveTree& tree) {
-  constexpr double least = 0.75;  // of the size: arms may be held out
-  return tree.height > least * tree.size;
+  constexpr double least = 0.75;      // of the size: arms may be held out
+  constexpr double most_aslant = 35;  // degrees, as of any humanoid
+  return tree.height > least * tree.size && BodySections(tree, {}).lean() < most_aslant;
 }
 
 /// All nodes of the pairs' limbs, of both sides.
