@@ -69,9 +69,9 @@ class ByProportion {
     return leg;
   }
 
-  /// Straight out to what reaches farther aside than any robe; else straight down along the side;
-  /// where there is no room for hands beside the hips, the forearms
-  /// are folded ahead of the body. `whole` has the limbs, too: hands may touch the thighs.
+  /// Straight out to what reaches farther aside than any robe; else down along the side; where
+  /// there is no room for hands beside the hips, the forearms are folded ahead of the body. `whole`
+  /// has the limbs, too: hands may touch the thighs.
   [[nodiscard]] HiddenLimbs::Arm arm(const BodySections& whole) const {
     const auto place = [&](double share) -> Vector3d {
       const double y = tree_.ground + shoulders_ - share * arm_reach * shoulders_;
@@ -169,9 +169,10 @@ bool shows_side(const CurveTree& tree) {
 }  // namespace
 
 bool shows_all_limbs(const Outlook& outlook) {
+  const std::vector<int>& legs = outlook.found.legs;
+  if (outlook.sides == Sides::posed) return !legs.empty() && outlook.found.arms >= 0;
   if (!is_upright(outlook.tree)) return false;
   const HumanPairs seen = human_pairs(outlook.tree, outlook.limbs);
-  const std::vector<int>& legs = outlook.found.legs;
   return !legs.empty() && legs.front() == seen.legs && outlook.found.arms == seen.arms;
 }
 

@@ -14,7 +14,8 @@ namespace curveskel {
 /// O(#N) for each of the surface's spread points.
 [[nodiscard]] Outlook as_standing(Outlook outlook);
 
-/// True if the humanoid is upright, its legs and arms a human's by their heights and lengths.
+/// True if the humanoid is upright, its legs and arms a human's by their heights and lengths; of
+/// one in a pose, if it has both.
 [[nodiscard]] bool shows_all_limbs(const Outlook& outlook);
 
 /// Of looks by place and by own sides the one that shows most of a human's limbs, of several the

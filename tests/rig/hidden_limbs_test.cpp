@@ -271,8 +271,12 @@ TEST(HiddenLimbs, ARobesHalvesFollowTheirLegs) {
       const double other = share_of(rig, v, place.x() > 0 ? right : left);
       EXPECT_GT(own + other, 0.9) << place;
       EXPECT_GE(own, other - 0.1) << place;
-      if (std::abs(place.x()) > 1.5) EXPECT_GT(own, 0.8) << place;
-      if (std::abs(place.x()) < 0.2 && place.y() > 1) EXPECT_LT(own - other, 0.6) << place;
+      if (std::abs(place.x()) > 1.5) {
+        EXPECT_GT(own, 0.8) << place;
+      }
+      if (std::abs(place.x()) < 0.2 && place.y() > 1) {
+        EXPECT_LT(own - other, 0.6) << place;
+      }
     }
     for (std::size_t joint = plan.joints.size(); joint < rig.names.size(); ++joint) {
       EXPECT_NE(rig.names[joint].find("_end"), std::string::npos) << rig.names[joint];
@@ -327,7 +331,9 @@ TEST(HiddenLimbs, AnArmourOfPlatesIsOneHuman) {
       const RowVector3d place = shape.surface.positions.row(v);
       const bool is_hand =
           holds_out ? place.x() > 8 : place.x() > 2.3 && std::abs(place.y() - 8.4) < 1.3;
-      if (is_hand) EXPECT_GT(share_of(made.rig, v, arm), 0.8) << place;
+      if (is_hand) {
+        EXPECT_GT(share_of(made.rig, v, arm), 0.8) << place;
+      }
     }
   }
 }
