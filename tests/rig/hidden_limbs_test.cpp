@@ -249,7 +249,8 @@ TEST(HiddenLimbs, AreLeftAloneUnlessAHumanIsAskedFor) {
 double share_of(const Rig& rig, Eigen::Index vertex, const std::set<std::string>& roles) {
   double share = 0;
   for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
-    if (roles.count(rig.roles[idx(static_cast<int>(it.col()))]) > 0) share += it.value();
+    if (roles.count(rig.roles[idx(static_cast<int>(it.col()))]) > 0)
+      share += static_cast<double>(it.value());
   }
   return share;
 }
