@@ -63,7 +63,9 @@ void add_plan(CLI::App& parser, RigArguments& arguments) {
       .add_option("--report", arguments.report,
                   "plan, roles, parts, joints and checks of the weights, as JSON")
       ->type_name("FILE.json");
-  add_choice(parser, "--plan", arguments.plan.plan, body_kinds, "how the body is built");
+  add_choice(parser, "--plan", arguments.plan.plan, body_kinds,
+             "how the body is built; a humanoid has legs or arms that are not seen, as in a robe, "
+             "by proportion");
   add_choice(parser, "--up", arguments.plan.up, directions, "the body's up; auto = found");
   add_choice(parser, "--front", arguments.plan.front, directions,
              "where the body looks; auto = found");

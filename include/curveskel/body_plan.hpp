@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,8 @@ struct PlanOptions {
                                ///< from a component that is
   std::vector<std::int32_t> sheets = {};  ///< a vertex of each component that was made of a sheet,
                                           ///< see RepairedSurface; no large one need be the body
+  bool by_proportion = true;  ///< a human who is asked for, and of whom legs or arms are not seen,
+                              ///< has them where a standing human has
 };
 
 /// A joint that a plan asks for.
@@ -73,6 +76,7 @@ struct PlannedJoint {
   Eigen::RowVector3d position;
   std::string reason;    ///< why it lies there
   bool is_last = false;  ///< the limb beyond is one bone, as of a fingertip
+  std::optional<Eigen::RowVector3d> end = std::nullopt;  ///< of its bone, where no joint says so
 };
 
 /// The joints that VRM requires of a human.
@@ -87,6 +91,10 @@ struct BodyPlan {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: to the body's left, up, its front
   std::vector<PlannedJoint> joints;                    ///< the root first; empty for other and none
   std::vector<std::string> missing;                    ///< required roles that have no joint
+  bool is_forced = false;      ///< as asked: the curve shows another plan, or none
+  bool by_proportion = false;  ///< a human's who was asked for: some of its limbs are not seen. The
+                               ///< rig has these joints alone, and their bones hold all that is
+                               ///< near them
 };
 
 /// Throws Error(Fault::usage) where up and front are one direction.

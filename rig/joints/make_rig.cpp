@@ -12,6 +12,7 @@
 #include "rig/joints/idle_joints.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/joints/sound_rig.hpp"
+#include "rig/joints/standing_joints.hpp"
 #include "rig/skin/skin_bones.hpp"
 #include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -64,14 +65,18 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   require_sound_places(skeleton, "make_rig");
   require_vertices_of(skeleton, surface, "make_rig");
   monitor.report("joints", 0);
-  Joints joints =
-      place_planned_joints(skeleton, plan.joints, options.joints,
-                           ground_nodes(surface, skeleton, plan), plan.axes.row(1).transpose());
+  Joints joints = plan.by_proportion
+                      ? standing_joints(surface, skeleton, plan.joints, options.skin.threads)
+                      : place_planned_joints(skeleton, plan.joints, options.joints,
+                                             ground_nodes(surface, skeleton, plan),
+                                             plan.axes.row(1).transpose());
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights = skin_weights(
       surface, fully_mapped(surface, skeleton, options.skin.threads, monitor), joints.joint_of_node,
-      bones_of_own(skeleton, joints), count, options.skin, monitor);
+      plan.by_proportion ? bones_for_all(joints.positions, joints.parents)
+                         : bones_of_own(skeleton, joints),
+      count, options.skin, monitor);
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);

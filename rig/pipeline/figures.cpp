@@ -254,9 +254,18 @@ bool is_on_each(const BodyPlan& plan, const CurveSkeleton& skeleton,
   });
 }
 
-}  // namespace
+/// True for a plan that nobody would see without asking, or one of a piece: its joints lie within
+/// less than half of the body's diagonal.
+bool is_doubtful(const BodyPlan& plan, const Surface& body) {
+  Eigen::AlignedBox3d joints;
+  Eigen::AlignedBox3d all;
+  for (const PlannedJoint& joint : plan.joints) joints.extend(joint.position.transpose());
+  for (const auto& place : body.positions.rowwise()) all.extend(place.transpose());
+  const bool is_piece = is_planned(plan) && 2 * joints.diagonal().norm() < all.diagonal().norm();
+  return !is_planned(plan) || plan.is_forced || is_piece;
+}
 
-std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
+std::vector<Figure> seen_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                  const FigureOptions& options, const std::stop_token& stop) {
   std::vector<Figure> whole;
   whole.push_back({body, skeleton, plan_with_sheets(body, skeleton, options.plan)});
@@ -281,6 +290,32 @@ std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleto
   figures = groups.figures(ground);
   if (figures.empty()) figures = groups.figure_on(ground);
   return figures.empty() ? whole : figures;
+}
+
+}  // namespace
+
+std::vector<Figure> find_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                                 const FigureOptions& options, const std::stop_token& stop) {
+  FigureOptions seen = options;
+  seen.plan.by_proportion = false;
+  std::vector<Figure> figures = seen_figures(body, skeleton, seen, stop);
+  const bool may_be = options.plan.plan == BodyKind::humanoid && options.plan.by_proportion;
+  if (!may_be || std::any_of(figures.begin(), figures.end(), [&](const Figure& figure) {
+        return !is_doubtful(figure.plan, body.surface);
+      })) {
+    return figures;
+  }
+  // Of all that there is together, as no plate of an armour is a human.
+  BodyPlan standing = find_plan(body.surface, skeleton, options.plan);
+  if (!standing.by_proportion) {
+    if (figures.size() == 1 && !is_planned(figures.front().plan)) {
+      figures.front().plan.reason = standing.reason;
+    }
+    return figures;
+  }
+  figures.clear();
+  figures.push_back({body, skeleton, std::move(standing)});
+  return figures;
 }
 
 }  // namespace curveskel

@@ -245,6 +245,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
   } else if (wanted != BodyKind::automatic && wanted != found.plan) {
     found.reason = "as asked; " + found.reason;
     found.plan = wanted;
+    found.is_forced = true;
   }
   return found;
 }

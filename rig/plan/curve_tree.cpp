@@ -49,6 +49,12 @@ CurveTree LookedAt::tree(const Eigen::Matrix3d& axes) {
   for (std::size_t k = 0; k < hanging.roots.size(); ++k) {
     if (hanging.above[k] >= 0) join(hanging.roots[k], hanging.above[k]);
   }
+  for (const auto& edge : skeleton_.edges.rowwise()) {
+    const std::vector<int>& joined = tree.neighbours[idx(edge[0])];
+    if (std::find(joined.begin(), joined.end(), edge[1]) != joined.end()) continue;
+    tree.cuts.insert(tree.cuts.end(), {edge[0], edge[1]});
+  }
+  std::sort(tree.cuts.begin(), tree.cuts.end());
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Vector3d high = -low;
   for (const auto& position : surface_.positions.rowwise()) {

@@ -23,9 +23,10 @@ struct CurveTree {
   double size = 0;                        ///< longest side of the surface's box
   double ground = 0;                      ///< lowest y
   double height = 0;
-  double middle = 0;  ///< x of the mirror plane
-  int cycles = 0;     ///< of the skeleton, which are cut here
-  int own_nodes = 0;  ///< the first ones; others stand for a limb that the body lacks
+  double middle = 0;      ///< x of the mirror plane
+  int cycles = 0;         ///< of the skeleton, which are cut here
+  int own_nodes = 0;      ///< the first ones; others stand for a limb that the body lacks
+  std::vector<int> cuts;  ///< nodes at which cycles are cut, ascending: tips here, but no limb's
 
   [[nodiscard]] bool is_tip(int node) const;
   [[nodiscard]] double aside(int node) const;  ///< x from the mirror plane

@@ -92,12 +92,14 @@ class Planner {
                                                                            : place.parent);
     }
     Vector3d at = place.at;
-    if (outlook_.sides == Sides::own || outlook_.sides == Sides::completed) {
+    const bool is_by_sides = outlook_.sides == Sides::own || outlook_.sides == Sides::completed;
+    if (is_by_sides && !place.is_by_proportion) {
       at += way_to_own_side(place, is_right);
     }
     if (is_right) at.x() = 2 * tree_.middle - at.x();
     if (outlook_.sides == Sides::posed) at += way_into_pose(place, is_right, at);
     joint.position = (outlook_.axes.transpose() * at).transpose();
+    if (place.end) joint.end = end_of(*place.end, is_right);
     if (place.on_curve) {
       Vector3d beside = place.beside.value_or(place.at);
       if (is_right) beside.x() = 2 * tree_.middle - beside.x();
@@ -105,6 +107,11 @@ class Planner {
     }
     number_[role] = static_cast<int>(joints_.size());
     joints_.push_back(std::move(joint));
+  }
+
+  [[nodiscard]] Eigen::RowVector3d end_of(Vector3d end, bool is_right) const {
+    if (is_right) end.x() = 2 * tree_.middle - end.x();
+    return (outlook_.axes.transpose() * end).transpose();
   }
 
   /// From the mean of both sides, of a right one mirrored; in the trunk from the mirror plane.
@@ -221,6 +228,8 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
         0, "no " + std::string(name_of(body_kinds, options.plan)) + ", which was asked for: ");
   }
   result.joints = Planner(outlook).joints(places);
+  result.is_forced = outlook.found.is_forced;
+  result.by_proportion = outlook.found.hidden.has_value();
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {
       if (std::none_of(result.joints.begin(), result.joints.end(),

@@ -20,34 +20,57 @@ class Humanoid {
  public:
   Humanoid(const CurveTree& tree, const Limbs& limbs, const PlanFound& found)
       : tree_(tree),
-        leg_(limbs.pairs[idx(found.legs.front())]),
-        arm_(limbs.pairs[idx(found.arms)]),
-        leg_pair_(found.legs.front()),
-        arm_pair_(found.arms),
-        arm_joints_(arm_joints(tree, arm_)) {
-    // Without what hangs from it in the mirror plane: a rucksack, a lace.
-    const auto is_lower = [&](int a, int b) {
-      return tree.nodes[idx(a)].y() < tree.nodes[idx(b)].y();
-    };
-    const int top = *std::max_element(limbs.trunk.begin(), limbs.trunk.end(), is_lower);
-    for (const int node : ways_from(tree, leg_.root).path(top)) {
-      trunk_.push_back(tree.nodes[idx(node)]);
-    }
-    std::sort(trunk_.begin(), trunk_.end(),
-              [](const Vector3d& a, const Vector3d& b) { return a.y() < b.y(); });
-  }
+        found_(found),
+        leg_(found.legs.empty() ? nullptr : &limbs.pairs[idx(found.legs.front())]),
+        arm_(found.arms < 0 ? nullptr : &limbs.pairs[idx(found.arms)]),
+        arm_joints_(arm_ == nullptr ? found.hidden->arm->joints : arm_joints(tree, *arm_)),
+        trunk_(found.hidden ? found.hidden->trunk : trunk_of_curve(limbs)) {}
 
   std::vector<Place> places() {
-    place_leg();
+    if (leg_ == nullptr) {
+      place_leg_by_proportion(*found_.hidden->leg);
+    } else {
+      place_leg(*leg_);
+    }
     place_arm();
     place_trunk();
     return std::move(places_);
   }
 
  private:
+  /// From below, without what hangs from it in the mirror plane: a rucksack, a lace.
+  [[nodiscard]] std::vector<Vector3d> trunk_of_curve(const Limbs& limbs) const {
+    const auto is_lower = [&](int a, int b) {
+      return tree_.nodes[idx(a)].y() < tree_.nodes[idx(b)].y();
+    };
+    const int top = *std::max_element(limbs.trunk.begin(), limbs.trunk.end(), is_lower);
+    std::vector<Vector3d> trunk;
+    for (const int node : ways_from(tree_, leg_->root).path(top)) {
+      trunk.push_back(tree_.nodes[idx(node)]);
+    }
+    std::sort(trunk.begin(), trunk.end(),
+              [](const Vector3d& a, const Vector3d& b) { return a.y() < b.y(); });
+    return trunk;
+  }
+
+  [[nodiscard]] int leg_pair() const { return found_.legs.empty() ? -1 : found_.legs.front(); }
+
   void add(const std::string& role, const std::string& parent, const Vector3d& at, int pair,
            const std::string& reason, bool on_curve = true) {
     places_.push_back({role, parent, at, on_curve, pair, reason});
+    places_.back().is_by_proportion = found_.hidden && pair < 0;
+    if (places_.back().is_by_proportion) places_.back().on_curve = false;
+  }
+
+  void place_leg_by_proportion(const HiddenLimbs::Leg& leg) {
+    hip_ = leg.hip;
+    hip_height_ = leg.hip.y();
+    add("leftUpperLeg", "hips", leg.hip, -1, "by proportion: .648 of the shoulders' height");
+    add("leftLowerLeg", "leftUpperLeg", leg.knee, -1, "by proportion: .56 of the hips' height");
+    add("leftFoot", "leftLowerLeg", leg.ankle, -1, "by proportion: .115 of the hips' height");
+    add("leftToes", "leftFoot", leg.toes, -1,
+        "by proportion: .55 of the way from the ankle to the tip of the foot");
+    places_.back().end = leg.tip;
   }
 
   /// True for a gown, at whose hem legs seem to part: they would be shorter than half of the trunk,
@@ -65,14 +88,14 @@ class Humanoid {
     hip_ = {hip_.x(), hip_height_, depth_at(hip_height_)};
     const double knee = tree_.ground + knee_height * (hip_height_ - tree_.ground);
     const double share = (hip_height_ - knee) / (hip_height_ - ankle.y());
-    add("leftUpperLeg", "hips", hip_, leg_pair_,
+    add("leftUpperLeg", "hips", hip_, leg_pair(),
         "at a human's share of the shoulders' height, in a gown", false);
-    add("leftLowerLeg", "leftUpperLeg", hip_ + share * (ankle - hip_), leg_pair_,
+    add("leftLowerLeg", "leftUpperLeg", hip_ + share * (ankle - hip_), leg_pair(),
         "on the line from the hip to the ankle, in a gown", false);
   }
 
-  void place_leg() {
-    const Course course = mean_course(tree_, leg_.ways.front());
+  void place_leg(const LimbPair& leg) {
+    const Course course = mean_course(tree_, leg.ways.front());
     const std::size_t count = course.points.size();
     // Where legs part: the curve's ball is clear of the mirror plane.
     std::size_t parts = 0;
@@ -83,7 +106,7 @@ class Humanoid {
     if (parts + 1 == count) parts = 0;
     const double crotch = course.points[parts].y();
     const double above = 0.5 * course.radii[std::min(parts + 8, count - 1)];
-    hip_height_ = std::min(crotch + above, std::max(tree_.nodes[idx(leg_.root)].y(), crotch));
+    hip_height_ = std::min(crotch + above, std::max(tree_.nodes[idx(leg.root)].y(), crotch));
     std::vector<double> aside;
     for (std::size_t k = parts; k < std::min(parts + 60, count); ++k) {
       aside.push_back(std::abs(course.points[k].x() - tree_.middle));
@@ -100,7 +123,7 @@ class Humanoid {
     const bool is_hidden = hides_legs(hip_height_);
     const Vector3d ankle = at_share(is_hidden ? 0.5 : 0.115);
     double toes = -std::numeric_limits<double>::infinity();
-    for (const int v : leg_.vertices) {
+    for (const int v : leg.vertices) {
       const Vector3d& p = tree_.vertices[idx(v)];
       if (p.y() <= ankle.y()) toes = std::max(toes, p.z());  // a belly may reach farther
     }
@@ -108,25 +131,34 @@ class Humanoid {
     if (is_hidden) {
       place_hidden_leg(ankle);
     } else {
-      add("leftUpperLeg", "hips", hip_, leg_pair_, "above the place where the legs part");
-      add("leftLowerLeg", "leftUpperLeg", at_share(knee_height), leg_pair_,
+      add("leftUpperLeg", "hips", hip_, leg_pair(), "above the place where the legs part");
+      add("leftLowerLeg", "leftUpperLeg", at_share(knee_height), leg_pair(),
           ".56 of the hips' height above the ground");
     }
-    add("leftFoot", "leftLowerLeg", ankle, leg_pair_,
+    add("leftFoot", "leftLowerLeg", ankle, leg_pair(),
         is_hidden ? "half-way from the hem to the ground"
                   : ".115 of the hips' height above the ground");
     add("leftToes", "leftFoot",
         {ankle.x(), tree_.ground + 0.02 * tree_.height, ankle.z() + 0.55 * (toes - ankle.z())},
-        leg_pair_, ".55 of the way from the ankle to the tip of the foot");
+        leg_pair(), ".55 of the way from the ankle to the tip of the foot");
   }
 
   void place_arm() {
     const ArmJoints& arm = arm_joints_;
     shoulder_ = arm.shoulder;
-    add("leftUpperArm", "leftShoulder", arm.shoulder, arm_pair_, shoulder_reason);
-    add("leftLowerArm", "leftUpperArm", arm.elbow, arm_pair_, elbow_reason);
-    add("leftHand", "leftLowerArm", arm.wrist, arm_pair_, wrist_reason);
-    for (Place& place : finger_places(tree_, arm_, arm_pair_, arm.wrist)) {
+    const bool is_hidden = arm_ == nullptr;
+    add("leftUpperArm", "leftShoulder", arm.shoulder, found_.arms,
+        is_hidden ? "by proportion: beside the trunk, below the neck" : shoulder_reason);
+    add("leftLowerArm", "leftUpperArm", arm.elbow, found_.arms,
+        is_hidden ? "by proportion: .34 of the arm's reach from the shoulder" : elbow_reason);
+    add("leftHand", "leftLowerArm", arm.wrist, found_.arms,
+        is_hidden ? "by proportion: as far from the elbow as that from the shoulder"
+                  : wrist_reason);
+    if (is_hidden) {
+      places_.back().end = found_.hidden->arm->fingertips;
+      return;
+    }
+    for (Place& place : finger_places(tree_, *arm_, found_.arms, arm.wrist)) {
       places_.push_back(std::move(place));
     }
   }
@@ -150,7 +182,8 @@ class Humanoid {
   /// The height at which the body is narrowest between the arms and the head.
   [[nodiscard]] double neck_height() const {
     constexpr int slices = 60;
-    const double from = tree_.nodes[idx(arm_.root)].y();
+    const double from =
+        arm_ == nullptr ? arm_joints_.shoulder.y() : tree_.nodes[idx(arm_->root)].y();
     double top = from;
     for (const Vector3d& p : tree_.vertices) {
       if (std::abs(p.x() - tree_.middle) < 0.05 * tree_.height) top = std::max(top, p.y());
@@ -210,6 +243,7 @@ class Humanoid {
     }
     add("head", "neck", {tree_.middle, head, depth_at(head)}, -1,
         "above the narrowest place of the neck");
+    if (found_.hidden) places_.back().end = trunk_.back();
     Vector3d collar = at(0.78);
     double chest = -std::numeric_limits<double>::infinity();
     for (const Vector3d& p : tree_.spread) {
@@ -220,15 +254,16 @@ class Humanoid {
     if (std::isfinite(chest)) collar.z() += 0.55 * (chest - collar.z());
     collar.x() += 0.22 * (shoulder_.x() - tree_.middle);
     collar.y() -= 0.012 * tree_.height;
-    add("leftShoulder", "upperChest", collar, arm_pair_,
-        ".22 of the upper arm's distance from the middle, ahead of the spine", false);
+    add("leftShoulder", "upperChest", collar, found_.arms,
+        std::string(arm_ == nullptr ? "by proportion: " : "") +
+            ".22 of the upper arm's distance from the middle, ahead of the spine",
+        false);
   }
 
   const CurveTree& tree_;
-  const LimbPair& leg_;
-  const LimbPair& arm_;
-  int leg_pair_;
-  int arm_pair_;
+  const PlanFound& found_;
+  const LimbPair* leg_;  // nullptr = by proportion
+  const LimbPair* arm_;  // the same
   ArmJoints arm_joints_;
   std::vector<Vector3d> trunk_;  // from below
   double hip_height_ = 0;

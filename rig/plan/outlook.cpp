@@ -11,6 +11,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/frames.hpp"
 #include "rig/plan/mirror_plane.hpp"
+#include "rig/plan/standing.hpp"
 #include "rig/plan/unposed.hpp"
 #include "rig/plan/wings.hpp"
 
@@ -160,9 +161,15 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (found.plan == BodyKind::bird && found.legs.empty()) {
     return flies_back(tree, limbs, found.arms);
   }
-  const bool has_toes = found.plan == BodyKind::humanoid || found.plan == BodyKind::bird ||
-                        found.plan == BodyKind::tailed_biped;
+  const bool has_toes = (found.plan == BodyKind::humanoid && !found.legs.empty()) ||
+                        found.plan == BodyKind::bird || found.plan == BodyKind::tailed_biped;
   return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
+}
+
+/// Of a human who is asked for.
+bool hides_limbs(const Outlook& outlook) {
+  return outlook.found.plan == BodyKind::other ||
+         (outlook.found.is_forced && !shows_all_limbs(outlook));
 }
 
 }  // namespace
@@ -187,11 +194,20 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
   const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
   Outlook outlook =
       may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
+  if (options.plan == BodyKind::humanoid && options.by_proportion && hides_limbs(outlook)) {
+    std::optional<Outlook> standing = best_standing(body, options);
+    if (standing) {
+      outlook = std::move(*standing);
+    } else if (outlook.found.plan == BodyKind::other) {
+      outlook.found.reason.insert(0, "it is not upright, and ");
+    }
+  }
   if (is_turned(outlook, options)) {
     Eigen::Matrix3d axes = outlook.axes;
     axes.row(0) *= -1;
     axes.row(2) *= -1;
-    outlook = look(outlook.sides, body, axes, options.plan);
+    outlook = outlook.found.hidden ? as_standing(look(outlook.sides, body, axes, BodyKind::other))
+                                   : look(outlook.sides, body, axes, options.plan);
   }
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
   const std::vector<Eigen::Matrix3d> usual = frames_of(options);

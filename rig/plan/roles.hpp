@@ -12,13 +12,40 @@ namespace curveskel {
 
 constexpr double near_ground = 0.06;  ///< of the height, that feet are off it at most
 
+/// Of the left one.
+struct ArmJoints {
+  Eigen::Vector3d shoulder;
+  Eigen::Vector3d elbow;
+  Eigen::Vector3d wrist;
+};
+
+/// What the curve does not show of a human who stands, by proportion; see rig/plan/standing.hpp.
+struct HiddenLimbs {
+  struct Leg {
+    Eigen::Vector3d hip;
+    Eigen::Vector3d knee;
+    Eigen::Vector3d ankle;
+    Eigen::Vector3d toes;
+    Eigen::Vector3d tip;
+  };
+  struct Arm {
+    ArmJoints joints;
+    Eigen::Vector3d fingertips;
+  };
+  std::optional<Leg> leg;              ///< the left one
+  std::optional<Arm> arm;              ///< the left one
+  std::vector<Eigen::Vector3d> trunk;  ///< middles of the body without its limbs, from below
+};
+
 struct PlanFound {
   BodyKind plan = BodyKind::other;
   std::string reason;
-  std::vector<int> legs;       ///< pairs; of quadrupeds two
-  int arms = -1;               ///< pair; -1 = none
-  bool spreads_wings = false;  ///< a bird whose arms are flat, see `flat_wings`
-  double lean = 0;             ///< of a biped's trunk from upright, in degrees
+  std::vector<int> legs;              ///< pairs; of quadrupeds two
+  int arms = -1;                      ///< pair; -1 = none
+  bool spreads_wings = false;         ///< a bird whose arms are flat, see `flat_wings`
+  bool is_forced = false;             ///< as asked: the curve shows another plan, or none
+  double lean = 0;                    ///< of a biped's trunk from upright, in degrees
+  std::optional<HiddenLimbs> hidden;  ///< of a human who is asked for, of whom limbs are not seen
 };
 
 /// The feet of a body in a pose may be off the ground, but for one.
@@ -39,14 +66,10 @@ struct Place {
   bool is_last = false;                                  ///< the limb beyond is one bone
   std::optional<Eigen::Vector3d> beside = std::nullopt;  ///< where its node is, if not at `at`
   int node = -1;                                         ///< its node, if it is known
+  bool is_by_proportion = false;  ///< of a human whose limbs are hidden: it stays where it is
+  std::optional<Eigen::Vector3d> end = std::nullopt;  ///< of its bone, where no joint says so
 };
 
-/// Of the left one.
-struct ArmJoints {
-  Eigen::Vector3d shoulder;
-  Eigen::Vector3d elbow;
-  Eigen::Vector3d wrist;
-};
 inline constexpr const char* shoulder_reason =
     "an arm's radius beyond the place where the curve leaves the trunk";
 inline constexpr const char* elbow_reason = "half of the way from the shoulder to the wrist";

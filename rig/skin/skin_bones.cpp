@@ -121,6 +121,16 @@ std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& join
   return bones;
 }
 
+std::vector<Bone> bones_for_all(const Positions& joints, const Eigen::VectorXi& parents) {
+  std::vector<Bone> bones;
+  bones.reserve(idx(parents.size()));
+  for (int joint = 0; joint < parents.size(); ++joint) {
+    const int parent = parents[joint];
+    if (parent >= 0) bones.push_back({parent, joints.row(parent), joints.row(joint)});
+  }
+  return bones;
+}
+
 std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given, int threads) {
   const GivenBones all(surface, given, threads);
   std::vector<Bone> bones = all.that_hold();

@@ -20,6 +20,10 @@ namespace curveskel {
 /// O(joints + nodes).
 [[nodiscard]] std::vector<Bone> bones_of_own(const CurveSkeleton& skeleton, const Joints& joints);
 
+/// The same for all components: what lies about a bone is held by it, be it a robe or a plate.
+[[nodiscard]] std::vector<Bone> bones_for_all(const Positions& joints,
+                                              const Eigen::VectorXi& parents);
+
 /// Of joints that somebody else has placed, for all components. One that lies outside of the
 /// surface for more than half of its length (from a root on the ground to the hips, to a handle
 /// beside the foot) holds nothing, unless it hangs from one that does, as of a toe that the bones

@@ -318,6 +318,7 @@ TEST(FindPlan, NamesNoHumanOnATree) {
     EXPECT_FALSE(plan.reason.empty());
     PlanOptions options;
     options.plan = BodyKind::humanoid;
+    options.by_proportion = false;
     EXPECT_TRUE(find_plan(subject.surface, subject.skeleton, options).joints.empty());
     options.plan = BodyKind::none;
     EXPECT_EQ(find_plan(subject.surface, subject.skeleton, options).plan, BodyKind::none);

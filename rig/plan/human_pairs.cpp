@@ -1,0 +1,76 @@
+#include "rig/plan/human_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/body_sections.hpp"
+#include "rig/plan/human_proportions.hpp"
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector3d;
+
+double share_of_human(const CurveTree& tree, double y) {
+  return tree.height > 0 ? (y - tree.ground) / tree.height : 0;
+}
+
+bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double aside = 0.45;  // of its length, as of upright legs
+  constexpr double knee = knee_of_hips * hips_of_shoulders * shoulders_of_height;
+  const Vector3d& root = tree.nodes[idx(pair.root)];
+  const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
+  return pair.lowest < tree.ground + near_ground * tree.height &&
+         share_of_human(tree, root.y()) > knee &&
+         share_of_human(tree, root.y()) < waist_of_height && tip.y() < root.y() &&
+         std::abs(tip.x() - root.x()) < aside * pair.length;
+}
+
+/// An arm that hangs down to the hip and touches it is a cycle, which is cut: its tip is none.
+bool ends_at_a_cut(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double whole = 0.75 * (shoulder_aside + arm_reach) * shoulders_of_height;
+  const LimbWay& way = pair.ways.front();
+  const auto is_cut = [&](int node) {
+    return std::binary_search(tree.cuts.begin(), tree.cuts.end(), node);
+  };
+  return pair.length < whole * tree.height &&
+         (is_cut(way.path.back()) || is_cut(way.mirror.back()));
+}
+
+/// Arms that begin nearer to the mirror plane than half a shoulder are crossed ahead of the body.
+bool is_human_arm(const CurveTree& tree, const LimbPair& pair, double neck, double leg) {
+  constexpr double shortest_arm = 1.0 / 3;  // of the leg
+  constexpr double narrowest = 0.5 * shoulder_aside * shoulders_of_height;
+  constexpr double hips = hips_of_shoulders * shoulders_of_height;
+  const double root = tree.nodes[idx(pair.root)].y();
+  return share_of_human(tree, root) > hips && root < neck && pair.length > shortest_arm * leg &&
+         pair.lowest > tree.ground + near_ground * tree.height && !ends_at_a_cut(tree, pair) &&
+         arm_joints(tree, pair).shoulder.x() - tree.middle > narrowest * tree.height;
+}
+
+}  // namespace
+
+HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
+  HumanPairs seen;
+  double farthest = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (seen.legs < 0 && is_human_leg(tree, limbs.pairs[idx(k)])) seen.legs = k;
+  }
+  const double leg = seen.legs < 0 ? hips_of_shoulders * shoulders_of_height * tree.height
+                                   : limbs.pairs[idx(seen.legs)].length;
+  const double chin = tree.ground + chin_of_height * tree.height;
+  const double neck = BodySections(tree, {}).neck().value_or(chin);
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    if (k == seen.legs || !is_human_arm(tree, pair, neck, leg)) continue;
+    const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
+    if (aside <= farthest) continue;
+    farthest = aside;
+    seen.arms = k;
+  }
+  return seen;
+}
+
+}  // namespace curveskel

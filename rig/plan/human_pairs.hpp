@@ -1,0 +1,17 @@
+// The pairs of limbs that are a human's.
+#pragma once
+
+#include "rig/plan/curve_tree.hpp"
+
+namespace curveskel {
+
+/// The pairs that are a human's by their heights; -1 = none.
+struct HumanPairs {
+  int legs = -1;  ///< from between knees and waist: what parts lower is a hem, or feet
+  int arms = -1;  ///< from between hips and head, a third of the legs or longer
+};
+
+/// Of a body that stands upright. O(spread points).
+[[nodiscard]] HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs);
+
+}  // namespace curveskel
