@@ -34,8 +34,8 @@ struct EmbedOptions {
   double keep_radius = 0.8;       ///< share of its inscribed radius that a moved point must keep
   double tip_reach = 1.5;         ///< leaves ending within this x the local radius are cut back
   double tip_gap = 1.15;  ///< tips grow until the surface ends within this x the local radius
-  bool go_below = false;  ///< `extract` alone: where no balls lead on inside, arcs on no cycle run
-                          ///< just below the full surface: certain, but not central
+  bool go_below = false;  ///< `extract` alone: where no balls lead on inside, arcs run just below
+                          ///< the full surface: certain, but not central
 
   [[nodiscard]] bool operator==(const EmbedOptions&) const = default;
 };
