@@ -87,12 +87,11 @@ struct EditedFile {
 /// `read_rig` finds in the file, and only their weights are written. OBJ with materials, texture
 /// coordinates or normals becomes glTF that has them: the vertices of the file in their order, then
 /// copies for corners with other texture coordinates or normals; FBX, COLLADA and PLY likewise.
-/// Where the old rig of FBX or COLLADA is kept, `rig` has the joints that `read_joints` finds in the
-/// file, and its animations move them. Nothing for all other files, for which `format_rig` loses
-/// nothing.
-/// Precondition: weights have a row for each vertex that `read_polygons` finds in the file, read
-/// with the same `as_bound` (false where the old rig is kept).
-/// Throws Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as
+/// Where the old rig of FBX or COLLADA is kept, `rig` has the joints that `read_joints` finds in
+/// the file, and its animations move them. Nothing for all other files, for which `format_rig`
+/// loses nothing. Precondition: weights have a row for each vertex that `read_polygons` finds in
+/// the file, read with the same `as_bound` (false where the old rig is kept). Throws
+/// Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as
 /// `format_rig`. O(bytes of the file).
 [[nodiscard]] std::optional<EditedFile> format_rig_into(const std::filesystem::path& input,
                                                         const Rig& rig,
