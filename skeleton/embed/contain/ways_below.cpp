@@ -41,23 +41,22 @@ bool line_stays_inside(const SurfaceTree& tree, const Point& from, const Point& 
 }  // namespace
 
 std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, const CurvePoint& to) {
-  return way_for(from, to, {});
+  return way_for(from, to, nullptr, nullptr);
 }
 
 std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, const CurvePoint& to,
                                                      HomologyGuard& handles,
                                                      const IsGood& is_good) {
-  Task task;
-  task.handles = &handles;
-  task.is_good = &is_good;
-  return way_for(from, to, task);
+  return way_for(from, to, &handles, &is_good);
 }
 
 std::optional<std::vector<Point>> WaysBelow::way_for(const CurvePoint& from, const CurvePoint& to,
-                                                     Task task) {
+                                                     HomologyGuard* handles,
+                                                     const IsGood* is_good) {
   constexpr int most_tries = 100;  // each finds a way round the places where the last one left
-  task.from = tree_.nearest(from.place());
-  task.to = tree_.nearest(to.place());
+  Task task{tree_.nearest(from.place()), tree_.nearest(to.place())};
+  task.handles = handles;
+  task.is_good = is_good;
   if (task.from.triangle < 0 || task.to.triangle < 0) return std::nullopt;
   task.start = below(task.from.triangle, task.from.point);
   task.end = below(task.to.triangle, task.to.point);

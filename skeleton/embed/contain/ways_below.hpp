@@ -76,7 +76,9 @@ class WaysBelow {
   };
 
   [[nodiscard]] std::optional<std::vector<Point>> way_for(const CurvePoint& from,
-                                                          const CurvePoint& to, Task task);
+                                                          const CurvePoint& to,
+                                                          HomologyGuard* handles,
+                                                          const IsGood* is_good);
   [[nodiscard]] std::optional<std::vector<Point>> search(const Task& task, std::set<Step>& avoided);
   [[nodiscard]] std::vector<Point> line_of(const Task& task,
                                            const std::vector<std::int32_t>& edges) const;
