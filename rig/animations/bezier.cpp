@@ -12,11 +12,11 @@ double bernstein(double a, double b, double c, double d, double t) {
 
 }  // namespace
 
-double bezier_value(const CurvePoint& from, const CurvePoint& leaving, const CurvePoint& arriving,
-                    const CurvePoint& to, double seconds) {
+double bezier_value(const TimedValue& from, const TimedValue& leaving, const TimedValue& arriving,
+                    const TimedValue& to, double seconds) {
   const double length = to.seconds - from.seconds;
   if (!(length > 0)) return to.value;
-  const auto share = [&](const CurvePoint& point) {
+  const auto share = [&](const TimedValue& point) {
     return std::clamp((point.seconds - from.seconds) / length, 0.0, 1.0);
   };
   const double wanted = std::clamp((seconds - from.seconds) / length, 0.0, 1.0);

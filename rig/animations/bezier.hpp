@@ -3,7 +3,7 @@
 
 namespace curveskel {
 
-struct CurvePoint {
+struct TimedValue {
   double seconds;
   double value;
 };
@@ -11,7 +11,7 @@ struct CurvePoint {
 /// The value of the cubic Bezier curve `from`, `leaving`, `arriving`, `to` at a time between those
 /// of its ends; control points beyond their times are drawn back to them, so that the curve never
 /// turns back in time. To 1e-12 of the time between the ends.
-[[nodiscard]] double bezier_value(const CurvePoint& from, const CurvePoint& leaving,
-                                  const CurvePoint& arriving, const CurvePoint& to, double seconds);
+[[nodiscard]] double bezier_value(const TimedValue& from, const TimedValue& leaving,
+                                  const TimedValue& arriving, const TimedValue& to, double seconds);
 
 }  // namespace curveskel

@@ -154,8 +154,8 @@ double DaeChannel::value(std::size_t key, std::size_t member) const {
 
 /// Between this key and the next, which is there.
 double DaeChannel::at(double seconds, std::size_t key, std::size_t member) const {
-  const CurvePoint from{keys_[key], value(key, member)};
-  const CurvePoint to{keys_[key + 1], value(key + 1, member)};
+  const TimedValue from{keys_[key], value(key, member)};
+  const TimedValue to{keys_[key + 1], value(key + 1, member)};
   const double share = (seconds - from.seconds) / (to.seconds - from.seconds);
   if (between_[key] == Between::step) return from.value;
   if (between_[key] == Between::line) return from.value + share * (to.value - from.value);

@@ -42,7 +42,7 @@ class FbxCurve {
   };
 
   void read_between(const FileBytes& file, const FbxRecord& curve);
-  void set(std::size_t key, const Attributes& given);
+  void set(std::size_t number, const Attributes& given);
   [[nodiscard]] double own_slope(std::size_t key) const;
 
   std::vector<Key> keys_;
