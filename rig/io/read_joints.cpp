@@ -41,6 +41,7 @@ struct GivenJoint {
 
 std::vector<int> order_of(const std::vector<GivenJoint>& joints, const FileBytes& file) {
   std::vector<int> parents;
+  parents.reserve(joints.size());
   for (const GivenJoint& joint : joints) parents.push_back(joint.parent);
   std::vector<int> order = parents_first(parents);
   if (order.size() == joints.size()) return order;

@@ -1,7 +1,6 @@
 // Ways that keep just below the triangles of a surface.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -53,7 +52,10 @@ class WaysBelow {
   struct Place {
     std::int32_t half_edge = -1;
     std::uint64_t number = 0;
-    auto operator<=>(const Place&) const = default;
+    [[nodiscard]] bool operator==(const Place&) const = default;
+    [[nodiscard]] bool operator<(const Place& other) const {
+      return std::pair(half_edge, number) < std::pair(other.half_edge, other.number);
+    }
   };
   struct HashOfPlace {
     std::size_t operator()(const Place& place) const {
