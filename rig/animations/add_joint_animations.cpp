@@ -72,8 +72,9 @@ class AnimationAdder {
       take(animation.frames[k], moves);
     }
     const std::size_t accessor = add_times(times);
-    for (std::size_t joint = 0; joint < moves.size(); ++joint)
+    for (std::size_t joint = 0; joint < moves.size(); ++joint) {
       add_joint(joint, moves[joint], accessor);
+    }
     if (channels_.empty()) return;
     OrderedJson& all = array_in(document_.json, "animations");
     const std::string number = std::to_string(all.size() + 1);

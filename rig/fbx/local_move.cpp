@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "rig/animations/node_move.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -31,14 +33,8 @@ Vector3d moved_near(const Vector3d& angles, const Vector3d& before) {
 }  // namespace
 
 FbxMove local_move(const Eigen::Affine3d& frame) {
-  FbxMove move{frame.translation(), Vector3d::Zero(), frame.linear().colwise().norm()};
-  if (frame.linear().determinant() < 0) move.scale.x() *= -1;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (move.scale[axis] != 0) turn.col(axis) = frame.linear().col(axis) / move.scale[axis];
-  }
-  move.angles = angles_of(Eigen::Quaterniond(turn).normalized().toRotationMatrix());
-  return move;
+  const NodeMove move = node_move(frame);
+  return {move.shift, angles_of(move.turn.toRotationMatrix()), move.scale};
 }
 
 Vector3d nearest_angles(const Vector3d& angles, const Vector3d& before) {

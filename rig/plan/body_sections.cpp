@@ -124,12 +124,11 @@ double BodySections::lean() const {
 }
 
 double BodySections::mirror_plane() const {
-  constexpr double waist = 0.5;  // to where the head begins, of the height
-  constexpr double chin = 0.875;
+  constexpr double lowest = 0.5;  // of the height; up to the chin
   constexpr int steps = 8;
   std::vector<double> middles;
   for (int k = 0; k <= steps; ++k) {
-    const double share = waist + (chin - waist) * k / steps;
+    const double share = lowest + (chin_of_height - lowest) * k / steps;
     middles.push_back(at(tree_.ground + share * tree_.height).middle().x());
   }
   return median_of(std::move(middles));

@@ -1,4 +1,4 @@
-// Where a standing human has its joints: means over artists' rigs, docs/study/rig.md.
+// The places of a standing human's joints: means over artists' rigs, docs/study/rig.md.
 #pragma once
 
 namespace curveskel {

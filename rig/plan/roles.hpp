@@ -19,7 +19,8 @@ struct ArmJoints {
   Eigen::Vector3d wrist;
 };
 
-/// What the curve does not show of a human who stands, by proportion; see rig/plan/standing.hpp.
+/// Limbs of a standing human that the curve does not show, by proportion; see
+/// rig/plan/standing.hpp.
 struct HiddenLimbs {
   struct Leg {
     Eigen::Vector3d hip;

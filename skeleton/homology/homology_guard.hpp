@@ -19,7 +19,7 @@ namespace curveskel {
 /// lie on cycles, and arcs that join these.
 [[nodiscard]] std::vector<int> core(const SkeletonGraph& graph);
 
-/// True if a straight line meets the surface, or comes as near to it as that.
+/// True if a straight line meets the surface, or comes within `near` of it.
 [[nodiscard]] bool crosses(const SurfaceTree& tree, const Point& from, const Point& to,
                            double near = 0);
 

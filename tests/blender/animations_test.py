@@ -14,7 +14,7 @@ from in_blender import result_of
 PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 COLLECTION = os.environ.get("CURVESKEL_COLLECTION")
 
-MOVES = """
+LOAD = """
 import json, pathlib, sys
 import bpy, numpy
 numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
@@ -23,14 +23,18 @@ def load(file):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     if file.suffix == ".fbx":
         bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
+    elif file.suffix == ".dae":
+        bpy.ops.wm.collada_import(filepath=str(file))
     else:
         bpy.ops.import_scene.gltf(filepath=str(file))
     armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
-    if file.suffix != ".fbx":  # a track for each clip, of which one is also the action
-        for track in [*armature.animation_data.nla_tracks]:
-            armature.animation_data.nla_tracks.remove(track)
-    return armature.animation_data.action.name
+    # glTF has a track for each clip, of which one is also the action.
+    for track in [*armature.animation_data.nla_tracks]:
+        armature.animation_data.nla_tracks.remove(track)
+    return armature
+"""
 
+MOVES = LOAD + """
 def places(seconds):
     scene = bpy.context.scene
     frame = seconds * scene.render.fps / scene.render.fps_base
@@ -52,7 +56,7 @@ for file in sorted(folder.glob("*.glb")):
     seconds = [k / 48 for k in range(4, 29)]  # keys of the files, and halfway between them
     found = {}
     for one in (file, file.with_suffix(".fbx")):
-        clip = load(one)
+        clip = load(one).animation_data.action.name
         found[one.suffix] = (clip, len(bpy.data.actions), [places(moment) for moment in seconds])
     (clip, clips, gltf), (other, others, fbx) = found[".glb"], found[".fbx"]
     size = numpy.ptp(gltf[0], axis=0).max()
@@ -80,24 +84,7 @@ for file in sorted(folder.glob("*.glb")):
 (folder / "result.json").write_text(json.dumps({}))
 """
 
-JOINTS = """
-import json, pathlib, sys
-import bpy, numpy
-numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
-
-def load(file):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    if file.suffix == ".fbx":
-        bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
-    elif file.suffix == ".dae":
-        bpy.ops.wm.collada_import(filepath=str(file))
-    else:
-        bpy.ops.import_scene.gltf(filepath=str(file))
-    armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
-    for track in [*armature.animation_data.nla_tracks]:
-        armature.animation_data.nla_tracks.remove(track)
-    return armature
-
+JOINTS = LOAD + """
 def frames(armature, clip, keys):
     # Blender leaves bones that a clip does not move where the clip before has left them.
     armature.animation_data.action = None

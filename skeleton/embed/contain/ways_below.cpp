@@ -137,8 +137,8 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
     Reached& here = reached.at(place);
     if (std::exchange(here.done, true)) continue;
     if (place.half_edge >= 0) {
-      const double length = here.length;  // `here` moves as more are reached
-      leave(half_edges_->twin[idx(place.half_edge)] / 3, place, middle(place.half_edge), length);
+      leave(half_edges_->twin[idx(place.half_edge)] / 3, place, middle(place.half_edge),
+            here.length);
       continue;
     }
     ++ways;
