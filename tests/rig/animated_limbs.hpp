@@ -30,6 +30,7 @@ inline FbxItem curve_item(std::int64_t number, const std::vector<double>& second
                           const std::vector<double>& values, int flags = 4,
                           const std::vector<double>& slopes = {0, 0}) {
   std::vector<double> times;
+  times.reserve(seconds.size());
   for (const double one : seconds) times.push_back(std::round(one * fbx_ticks_a_second));
   return {"AnimationCurve",
           {number, "AnimCurve::", ""},
