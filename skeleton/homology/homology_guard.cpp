@@ -207,6 +207,7 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
   std::vector<int> restored;
   if (!has_handles()) return restored;
   const auto arcs = core(before);
+  std::vector<std::vector<Point>> seen(graph.arcs.size());  // courses at the last look
   for (bool changed = true; changed;) {
     changed = false;
     for (const int s : arcs) {
@@ -214,10 +215,12 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
       const Arc& old = before.arcs[idx(s)];
       if (!same_ends(old, graph.arcs[idx(s)])) continue;
       const auto was = before.polyline(old);
-      const auto is = graph.polyline(graph.arcs[idx(s)]);
+      auto is = graph.polyline(graph.arcs[idx(s)]);
+      const auto& last = seen[idx(s)];
       bool here = false;
       for (std::size_t k = 0; k + 1 < was.size(); ++k) {
         if (was[k] == is[k] && was[k + 1] == is[k + 1]) continue;
+        if (!last.empty() && last[k] == is[k] && last[k + 1] == is[k + 1]) continue;
         const bool stays =
             classes_->homologous({was[k], was[k + 1]}, {is[k], is[k + 1]}) &&
             (!crosses(tree, is[k], is[k + 1], near_) || crosses(tree, was[k], was[k + 1], near_));
@@ -227,6 +230,7 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
       }
       if (here) restored.push_back(s);
       changed = changed || here;
+      seen[idx(s)] = std::move(is);
     }
   }
   return restored;

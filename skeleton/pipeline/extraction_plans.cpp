@@ -7,6 +7,7 @@
 
 #include "skeleton/pipeline/extract_again.hpp"
 #include "surface/mesh/crosses_itself.hpp"
+#include "surface/mesh/flat_edges.hpp"
 
 namespace curveskel {
 namespace {
@@ -80,14 +81,22 @@ Plan<Extracted> as_asked(const Surface& surface, const ExtractOptions& options,
           }};
 }
 
+/// Noise leaves next to no edge flat, so a surface with this many has none to be faired off.
+bool may_be_noisy(const Surface& surface) {
+  constexpr double flat_where_sides_are_plane = 0.25;
+  return share_of_flat_edges(surface) < flat_where_sides_are_plane;
+}
+
 /// Noise as thick as the limbs turns them inside out here and there; without it the curve has a way
 /// through.
 Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
                        ExtractionCache::Implementation* kept) {
-  const auto why = [&options](const SoFar& so_far) -> std::optional<std::string> {
+  const auto why = [&surface, &options](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || options.fairing || !options.fair_if_outside) return std::nullopt;
     const Certificate& found = so_far.best->found.extraction.certificate;
     if (found.inside_enough) return std::nullopt;
+    const bool single = so_far.best->components.size() == 1;
+    if (single && !may_be_noisy(surface)) return std::nullopt;
     return failures(found, options.certificate);
   };
   const auto make = [&surface, &options, kept](const Room& room) {
@@ -96,8 +105,9 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
     gentler.fair.iterations = 30;
     if (kept != nullptr) share_beginning(kept->as_asked, kept->faired);
     const AnotherWay way{try_faired, gentler,
-                         [](const ComponentResult&, const Surface&, const Certificate& own) {
-                           return own.topology_correct() && !own.inside_enough;
+                         [](const ComponentResult&, const Surface& itself, const Certificate& own) {
+                           return own.topology_correct() && !own.inside_enough &&
+                                  may_be_noisy(itself);
                          }};
     Extracted made = extract_again(surface, way, kept != nullptr ? &kept->faired : nullptr, room);
     made.note = "the curve left the surface, so " + again(made, room.number) +
@@ -121,7 +131,7 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
   // A surface that crosses itself has no inside that all its handles bound.
   const auto has_hope = [](const ComponentRecord& one, const Surface& own,
                            const Certificate& found) {
-    return !found.inside_enough || was_coarsened(one) || !crosses_itself(own);
+    return found.topology_correct() || was_coarsened(one) || !crosses_itself(own);
   };
   const auto why = [&surface, &options, may_help,
                     has_hope](const SoFar& so_far) -> std::optional<std::string> {

@@ -128,7 +128,7 @@ TEST(ExtractRepaired, SaysOnceWhatIsSoOfManyComponents) {
   for (int i = 0; i < 3; ++i) {
     Shape flat = shapes::ellipsoid({1, 1, 1}, 2);
     flat.surface.positions.col(2) *= 1e-9;
-    several.push_back(shapes::translated(shapes::noisy(flat, 1e-5, 1), {0, 0, 3.0 * i}));
+    several.push_back(shapes::translated(shapes::noisy(flat, 1e-4, 1), {0, 0, 3.0 * i}));
   }
   std::vector<std::string> notes;
   Monitor monitor;

@@ -226,7 +226,7 @@ Monitor failing_in_second_try(const Thrown& thrown) {
 TEST(History, OfASecondTryThatRunsOutOfMemoryKeepsTheFirst) {
   ExtractOptions options;
   options.certificate.inside_needed = 2;  // more than any curve has, so that it is always made
-  const Surface surface = shapes::torus(3, 1, 20).surface;
+  const Surface surface = shapes::noisy(shapes::torus(3, 1, 20), 1e-3, 1).surface;
   ExtractOptions once = options;
   once.fair_if_outside = false;
   const Extraction first = extract(surface, once, {});
@@ -246,6 +246,33 @@ TEST(History, OfASecondTryThatRunsOutOfMemoryKeepsTheFirst) {
   EXPECT_THROW((void)extract(surface, options, failing_in_second_try(Cancelled())), Cancelled);
   EXPECT_THROW(
       (void)extract(surface, options, failing_in_second_try(Error(Fault::usage, "option"))), Error);
+}
+
+/// Components of which a faired try was made, as no curve has enough of its length inside.
+std::set<int> faired_components(const Surface& surface) {
+  ExtractOptions options;
+  options.resolution = 500;
+  options.certificate.inside_needed = 2;
+  options.all_vertices_if_failed = false;
+  const Extraction found = extract(surface, options);
+  std::set<int> components;
+  for (const Try& one : found.history) {
+    if (one.part_of >= 0 && found.history[static_cast<std::size_t>(one.part_of)].name == try_faired)
+      components.insert(one.component);
+  }
+  return components;
+}
+
+// Plates of printers spent half of their time on fairing that had nothing to take away.
+TEST(History, WithPlaneSidesHasNoFairedTry) {
+  const Shape box = shapes::box({4, 1, 1}, 6);
+  const Shape sieve = shapes::sieve(2);
+  EXPECT_EQ(faired_components(box.surface), std::set<int>{});
+  EXPECT_EQ(faired_components(sieve.surface), std::set<int>{});
+  EXPECT_EQ(faired_components(shapes::noisy(box, 0.01, 1).surface), std::set{0});
+  EXPECT_EQ(faired_components(shapes::noisy(sieve, 0.01, 1).surface), std::set{0});
+  const Shape ring = shapes::translated(shapes::noisy(shapes::torus(3, 1, 20), 1e-3, 1), {0, 0, 9});
+  EXPECT_EQ(faired_components(shapes::together("two", {box, ring}).surface), std::set{1});
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "meshes/shapes.hpp"
+#include "surface/mesh/flat_edges.hpp"
+
 namespace curveskel::measures_laws {
 namespace {
 
@@ -73,6 +76,22 @@ TEST(Measures, NothingMeasuresZero) {
   EXPECT_EQ(area(Surface{}), 0);
   EXPECT_EQ(volume(Surface{}), 0);
   EXPECT_EQ(bounding_box_diagonal(Positions{}), 0);
+}
+
+TEST(FlatEdges, AreTheDiagonalsOfABoxOfAnySize) {
+  for (const double s : {1e-200, 1e-9, 1.0, 1e9, 1e200}) {
+    EXPECT_DOUBLE_EQ(share_of_flat_edges(box({0, 0, 0}, {s, 2 * s, 3 * s})), 1.0 / 3);
+  }
+  EXPECT_EQ(share_of_flat_edges(Surface()), 0);
+}
+
+TEST(FlatEdges, AreNoneWhereThereIsNoise) {
+  for (const shapes::Shape& drawn : {shapes::box({1, 2, 3}, 8), shapes::sieve(3)}) {
+    EXPECT_GT(share_of_flat_edges(drawn.surface), 0.5) << drawn.name;
+    EXPECT_LT(share_of_flat_edges(shapes::noisy(drawn, 0.01, 1).surface), 0.02) << drawn.name;
+  }
+  const shapes::Shape ball = shapes::ellipsoid({1, 1, 2}, 4);
+  EXPECT_LT(share_of_flat_edges(ball.surface), 0.1);
 }
 
 }  // namespace
