@@ -73,7 +73,7 @@ PartitionGraph cut(const Sliced& sliced, const std::vector<bool>& wanted) {
     const int group = sliced.group[v];
     cell[v] = {group, wanted[idx(group)] ? sliced.slice(sliced.value[v]) : 0};
   }
-  return partition_graph(sliced.surface, components_of_cells(sliced.index, cell));
+  return partition_graph(sliced.surface, sliced.index, components_of_cells(sliced.index, cell));
 }
 
 /// One group, at values that grow from 0 at one end to the other.
@@ -92,12 +92,13 @@ Sliced uncut(const Surface& surface) {
 
 }  // namespace
 
-std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& graph) {
+std::vector<int> genus_of_groups(const Surface& surface, const EdgeIndex& index,
+                                 const PartitionGraph& graph) {
   std::vector<int> euler(idx(graph.groups), 0);
   std::vector<int> curves(idx(graph.groups), 0);
   const auto& group = graph.group_of_vertex;
   for (Eigen::Index v = 0; v < group.size(); ++v) ++euler[idx(group[v])];
-  for (const auto& [a, b] : index_edges(surface.triangles).edges) {
+  for (const auto& [a, b] : index.edges) {
     if (group[a] == group[b]) --euler[idx(group[a])];
   }
   for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
@@ -120,7 +121,7 @@ namespace {
 std::vector<bool> worth_cutting(const Sliced& sliced, const PartitionGraph& graph,
                                 Eigen::Index input_vertices) {
   const double least_width = std::ldexp(sliced.first_width, -most_halvings);
-  const auto genus = genus_of_groups(sliced.surface, graph);
+  const auto genus = genus_of_groups(sliced.surface, sliced.index, graph);
   std::vector<double> lowest(genus.size(), std::numeric_limits<double>::infinity());
   std::vector<double> highest(genus.size(), -std::numeric_limits<double>::infinity());
   for (Eigen::Index v = 0; v < input_vertices; ++v) {
@@ -157,8 +158,9 @@ PartitionGraph cut_by_levels(Sliced& sliced, const Monitor& monitor) {
     sliced.group.assign(graph.group_of_vertex.begin(), graph.group_of_vertex.end());
     wanted = worth_cutting(sliced, graph, input_vertices);
   }
-  return partition_graph(sliced.surface, Eigen::Map<const Eigen::VectorXi>(
-                                             sliced.group.data(), std::ssize(sliced.group)));
+  return partition_graph(
+      sliced.surface, sliced.index,
+      Eigen::Map<const Eigen::VectorXi>(sliced.group.data(), std::ssize(sliced.group)));
 }
 
 /// Splits the edges at the vertices of the loop, and makes a group of the loop: a ring that the
@@ -186,7 +188,7 @@ LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor) {
   Sliced sliced = uncut(surface);
   PartitionGraph graph = cut_by_levels(sliced, monitor);
   while (true) {
-    const auto genus = genus_of_groups(sliced.surface, graph);
+    const auto genus = genus_of_groups(sliced.surface, sliced.index, graph);
     const auto found = std::find_if(genus.begin(), genus.end(), [](int g) { return g > 0; });
     if (found == genus.end()) break;
     monitor.report("surgery", 1);

@@ -24,7 +24,9 @@ struct LevelSetGraph {
 /// of its edges: that always ends. Precondition: one closed oriented component.
 [[nodiscard]] LevelSetGraph level_set_graph(const Surface& surface, const Monitor& monitor);
 
-/// Genus of each group's piece of surface, (2 - chi - cut curves) / 2.
-[[nodiscard]] std::vector<int> genus_of_groups(const Surface& surface, const PartitionGraph& graph);
+/// Genus of each group's piece of surface, (2 - chi - cut curves) / 2. `index` is that of the
+/// surface's triangles. O(#V + #F).
+[[nodiscard]] std::vector<int> genus_of_groups(const Surface& surface, const EdgeIndex& index,
+                                               const PartitionGraph& graph);
 
 }  // namespace curveskel

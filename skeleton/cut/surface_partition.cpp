@@ -49,9 +49,10 @@ EdgeIndex index_edges(const Triangles& triangles) {
     std::sort(sides.begin() + from, sides.begin() + to, [](const Side& a, const Side& b) {
       return std::tie(a.high, a.slot) < std::tie(b.high, b.slot);
     });
+    int last = -1;
     for (auto side = sides.begin() + from; side != sides.begin() + to; ++side) {
-      const std::array<int, 2> ends{low, side->high};
-      if (index.edges.empty() || index.edges.back() != ends) index.edges.push_back(ends);
+      if (side->high != last) index.edges.push_back({low, side->high});
+      last = side->high;
       index.edge_of_corner(side->slot / 3, side->slot % 3) =
           static_cast<int>(index.edges.size()) - 1;
     }
@@ -248,6 +249,11 @@ LinkedCrossings link_crossings(const Triangles& triangles, const EdgeIndex& inde
 }  // namespace
 
 PartitionGraph partition_graph(const Surface& surface, const Eigen::VectorXi& group_of_vertex) {
+  return partition_graph(surface, index_edges(surface.triangles), group_of_vertex);
+}
+
+PartitionGraph partition_graph(const Surface& surface, const EdgeIndex& index,
+                               const Eigen::VectorXi& group_of_vertex) {
   PartitionGraph graph;
   graph.group_of_vertex.resize(group_of_vertex.size());
   std::vector<int> number(static_cast<std::size_t>(group_of_vertex.maxCoeff()) + 1, -1);
@@ -257,7 +263,6 @@ PartitionGraph partition_graph(const Surface& surface, const Eigen::VectorXi& gr
     graph.group_of_vertex[v] = n;
   }
 
-  const EdgeIndex index = index_edges(surface.triangles);
   const LinkedCrossings crossings = link_crossings(surface.triangles, index, graph.group_of_vertex);
   std::vector<char> seen(index.edges.size(), 0);
   std::vector<std::array<int, 2>> edges;

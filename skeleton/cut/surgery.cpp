@@ -194,8 +194,9 @@ std::optional<PartitionGraph> graph_by_cgal(const Surface& surface,
                                             const Contraction& contraction) {
   const Eigen::VectorXi group = cgal_surgery(contraction).node_of_vertex;
   if (any_triangle_in_three(surface, group)) return std::nullopt;
-  PartitionGraph graph = partition_graph(surface, group);
-  const std::vector<int> genus = genus_of_groups(surface, graph);
+  const EdgeIndex index = index_edges(surface.triangles);
+  PartitionGraph graph = partition_graph(surface, index, group);
+  const std::vector<int> genus = genus_of_groups(surface, index, graph);
   if (std::any_of(genus.begin(), genus.end(), [](int g) { return g != 0; })) return std::nullopt;
   return graph;
 }

@@ -86,7 +86,8 @@ TEST(Groups, HalvesOfATorusMeetInTwoCircles) {
   EXPECT_EQ(graph.groups, 2);
   ASSERT_EQ(graph.cut_curves.size(), 2U);
   EXPECT_EQ(cycle_rank(graph), 1);
-  EXPECT_EQ(genus_of_groups(torus.surface, graph), (std::vector<int>{0, 0}));
+  EXPECT_EQ(genus_of_groups(torus.surface, index_edges(torus.surface.triangles), graph),
+            (std::vector<int>{0, 0}));
   for (const auto& circle : graph.cut_curves) {
     EXPECT_GE(circle.size(), 24U);
     for (const auto& [a, b] : circle) {
@@ -99,7 +100,8 @@ TEST(LevelSets, CycleRankIsTheGenusOfEveryShape) {
   for (const auto& shape : connected_shapes()) {
     const LevelSetGraph level_sets = level_set_graph(shape.surface, {});
     EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus) << shape.name;
-    const auto genus = genus_of_groups(level_sets.surface, level_sets.graph);
+    const auto genus = genus_of_groups(level_sets.surface,
+                                       index_edges(level_sets.surface.triangles), level_sets.graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), level_sets.graph.groups) << shape.name;
   }
 }
@@ -122,7 +124,8 @@ TEST(LevelSets, SplitNoSurfaceIntoFarMoreVerticesThanItHas) {
 void expect_right_cut(const Surface& surface, int genus) {
   const LevelSetGraph level_sets = level_set_graph(surface, {});
   EXPECT_EQ(cycle_rank(level_sets.graph), genus);
-  const auto of_groups = genus_of_groups(level_sets.surface, level_sets.graph);
+  const auto of_groups = genus_of_groups(
+      level_sets.surface, index_edges(level_sets.surface.triangles), level_sets.graph);
   EXPECT_EQ(std::count(of_groups.begin(), of_groups.end(), 0), level_sets.graph.groups);
   EXPECT_EQ(level_sets.surface.positions(level_sets.vertex_of_input, Eigen::all),
             surface.positions);
@@ -194,7 +197,8 @@ TEST(LevelSets, SlicesAreAsNarrowAsNeededWhereTheyAreNeededOnly) {
     const auto shape = dwindling_rings(8, ratio);
     const LevelSetGraph level_sets = level_set_graph(shape.surface, {});
     EXPECT_EQ(cycle_rank(level_sets.graph), shape.genus);
-    const auto genus = genus_of_groups(level_sets.surface, level_sets.graph);
+    const auto genus = genus_of_groups(level_sets.surface,
+                                       index_edges(level_sets.surface.triangles), level_sets.graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), level_sets.graph.groups);
     EXPECT_LT(level_sets.surface.positions.rows(), 3 * shape.surface.positions.rows());
     EXPECT_EQ(level_sets.surface.positions(level_sets.vertex_of_input, Eigen::all),
@@ -216,7 +220,7 @@ TEST(Surgery, CycleRankIsTheGenusAndEveryVertexHasOneGroup) {
     EXPECT_EQ(graph->group_of_vertex.size(), shape.surface.positions.rows());
     EXPECT_GE(graph->group_of_vertex.minCoeff(), 0);
     EXPECT_LT(graph->group_of_vertex.maxCoeff(), graph->groups);
-    const auto genus = genus_of_groups(shape.surface, *graph);
+    const auto genus = genus_of_groups(shape.surface, index_edges(shape.surface.triangles), *graph);
     EXPECT_EQ(std::count(genus.begin(), genus.end(), 0), graph->groups) << shape.name;
   }
 }

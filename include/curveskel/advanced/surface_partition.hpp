@@ -93,4 +93,8 @@ struct PartitionGraph {
 [[nodiscard]] PartitionGraph partition_graph(const Surface& surface,
                                              const Eigen::VectorXi& group_of_vertex);
 
+/// The same where the edges are known: `index` must be that of the surface's triangles. O(#F).
+[[nodiscard]] PartitionGraph partition_graph(const Surface& surface, const EdgeIndex& index,
+                                             const Eigen::VectorXi& group_of_vertex);
+
 }  // namespace curveskel
