@@ -131,9 +131,8 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
   // A surface that crosses itself has no inside that all its handles bound.
   const auto has_hope = [](const ComponentRecord& one, const Surface& own,
                            const Certificate& found) {
-    const bool handles_right =
-        found.cycle_rank == found.genus && found.homology_rank == found.genus;
-    return handles_right || was_coarsened(one) || !crosses_itself(own);
+    const bool handles_fail = found.components_right() && !found.topology_correct();
+    return !handles_fail || was_coarsened(one) || !crosses_itself(own);
   };
   const auto why = [&surface, &options, may_help,
                     has_hope](const SoFar& so_far) -> std::optional<std::string> {
