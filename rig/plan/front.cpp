@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double clearly = 0.05;  // of a leg's length
+constexpr double clearly_ahead = 0.05;  // of a leg's length
 
 // Of the way from the hip to the tip of the foot, by the heights of knees and ankles and by a foot
 // of a fifth of it.
-constexpr double knee = 0.4;
-constexpr double ankle = 0.8;
+constexpr double knee_share = 0.4;
+constexpr double ankle_share = 0.8;
 
 /// By how much more the foot reaches ahead of the shin than behind it; 0 where either has no
 /// vertices. `seen` says how far ahead a place lies, and how high, in lengths of the leg.
@@ -71,13 +71,13 @@ class SideOfLeg {
   /// By how much the leg bends ahead of the straight way from the hip to the ankle, as knees alone
   /// do, however the thigh is turned.
   [[nodiscard]] double knee_ahead() const {
-    const Vector2d way = at(ankle) - at(0);
+    const Vector2d way = at(ankle_share) - at(0);
     if (!(way.norm() > 0)) return 0;
     const Vector2d ahead = ahead_of(way.normalized());
     double farthest = 0;
     constexpr int samples = 24;
     for (int k = 1; k < samples; ++k) {
-      const double off = (at(ankle * k / samples) - at(0)).dot(ahead);
+      const double off = (at(ankle_share * k / samples) - at(0)).dot(ahead);
       if (std::abs(off) > std::abs(farthest)) farthest = off;
     }
     return farthest;
@@ -85,7 +85,7 @@ class SideOfLeg {
 
   /// As where a human stands, with the shin for what is upright.
   [[nodiscard]] double foot_ahead() const {
-    const Vector2d shin = at(ankle) - at(knee);
+    const Vector2d shin = at(ankle_share) - at(knee_share);
     if (!(shin.norm() > 0)) return 0;
     const Vector2d down = shin.normalized();
     double sole = -std::numeric_limits<double>::infinity();
@@ -148,12 +148,12 @@ double ears_ahead(const CurveTree& tree, const Limbs& limbs, const PlanFound& fo
 bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
   const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
-  return -foot_ahead(tree, leg) > clearly * length;
+  return -foot_ahead(tree, leg) > clearly_ahead * length;
 }
 
 bool legs_bend_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   const LimbWay& way = limbs.pairs[idx(found.legs.front())].ways.front();
-  const double least = 2 * clearly * way.length;  // of both legs
+  const double least = 2 * clearly_ahead * way.length;  // of both legs
   double feet = 0;
   double knees = 0;
   for (const bool is_left : {true, false}) {
