@@ -107,28 +107,45 @@ int find_arms(const CurveTree& tree, const Limbs& limbs, int leg) {
 struct Posture {
   double lean = 0;  // degrees of the trunk from upright
   double back = 0;  // of the size, that the trunk reaches behind the legs
+  double tail = 0;  // the same but for the trunk's way up to the arms, and what lies beyond
 };
 
 /// Up to the arms; where these begin in the ball of the hips, in which the curve may have one
 /// junction or two, up to its top.
+int top_of_trunk(const CurveTree& tree, const Limbs& limbs, int root, int arms) {
+  const Vector3d& hips = tree.nodes[idx(root)];
+  if (arms >= 0) {
+    const int chest = limbs.pairs[idx(arms)].root;
+    if ((tree.nodes[idx(chest)] - hips).norm() > tree.radii[idx(root)]) return chest;
+  }
+  int top = root;
+  for (const int node : limbs.trunk) {
+    if (tree.nodes[idx(node)].y() > tree.nodes[idx(top)].y()) top = node;
+  }
+  return top;
+}
+
 Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms) {
   const int root = limbs.pairs[idx(leg)].root;
-  const Vector3d hips = tree.nodes[idx(root)];
-  Vector3d top = hips;
+  const Vector3d& hips = tree.nodes[idx(root)];
+  const int top = top_of_trunk(tree, limbs, root, arms);
+  std::vector<char> goes_up(tree.nodes.size(), 0);
+  for (const int node : ways_from(tree, root).path(top)) goes_up[idx(node)] = 1;
+  if (top != root) {
+    std::vector<char> seen = goes_up;
+    for (const int node : part_of(tree, top, seen)) goes_up[idx(node)] = 1;
+  }
   double rearmost = hips.z();
+  double rearmost_of_tail = hips.z();
   for (const int node : limbs.trunk) {
-    const Vector3d& p = tree.nodes[idx(node)];
-    if (p.y() > top.y()) top = p;
-    rearmost = std::min(rearmost, p.z());
+    const double z = tree.nodes[idx(node)].z();
+    rearmost = std::min(rearmost, z);
+    if (goes_up[idx(node)] == 0) rearmost_of_tail = std::min(rearmost_of_tail, z);
   }
-  if (arms >= 0) {
-    const Vector3d& chest = tree.nodes[idx(limbs.pairs[idx(arms)].root)];
-    if ((chest - hips).norm() > tree.radii[idx(root)]) top = chest;
-  }
-  const Vector3d trunk = top - hips;
+  const Vector3d trunk = tree.nodes[idx(top)] - hips;
   const double length = std::max(trunk.norm(), 1e-9 * tree.size);
   return {std::acos(std::clamp(trunk.y() / length, -1.0, 1.0)) * 180 / std::numbers::pi,
-          (hips.z() - rearmost) / tree.size};
+          (hips.z() - rearmost) / tree.size, (hips.z() - rearmost_of_tail) / tree.size};
 }
 
 std::string rounded(double value) { return std::to_string(std::lround(value)); }
@@ -165,7 +182,7 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;
   constexpr double level = 90;
   constexpr double upright = level / 3;  // so stand people in robes, whose hem is no tail
-  if (found.arms >= 0 && posture.lean < 35 && posture.back < 0.2) {
+  if (found.arms >= 0 && posture.lean < 35 && posture.tail < 0.2) {
     const std::string why = why_no_human(tree, limbs, found);
     if (why.empty()) found.plan = BodyKind::humanoid;
     found.reason = why + "one pair of legs and one of arms above them; " + leans;
@@ -248,84 +265,6 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
     found.is_forced = true;
   }
   return found;
-}
-
-namespace {
-
-/// By how much more the foot reaches ahead of the shin than behind it; 0 where either has no
-/// vertices.
-double foot_ahead(const CurveTree& tree, const LimbPair& leg) {
-  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
-  double ahead = -std::numeric_limits<double>::infinity();
-  double behind = -ahead;
-  double shin = 0;
-  int count = 0;
-  for (const int v : leg.vertices) {
-    const Vector3d& p = tree.vertices[idx(v)];
-    const double height = (p.y() - tree.ground) / length;
-    if (height < 0.1) {
-      ahead = std::max(ahead, p.z());
-      behind = std::min(behind, p.z());
-    } else if (height < 0.35) {
-      shin += p.z();
-      ++count;
-    }
-  }
-  if (count == 0 || !(ahead > behind)) return 0;
-  shin /= count;
-  return (ahead - shin) - (shin - behind);
-}
-
-/// By how much a quadruped reaches higher beyond its front legs than beyond its hind legs: by its
-/// trunk, and by its surface. Where the trunk ends above the legs it is as high as there.
-double front_above_rear(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  const Vector3d& a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)];
-  const Vector3d& b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)];
-  const auto& [rear, front] = a.z() < b.z() ? std::tie(a, b) : std::tie(b, a);
-  double trunk[2] = {rear.y(), front.y()};
-  for (const int node : limbs.trunk) {
-    const Vector3d& p = tree.nodes[idx(node)];
-    if (p.z() < rear.z()) trunk[0] = std::max(trunk[0], p.y());
-    if (p.z() > front.z()) trunk[1] = std::max(trunk[1], p.y());
-  }
-  double surface[2] = {tree.ground, tree.ground};
-  for (const Vector3d& p : tree.vertices) {
-    if (p.z() < rear.z()) surface[0] = std::max(surface[0], p.y());
-    if (p.z() > front.z()) surface[1] = std::max(surface[1], p.y());
-  }
-  return trunk[1] - trunk[0] + surface[1] - surface[0];
-}
-
-/// The length of the ears, horns and jaws in the front half, less that of those in the rear half.
-double ears_ahead(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  const auto root = [&](int pair) { return tree.nodes[idx(limbs.pairs[idx(pair)].root)].z(); };
-  const double middle = 0.5 * (root(found.legs[0]) + root(found.legs[1]));
-  double ears = 0;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    const LimbPair& pair = limbs.pairs[idx(k)];
-    const bool is_leg = std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
-    if (is_leg || pair.length <= 0.05 * tree.size) continue;
-    ears += (root(k) > middle ? 1 : -1) * pair.length;
-  }
-  return ears;
-}
-
-}  // namespace
-
-bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
-  constexpr double clearly = 0.05;  // of the legs' length
-  const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
-  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
-  return -foot_ahead(tree, leg) > clearly * length;
-}
-
-bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
-                Standing standing) {
-  const double ears = ears_ahead(tree, limbs, found);
-  if (standing == Standing::in_pose && ears != 0) return ears < 0;
-  double ahead = ears + front_above_rear(tree, limbs, found);
-  for (const int leg : found.legs) ahead += foot_ahead(tree, limbs.pairs[idx(leg)]);
-  return ahead < 0;
 }
 
 }  // namespace curveskel

@@ -161,9 +161,14 @@ bool is_turned(const Outlook& outlook, const PlanOptions& options) {
   if (found.plan == BodyKind::bird && found.legs.empty()) {
     return flies_back(tree, limbs, found.arms);
   }
-  const bool has_toes = (found.plan == BodyKind::humanoid && !found.legs.empty()) ||
-                        found.plan == BodyKind::bird || found.plan == BodyKind::tailed_biped;
-  return has_toes && !options.faces_minus_z && toes_point_back(tree, limbs, found);
+  const bool is_human = found.plan == BodyKind::humanoid && !found.legs.empty();
+  const bool has_toes =
+      is_human || found.plan == BodyKind::bird || found.plan == BodyKind::tailed_biped;
+  if (!has_toes || options.faces_minus_z) return false;
+  if (is_human && sides != Sides::images) {
+    return legs_bend_back(sides == Sides::posed ? posed : tree, limbs, found);
+  }
+  return toes_point_back(tree, limbs, found);
 }
 
 /// Of a human who is asked for.

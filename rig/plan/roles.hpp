@@ -103,6 +103,11 @@ inline constexpr const char* wrist_reason =
 [[nodiscard]] bool toes_point_back(const CurveTree& tree, const Limbs& limbs,
                                    const PlanFound& found);
 
+/// The same of a human whose legs are not images of each other, each of them as it lies: the feet
+/// against their shins, or, if these are nearly in line, the knees, which bend ahead.
+[[nodiscard]] bool legs_bend_back(const CurveTree& tree, const Limbs& limbs,
+                                  const PlanFound& found);
+
 /// True if the trunk is long, thick and level, with fins beside it.
 [[nodiscard]] bool is_fish(const CurveTree& tree, const Limbs& limbs);
 /// True if the thicker half of a fish's trunk is behind.

@@ -45,8 +45,12 @@ PolygonSoup read_gltf(const FileBytes& file, const Monitor& monitor, const ReadO
 }
 
 bool looks_like_gltf(const FileBytes& file) {
-  const std::size_t first = file.content.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && file.content[first] == '{';
+  constexpr const char* blank = " \t\r\n";
+  const std::size_t first = file.content.find_first_not_of(blank);
+  if (first == std::string::npos || file.content[first] != '{') return false;
+  // A name comes next, in JSON; other data may begin with the same byte.
+  const std::size_t next = file.content.find_first_not_of(blank, first + 1);
+  return next != std::string::npos && (file.content[next] == '"' || file.content[next] == '}');
 }
 
 bool looks_like_glb(const FileBytes& file) { return file.content.starts_with("glTF"); }

@@ -100,6 +100,72 @@ TEST(PosedBodies, AStridingHumanHasTheJointsOfOneThatStands) {
   }
 }
 
+struct Stride {
+  double thigh;  // degrees ahead
+  double knee;   // degrees that it is bent
+};
+
+/// The shin turned backwards about the knee.
+Limb bent(const Stride& stride) {
+  const Limb leg = swung(leg_of_human, stride.thigh);
+  const Limb shin = swung({leg.begin() + 1, leg.end()}, -stride.knee);
+  return {leg[0], shin[0], shin[1], shin[2]};
+}
+
+/// Looks along -z if it is turned.
+RowVector3d placed(const RowVector3d& place, bool is_turned) {
+  return is_turned ? RowVector3d(-place.x(), place.y(), -place.z()) : place;
+}
+
+/// The trunk leans ahead by so many degrees.
+RigSubject bent_human(const Stride& left, const Stride& right, double lean, bool is_turned) {
+  const Limb trunk = swung({{0, 10, 0}, {0, 15, 0}, {0, 16.8, 0}, {0, 18.6, 0}}, -lean);
+  const auto put = [&](Limb limb, const RowVector3d& move) {
+    for (RowVector3d& place : limb) place = placed(place + move, is_turned);
+    return limb;
+  };
+  const RowVector3d still = RowVector3d::Zero();
+  const RowVector3d of_chest = trunk[1] - RowVector3d(0, 15, 0);
+  BodyCurve figure;
+  const int hips = figure.add(placed(trunk[0], is_turned), 1.4);
+  const int chest = figure.add(placed(trunk[1], is_turned), 1.5, hips);
+  const int neck = figure.add(placed(trunk[2], is_turned), 0.6, chest);
+  figure.add(placed(trunk[3], is_turned), 1.3, neck);
+  add_limb(figure, hips, put(bent(left), still), 0.6);
+  add_limb(figure, hips, put(mirrored(bent(right)), still), 0.6);
+  add_limb(figure, chest, put(swung(arm_of_human, -30), of_chest), 0.5);
+  add_limb(figure, chest, put(mirrored(swung(arm_of_human, 40)), of_chest), 0.5);
+  return subject_of("bent human", figure);
+}
+
+/// Runs, kicks, kneels, steps down: a foot in the air tells nothing by where it lies.
+TEST(PosedBodies, AHumanLooksWhereTheKneesBend) {
+  const std::vector<std::pair<Stride, Stride>> poses{
+      {{40, 60}, {-20, 70}}, {{0, 0}, {60, 100}}, {{-10, 90}, {45, 45}}, {{20, 30}, {-30, 100}}};
+  for (const auto& [left, right] : poses) {
+    for (const bool is_turned : {false, true}) {
+      SCOPED_TRACE(std::to_string(left.thigh) + (is_turned ? " turned" : ""));
+      const RigSubject subject = bent_human(left, right, 20, is_turned);
+      const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+      EXPECT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+      expect_near(plan, "leftLowerLeg", placed(bent(left)[1], is_turned), 2);
+      expect_near(plan, "rightLowerLeg", placed(mirrored(bent(right))[1], is_turned), 2);
+    }
+  }
+}
+
+TEST(PosedBodies, ATrunkThatLeansBackIsNoTail) {
+  for (const double lean : {-32.0, -25.0, 32.0}) {
+    for (const bool is_turned : {false, true}) {
+      SCOPED_TRACE(lean);
+      const RigSubject subject = bent_human({10, 10}, {25, 50}, lean, is_turned);
+      const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+      EXPECT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+      expect_near(plan, "leftFoot", placed(bent({10, 10})[2], is_turned), 2);
+    }
+  }
+}
+
 const Limb hind_leg{{1.5, 6, -6.5}, {1.5, 3, -7.5}, {1.5, 0.5, -7}};
 const Limb front_leg{{1.5, 6, 5}, {1.5, 3, 5}, {1.5, 0.5, 5}};
 

@@ -324,6 +324,15 @@ TEST(Reading, RefusesAFileThatWouldLoseMoreFacesThanStay) {
   EXPECT_NE(message.find("6 of 6 faces"), std::string::npos) << message;
 }
 
+/// Games have levels of this name, which begin with a count: 123 of something is no glTF.
+TEST(Reading, CallsOtherDataByTheNameOfTheFileWhateverItsFirstByte) {
+  for (int first = 0; first < 256; ++first) {
+    const std::string bytes = static_cast<char>(first) + "\0\0\0t\1\0\0wall\0\x8f\xc4\3"s;
+    const std::string message = refusal_of([&] { return read_content({"level.ply", bytes}, {}); });
+    EXPECT_NE(message.find("needed \"ply\""), std::string::npos) << first << ": " << message;
+  }
+}
+
 // ---- Real files ---------------------------------------------------------------------------------
 
 TEST(RealSurfaces, BrokenOnesAreRefused) {

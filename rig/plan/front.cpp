@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include <curveskel/advanced/indices.hpp>
+#include "rig/plan/roles.hpp"
+
+namespace curveskel {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double clearly_ahead = 0.05;  // of a leg's length
+
+// Of the way from the hip to the tip of the foot, by the heights of knees and ankles and by a foot
+// of a fifth of it.
+constexpr double knee_share = 0.4;
+constexpr double ankle_share = 0.8;
+
+/// By how much more the foot reaches ahead of the shin than behind it; 0 where either has no
+/// vertices. `seen` says how far ahead a place lies, and how high, in lengths of the leg.
+template <typename Places, typename Seen>
+double reach_ahead(const Places& places, const Seen& seen) {
+  double ahead = -std::numeric_limits<double>::infinity();
+  double behind = -ahead;
+  double shin = 0;
+  int count = 0;
+  for (const auto& place : places) {
+    const Vector2d p = seen(place);
+    if (p.y() < 0.1) {
+      ahead = std::max(ahead, p.x());
+      behind = std::min(behind, p.x());
+    } else if (p.y() < 0.35) {
+      shin += p.x();
+      ++count;
+    }
+  }
+  if (count == 0 || !(ahead > behind)) return 0;
+  shin /= count;
+  return (ahead - shin) - (shin - behind);
+}
+
+double foot_ahead(const CurveTree& tree, const LimbPair& leg) {
+  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
+  return reach_ahead(leg.vertices, [&](int v) {
+    const Vector3d& p = tree.vertices[idx(v)];
+    return Vector2d(p.z(), (p.y() - tree.ground) / length);
+  });
+}
+
+/// A leg of a human in a pose, seen from its side: (z, y).
+class SideOfLeg {
+ public:
+  SideOfLeg(const CurveTree& tree, const Limbs& limbs, const LimbWay& way, bool is_left)
+      : course_(side_course(tree, way, is_left)), length_(way.length) {
+    std::vector<char> seen = limbs.is_trunk;
+    std::vector<char> is_own(tree.nodes.size(), 0);
+    for (const int first : is_left ? way.path : way.mirror) {
+      if (seen[idx(first)] != 0) continue;
+      for (const int node : part_of(tree, first, seen)) is_own[idx(node)] = 1;
+    }
+    for (std::size_t v = 0; v < tree.vertices.size(); ++v) {
+      const int node = tree.node_of_vertex[v];
+      if (node >= 0 && is_own[idx(node)] != 0) vertices_.push_back(from_side(tree.vertices[v]));
+    }
+  }
+
+  /// By how much the leg bends ahead of the straight way from the hip to the ankle, as knees alone
+  /// do, however the thigh is turned.
+  [[nodiscard]] double knee_ahead() const {
+    const Vector2d way = at(ankle_share) - at(0);
+    if (!(way.norm() > 0)) return 0;
+    const Vector2d ahead = ahead_of(way.normalized());
+    double farthest = 0;
+    constexpr int samples = 24;
+    for (int k = 1; k < samples; ++k) {
+      const double off = (at(ankle_share * k / samples) - at(0)).dot(ahead);
+      if (std::abs(off) > std::abs(farthest)) farthest = off;
+    }
+    return farthest;
+  }
+
+  /// As where a human stands, with the shin for what is upright.
+  [[nodiscard]] double foot_ahead() const {
+    const Vector2d shin = at(ankle_share) - at(knee_share);
+    if (!(shin.norm() > 0)) return 0;
+    const Vector2d down = shin.normalized();
+    double sole = -std::numeric_limits<double>::infinity();
+    for (const Vector2d& p : vertices_) sole = std::max(sole, p.dot(down));
+    return reach_ahead(vertices_, [&](const Vector2d& p) {
+      return Vector2d(p.dot(ahead_of(down)), (sole - p.dot(down)) / length_);
+    });
+  }
+
+ private:
+  static Vector2d from_side(const Vector3d& p) { return {p.z(), p.y()}; }
+  static Vector2d ahead_of(const Vector2d& down) { return {-down.y(), down.x()}; }
+
+  [[nodiscard]] Vector2d at(double share) const {
+    const auto last = static_cast<double>(course_.points.size() - 1);
+    return from_side(course_.points[static_cast<std::size_t>(std::lround(share * last))]);
+  }
+
+  Course course_;
+  double length_;
+  std::vector<Vector2d> vertices_;
+};
+
+/// By how much a quadruped reaches higher beyond its front legs than beyond its hind legs: by its
+/// trunk, and by its surface. Where the trunk ends above the legs it is as high as there.
+double front_above_rear(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const Vector3d& a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)];
+  const Vector3d& b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)];
+  const auto& [rear, front] = a.z() < b.z() ? std::tie(a, b) : std::tie(b, a);
+  double trunk[2] = {rear.y(), front.y()};
+  for (const int node : limbs.trunk) {
+    const Vector3d& p = tree.nodes[idx(node)];
+    if (p.z() < rear.z()) trunk[0] = std::max(trunk[0], p.y());
+    if (p.z() > front.z()) trunk[1] = std::max(trunk[1], p.y());
+  }
+  double surface[2] = {tree.ground, tree.ground};
+  for (const Vector3d& p : tree.vertices) {
+    if (p.z() < rear.z()) surface[0] = std::max(surface[0], p.y());
+    if (p.z() > front.z()) surface[1] = std::max(surface[1], p.y());
+  }
+  return trunk[1] - trunk[0] + surface[1] - surface[0];
+}
+
+/// The length of the ears, horns and jaws in the front half, less that of those in the rear half.
+double ears_ahead(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const auto root = [&](int pair) { return tree.nodes[idx(limbs.pairs[idx(pair)].root)].z(); };
+  const double middle = 0.5 * (root(found.legs[0]) + root(found.legs[1]));
+  double ears = 0;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    const bool is_leg = std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
+    if (is_leg || pair.length <= 0.05 * tree.size) continue;
+    ears += (root(k) > middle ? 1 : -1) * pair.length;
+  }
+  return ears;
+}
+
+}  // namespace
+
+bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
+  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
+  return -foot_ahead(tree, leg) > clearly_ahead * length;
+}
+
+bool legs_bend_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const LimbWay& way = limbs.pairs[idx(found.legs.front())].ways.front();
+  const double least = 2 * clearly_ahead * way.length;  // of both legs
+  double feet = 0;
+  double knees = 0;
+  for (const bool is_left : {true, false}) {
+    const SideOfLeg leg(tree, limbs, way, is_left);
+    feet += leg.foot_ahead();
+    knees += leg.knee_ahead();
+  }
+  return std::abs(feet) > least ? feet < 0 : feet + knees < -least;
+}
+
+bool looks_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+                Standing standing) {
+  const double ears = ears_ahead(tree, limbs, found);
+  if (standing == Standing::in_pose && ears != 0) return ears < 0;
+  double ahead = ears + front_above_rear(tree, limbs, found);
+  for (const int leg : found.legs) ahead += foot_ahead(tree, limbs.pairs[idx(leg)]);
+  return ahead < 0;
+}
+
+}  // namespace curveskel
