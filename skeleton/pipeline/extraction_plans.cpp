@@ -96,7 +96,7 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
     const Certificate& found = so_far.best->found.extraction.certificate;
     if (found.inside_enough) return std::nullopt;
     const bool single = so_far.best->components.size() == 1;
-    if (single && !may_be_noisy(surface)) return std::nullopt;
+    if (single && (!found.topology_correct() || !may_be_noisy(surface))) return std::nullopt;
     return failures(found, options.certificate);
   };
   const auto make = [&surface, &options, kept](const Room& room) {
