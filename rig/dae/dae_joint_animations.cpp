@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,8 +59,9 @@ class DaeAnimationReader {
 
   [[nodiscard]] AnimatedJoints read() const {
     AnimatedJoints made{frames({}), {}};
+    std::size_t clips = 0;
     for (const XmlElement* library : document_.root().all("library_animation_clips")) {
-      for (const XmlElement* clip : library->all("animation_clip")) add_clip(*clip, made);
+      for (const XmlElement* clip : library->all("animation_clip")) add_clip(*clip, clips++, made);
     }
     if (!made.animations.empty()) return made;
     Channels channels;
@@ -69,12 +71,14 @@ class DaeAnimationReader {
       if (library->children.size() == 1) name = library->children.front().attribute("name");
     }
     std::vector<double> seconds = moments_of(channels);
-    if (!seconds.empty()) made.animations.push_back(moved(name, std::move(seconds), channels, 0));
+    if (seconds.empty()) return made;
+    made.animations.push_back({0, name, std::move(seconds), {}});
+    move(made.animations.back(), channels, 0);
     return made;
   }
 
  private:
-  void add_clip(const XmlElement& clip, AnimatedJoints& made) const {
+  void add_clip(const XmlElement& clip, std::size_t number, AnimatedJoints& made) const {
     Channels channels;
     for (const XmlElement* instance : clip.all("instance_animation")) {
       add_channels(document_, document_.referred(*instance, "url"), channels);
@@ -88,12 +92,12 @@ class DaeAnimationReader {
     if (end > start) seconds.push_back(end);
     const std::string_view id = clip.attribute("id");
     made.animations.push_back(
-        moved(std::string(clip.attribute("name", id)), std::move(seconds), channels, start));
+        {number, std::string(clip.attribute("name", id)), std::move(seconds), {}});
+    move(made.animations.back(), channels, start);
   }
 
-  [[nodiscard]] JointAnimation moved(std::string name, std::vector<double> seconds,
-                                     const Channels& channels, double start) const {
-    JointAnimation made{std::move(name), std::move(seconds), {}};
+  /// Makes the frames of its moments, which count from `start` then.
+  void move(JointAnimation& made, const Channels& channels, double start) const {
     for (double& moment : made.seconds) {
       monitor_.report("write", 0);
       MovedNumbers numbers;
@@ -101,7 +105,6 @@ class DaeAnimationReader {
       made.frames.push_back(frames(numbers));
       moment -= start;
     }
-    return made;
   }
 
   [[nodiscard]] JointFrames frames(const MovedNumbers& numbers) const {
