@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -83,12 +84,13 @@ class DaeAnimationReader {
     for (const XmlElement* instance : clip.all("instance_animation")) {
       add_channels(document_, document_.referred(*instance, "url"), channels);
     }
-    std::vector<double> seconds = moments_of(channels);
-    if (seconds.empty()) return;
-    const double start = seconds_in(clip, "start", seconds.front());
-    const double end = std::max(start, seconds_in(clip, "end", seconds.back()));
-    std::erase_if(seconds, [&](double moment) { return moment <= start || moment >= end; });
-    seconds.insert(seconds.begin(), start);
+    const std::vector<double> moments = moments_of(channels);
+    if (moments.empty()) return;
+    const double start = seconds_in(clip, "start", moments.front());
+    const double end = std::max(start, seconds_in(clip, "end", moments.back()));
+    std::vector<double> seconds{start};
+    std::ranges::copy_if(moments, std::back_inserter(seconds),
+                         [&](double moment) { return moment > start && moment < end; });
     if (end > start) seconds.push_back(end);
     const std::string_view id = clip.attribute("id");
     made.animations.push_back(
