@@ -29,7 +29,8 @@ struct AnimatedClip {
 void add_shapes(GltfClip& clip, const ShapeTrack& track, const GltfDocument& document,
                 std::size_t node) {
   const std::size_t mesh = document.json["nodes"][node]["mesh"];
-  const std::vector<double> given = document.json["meshes"][mesh].value("weights", track.weights[0]);
+  const std::vector<double> given =
+      document.json["meshes"][mesh].value("weights", track.weights[0]);
   const Eigen::VectorXd rest =
       Eigen::VectorXd::Map(given.data(), static_cast<Eigen::Index>(given.size()));
   GltfRows weights{"weights", "SCALAR", {}};

@@ -13,7 +13,7 @@ using JointFrames = std::vector<Eigen::Affine3d>;
 
 struct JointAnimation {
   std::size_t clip = 0;  ///< its number among all of the file
-  std::string name;  ///< may be empty
+  std::string name;      ///< may be empty
   std::vector<double> seconds;
   std::vector<JointFrames> frames;  ///< by second
 };

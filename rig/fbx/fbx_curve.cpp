@@ -129,8 +129,7 @@ std::vector<double> FbxCurve::seconds() const {
 }
 
 bool FbxCurve::bends() const {
-  return std::ranges::any_of(keys_,
-                             [](const Key& key) { return key.between == Between::cubic; });
+  return std::ranges::any_of(keys_, [](const Key& key) { return key.between == Between::cubic; });
 }
 
 double FbxCurve::at(double seconds) const {

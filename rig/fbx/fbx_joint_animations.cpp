@@ -20,7 +20,7 @@ namespace {
 /// A joint, or a model above one.
 struct AnimatedModel {
   const FbxRecord* model = nullptr;
-  int parent = -1;  ///< comes before it
+  int parent = -1;                 ///< comes before it
   std::vector<FbxMotion> motions;  ///< shift, angles, scale
 };
 

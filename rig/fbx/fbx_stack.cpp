@@ -66,8 +66,8 @@ Vector3d FbxMotion::upon(const Vector3d& below, const Vector3d& above, const Fbx
   if (property_.kind == FbxAnimatedProperty::Kind::angles && rules.joins_turns) {
     const Eigen::Quaterniond from = turn_of(below, property_.order);
     const Eigen::Quaterniond to = turn_of(above, property_.order);
-    const Eigen::Quaterniond turn = adds ? from * Eigen::Quaterniond::Identity().slerp(share, to)
-                                         : from.slerp(share, to);
+    const Eigen::Quaterniond turn =
+        adds ? from * Eigen::Quaterniond::Identity().slerp(share, to) : from.slerp(share, to);
     return fbx_angles(turn.toRotationMatrix(), property_.order);
   }
   if (property_.kind == FbxAnimatedProperty::Kind::factors && rules.joins_factors && share < 1) {
@@ -83,8 +83,8 @@ Vector3d FbxMotion::upon(const Vector3d& below, const Vector3d& above, const Fbx
 FbxStack::FbxStack(const FileBytes& file, const FbxScene& scene, const FbxRecord& stack)
     : file_(file), scene_(scene) {
   const auto layers = scene.below(stack, "AnimationLayer");
-  const bool has_solo = std::ranges::any_of(
-      layers, [this](const FbxRecord* layer) { return flag(*layer, "Solo"); });
+  const bool has_solo =
+      std::ranges::any_of(layers, [this](const FbxRecord* layer) { return flag(*layer, "Solo"); });
   for (const FbxRecord* layer : layers) {
     if (flag(*layer, "Mute") || (has_solo && !flag(*layer, "Solo"))) continue;
     const auto nodes = scene.below(*layer, "AnimationCurveNode");

@@ -31,6 +31,7 @@
 #include "rig/gltf/gltf_decoded.hpp"
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/gltf_weights.hpp"
+#include "rig/gltf/hanging_parts.hpp"
 #include "rig/gltf/remove_gltf_rig.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/gltf/vrm.hpp"
@@ -280,7 +281,8 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   require_rows(static_cast<Eigen::Index>(dressed->mesh.places.size() / 3), rig, file);
   DressedDocument made = dressed_document(dressed->mesh, dressed->materials, file,
                                           file.path.stem().string(), edited.notes, monitor);
-  const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
+  SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
+  if (keeps) rows = with_hanging_parts(rows, made, dressed->mesh.parts);
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
   const Rig upright = placed(rig, dressed->mesh.to_gltf);

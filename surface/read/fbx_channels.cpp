@@ -52,8 +52,8 @@ std::vector<FbxChannel> fbx_channels(const FileBytes& file, const FbxScene& scen
       if (shapes.empty()) continue;
       const FbxRecord* given = channel->child("DeformPercent");
       const double percent = given == nullptr ? 0 : given->number(0, 0);
-      channels.push_back({channel, std::isfinite(percent) ? percent : 0,
-                          stops_of(file, *channel, shapes)});
+      channels.push_back(
+          {channel, std::isfinite(percent) ? percent : 0, stops_of(file, *channel, shapes)});
     }
   }
   return channels;

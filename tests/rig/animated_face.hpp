@@ -45,7 +45,9 @@ struct Face {
     FbxItem limb = encodings::fbx_model(face_joint, joint, "LimbNode");
     limb.values[1] = "Model::jaw";
     FbxItems made =
-        encodings::fbx_scene({encodings::fbx_box(), encodings::fbx_model(2), limb,
+        encodings::fbx_scene({encodings::fbx_box(),
+                              encodings::fbx_model(2),
+                              limb,
                               {"Deformer", {std::int64_t{40}, "Deformer::m", "BlendShape"}}},
                              {{1, 2}, {2, 0}, {face_joint, 0}, {40, 1}});
     for (std::size_t k = 0; k < sliders.size(); ++k) add_slider(made, static_cast<int>(k));
@@ -65,11 +67,10 @@ struct Face {
 
   void add_slider(FbxItems& made, int number) const {
     const Slider& slider = sliders[static_cast<std::size_t>(number)];
-    made[0].children.push_back({"Deformer",
-                                {std::int64_t{500} + number, "SubDeformer::" + slider.name,
-                                 "BlendShapeChannel"},
-                                {{"DeformPercent", {slider.percent}},
-                                 {"FullWeights", {slider.full_weights}}}});
+    made[0].children.push_back(
+        {"Deformer",
+         {std::int64_t{500} + number, "SubDeformer::" + slider.name, "BlendShapeChannel"},
+         {{"DeformPercent", {slider.percent}}, {"FullWeights", {slider.full_weights}}}});
     link(made, 500 + number, 40);
     for (std::size_t stop = 0; stop < slider.full_weights.size(); ++stop) {
       const std::int64_t shape = 600 + 10 * number + static_cast<std::int64_t>(stop);

@@ -69,8 +69,8 @@ TEST(ShapeAnimations, CurvesThatBendHaveMomentsBetweenTheirKeys) {
 
 TEST(ShapeAnimations, BrokenCurvesAreRefusedByName) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const Moved& broken : {slid(0, {0, 1}, {0, 1, 2}), slid(0, {1, 0}, {0, 1}),
-                              slid(0, {0, 1}, {0, none})}) {
+  for (const Moved& broken :
+       {slid(0, {0, 1}, {0, 1, 2}), slid(0, {1, 0}, {0, 1}), slid(0, {0, 1}, {0, none})}) {
     EXPECT_THROW((void)shapes_in({{{"open"}}, {{{{broken}}}}}), Error);
   }
 }
@@ -165,8 +165,7 @@ TEST(ShapeAnimations, GoIntoGltfWithTheJointsOfTheirStackAndWithoutThem) {
     EXPECT_EQ(animations[0]["channels"].size(), old == OldRig::kept ? 2U : 1U);
     const nlohmann::json& names = glb.json["meshes"][0]["extras"]["targetNames"];
     EXPECT_EQ(names, nlohmann::json({"open", "smile stop 0", "smile"}));
-    const nlohmann::json& channel =
-        animations[0]["channels"][idx(weights_channel(animations[0]))];
+    const nlohmann::json& channel = animations[0]["channels"][idx(weights_channel(animations[0]))];
     EXPECT_TRUE(glb.json["nodes"][channel["target"]["node"].get<std::size_t>()].contains("mesh"));
     const GltfWeights found = weights_in(glb, 0);
     ASSERT_EQ(found.weights.size(), 3 * found.seconds.size());
@@ -227,9 +226,8 @@ TEST(ShapeAnimations, ThroughFbxTheyAreAsBefore) {
   ASSERT_EQ(found.weights.size(), 3 * found.seconds.size());
   std::size_t met = 0;
   for (std::size_t k = 0; k < found.seconds.size(); ++k) {
-    const auto key = std::ranges::find_if(keys.seconds, [&](float one) {
-      return std::abs(one - found.seconds[k]) < 1e-5F;
-    });
+    const auto key = std::ranges::find_if(
+        keys.seconds, [&](float one) { return std::abs(one - found.seconds[k]) < 1e-5F; });
     if (key == keys.seconds.end()) continue;
     ++met;
     const auto row = 3 * static_cast<std::size_t>(key - keys.seconds.begin());
@@ -322,7 +320,8 @@ TEST(AnimationLayers, UponAnEmptyOneTheyAddToTheRest) {
   const Face face{{},
                   {{{}, {{jaw("Lcl Translation", {0, 1}, held({1, 2, 3}))}}}},
                   {{"Lcl Translation", {10.0, 20.0, 30.0}}}};
-  animated_limbs::expect_alike(frames_of(face, 1), still({{"Lcl Translation", {11.0, 22.0, 33.0}}}));
+  animated_limbs::expect_alike(frames_of(face, 1),
+                               still({{"Lcl Translation", {11.0, 22.0, 33.0}}}));
 }
 
 }  // namespace
