@@ -290,6 +290,7 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   const GltfJoints joints{upright, first_joint, dressed->mesh.to_gltf};
   const std::vector<ShapeAnimation> shapes = read_shape_animations(file, format, monitor);
   add_animations(made.document, animated, joints, shapes, made.node_of_part);
+  if (keeps) add_hanging_places(made.document, file, joints, monitor);
   note_shared_names(made.document.json, edited.notes);
   if (!keeps) {
     const FileJoints old = count_joints(file, monitor);

@@ -1,9 +1,10 @@
-// Meshes that hang from a joint. Internal to rig/.
+// Meshes and places that hang from joints. Internal to rig/.
 #pragma once
 
 #include <vector>
 
 #include <curveskel/rig.hpp>
+#include "rig/animations/add_joint_animations.hpp"
 #include "rig/gltf/dressed_document.hpp"
 #include "rig/gltf/dressed_mesh.hpp"
 
@@ -14,5 +15,11 @@ namespace curveskel {
 [[nodiscard]] SkinWeights with_hanging_parts(const SkinWeights& weights,
                                              const DressedDocument& document,
                                              const std::vector<DressedPart>& parts);
+
+/// A node for each place that hangs from a joint of an FBX or COLLADA file without being one or
+/// having a mesh, such as a socket for a sword; it hangs from the joint's node. Throws
+/// Error(Fault::input). O(nodes).
+void add_hanging_places(GltfDocument& document, const FileBytes& file, const GltfJoints& joints,
+                        const Monitor& monitor);
 
 }  // namespace curveskel

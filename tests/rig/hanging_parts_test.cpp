@@ -2,10 +2,13 @@
 // are kept, each follows its own.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -85,6 +88,64 @@ void expect_each_follows_its_own(const std::filesystem::path& file) {
   expect_follows(kept[2], "b");
   expect_blend(kept[3]);
   for (const auto& mesh : joints_of(file, OldRig::replaced)) expect_blend(mesh);
+}
+
+/// From the node to the scene.
+Eigen::Affine3d frame_in(const nlohmann::json& nodes, std::size_t number) {
+  const nlohmann::json& node = nodes[number];
+  const auto shift = node.value("translation", std::vector<double>{0, 0, 0});
+  const auto turn = node.value("rotation", std::vector<double>{0, 0, 0, 1});
+  const auto scale = node.value("scale", std::vector<double>{1, 1, 1});
+  const Eigen::Affine3d own = Eigen::Translation3d(Eigen::Vector3d(shift.data())) *
+                              Eigen::Quaterniond(Eigen::Vector4d(turn.data())) *
+                              Eigen::Scaling(Eigen::Vector3d(scale.data()));
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (const nlohmann::json& child : nodes[k].value("children", nlohmann::json::array())) {
+      if (child == number) return frame_in(nodes, k) * own;
+    }
+  }
+  return own;
+}
+
+/// A null below the joint, turned and shifted; the file's unit is the centimetre, so is FBX's.
+TEST(HangingParts, PlacesThatHangFromJointsStayThere) {
+  encodings::FbxItem joint = encodings::fbx_model(
+      20, {{"Lcl Translation", {1.0, 2.0, 3.0}}, {"Lcl Rotation", {30.0, 40.0, 50.0}}}, "LimbNode");
+  encodings::FbxItem place = encodings::fbx_model(
+      21, {{"Lcl Translation", {5.0, 0.0, -4.0}}, {"Lcl Rotation", {0.0, -20.0, 70.0}}}, "Null");
+  place.values[1] = "Model::socket";
+  encodings::FbxItem beside = encodings::fbx_model(22, {}, "Null");
+  beside.values[1] = "Model::beside";
+  const encodings::FbxItems scene =
+      encodings::fbx_scene({encodings::fbx_box(), encodings::fbx_model(10), joint, place, beside},
+                           {{1, 10}, {10, 0}, {20, 0}, {21, 20}, {22, 0}});
+  const OwnFolder folder;
+  const auto file = folder.write("socket.fbx", encodings::fbx(scene, encodings::FbxForm::binary));
+  Rig rig = read_joints(file);
+  rig.weights = SkinWeights(8, 1);
+  for (Eigen::Index v = 0; v < 8; ++v) rig.weights.insert(v, 0) = 1;
+  rig.weights.makeCompressed();
+  const auto turn = [](double x, double y, double z) {
+    const double degree = std::numbers::pi / 180;
+    return Eigen::AngleAxisd(z * degree, Eigen::Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(y * degree, Eigen::Vector3d::UnitY()) *
+           Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX());
+  };
+  const Eigen::Affine3d wanted = Eigen::Scaling(0.01) * Eigen::Translation3d(1, 2, 3) *
+                                 turn(30, 40, 50) * Eigen::Translation3d(5, 0, -4) *
+                                 turn(0, -20, 70);
+  for (const OldRig old : {OldRig::kept, OldRig::replaced}) {
+    const auto edited = format_rig_into(file, rig, {RigFormat::glb, old, "rig", "a test"});
+    const nlohmann::json nodes = glb_of(edited.value().bytes).json["nodes"];
+    std::size_t met = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      EXPECT_NE(nodes[k]["name"], "beside");
+      if (nodes[k]["name"] != "socket") continue;
+      ++met;
+      EXPECT_LT((frame_in(nodes, k).matrix() - wanted.matrix()).norm(), 1e-6);
+    }
+    EXPECT_EQ(met, old == OldRig::kept ? 1U : 0U);
+  }
 }
 
 TEST(HangingParts, OfFbxFollowTheirJoint) {
