@@ -1,5 +1,6 @@
 // Any bytes as a file with a look: an error about the input, none, or a mesh that holds together.
 // CURVESKEL_FORMAT is dae, fbx, obj or ply.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include "rig/dae/dae_looks.hpp"
 #include "rig/fbx/fbx_looks.hpp"
+#include "rig/fbx/fbx_shape_animations.hpp"
 #include "rig/gltf/obj_file.hpp"
 #include "rig/gltf/ply_looks.hpp"
 
@@ -33,8 +35,20 @@ void require(bool holds) {
   return mesh_of(read_dae_looks(file, true, notes, {}));
 }
 
+/// Its shapes over time are those of the mesh.
 [[maybe_unused]] std::optional<DressedMesh> read_fbx_look(const FileBytes& file) {
-  return mesh_of(read_fbx_looks(file, true, {}));
+  const std::optional<DressedMesh> mesh = mesh_of(read_fbx_looks(file, true, {}));
+  for (const ShapeAnimation& animation : read_fbx_shape_animations(file, {})) {
+    for (const ShapeTrack& track : animation.tracks) {
+      require(track.part < mesh->parts.size() && track.weights.size() == track.seconds.size());
+      const auto is_of_part = [&](const DressedShape& shape) { return shape.part == track.part; };
+      const auto shapes = std::ranges::count_if(mesh->shapes, is_of_part);
+      for (const std::vector<double>& row : track.weights) {
+        require(row.size() == static_cast<std::size_t>(shapes));
+      }
+    }
+  }
+  return mesh;
 }
 
 [[maybe_unused]] std::optional<DressedMesh> read_obj_look(const FileBytes& file) {

@@ -88,7 +88,8 @@ struct EditedFile {
 /// coordinates or normals becomes glTF that has them: the vertices of the file in their order, then
 /// copies for corners with other texture coordinates or normals; FBX, COLLADA and PLY likewise.
 /// If the old rig of FBX or COLLADA is kept, `rig` has the joints that `read_joints` finds in
-/// the file, and its animations move them. Nothing for all other files, for which `format_rig`
+/// the file, and its animations move them, and what hangs from them without a skin. Shapes that an
+/// FBX file moves go on moving in either case. Nothing for all other files, for which `format_rig`
 /// loses nothing. Precondition: weights have a row for each vertex that `read_polygons` finds in
 /// the file, read with the same `as_bound` (false where the old rig is kept). Throws
 /// Error(Fault::input) for what cannot be edited, by name, and Error(Fault::output) as

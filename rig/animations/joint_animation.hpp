@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace curveskel {
 using JointFrames = std::vector<Eigen::Affine3d>;
 
 struct JointAnimation {
-  std::string name;  ///< may be empty
+  std::size_t clip = 0;  ///< its number among all of the file
+  std::string name;      ///< may be empty
   std::vector<double> seconds;
   std::vector<JointFrames> frames;  ///< by second
 };

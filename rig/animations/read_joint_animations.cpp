@@ -57,10 +57,9 @@ FileJoints count_dae_joints(const FileBytes& file, const Monitor& monitor) {
 
 }  // namespace
 
-AnimatedJoints read_joint_animations(const FileBytes& file, std::vector<std::string>& notes,
-                                     const Monitor& monitor) {
+AnimatedJoints read_joint_animations(const FileBytes& file, const Monitor& monitor) {
   const auto format = surface_format_of(file);
-  if (format == SurfaceFormat::fbx) return read_fbx_joint_animations(file, notes, monitor);
+  if (format == SurfaceFormat::fbx) return read_fbx_joint_animations(file, monitor);
   if (format == SurfaceFormat::dae) return read_dae_joint_animations(file, monitor);
   return {};
 }

@@ -1,20 +1,15 @@
 // The animations of a file's own joints. Internal to rig/.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <curveskel/monitor.hpp>
 #include "rig/animations/joint_animation.hpp"
 #include "surface/read/file_bytes.hpp"
 
 namespace curveskel {
 
-/// Of FBX and COLLADA; joints are those of `read_joints`. `notes` has a line for each thing that is
-/// left out. Throws Error(Fault::input) for what makes no sense.
-[[nodiscard]] AnimatedJoints read_joint_animations(const FileBytes& file,
-                                                   std::vector<std::string>& notes,
-                                                   const Monitor& monitor);
+/// Of FBX and COLLADA; joints are those of `read_joints`. Throws Error(Fault::input) for what makes
+/// no sense.
+[[nodiscard]] AnimatedJoints read_joint_animations(const FileBytes& file, const Monitor& monitor);
 
 struct FileJoints {
   int joints = 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,8 +60,9 @@ class DaeAnimationReader {
 
   [[nodiscard]] AnimatedJoints read() const {
     AnimatedJoints made{frames({}), {}};
+    std::size_t clips = 0;
     for (const XmlElement* library : document_.root().all("library_animation_clips")) {
-      for (const XmlElement* clip : library->all("animation_clip")) add_clip(*clip, made);
+      for (const XmlElement* clip : library->all("animation_clip")) add_clip(*clip, clips++, made);
     }
     if (!made.animations.empty()) return made;
     Channels channels;
@@ -69,31 +72,34 @@ class DaeAnimationReader {
       if (library->children.size() == 1) name = library->children.front().attribute("name");
     }
     std::vector<double> seconds = moments_of(channels);
-    if (!seconds.empty()) made.animations.push_back(moved(name, std::move(seconds), channels, 0));
+    if (seconds.empty()) return made;
+    made.animations.push_back({0, name, std::move(seconds), {}});
+    move(made.animations.back(), channels, 0);
     return made;
   }
 
  private:
-  void add_clip(const XmlElement& clip, AnimatedJoints& made) const {
+  void add_clip(const XmlElement& clip, std::size_t number, AnimatedJoints& made) const {
     Channels channels;
     for (const XmlElement* instance : clip.all("instance_animation")) {
       add_channels(document_, document_.referred(*instance, "url"), channels);
     }
-    std::vector<double> seconds = moments_of(channels);
-    if (seconds.empty()) return;
-    const double start = seconds_in(clip, "start", seconds.front());
-    const double end = std::max(start, seconds_in(clip, "end", seconds.back()));
-    std::erase_if(seconds, [&](double moment) { return moment <= start || moment >= end; });
-    seconds.insert(seconds.begin(), start);
+    const std::vector<double> moments = moments_of(channels);
+    if (moments.empty()) return;
+    const double start = seconds_in(clip, "start", moments.front());
+    const double end = std::max(start, seconds_in(clip, "end", moments.back()));
+    std::vector<double> seconds{start};
+    std::ranges::copy_if(moments, std::back_inserter(seconds),
+                         [&](double moment) { return moment > start && moment < end; });
     if (end > start) seconds.push_back(end);
     const std::string_view id = clip.attribute("id");
     made.animations.push_back(
-        moved(std::string(clip.attribute("name", id)), std::move(seconds), channels, start));
+        {number, std::string(clip.attribute("name", id)), std::move(seconds), {}});
+    move(made.animations.back(), channels, start);
   }
 
-  [[nodiscard]] JointAnimation moved(std::string name, std::vector<double> seconds,
-                                     const Channels& channels, double start) const {
-    JointAnimation made{std::move(name), std::move(seconds), {}};
+  /// Makes the frames of its moments, which count from `start` then.
+  void move(JointAnimation& made, const Channels& channels, double start) const {
     for (double& moment : made.seconds) {
       monitor_.report("write", 0);
       MovedNumbers numbers;
@@ -101,7 +107,6 @@ class DaeAnimationReader {
       made.frames.push_back(frames(numbers));
       moment -= start;
     }
-    return made;
   }
 
   [[nodiscard]] JointFrames frames(const MovedNumbers& numbers) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/dae/dae_joints.hpp"
 #include "rig/dae/dae_layers.hpp"
 #include "rig/dae/dae_look_materials.hpp"
 #include "rig/gltf/dressed_rows.hpp"
@@ -33,6 +34,7 @@ class DaeLookReader {
         document_(document),
         notes_(notes),
         monitor_(monitor),
+        joint_of_node_(dae_joint_of_node(dae_nodes(document, monitor))),
         meshes_(file, monitor) {}
 
   DressedFile read(bool as_bound) {
@@ -50,6 +52,8 @@ class DaeLookReader {
         vertex_maps(shown.skin, shown.frame, static_cast<std::size_t>(polygons.positions.rows()));
     made_.mesh.parts.push_back({std::string(shown.name), static_cast<std::size_t>(first_vertex_),
                                 made_.mesh.material_of_face.size()});
+    const bool hangs = shown.skin.joints.empty() && shown.node >= 0;
+    if (hangs) made_.mesh.parts.back().joint = joint_of_node_[idx(shown.node)];
     if (shown.morph != nullptr) add_shapes(*shown.morph, shown.base, moving);
     first_vertex_ += polygons.positions.rows();
     meshes_.add(polygons, shown.frame, shown.skin);
@@ -171,6 +175,7 @@ class DaeLookReader {
   const DaeDocument& document_;
   std::vector<std::string>& notes_;
   const Monitor& monitor_;
+  std::vector<int> joint_of_node_;
   PlacedMeshes meshes_;
   DressedFile made_;
   DressedRows rows_{made_.mesh};

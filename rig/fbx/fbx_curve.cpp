@@ -128,6 +128,10 @@ std::vector<double> FbxCurve::seconds() const {
   return all;
 }
 
+bool FbxCurve::bends() const {
+  return std::ranges::any_of(keys_, [](const Key& key) { return key.between == Between::cubic; });
+}
+
 double FbxCurve::at(double seconds) const {
   const auto is_before = [](double moment, const Key& key) { return moment < key.seconds; };
   const auto above = std::upper_bound(keys_.begin(), keys_.end(), seconds, is_before);

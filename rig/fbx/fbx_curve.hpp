@@ -18,6 +18,8 @@ class FbxCurve {
   [[nodiscard]] bool empty() const { return keys_.empty(); }
   /// Those of its keys, and for each step one just before it.
   [[nodiscard]] std::vector<double> seconds() const;
+  /// True if lines between those are not all that there is.
+  [[nodiscard]] bool bends() const;
   /// Before the first key that of the first, likewise at the end. O(log keys). Precondition: there
   /// are keys.
   [[nodiscard]] double at(double seconds) const;

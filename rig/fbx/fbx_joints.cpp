@@ -1,5 +1,6 @@
 #include "rig/fbx/fbx_joints.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include <curveskel/advanced/indices.hpp>
@@ -29,6 +30,14 @@ std::vector<FbxJoint> fbx_joints(const FbxScene& scene) {
     joints.push_back({models[idx(joint)], parent < 0 ? -1 : place[idx(parent)]});
   }
   return joints;
+}
+
+int fbx_joint_above(const FbxScene& scene, const std::vector<FbxJoint>& joints,
+                    const FbxRecord& model) {
+  const FbxRecord* above = scene.parent(model);
+  while (above != nullptr && !is_fbx_joint(*above)) above = scene.parent(*above);
+  const auto found = std::ranges::find(joints, above, &FbxJoint::model);
+  return found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
 }
 
 }  // namespace curveskel

@@ -15,4 +15,8 @@ struct FbxJoint {
 /// Its limbs, parents first, in the order of `parents_first`. Must not outlive the scene.
 [[nodiscard]] std::vector<FbxJoint> fbx_joints(const FbxScene& scene);
 
+/// The number of the nearest joint above a model; -1 = none.
+[[nodiscard]] int fbx_joint_above(const FbxScene& scene, const std::vector<FbxJoint>& joints,
+                                  const FbxRecord& model);
+
 }  // namespace curveskel

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/fbx/fbx_joints.hpp"
 #include "rig/fbx/fbx_layers.hpp"
 #include "rig/fbx/fbx_look_materials.hpp"
 #include "rig/gltf/dressed_rows.hpp"
@@ -24,7 +25,11 @@ class FbxLookReader {
  public:
   FbxLookReader(const FileBytes& file, const FbxRecord& root, const FbxScene& scene,
                 const Monitor& monitor)
-      : file_(file), root_(root), scene_(scene), meshes_(file, monitor) {}
+      : file_(file),
+        root_(root),
+        scene_(scene),
+        joints_(fbx_joints(scene)),
+        meshes_(file, monitor) {}
 
   DressedFile read(bool as_bound) {
     std::optional<FbxBind> bind;
@@ -42,6 +47,9 @@ class FbxLookReader {
         mesh.skin, mesh.frame, static_cast<std::size_t>(mesh.polygons.positions.rows()));
     made_.mesh.parts.push_back({fbx_name(mesh.model), static_cast<std::size_t>(first_vertex_),
                                 made_.mesh.material_of_face.size()});
+    if (mesh.skin.joints.empty()) {
+      made_.mesh.parts.back().joint = fbx_joint_above(scene_, joints_, mesh.model);
+    }
     add_shapes(mesh, moving);
     first_vertex_ += mesh.polygons.positions.rows();
     meshes_.add(mesh.polygons, mesh.frame, mesh.skin);
@@ -134,6 +142,7 @@ class FbxLookReader {
   const FileBytes& file_;
   const FbxRecord& root_;
   const FbxScene& scene_;
+  std::vector<FbxJoint> joints_;
   PlacedMeshes meshes_;
   DressedFile made_;
   DressedRows rows_{made_.mesh};

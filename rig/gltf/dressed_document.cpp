@@ -244,6 +244,7 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
   array_in(document.json, "meshes").push_back(std::move(written));
   array_in(document.json, "nodes").push_back({{"name", as_utf8(part.part.name)}, {"mesh", number}});
   array_in(document.json["scenes"][0], "nodes").push_back(number);
+  made.node_of_part[part.number] = number;
 }
 
 }  // namespace
@@ -264,6 +265,7 @@ DressedDocument dressed_document(DressedMesh mesh, const std::vector<DressedMate
   for (DressedPart& part : mesh.parts) {
     if (part.name.empty()) part.name = name;
   }
+  made.node_of_part.assign(mesh.parts.size(), -1);
   show_colours(mesh, with_pictures(document, materials.size()));
   for (const PartRange& part : ranges_of(mesh)) add_part(made, mesh, part, file);
   return made;

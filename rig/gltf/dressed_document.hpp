@@ -18,6 +18,7 @@ struct DressedDocument {
   std::vector<GltfPart> parts;
   std::vector<int> row_of_vertex;      ///< of each vertex written the vertex of the file
   std::vector<MeshPolygons> polygons;  ///< by mesh
+  std::vector<int> node_of_part;       ///< of the file's parts; -1 = left out
 };
 
 /// A node with a mesh for each part, of a file without parts one named `name`; a primitive for each

@@ -49,6 +49,7 @@ struct DressedPart {
   std::size_t first_face = 0;
   std::vector<std::string> texture_sets = {};  ///< the names of those that it has; may be empty
   std::vector<std::string> colour_sets = {};   ///< likewise; without use where there are no colours
+  int joint = -1;  ///< of the file's, from which it hangs without a skin; -1 = none
 };
 
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1].

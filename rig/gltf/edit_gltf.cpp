@@ -20,9 +20,10 @@
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
 #include "base/utf8.hpp"
-#include "rig/animations/add_joint_animations.hpp"
+#include "rig/animations/add_animations.hpp"
 #include "rig/animations/read_joint_animations.hpp"
 #include "rig/fbx/fbx_of_glb.hpp"
+#include "rig/fbx/fbx_shape_animations.hpp"
 #include "rig/gltf/add_gltf_rig.hpp"
 #include "rig/gltf/bent_vertices.hpp"
 #include "rig/gltf/dressed_document.hpp"
@@ -30,6 +31,7 @@
 #include "rig/gltf/gltf_decoded.hpp"
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/gltf_weights.hpp"
+#include "rig/gltf/hanging_parts.hpp"
 #include "rig/gltf/remove_gltf_rig.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/gltf/vrm.hpp"
@@ -245,9 +247,8 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
 }
 
 /// Of the file's own joints.
-AnimatedJoints read_animations(const FileBytes& file, const Rig& rig,
-                               std::vector<std::string>& notes, const Monitor& monitor) {
-  AnimatedJoints animated = read_joint_animations(file, notes, monitor);
+AnimatedJoints read_animations(const FileBytes& file, const Rig& rig, const Monitor& monitor) {
+  AnimatedJoints animated = read_joint_animations(file, monitor);
   if (!animated.animations.empty() && animated.rest.size() != idx(rig.parents.size())) {
     file.fail(std::to_string(animated.rest.size()) + " joints in the file",
               "the " + std::to_string(rig.parents.size()) + " of the rig",
@@ -256,13 +257,20 @@ AnimatedJoints read_animations(const FileBytes& file, const Rig& rig,
   return animated;
 }
 
+std::vector<ShapeAnimation> read_shape_animations(const FileBytes& file,
+                                                  std::optional<SurfaceFormat> format,
+                                                  const Monitor& monitor) {
+  if (format == SurfaceFormat::fbx) return read_fbx_shape_animations(file, monitor);
+  return {};
+}
+
 /// Nothing: the file has no more than a bare rig has.
 std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const EditOptions& options,
                                 const Monitor& monitor) {
   EditedFile edited;
   const bool keeps = options.old_rig == OldRig::kept;
   AnimatedJoints animated;
-  if (keeps) animated = read_animations(file, rig, edited.notes, monitor);
+  if (keeps) animated = read_animations(file, rig, monitor);
   const LookOptions looks{options.as_bound && !keeps, options.format == RigFormat::fbx,
                           !animated.animations.empty()};
   auto dressed = read_dressed_file(file, looks, edited.notes, monitor);
@@ -273,12 +281,16 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   require_rows(static_cast<Eigen::Index>(dressed->mesh.places.size() / 3), rig, file);
   DressedDocument made = dressed_document(dressed->mesh, dressed->materials, file,
                                           file.path.stem().string(), edited.notes, monitor);
-  const SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
+  SkinWeights rows = chosen_rows(rig.weights, made.row_of_vertex);
+  if (keeps) rows = with_hanging_parts(rows, made, dressed->mesh.parts);
   write_gltf_weights(made.document, made.parts, {rows, {}},
                      std::vector<GltfSkinJoints>(made.parts.size(), GltfSkinJoints{-1, {}}));
   const Rig upright = placed(rig, dressed->mesh.to_gltf);
   const std::size_t first_joint = add_gltf_rig(made.document, made.parts, upright, options.name);
-  add_joint_animations(made.document, animated, upright, first_joint, dressed->mesh.to_gltf);
+  const GltfJoints joints{upright, first_joint, dressed->mesh.to_gltf};
+  const std::vector<ShapeAnimation> shapes = read_shape_animations(file, format, monitor);
+  add_animations(made.document, animated, joints, shapes, made.node_of_part);
+  if (keeps) add_hanging_places(made.document, file, joints, monitor);
   note_shared_names(made.document.json, edited.notes);
   if (!keeps) {
     const FileJoints old = count_joints(file, monitor);

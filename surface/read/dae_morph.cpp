@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 namespace curveskel {
@@ -17,7 +18,35 @@ double weight_at(const std::vector<double>& weights, std::size_t target) {
   return target < weights.size() && std::isfinite(weights[target]) ? weights[target] : 0;
 }
 
+/// Without its mark, "#".
+std::string_view id_in(std::string_view reference) {
+  return reference.starts_with('#') ? reference.substr(1) : reference;
+}
+
+/// Controllers that are shown, or are the source of others.
+void note_controllers(const XmlElement& element, std::set<std::string_view>& ids) {
+  if (element.name == "instance_controller") ids.insert(id_in(element.attribute("url")));
+  if (element.name == "skin" || element.name == "morph") {
+    ids.insert(id_in(element.attribute("source")));
+  }
+  for (const XmlElement& child : element.children) note_controllers(child, ids);
+}
+
 }  // namespace
+
+std::map<const XmlElement*, const XmlElement*> loose_dae_morphs(const DaeDocument& document) {
+  std::set<std::string_view> used;
+  note_controllers(document.root(), used);
+  std::map<const XmlElement*, const XmlElement*> morphs;
+  for (const XmlElement* library : document.root().all("library_controllers")) {
+    for (const XmlElement* controller : library->all("controller")) {
+      const XmlElement* morph = controller->child("morph");
+      if (morph == nullptr || used.contains(controller->attribute("id"))) continue;
+      morphs.emplace(document.find(id_in(morph->attribute("source"))), morph);
+    }
+  }
+  return morphs;
+}
 
 std::vector<DaeShape> dae_shapes(const DaeDocument& document, const XmlElement& morph,
                                  const DaeMesh& base) {

@@ -1,6 +1,7 @@
 // The shapes of a COLLADA morph. Internal to surface/ and rig/.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct DaeShape {
 /// the line.
 [[nodiscard]] std::vector<DaeShape> dae_shapes(const DaeDocument& document, const XmlElement& morph,
                                                const DaeMesh& base);
+
+/// By <geometry> the <morph> of it that nothing refers to: Blender writes it beside the mesh that
+/// it morphs. O(elements).
+[[nodiscard]] std::map<const XmlElement*, const XmlElement*> loose_dae_morphs(
+    const DaeDocument& document);
 
 /// True if the file's weights move the base mesh.
 [[nodiscard]] bool is_morphed(const DaeDocument& document, const XmlElement& morph);

@@ -49,7 +49,10 @@ class DaeSceneReader {
  public:
   DaeSceneReader(const DaeDocument& document, const Monitor& monitor,
                  const std::function<void(const DaeShownMesh&)>& take)
-      : document_(document), monitor_(monitor), take_(take) {}
+      : document_(document),
+        monitor_(monitor),
+        take_(take),
+        loose_morphs_(loose_dae_morphs(document)) {}
 
   /// True if joints bend meshes away from where they were bound.
   bool read(bool as_bound) {
@@ -70,13 +73,8 @@ class DaeSceneReader {
     if (!as_bound) bent_.clear();
     for (const DaeNode& node : placed_) {
       for (const XmlElement& child : node.element->children) {
-        if (child.name == "instance_geometry") {
-          const DaeMesh& mesh = mesh_of(document_.referred(child, "url"));
-          const std::string_view name = node.element->attribute("name");
-          take_({&child, mesh, frame_of(node), {}, nullptr, name, mesh});
-        } else if (child.name == "instance_controller") {
-          take_controlled(child, node);
-        }
+        const bool is_mesh = child.name == "instance_geometry";
+        if (is_mesh || child.name == "instance_controller") take_shown(child, node);
       }
     }
     return is_posed;
@@ -100,7 +98,7 @@ class DaeSceneReader {
     return entry->second;
   }
 
-  /// The things that an instance of a controller puts together.
+  /// The things that an instance puts together.
   struct Controlled {
     const XmlElement* geometry = nullptr;
     const XmlElement* skin = nullptr;
@@ -125,6 +123,8 @@ class DaeSceneReader {
       target = &document_.referred(*inner, "source");
     }
     found.geometry = target;
+    const auto loose = loose_morphs_.find(target);
+    if (found.morph == nullptr && loose != loose_morphs_.end()) found.morph = loose->second;
     return found;
   }
 
@@ -137,22 +137,26 @@ class DaeSceneReader {
     return entry->second;
   }
 
-  void take_controlled(const XmlElement& instance, const DaeNode& node) {
+  void take_shown(const XmlElement& instance, const DaeNode& node) {
     const auto [geometry, skin, morph] = controlled(instance);
     const std::string_view name = node.element->attribute("name");
     const DaeMesh& base = mesh_of(*geometry);
     const DaeMesh& mesh = morph == nullptr ? base : morphed(*morph, base);
-    if (skin == nullptr) return take_({&instance, mesh, frame_of(node), {}, morph, name, base});
+    const auto number = static_cast<int>(&node - placed_.data());
+    if (skin == nullptr) {
+      return take_({&instance, mesh, frame_of(node), {}, morph, name, base, number});
+    }
     const DaeSkin& read = skin_of(*skin, base);
     if (const auto move = move_of(instance, read)) {
-      return take_({&instance, mesh, *move * read.bind_shape, {}, morph, name, base});
+      return take_({&instance, mesh, *move * read.bind_shape, {}, morph, name, base, number});
     }
     MeshSkin posed{{}, read.weights};
     for (std::size_t j = 0; j < read.joints.size(); ++j) {
       posed.joints.push_back(frame_of(joint_of(instance, read, j)) * read.inverse_bind[j] *
                              read.bind_shape);
     }
-    take_({&instance, mesh, frame_of(node) * read.bind_shape, std::move(posed), morph, name, base});
+    take_({&instance, mesh, frame_of(node) * read.bind_shape, std::move(posed), morph, name, base,
+           number});
   }
 
   /// The joints of these, by elements.
@@ -266,6 +270,7 @@ class DaeSceneReader {
   const DaeDocument& document_;
   const Monitor& monitor_;
   const std::function<void(const DaeShownMesh&)>& take_;
+  std::map<const XmlElement*, const XmlElement*> loose_morphs_;  // by <geometry>
   std::vector<DaeNode> placed_;
   std::map<const XmlElement*, std::size_t> place_of_;  // the first, among these
   std::map<const XmlElement*, DaeSkin> skin_of_;

@@ -22,6 +22,7 @@ struct DaeShownMesh {
   const XmlElement* morph;  ///< <morph> of the mesh, or nullptr
   std::string_view name;    ///< of the node that shows it, or its own; may be empty
   const DaeMesh& base;      ///< of which `mesh` is the morph, or itself
+  int node = -1;            ///< that shows it, among `dae_nodes`; -1 in a file without a scene
 };
 
 /// Each mesh as often as the scene shows it, in the order in which `read_polygons` has them; where

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "surface/read/fbx_channels.hpp"
 #include "surface/read/formats.hpp"
 
 namespace curveskel {
@@ -19,11 +20,9 @@ class FbxMeshes {
       : file_(file), scene_(scene), bind_(bind) {}
 
   void give(const std::function<void(const FbxShownMesh&)>& take) {
-    for (const FbxRecord* model : scene_.all("Model")) {
-      for (const FbxRecord* geometry : scene_.below(*model, "Geometry")) {
-        if (geometry->child("PolygonVertexIndex") != nullptr) take(shown(*model, *geometry));
-      }
-    }
+    for_each_fbx_geometry(scene_, [&](const FbxRecord& model, const FbxRecord& geometry) {
+      take(shown(model, geometry));
+    });
   }
 
   [[nodiscard]] std::vector<FbxShape> all_shapes(const FbxRecord& geometry,
@@ -87,20 +86,18 @@ class FbxMeshes {
     return static_cast<std::size_t>(vertex);
   }
 
-  /// Of several shapes of a channel the last is the channel in full.
   template <typename Wanted>
   [[nodiscard]] std::vector<FbxShape> shapes(const FbxRecord& geometry, Eigen::Index vertices,
                                              const Wanted& wanted) const {
     std::vector<FbxShape> result;
-    for (const FbxRecord* morph : scene_.below(geometry, "Deformer", "BlendShape")) {
-      for (const FbxRecord* channel : scene_.below(*morph, "Deformer", "BlendShapeChannel")) {
-        const FbxRecord* percent = channel->child("DeformPercent");
-        const double given = percent == nullptr ? 0 : percent->number(0, 0) / 100;
-        const double weight = std::isfinite(given) ? given : 0;
-        const std::vector<const FbxRecord*> found = scene_.below(*channel, "Geometry");
-        if (found.empty() || !wanted(weight)) continue;
-        result.push_back({fbx_name(*channel), weight, {}, {}});
-        read_shape(*found.back(), vertices, result.back());
+    for (const FbxChannel& channel : fbx_channels(file_, scene_, geometry)) {
+      const std::vector<double> shares = channel.shares(channel.percent);
+      for (std::size_t k = 0; k < shares.size(); ++k) {
+        if (!wanted(shares[k])) continue;
+        const bool is_last = k + 1 == shares.size();
+        const FbxRecord& shape = *channel.stops[k].shape;
+        result.push_back({fbx_name(is_last ? *channel.record : shape), shares[k], {}, {}});
+        read_shape(shape, vertices, result.back());
       }
     }
     return result;
@@ -180,6 +177,16 @@ std::int64_t version_of(const FbxRecord& root) {
 }
 
 }  // namespace
+
+void for_each_fbx_geometry(
+    const FbxScene& scene,
+    const std::function<void(const FbxRecord& model, const FbxRecord& geometry)>& take) {
+  for (const FbxRecord* model : scene.all("Model")) {
+    for (const FbxRecord* geometry : scene.below(*model, "Geometry")) {
+      if (geometry->child("PolygonVertexIndex") != nullptr) take(*model, *geometry);
+    }
+  }
+}
 
 std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
                                  const FbxRecord& geometry, Eigen::Index vertices) {

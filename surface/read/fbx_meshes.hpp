@@ -24,7 +24,7 @@ struct FbxShownMesh {
   MeshSkin skin;
 };
 
-/// A channel of morphing, where it is in full.
+/// A shape of a channel, where it is in full.
 struct FbxShape {
   std::string name;
   double weight = 0;  ///< that the file gives it
@@ -32,9 +32,15 @@ struct FbxShape {
   std::vector<Eigen::RowVector3d> moves;  ///< of these, in the geometry
 };
 
-/// Of a geometry with so many vertices, in the file's order. Throws Error(Fault::input).
+/// Of a geometry with so many vertices: the stops of all its `fbx_channels`. The last of a channel
+/// has the channel's name. Throws Error(Fault::input).
 [[nodiscard]] std::vector<FbxShape> fbx_shapes(const FileBytes& file, const FbxScene& scene,
                                                const FbxRecord& geometry, Eigen::Index vertices);
+
+/// Each geometry with polygons as often as a model shows it, in the order of meshes below.
+void for_each_fbx_geometry(
+    const FbxScene& scene,
+    const std::function<void(const FbxRecord& model, const FbxRecord& geometry)>& take);
 
 /// Each mesh as often as a model shows it, in the order in which `read_polygons` has them; nullptr
 /// for `bind`: as shown. Throws Error(Fault::input).

@@ -9,17 +9,12 @@
 namespace curveskel {
 namespace {
 
-/// Angles in degrees about x, y and z, of which the first in `order` turns first.
-Eigen::Matrix3d turned(const Eigen::Vector3d& degrees, std::int64_t order = 0) {
-  constexpr std::array<std::array<int, 3>, 6> orders{
+/// The axes that turn one after the other; spheric ones as XYZ.
+const std::array<int, 3>& axes_in(std::int64_t order) {
+  static constexpr std::array<std::array<int, 3>, 6> orders{
       {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
-  const bool known = order >= 0 && order < std::int64_t{orders.size()};  // else spheric: as XYZ
-  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
-  for (const int axis : orders[known ? static_cast<std::size_t>(order) : 0]) {
-    const double angle = degrees[axis] * std::numbers::pi / 180;
-    result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix() * result;
-  }
-  return result;
+  const bool known = order >= 0 && order < std::int64_t{orders.size()};
+  return orders[known ? static_cast<std::size_t>(order) : 0];
 }
 
 Eigen::Affine3d affine(const Eigen::Matrix3d& linear) {
@@ -41,6 +36,25 @@ std::unordered_map<std::string_view, const FbxRecord*> defaults_in(const FbxReco
 }
 
 }  // namespace
+
+Eigen::Matrix3d fbx_rotation(const Eigen::Vector3d& degrees, std::int64_t order) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (const int axis : axes_in(order)) {
+    const double angle = degrees[axis] * std::numbers::pi / 180;
+    result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix() * result;
+  }
+  return result;
+}
+
+Eigen::Vector3d fbx_angles(const Eigen::Matrix3d& rotation, std::int64_t order) {
+  const std::array<int, 3>& axes = axes_in(order);
+  const Eigen::Vector3d angles = rotation.eulerAngles(axes[2], axes[1], axes[0]);
+  Eigen::Vector3d degrees;
+  for (int k = 0; k < 3; ++k) {
+    degrees[axes[static_cast<std::size_t>(k)]] = angles[2 - k] * 180 / std::numbers::pi;
+  }
+  return degrees;
+}
 
 const FbxRecord* fbx_property(const FbxRecord* owner, std::string_view name) {
   const FbxRecord* properties = owner == nullptr ? nullptr : owner->child("Properties70");
@@ -179,17 +193,23 @@ FbxMove FbxScene::move(const FbxRecord& model) const {
           vector(model, "Lcl Scaling", 1)};
 }
 
+bool FbxScene::has_active_rotation(const FbxRecord& model) const {
+  const FbxRecord* active = property(model, "RotationActive");
+  return active != nullptr && active->integer(first_property_value, 0) != 0;
+}
+
+std::int64_t FbxScene::rotation_order(const FbxRecord& model) const {
+  const FbxRecord* order = has_active_rotation(model) ? property(model, "RotationOrder") : nullptr;
+  return order == nullptr ? 0 : order->integer(first_property_value, 0);
+}
+
 /// T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1. Rotations before and after count, and another
 /// order than XYZ, only where RotationActive says so.
 Eigen::Affine3d FbxScene::local(const FbxRecord& model, const FbxMove& move) const {
-  const FbxRecord* active = property(model, "RotationActive");
-  const bool is_active = active != nullptr && active->integer(first_property_value, 0) != 0;
-  const FbxRecord* order = is_active ? property(model, "RotationOrder") : nullptr;
-  Eigen::Matrix3d rotation =
-      turned(move.angles, order == nullptr ? 0 : order->integer(first_property_value, 0));
-  if (is_active) {
-    rotation = turned(vector(model, "PreRotation")) * rotation *
-               turned(vector(model, "PostRotation")).transpose();
+  Eigen::Matrix3d rotation = fbx_rotation(move.angles, rotation_order(model));
+  if (has_active_rotation(model)) {
+    rotation = fbx_rotation(vector(model, "PreRotation")) * rotation *
+               fbx_rotation(vector(model, "PostRotation")).transpose();
   }
   const Eigen::Translation3d pivot(vector(model, "RotationPivot"));
   const Eigen::Translation3d scaling_pivot(vector(model, "ScalingPivot"));
@@ -206,7 +226,7 @@ Eigen::Affine3d FbxScene::local(const FbxRecord& model, const FbxMove& move) con
 
 Eigen::Affine3d FbxScene::geometric(const FbxRecord& model) const {
   return Eigen::Translation3d(vector(model, "GeometricTranslation")) *
-         affine(turned(vector(model, "GeometricRotation"))) *
+         affine(fbx_rotation(vector(model, "GeometricRotation"))) *
          Eigen::Scaling(vector(model, "GeometricScaling", 1));
 }
 

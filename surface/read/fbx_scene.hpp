@@ -33,6 +33,12 @@ struct FbxMove {
   Eigen::Vector3d scale;
 };
 
+/// Angles in degrees about x, y and z, of which the first in `order` (0 = XYZ, as "RotationOrder")
+/// turns first.
+[[nodiscard]] Eigen::Matrix3d fbx_rotation(const Eigen::Vector3d& degrees, std::int64_t order = 0);
+/// The angles of a rotation.
+[[nodiscard]] Eigen::Vector3d fbx_angles(const Eigen::Matrix3d& rotation, std::int64_t order = 0);
+
 class FbxScene {
  public:
   /// Both must outlive the scene. Throws Error(Fault::input) for a file without objects, and for
@@ -64,6 +70,8 @@ class FbxScene {
   [[nodiscard]] const Eigen::Affine3d& frame(const FbxRecord& model) const {
     return frame_of_.at(&model);
   }
+  /// In which a model's own angles turn it, as of `fbx_rotation`.
+  [[nodiscard]] std::int64_t rotation_order(const FbxRecord& model) const;
   /// As the scene shows it.
   [[nodiscard]] FbxMove move(const FbxRecord& model) const;
   /// From a model's coordinates to those of its parent, with these numbers for its own. Throws
@@ -78,6 +86,7 @@ class FbxScene {
  private:
   [[nodiscard]] Eigen::Vector3d vector(const FbxRecord& model, std::string_view name,
                                        double otherwise = 0) const;
+  [[nodiscard]] bool has_active_rotation(const FbxRecord& model) const;
   void connect(const FbxRecord& connections);
   void place_models();
 

@@ -240,6 +240,27 @@ TEST_F(DressDae, MorphsThatAreOnStaySliders) {
   }
 }
 
+/// Blender writes morphs beside the meshes that they morph, and nothing that refers to them.
+TEST_F(DressDae, MorphsThatNothingRefersToAreThoseOfTheirMesh) {
+  for (const double weight : {0.0, 0.25}) {
+    const Dae referred = morphed(false, weight);
+    Dae loose = referred;
+    loose.instance = Dae{}.instance;
+    EXPECT_TRUE(read_polygons(written(loose)).positions ==
+                read_polygons(written(referred)).positions);
+    EXPECT_EQ(dressed(written(loose)).bytes, dressed(written(referred)).bytes);
+    // One that something refers to is not that of the plain mesh beside it.
+    Dae both = referred;
+    both.binding =
+        "</instance_controller><instance_geometry url=\"#box\"/><instance_controller "
+        "url=\"#morph\">";
+    const Positions shown = read_polygons(written(both)).positions;
+    ASSERT_EQ(shown.rows(), 24);
+    EXPECT_NEAR((shown.middleRows(8, 8) - shown.topRows(8)).norm(), 0.5 * weight, 1e-12);
+    EXPECT_TRUE(shown.bottomRows(8) == shown.topRows(8));
+  }
+}
+
 /// In glTF the thing stands upright, in metres; its stored vertices stay as they are.
 TEST_F(DressDae, TheSceneIsInMetresWithYUp) {
   struct Frame {

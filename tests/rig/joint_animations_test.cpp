@@ -207,9 +207,8 @@ TEST(JointAnimations, OfColladaThatMoveNoNodeAreLeftOut) {
 TEST(JointAnimations, BrokenOnesOfColladaAreRefusedByName) {
   for (const DaeTrack& track :
        {DaeTrack{"a.1/rz.ANGLE", {1, 0}, {0, 1}}, DaeTrack{"a.1/at", {0, 1}, {0, 1, 2, 3}}}) {
-    std::vector<std::string> notes;
     const FileBytes file{"a.dae", DaeLimb{}.text(animations_text({track}))};
-    EXPECT_THROW((void)read_joint_animations(file, notes, {}), Error);
+    EXPECT_THROW((void)read_joint_animations(file, {}), Error);
   }
 }
 
