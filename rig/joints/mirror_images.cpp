@@ -53,7 +53,7 @@ class Mirror {
     const auto count = static_cast<int>(chains.size());
     images_.of.assign(chains.size(), none);
     passed_over_.assign(chains.size(), false);
-    holders_.resize(chains.size());
+    holders_.assign(chains.size(), 0);
     find_holders();
     distances_.resize(count, count);
     for (int chain = 0; chain < count; ++chain) {
