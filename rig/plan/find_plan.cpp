@@ -143,6 +143,7 @@ class Planner {
     const LimbWay* way = place.pair < 0 ? nullptr : &limbs_.pairs[idx(place.pair)].ways[place.way];
     const std::vector<int>& nodes =
         way == nullptr ? limbs_.trunk : (is_right ? way->mirror : way->path);
+    if (place.share) return node_in_pose(nodes, *place.share);
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const int node : nodes) {
@@ -154,6 +155,20 @@ class Planner {
     return best;
   }
 
+  /// Of a way the node at this share; legs whose mean folds have others as near.
+  [[nodiscard]] int node_in_pose(const std::vector<int>& way, double share) const {
+    const std::vector<Vector3d>& nodes = outlook_.posed.nodes;
+    std::vector<double> lengths{0};
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      lengths.push_back(lengths.back() + (nodes[idx(way[k])] - nodes[idx(way[k - 1])]).norm());
+    }
+    const double wanted = share * lengths.back();
+    const auto is_nearer = [&](double a, double b) {
+      return std::abs(a - wanted) < std::abs(b - wanted);
+    };
+    return way[idx(std::min_element(lengths.begin(), lengths.end(), is_nearer) - lengths.begin())];
+  }
+
   const CurveTree& tree_;
   const Limbs& limbs_;
   const Outlook& outlook_;
@@ -161,10 +176,14 @@ class Planner {
   std::vector<PlannedJoint> joints_;
 };
 
-std::vector<Place> places_of(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
+std::vector<Place> places_of(Outlook& outlook) {
+  const CurveTree& tree = outlook.tree;
+  const Limbs& limbs = outlook.limbs;
+  PlanFound& found = outlook.found;
   switch (found.plan) {
     case BodyKind::humanoid:
-      return humanoid_places(tree, limbs, found);
+      return humanoid_places(tree, limbs, found,
+                             outlook.sides == Sides::posed ? &outlook.posed : nullptr);
     case BodyKind::quadruped: {
       const auto depth = [&](int pair) { return tree.nodes[idx(limbs.pairs[idx(pair)].root)].z(); };
       std::sort(found.legs.begin(), found.legs.end(),
@@ -218,7 +237,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     if (!why.empty()) outlook.found.plan = BodyKind::other;
     outlook.found.reason.insert(0, why);
   }
-  const std::vector<Place> places = places_of(outlook.tree, outlook.limbs, outlook.found);
+  const std::vector<Place> places = places_of(outlook);
   result.axes = outlook.axes.array() + 0.0;  // no -0
   result.plan = outlook.found.plan;
   result.reason = outlook.found.reason;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include "rig/plan/posed_legs.hpp"
 #include "rig/plan/roles.hpp"
 
 namespace curveskel {
@@ -56,15 +57,8 @@ class SideOfLeg {
  public:
   SideOfLeg(const CurveTree& tree, const Limbs& limbs, const LimbWay& way, bool is_left)
       : course_(side_course(tree, way, is_left)), length_(way.length) {
-    std::vector<char> seen = limbs.is_trunk;
-    std::vector<char> is_own(tree.nodes.size(), 0);
-    for (const int first : is_left ? way.path : way.mirror) {
-      if (seen[idx(first)] != 0) continue;
-      for (const int node : part_of(tree, first, seen)) is_own[idx(node)] = 1;
-    }
-    for (std::size_t v = 0; v < tree.vertices.size(); ++v) {
-      const int node = tree.node_of_vertex[v];
-      if (node >= 0 && is_own[idx(node)] != 0) vertices_.push_back(from_side(tree.vertices[v]));
+    for (const Vector3d& p : surface_of_side(tree, limbs, way, is_left)) {
+      vertices_.push_back(from_side(p));
     }
   }
 

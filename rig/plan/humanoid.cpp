@@ -2,11 +2,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/median.hpp"
+#include "rig/plan/posed_legs.hpp"
 #include "rig/plan/roles.hpp"
 
 namespace curveskel {
@@ -18,9 +20,12 @@ constexpr double knee_height = 0.56;  // of the hips'
 
 class Humanoid {
  public:
-  Humanoid(const CurveTree& tree, const Limbs& limbs, const PlanFound& found)
+  Humanoid(const CurveTree& tree, const Limbs& limbs, const PlanFound& found,
+           const CurveTree* posed)
       : tree_(tree),
+        limbs_(limbs),
         found_(found),
+        posed_(posed),
         leg_(found.legs.empty() ? nullptr : &limbs.pairs[idx(found.legs.front())]),
         arm_(found.arms < 0 ? nullptr : &limbs.pairs[idx(found.arms)]),
         arm_joints_(arm_ == nullptr ? found.hidden->arm->joints : arm_joints(tree, *arm_)),
@@ -111,17 +116,25 @@ class Humanoid {
     for (std::size_t k = parts; k < std::min(parts + 60, count); ++k) {
       aside.push_back(std::abs(course.points[k].x() - tree_.middle));
     }
-    const auto down_to = [&](double y) {
+    const auto index_at = [&](double y) {
       std::size_t k = parts;
       while (k + 1 < count && course.points[k].y() > y) ++k;
-      return course.points[k];
+      return k;
     };
+    const auto down_to = [&](double y) { return course.points[index_at(y)]; };
     hip_ = {tree_.middle + median_of(aside), hip_height_, down_to(hip_height_).z()};
     const auto at_share = [&](double share) {
       return down_to(tree_.ground + share * (hip_height_ - tree_.ground));
     };
     const bool is_hidden = hides_legs(hip_height_);
-    const Vector3d ankle = at_share(is_hidden ? 0.5 : 0.115);
+    Vector3d ankle = at_share(is_hidden ? 0.5 : 0.115);
+    std::optional<double> share;
+    if (posed_ != nullptr && !is_hidden) {  // a lifted foot is not as high as its leg is long
+      const auto last = static_cast<double>(count - 1);
+      const double hip = static_cast<double>(index_at(hip_height_)) / last;
+      share = ankle_in_pose(*posed_, limbs_, leg.ways.front(), hip);
+      ankle = course.points[idx(std::lround(*share * last))];
+    }
     double toes = -std::numeric_limits<double>::infinity();
     for (const int v : leg.vertices) {
       const Vector3d& p = tree_.vertices[idx(v)];
@@ -137,7 +150,9 @@ class Humanoid {
     }
     add("leftFoot", "leftLowerLeg", ankle, leg_pair(),
         is_hidden ? "half-way from the hem to the ground"
+        : share   ? ".115 of the leg's length above its sole, along the shin"
                   : ".115 of the hips' height above the ground");
+    places_.back().share = share;
     add("leftToes", "leftFoot",
         {ankle.x(), tree_.ground + 0.02 * tree_.height, ankle.z() + 0.55 * (toes - ankle.z())},
         leg_pair(), ".55 of the way from the ankle to the tip of the foot");
@@ -261,9 +276,11 @@ class Humanoid {
   }
 
   const CurveTree& tree_;
+  const Limbs& limbs_;
   const PlanFound& found_;
-  const LimbPair* leg_;  // nullptr = by proportion
-  const LimbPair* arm_;  // the same
+  const CurveTree* posed_;  // nullptr = as it is
+  const LimbPair* leg_;     // nullptr = by proportion
+  const LimbPair* arm_;     // the same
   ArmJoints arm_joints_;
   std::vector<Vector3d> trunk_;  // from below
   double hip_height_ = 0;
@@ -275,8 +292,8 @@ class Humanoid {
 }  // namespace
 
 std::vector<Place> humanoid_places(const CurveTree& tree, const Limbs& limbs,
-                                   const PlanFound& found) {
-  return Humanoid(tree, limbs, found).places();
+                                   const PlanFound& found, const CurveTree* posed) {
+  return Humanoid(tree, limbs, found, posed).places();
 }
 
 }  // namespace curveskel

@@ -69,6 +69,7 @@ struct Place {
   int node = -1;                                         ///< its node, if it is known
   bool is_by_proportion = false;  ///< of a human whose limbs are hidden: it stays where it is
   std::optional<Eigen::Vector3d> end = std::nullopt;  ///< of its bone, where no joint says so
+  std::optional<double> share = std::nullopt;  ///< of its way in the pose, if `at` is on its course
 };
 
 inline constexpr const char* shoulder_reason =
@@ -83,8 +84,9 @@ inline constexpr const char* wrist_reason =
 [[nodiscard]] std::vector<Place> finger_places(const CurveTree& tree, const LimbPair& arm, int pair,
                                                const Eigen::Vector3d& wrist);
 
+/// `posed` is the tree as it is where the other one is unposed, else nullptr.
 [[nodiscard]] std::vector<Place> humanoid_places(const CurveTree& tree, const Limbs& limbs,
-                                                 const PlanFound& found);
+                                                 const PlanFound& found, const CurveTree* posed);
 /// `found.legs` hind legs first.
 [[nodiscard]] std::vector<Place> quadruped_places(const CurveTree& tree, const Limbs& limbs,
                                                   const PlanFound& found);

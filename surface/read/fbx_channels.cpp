@@ -11,7 +11,7 @@ constexpr double all_of_it = 100;
 /// Of a single shape programs write other things there, as Blender weights of vertices.
 std::vector<FbxChannel::Stop> stops_of(const FileBytes& file, const FbxRecord& channel,
                                        const std::vector<const FbxRecord*>& shapes) {
-  const std::vector<FbxChannel::Stop> last_alone{{shapes.back(), all_of_it}};
+  std::vector<FbxChannel::Stop> last_alone{{shapes.back(), all_of_it}};
   const FbxRecord* given = channel.child("FullWeights");
   if (shapes.size() < 2 || given == nullptr) return last_alone;
   const std::vector<double> percents = fbx_numbers(file, *given);

@@ -96,7 +96,7 @@ Eigen::Affine3d frame_in(const nlohmann::json& nodes, std::size_t number) {
   const auto shift = node.value("translation", std::vector<double>{0, 0, 0});
   const auto turn = node.value("rotation", std::vector<double>{0, 0, 0, 1});
   const auto scale = node.value("scale", std::vector<double>{1, 1, 1});
-  const Eigen::Affine3d own = Eigen::Translation3d(Eigen::Vector3d(shift.data())) *
+  Eigen::Affine3d own = Eigen::Translation3d(Eigen::Vector3d(shift.data())) *
                               Eigen::Quaterniond(Eigen::Vector4d(turn.data())) *
                               Eigen::Scaling(Eigen::Vector3d(scale.data()));
   for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -138,11 +138,13 @@ RigSubject bent_human(const Stride& left, const Stride& right, double lean, bool
   return subject_of("bent human", figure);
 }
 
-/// Runs, kicks, kneels, steps down: a foot in the air tells nothing by where it lies.
+/// Runs, kicks, kneels, steps down.
+const std::vector<std::pair<Stride, Stride>> strides{
+    {{40, 60}, {-20, 70}}, {{0, 0}, {60, 100}}, {{-10, 90}, {45, 45}}, {{20, 30}, {-30, 100}}};
+
+/// A foot in the air tells nothing by where it lies.
 TEST(PosedBodies, AHumanLooksWhereTheKneesBend) {
-  const std::vector<std::pair<Stride, Stride>> poses{
-      {{40, 60}, {-20, 70}}, {{0, 0}, {60, 100}}, {{-10, 90}, {45, 45}}, {{20, 30}, {-30, 100}}};
-  for (const auto& [left, right] : poses) {
+  for (const auto& [left, right] : strides) {
     for (const bool is_turned : {false, true}) {
       SCOPED_TRACE(std::to_string(left.thigh) + (is_turned ? " turned" : ""));
       const RigSubject subject = bent_human(left, right, 20, is_turned);
@@ -151,6 +153,17 @@ TEST(PosedBodies, AHumanLooksWhereTheKneesBend) {
       expect_near(plan, "leftLowerLeg", placed(bent(left)[1], is_turned), 2);
       expect_near(plan, "rightLowerLeg", placed(mirrored(bent(right))[1], is_turned), 2);
     }
+  }
+}
+
+/// Nor does its height, of which both legs have the mean, tell where its ankle is.
+TEST(PosedBodies, ALiftedFootHasItsAnkleAboveItsOwnSole) {
+  for (const auto& [left, right] : strides) {
+    SCOPED_TRACE(left.thigh);
+    const RigSubject subject = bent_human(left, right, 20, false);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    expect_near(plan, "leftFoot", bent(left)[2], 1);
+    expect_near(plan, "rightFoot", mirrored(bent(right))[2], 1);
   }
 }
 
