@@ -97,8 +97,8 @@ Eigen::Affine3d frame_in(const nlohmann::json& nodes, std::size_t number) {
   const auto turn = node.value("rotation", std::vector<double>{0, 0, 0, 1});
   const auto scale = node.value("scale", std::vector<double>{1, 1, 1});
   Eigen::Affine3d own = Eigen::Translation3d(Eigen::Vector3d(shift.data())) *
-                              Eigen::Quaterniond(Eigen::Vector4d(turn.data())) *
-                              Eigen::Scaling(Eigen::Vector3d(scale.data()));
+                        Eigen::Quaterniond(Eigen::Vector4d(turn.data())) *
+                        Eigen::Scaling(Eigen::Vector3d(scale.data()));
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     for (const nlohmann::json& child : nodes[k].value("children", nlohmann::json::array())) {
       if (child == number) return frame_in(nodes, k) * own;
