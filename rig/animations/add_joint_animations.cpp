@@ -14,8 +14,9 @@ using Eigen::Affine3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// In the world of the document.
-JointFrames frames_of(const Rig& rig) {
+}  // namespace
+
+JointFrames bound_frames(const Rig& rig) {
   const std::vector<Quaterniond> axes = bone_axes(rig);
   JointFrames frames;
   for (std::size_t joint = 0; joint < axes.size(); ++joint) {
@@ -25,10 +26,8 @@ JointFrames frames_of(const Rig& rig) {
   return frames;
 }
 
-}  // namespace
-
 JointMover::JointMover(GltfJoints joints, const JointFrames& rest)
-    : joints_(std::move(joints)), bound_(frames_of(joints_.rig)) {
+    : joints_(std::move(joints)), bound_(bound_frames(joints_.rig)) {
   for (const Affine3d& frame : rest) {
     const bool is_frame = is_invertible(frame);
     has_frame_.push_back(is_frame);

@@ -21,6 +21,9 @@ struct GltfJoints {
   Eigen::Affine3d to_gltf;
 };
 
+/// In the world of the document, turned by `bone_axes`.
+[[nodiscard]] JointFrames bound_frames(const Rig& rig);
+
 class JointMover {
  public:
   JointMover(GltfJoints joints, const JointFrames& rest);

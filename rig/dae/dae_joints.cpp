@@ -5,11 +5,8 @@
 #include <curveskel/advanced/indices.hpp>
 
 namespace curveskel {
-namespace {
 
 bool is_dae_joint(const DaeNode& node) { return node.element->attribute("type") == "JOINT"; }
-
-}  // namespace
 
 std::vector<DaeJoint> dae_joints(const std::vector<DaeNode>& nodes) {
   const std::vector<int> joint_of_node = dae_joint_of_node(nodes);

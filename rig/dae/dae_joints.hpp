@@ -15,6 +15,8 @@ struct DaeJoint {
 /// The nodes that say that they are joints, parents first. `nodes` are those of `dae_nodes`.
 [[nodiscard]] std::vector<DaeJoint> dae_joints(const std::vector<DaeNode>& nodes);
 
+[[nodiscard]] bool is_dae_joint(const DaeNode& node);
+
 /// By node the number of the joint that it is, or of the nearest above it; -1 = none.
 [[nodiscard]] std::vector<int> dae_joint_of_node(const std::vector<DaeNode>& nodes);
 

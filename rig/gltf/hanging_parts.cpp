@@ -9,7 +9,6 @@
 #include "rig/animations/node_move.hpp"
 #include "rig/dae/dae_joints.hpp"
 #include "rig/fbx/fbx_joints.hpp"
-#include "rig/joints/bone_axes.hpp"
 #include "surface/read/dae_scene.hpp"
 #include "surface/read/formats.hpp"
 
@@ -65,8 +64,7 @@ std::vector<HangingPlace> places_in_dae(const FileBytes& file, const Monitor& mo
   std::vector<HangingPlace> places;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const XmlElement& element = *nodes[k].element;
-    const bool is_joint = element.attribute("type") == "JOINT";
-    if (joint_of_node[k] < 0 || is_joint || shows_a_mesh(element)) continue;
+    if (joint_of_node[k] < 0 || is_dae_joint(nodes[k]) || shows_a_mesh(element)) continue;
     const std::string_view id = element.attribute("id");
     places.push_back(
         {std::string(element.attribute("name", id)), joint_of_node[k], nodes[k].frame});
@@ -82,12 +80,11 @@ void add_hanging_places(GltfDocument& document, const FileBytes& file, const Glt
   std::vector<HangingPlace> places;
   if (format == SurfaceFormat::fbx) places = places_in_fbx(file);
   if (format == SurfaceFormat::dae) places = places_in_dae(file, monitor);
-  const std::vector<Eigen::Quaterniond> axes = bone_axes(joints.rig);
+  const JointFrames bound = bound_frames(joints.rig);
   OrderedJson& nodes = document.json["nodes"];
   for (const HangingPlace& place : places) {
-    const Eigen::Vector3d at = joints.rig.joints.row(place.joint).transpose();
-    const Eigen::Affine3d bound = Eigen::Translation3d(at) * axes[idx(place.joint)];
-    const NodeMove move = node_move(bound.inverse() * joints.to_gltf * place.frame);
+    const NodeMove move =
+        node_move(bound[idx(place.joint)].inverse() * joints.to_gltf * place.frame);
     const auto numbers = [](const auto& row) {
       return std::vector<double>(row.begin(), row.end());
     };

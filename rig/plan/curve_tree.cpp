@@ -130,6 +130,17 @@ std::vector<int> part_of(const CurveTree& tree, int node, std::vector<char>& see
   return part;
 }
 
+std::vector<char> nodes_of_side(const CurveTree& tree, const Limbs& limbs,
+                                const std::vector<int>& way) {
+  std::vector<char> seen = limbs.is_trunk;
+  std::vector<char> is_own(tree.nodes.size(), 0);
+  for (const int first : way) {
+    if (seen[idx(first)] != 0) continue;
+    for (const int node : part_of(tree, first, seen)) is_own[idx(node)] = 1;
+  }
+  return is_own;
+}
+
 namespace {
 
 struct Sampled {

@@ -106,6 +106,10 @@ enum class Images { tips, within_limbs };
 
 [[nodiscard]] Limbs find_limbs(const CurveTree& tree, const TipPairs& pairs);
 
+/// By node 1 if it is on the way, one side's, and not of the trunk, or hangs from one that is.
+[[nodiscard]] std::vector<char> nodes_of_side(const CurveTree& tree, const Limbs& limbs,
+                                              const std::vector<int>& way);
+
 /// A limb's course as the mean of both sides, on the left, in equal shares of its length.
 struct Course {
   std::vector<Eigen::Vector3d> points;

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "base/median.hpp"
+#include "rig/plan/human_proportions.hpp"
 #include "rig/plan/posed_legs.hpp"
 #include "rig/plan/roles.hpp"
 
@@ -15,8 +16,6 @@ namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double knee_height = 0.56;  // of the hips'
 
 class Humanoid {
  public:
@@ -88,10 +87,9 @@ class Humanoid {
 
   /// `ankle` is the one that is seen. The trunk's curve has no leg beside it.
   void place_hidden_leg(const Vector3d& ankle) {
-    constexpr double hip_of_shoulder = 0.648;  // heights: .530 and .818 of a human's
-    hip_height_ = tree_.ground + hip_of_shoulder * (arm_joints_.shoulder.y() - tree_.ground);
+    hip_height_ = tree_.ground + hips_of_shoulders * (arm_joints_.shoulder.y() - tree_.ground);
     hip_ = {hip_.x(), hip_height_, depth_at(hip_height_)};
-    const double knee = tree_.ground + knee_height * (hip_height_ - tree_.ground);
+    const double knee = tree_.ground + knee_of_hips * (hip_height_ - tree_.ground);
     const double share = (hip_height_ - knee) / (hip_height_ - ankle.y());
     add("leftUpperLeg", "hips", hip_, leg_pair(),
         "at a human's share of the shoulders' height, in a gown", false);
@@ -127,7 +125,7 @@ class Humanoid {
       return down_to(tree_.ground + share * (hip_height_ - tree_.ground));
     };
     const bool is_hidden = hides_legs(hip_height_);
-    Vector3d ankle = at_share(is_hidden ? 0.5 : 0.115);
+    Vector3d ankle = at_share(is_hidden ? 0.5 : ankle_of_hips);
     std::optional<double> share;
     if (posed_ != nullptr && !is_hidden) {  // a lifted foot is not as high as its leg is long
       const auto last = static_cast<double>(count - 1);
@@ -145,7 +143,7 @@ class Humanoid {
       place_hidden_leg(ankle);
     } else {
       add("leftUpperLeg", "hips", hip_, leg_pair(), "above the place where the legs part");
-      add("leftLowerLeg", "leftUpperLeg", at_share(knee_height), leg_pair(),
+      add("leftLowerLeg", "leftUpperLeg", at_share(knee_of_hips), leg_pair(),
           ".56 of the hips' height above the ground");
     }
     add("leftFoot", "leftLowerLeg", ankle, leg_pair(),

@@ -44,12 +44,7 @@ double ankle_of(const Course& course, const std::vector<Vector3d>& surface, doub
 
 std::vector<Vector3d> surface_of_side(const CurveTree& tree, const Limbs& limbs, const LimbWay& way,
                                       bool is_left) {
-  std::vector<char> seen = limbs.is_trunk;
-  std::vector<char> is_own(tree.nodes.size(), 0);
-  for (const int first : is_left ? way.path : way.mirror) {
-    if (seen[idx(first)] != 0) continue;
-    for (const int node : part_of(tree, first, seen)) is_own[idx(node)] = 1;
-  }
+  const std::vector<char> is_own = nodes_of_side(tree, limbs, is_left ? way.path : way.mirror);
   std::vector<Vector3d> surface;
   for (std::size_t v = 0; v < tree.vertices.size(); ++v) {
     const int node = tree.node_of_vertex[v];

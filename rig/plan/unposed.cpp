@@ -50,14 +50,9 @@ void move_pair(const CurveTree& tree, const Limbs& limbs, const LimbWay& way, Mo
 /// Of the surface about a limb and all that hangs from it.
 double lowest_about(const CurveTree& tree, const Limbs& limbs, const std::vector<int>& way) {
   double lowest = std::numeric_limits<double>::infinity();
-  std::vector<char> seen = limbs.is_trunk;
-  std::vector<char> is_own(tree.nodes.size(), 0);
-  for (const int node : way) {
-    if (seen[idx(node)] != 0) continue;
-    for (const int own : part_of(tree, node, seen)) {
-      is_own[idx(own)] = 1;
-      lowest = std::min(lowest, tree.nodes[idx(own)].y());
-    }
+  const std::vector<char> is_own = nodes_of_side(tree, limbs, way);
+  for (std::size_t k = 0; k < is_own.size(); ++k) {
+    if (is_own[k] != 0) lowest = std::min(lowest, tree.nodes[k].y());
   }
   for (std::size_t v = 0; v < tree.vertices.size(); ++v) {
     const int node = tree.node_of_vertex[v];

@@ -16,7 +16,7 @@
 namespace curveskel {
 namespace {
 
-constexpr std::size_t colours_of_a_pixel = 3;
+constexpr std::size_t colour_channels = 3;
 constexpr std::size_t rows_per_strip = 64;  // packed on their own, so that threads share the work
 
 unsigned char byte_of(float value) {
@@ -29,7 +29,7 @@ struct PaddedBytes {
   std::size_t stride;
   const unsigned char* bytes;
   [[nodiscard]] const unsigned char* row(std::size_t y) const {
-    return bytes + (y + 1) * stride + colours_of_a_pixel;
+    return bytes + (y + 1) * stride + colour_channels;
   }
 };
 
@@ -53,10 +53,10 @@ int expected(int left, int above, int corner) {
 /// values packs well.
 template <int filter>
 long filter_row(const unsigned char* row, std::size_t stride, unsigned char* filtered) {
-  const std::size_t count = stride - colours_of_a_pixel;
-  const unsigned char* left = row - colours_of_a_pixel;
+  const std::size_t count = stride - colour_channels;
+  const unsigned char* left = row - colour_channels;
   const unsigned char* above = row - stride;
-  const unsigned char* corner = above - colours_of_a_pixel;
+  const unsigned char* corner = above - colour_channels;
   int sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const int rest = row[i] - expected<filter>(left[i], above[i], corner[i]);
@@ -71,7 +71,7 @@ std::vector<unsigned char> filtered_strip(const PaddedBytes& picture, std::size_
                                           std::size_t end) {
   constexpr std::array filters{&filter_row<0>, &filter_row<1>, &filter_row<2>, &filter_row<3>,
                                &filter_row<4>};
-  const std::size_t count = picture.stride - colours_of_a_pixel;
+  const std::size_t count = picture.stride - colour_channels;
   std::vector<unsigned char> result;
   result.reserve((end - begin) * (count + 1));
   std::vector<unsigned char> best(count);
@@ -141,7 +141,7 @@ void append_chunk(std::string& png, std::string_view type, std::string_view data
 Image::Image(int columns, int rows, const Colour& background)
     : width_(columns),
       height_(rows),
-      stride_(colours_of_a_pixel * (static_cast<std::size_t>(columns) + 1)),
+      stride_(colour_channels * (static_cast<std::size_t>(columns) + 1)),
       bytes_(stride_ * (static_cast<std::size_t>(rows) + 1), 0) {
   if (width_ == 0 || height_ == 0) return;
   for (int x = 0; x < width_; ++x) set(x, 0, background);
@@ -158,7 +158,7 @@ Colour Image::at(int x, int y) const {
 
 void Image::set(int x, int y, const Colour& colour) {
   unsigned char* const pixel = bytes_.data() + place(x, y);
-  for (std::size_t k = 0; k < colours_of_a_pixel; ++k) {
+  for (std::size_t k = 0; k < colour_channels; ++k) {
     pixel[k] = byte_of(colour(static_cast<Eigen::Index>(k)));
   }
 }
