@@ -15,18 +15,8 @@ PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 COLLECTION = os.environ.get("CURVESKEL_COLLECTION")
 
 LOAD = """
-import json, pathlib, sys
-import bpy, numpy
-numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
-
 def load(file):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    if file.suffix == ".fbx":
-        bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
-    elif file.suffix == ".dae":
-        bpy.ops.wm.collada_import(filepath=str(file))
-    else:
-        bpy.ops.import_scene.gltf(filepath=str(file))
+    open_scene(file)
     armature = next(thing for thing in bpy.data.objects if thing.type == "ARMATURE")
     # glTF has a track for each clip, of which one is also the action.
     for track in [*armature.animation_data.nla_tracks]:
@@ -69,10 +59,6 @@ for file in sorted(folder.glob("*.glb")):
 """
 
 EXPORTS = """
-import json, pathlib, sys
-import bpy, numpy
-numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
-
 folder = pathlib.Path(sys.argv[-1])
 for file in sorted(folder.glob("*.glb")):
     bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -13,10 +13,6 @@ from in_blender import result_of
 PROGRAM = os.environ["CURVESKEL_PROGRAM"]
 
 FACE = """
-import json, math, pathlib, sys
-import bpy, numpy
-numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
-
 def keyed(owner, path, keys):
     for frame, value in keys:
         setattr(owner, path, value)
@@ -61,16 +57,8 @@ bpy.ops.export_scene.fbx(filepath=str(folder / "face.fbx"), add_leaf_bones=False
 """
 
 VALUES = """
-import json, pathlib, sys
-import bpy, numpy
-numpy.bool, numpy.int, numpy.float, numpy.object = bool, int, float, object
-
 def load(file):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    if file.suffix == ".fbx":
-        bpy.ops.import_scene.fbx(filepath=str(file), anim_offset=0)
-    else:
-        bpy.ops.import_scene.gltf(filepath=str(file))
+    open_scene(file)
     return next(thing for thing in bpy.data.objects
                 if thing.type == "MESH" and thing.data.shape_keys).data.shape_keys
 
