@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # usage: sanitized.sh SOURCE_DIR PRESET [PROGRAM [NAME...]]
 # Builds a test program with the sanitizers of the preset (dev: AddressSanitizer and checks for
-# undefined behaviour, warnings as errors; threads: ThreadSanitizer) and runs its tests of these
-# files; without names all of them, without a program all programs.
+# undefined behaviour, warnings as errors; threads: ThreadSanitizer) of the tests of these files, and
+# runs them; without names all of them, without a program all programs.
 set -euo pipefail
 cd "$1"
 preset=$2
 shift 2
 program=${1:-}
 [ $# -eq 0 ] || shift
-cmake --preset "$preset" >/dev/null
+files=$(IFS=';'; echo "$*")
+cmake --preset "$preset" -DCURVESKEL_TESTS="$files" >/dev/null
 programs=${program:-surface contraction skeleton rig meshes viewer}
 read -ra targets <<<"${programs// /_tests }_tests"
 ninja -C "build/$preset" -j "$(packages/jobs)" "${targets[@]}"

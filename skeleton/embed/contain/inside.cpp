@@ -90,9 +90,10 @@ class Keeper {
   };
 
   /// To the next point straight or bent, else by a detour to the next one inside; where none leads
-  /// there, as in a pocket where the surface meets itself, to one of the points after it.
-  Stretch next_stretch(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
-                       bool on_cycle) {
+  /// there, as in a pocket where the surface meets itself, to one of the points after it. `covered`
+  /// are the arc's points up to there.
+  Stretch next_stretch(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i, bool on_cycle,
+                       const std::vector<CurvePoint>& covered) {
     constexpr std::size_t most_left_out = 4;
     Stretch straight{i + 1, {}, 0};
     const bool is_whole = is_covered(line[i], line[i + 1], straight.between);
@@ -114,7 +115,7 @@ class Keeper {
     }
     if (!best) best = std::move(straight);
     if (best->uncovered == 0 || !ways_below_) return std::move(*best);
-    auto below = stretch_below(arc, line, i, on_cycle);
+    auto below = stretch_below(arc, line, i, on_cycle, covered);
     return below ? std::move(*below) : std::move(*best);
   }
 
@@ -122,14 +123,14 @@ class Keeper {
   /// goes round no handle of the inside, so of a cycle any way will do with which the graph goes
   /// round all of them.
   std::optional<Stretch> stretch_below(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
-                                       bool on_cycle) {
+                                       bool on_cycle, const std::vector<CurvePoint>& covered) {
     std::size_t next = i + 1;
     while (next + 1 < line.size() && line[next].radius(tree_) <= 0) ++next;
     if (line[i].radius(tree_) <= 0 || line[next].radius(tree_) <= 0) return std::nullopt;
     const auto finds_all = [&](const std::vector<Point>& way) {
       const std::vector<CurvePoint> before = arc.points;
       const auto at = [&](std::size_t k) { return line.begin() + static_cast<std::ptrdiff_t>(k); };
-      arc.points.assign(at(1), std::max(at(1), at(i + 1)));
+      arc.points = covered;
       for (const Point& point : way) arc.points.emplace_back(point);
       arc.points.insert(arc.points.end(), at(next), std::max(at(next), line.end() - 1));
       const bool all = handles_.finds_all_handles(graph_, partition_);
@@ -169,7 +170,7 @@ class Keeper {
         whole = one_way(arc, line, on_cycle);
         if (whole && whole->uncovered == 0) break;
       }
-      Stretch stretch = next_stretch(arc, line, i, on_cycle);
+      Stretch stretch = next_stretch(arc, line, i, on_cycle, points);
       uncovered += stretch.uncovered;
       points.insert(points.end(), stretch.between.begin(), stretch.between.end());
       if (stretch.last + 1 < line.size()) points.push_back(line[stretch.last]);
