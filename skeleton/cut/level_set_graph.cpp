@@ -47,11 +47,12 @@ Eigen::VectorXi components_of_cells(const EdgeIndex& index, const std::vector<Ce
   return group;
 }
 
-/// Splits the edges with an end in a `wanted` group along which the value changes by more than
-/// `width`, once; whether there were any. A new vertex belongs to the group of the end that is in
-/// its slice of `sliced.width`. Edges that are not split are as steep as before, so the vertices
-/// grow with the range of the values over `width`, not with its square.
-bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) {
+/// The middles of the edges with an end in a `wanted` group along which the value changes by more
+/// than `width`. Each belongs to the group of the end that is in its slice of `sliced.width`. Edges
+/// that are not split are as steep as before, so the vertices grow with the range of the values
+/// over `width`, not with its square.
+std::vector<EdgeMiddle> steep_middles(const Sliced& sliced, const std::vector<bool>& wanted,
+                                      double width) {
   std::vector<EdgeMiddle> middles;
   for (std::size_t e = 0; e < sliced.index.edges.size(); ++e) {
     const auto& [a, b] = sliced.index.edges[e];
@@ -61,9 +62,7 @@ bool split_steep(Sliced& sliced, const std::vector<bool>& wanted, double width) 
     const bool with_a = slice == sliced.slice(sliced.value[idx(a)]);
     middles.push_back({e, sliced.group[idx(with_a ? a : b)]});
   }
-  if (middles.empty()) return false;
-  split_edges(sliced, middles);
-  return true;
+  return middles;
 }
 
 /// The groups after those that are wanted were cut along the levels of `sliced.width`.
@@ -136,12 +135,15 @@ std::vector<bool> worth_cutting(const Sliced& sliced, const PartitionGraph& grap
   return wanted;
 }
 
-/// Until the edges of what is wanted are less steep than the width; false if there are too many.
+/// Splits until the edges of what is wanted are less steep than the width; false if that would make
+/// too many vertices.
 bool refine(Sliced& sliced, const std::vector<bool>& wanted, double width, Eigen::Index most) {
-  while (sliced.surface.positions.rows() <= most) {
-    if (!split_steep(sliced, wanted, width)) return true;
+  while (true) {
+    const std::vector<EdgeMiddle> middles = steep_middles(sliced, wanted, width);
+    if (middles.empty()) return true;
+    if (sliced.surface.positions.rows() + std::ssize(middles) > most) return false;
+    split_edges(sliced, middles);
   }
-  return false;
 }
 
 /// Some pieces may keep handles.

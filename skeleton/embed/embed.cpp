@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,9 +58,10 @@ void require_valid(const EmbedOptions& options) {
   check.number("tip_gap", options.tip_gap, radii);
 }
 
-CurveSkeleton embed_tuned(const EmbedInput& input, const EmbedOptions& options,
-                          const EmbedTuning& tuning, int threads, StepClock& clock,
-                          const Monitor& monitor) {
+std::optional<CurveSkeleton> embed_tuned(const EmbedInput& input, const EmbedOptions& options,
+                                         const EmbedTuning& tuning, const EmbedDemand& demand,
+                                         StepClock& clock, const Monitor& monitor) {
+  const int threads = demand.threads;
   const Surface& surface = input.surface;
   const SurfaceTree& tree = input.tree;
   monitor.report("embed", 0);
@@ -72,10 +74,10 @@ CurveSkeleton embed_tuned(const EmbedInput& input, const EmbedOptions& options,
   const std::vector<MirrorPlane> planes = clock(
       "mirror planes", [&] { return mirror_planes(surface, tree, tuning.spacing.least, threads); });
   SkeletonGraph graph;
-  embed_in_working_surface(graph,
-                           {working, tree, tree, input.partition, options, tuning, spacing, threads,
-                            guard, planes, monitor.stop},
-                           clock, monitor);
+  Setting at_first{working, tree,    tree,  input.partition, options,     tuning,
+                   spacing, threads, guard, planes,          monitor.stop};
+  at_first.needs_all_handles = demand.all_handles;
+  if (!embed_in_working_surface(graph, at_first, clock, monitor)) return std::nullopt;
   const SurfaceTree* const full_tree =
       clock("wait for the tree", [&] { return &input.full_tree(); });
   graph.forget_radii();
@@ -94,7 +96,7 @@ CurveSkeleton embed(const EmbedInput& input, const EmbedOptions& options, int th
   require_closed_manifold(input.surface, "embed", threads);
   require_same_vertices(input);
   StepClock unread;
-  return embed_tuned(input, options, {}, threads, steps != nullptr ? *steps : unread, monitor);
+  return *embed_tuned(input, options, {}, {threads}, steps != nullptr ? *steps : unread, monitor);
 }
 
 }  // namespace curveskel

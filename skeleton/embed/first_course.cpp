@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,7 +49,7 @@ void dissolve_passed_nodes(SkeletonGraph& graph) {
 
 }  // namespace
 
-SkeletonGraph first_course(const Setting& in) {
+std::optional<SkeletonGraph> first_course(const Setting& in) {
   const double limit = in.tuning.prominence;
   SkeletonGraph whole =
       skeleton_graph_of(in.partition, positions_from_balls(in.working, in.partition));
@@ -64,6 +65,9 @@ SkeletonGraph first_course(const Setting& in) {
   if (uncovered == 0 && goes_round) return graph;
   SkeletonGraph rerouted = std::move(whole);
   reroute_around_handles(rerouted, in.working, in.tree, in.partition, in.guard);
+  if (in.needs_all_handles && !goes_round && !in.guard.finds_all_handles(rerouted, in.partition)) {
+    return std::nullopt;
+  }
   dissolve_passed_nodes(rerouted);
   prune_blunt(rerouted, in.working, in.partition, limit);
   const int left =

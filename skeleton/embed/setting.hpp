@@ -29,6 +29,7 @@ struct Setting {
   std::vector<MirrorPlane> mirror_planes;  ///< of the surface
   std::stop_token stop = {};               ///< asked in all loops that may take long
   const Surface* full = nullptr;           ///< the surface of `tree`, null if it is not known
+  bool needs_all_handles = false;          ///< else the first course makes do with those it finds
 };
 
 }  // namespace curveskel

@@ -28,7 +28,9 @@ namespace {
 namespace step {
 
 bool start(SkeletonGraph& graph, const Setting& in) {
-  graph = first_course(in);
+  auto course = first_course(in);
+  if (!course) return false;
+  graph = std::move(*course);
   return true;
 }
 
@@ -264,8 +266,9 @@ constexpr std::array after_rerouting{
 
 constexpr EmbedStep draw_the_axis{"axis of a convex body", step::draw_axis};
 
+constexpr EmbedStep take_first_course{"first course", step::start};
+
 constexpr std::array beginning{
-    EmbedStep{"first course", step::start},
     EmbedStep{"widen junctions", step::widen_junctions, guarded},
     EmbedStep{"merge junctions", step::merge},
 };
@@ -353,12 +356,14 @@ void run_phases(std::span<const EmbedPhase> phases, SkeletonGraph& graph, const 
 
 }  // namespace
 
-void embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
+bool embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
                               const Monitor& monitor) {
   if (!run_step(draw_the_axis, graph, setting, clock, monitor)) {
+    if (!run_step(take_first_course, graph, setting, clock, monitor)) return false;
     run_phases(limb_phases, graph, setting, clock, monitor);
   }
   run_phases(centring_phases, graph, setting, clock, monitor);
+  return true;
 }
 
 void embed_in_full_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,

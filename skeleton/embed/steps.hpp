@@ -10,9 +10,10 @@ namespace curveskel {
 
 /// Within the working surface, whose tree is quick to ask: all that takes many rays. A convex body
 /// gets its axis, any other the limbs of the cut. The graph that goes in is empty. Each step is
-/// timed under its name. Throws Cancelled if a stop was requested.
-void embed_in_working_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,
-                              const Monitor& monitor);
+/// timed under its name. False if the setting needs all handles and the first course misses some.
+/// Throws Cancelled if a stop was requested.
+[[nodiscard]] bool embed_in_working_surface(SkeletonGraph& graph, const Setting& setting,
+                                            StepClock& clock, const Monitor& monitor);
 
 /// Within the full surface: keeps the curve inside, smooths, prunes spurs. Otherwise the same.
 void embed_in_full_surface(SkeletonGraph& graph, const Setting& setting, StepClock& clock,

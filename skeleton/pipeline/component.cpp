@@ -11,6 +11,7 @@
 #include "skeleton/embed/embed_tuned.hpp"
 #include "skeleton/embed/place/mirror.hpp"
 #include "skeleton/lives/finer_branches.hpp"
+#include "skeleton/pipeline/all_vertices.hpp"
 #include "surface/resample/coarsen_whole.hpp"
 #include "surface/resample/refine.hpp"
 
@@ -66,7 +67,9 @@ class Pipeline {
         stage_(stage),
         fine_(fine) {}
 
-  Shared<CurveSkeleton> run(ComponentRecord& record, TryLog& log, const TriesOf& of) {
+  /// Null if no cycles go round all handles although they have to.
+  Shared<CurveSkeleton> run(ComponentRecord& record, TryLog& log, const TriesOf& of,
+                            bool needs_all_handles) {
     const Shared<Surface> source = source_surface();
     const Shared<Coarsened> working = working_surface(source);
     record.working_vertices = static_cast<int>(working->surface.positions.rows());
@@ -89,9 +92,7 @@ class Pipeline {
     const Cut cut = best_of(carry_out(
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
         [](const Cut&) { return std::nullopt; }, monitor_, log));
-    const bool is_working = cut.surface.get() == &working->surface;
-    return embedded(cut, *balls,
-                    is_working ? std::move(lives) : std::future<std::vector<TipLife>>());
+    return embedded(cut, *balls, std::move(lives), needs_all_handles);
   }
 
  private:
@@ -259,33 +260,36 @@ class Pipeline {
   }
 
   Shared<CurveSkeleton> embedded(const Cut& cut, const WorkingBalls& trees,
-                                 std::future<std::vector<TipLife>> lives) {
+                                 std::future<std::vector<TipLife>> lives, bool needs_all_handles) {
     EmbedOptions embedding = options_.embed;
     embedding.detail = EmbedOptions().detail;  // a level is made of it below
     const Surface& surface = *cut.surface;
-    const Shared<EmbeddedCurve> curve =
-        stage_("embed", kept_.curve, {cut.graph, embedding, extent_}, [&](StepClock& steps) {
+    const auto curve = stage_(
+        "embed", kept_.curve, {cut.graph, embedding, extent_, needs_all_handles},
+        [&](StepClock& steps) -> std::optional<EmbeddedCurve> {
           EmbedTuning tuning;
           tuning.spacing = tuning.spacing.of_part(extent_);
           // Most of the embedding's rays go against the working surface, which fits the cache.
-          EmbeddedCurve made;
           const auto fine_tree = [this]() -> const SurfaceTree& { return *fine_.get(); };
-          made.skeleton = embed_tuned(
+          auto skeleton = embed_tuned(
               {surface, trees.rough, fine_tree, *cut.balls, *cut.graph, &canonical_->surface},
-              embedding, tuning, options_.threads, steps, monitor_);
+              embedding, tuning, {options_.threads, needs_all_handles}, steps, monitor_);
+          if (!skeleton) return std::nullopt;
+          EmbeddedCurve made{std::move(*skeleton), {}};
           steps("lives", [&] {
-            made.lives = lives.valid() ? lives.get() : lives_of(surface, monitor_.stop);
+            made.lives = lives.get();  // what levels cut keeps its vertices' numbers
             set_lives(made.skeleton, made.lives);
             // Tips so clear that they stay at every level.
             draw_missing(made.skeleton, surface, made.lives, trees.rough, least_life(0));
           });
           return made;
         });
+    if (!*curve) return nullptr;
     const double detail = options_.embed.detail;
     return stage_("level", kept_.skeleton, {curve, detail}, [&] {
-      CurveSkeleton level = level_of(curve->skeleton, least_life(detail));
+      CurveSkeleton level = level_of((*curve)->skeleton, least_life(detail));
       if (detail > EmbedOptions().detail) {
-        draw_missing(level, surface, curve->lives, trees.rough, least_deficit(detail));
+        draw_missing(level, surface, (*curve)->lives, trees.rough, least_deficit(detail));
       }
       return on_model(std::move(level), *cut.vertex_of_canonical);
     });
@@ -343,11 +347,10 @@ Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number)
   return within;
 }
 
-}  // namespace
-
-ComponentResult component_result(const Part& part, const ExtractOptions& options,
-                                 const Monitor& monitor, ComponentStages* kept, TryLog& log,
-                                 int part_of) {
+/// Without a skeleton if no cycles go round all handles although they have to.
+ComponentResult made_once(const Part& part, const ExtractOptions& options, const Monitor& monitor,
+                          ComponentStages* kept, TryLog& log, const TriesOf& of,
+                          bool needs_all_handles) {
   ComponentStages passing;
   ComponentStages& stages = kept != nullptr ? *kept : passing;
   ComponentResult result;
@@ -360,10 +363,50 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
   const Monitor within = in_model(monitor, *canonical, part.number);
   GrowingTree fine(canonical, stages, stage.keeps(), options.threads);
   result.skeleton = Pipeline(canonical, part, options, within, stages, stage, fine)
-                        .run(result.record, log, {part.number, part_of, true});
+                        .run(result.record, log, of, needs_all_handles);
   result.tree = std::make_shared<const SurfaceTree>(
       fine.get()->in_frame(canonical->rotation, canonical->origin, canonical->scale));
   return result;
+}
+
+/// True if the component may be made from all its vertices should coarsening cost it handles.
+bool may_be_finer(const Part& part, const ExtractOptions& options) {
+  const auto vertices = static_cast<int>(part.component.surface.positions.rows());
+  return options.all_vertices_if_failed && options.embed.method == EmbedMethod::own &&
+         part.genus > 0 && part.size.most < vertices && is_quick_with_all(vertices);
+}
+
+}  // namespace
+
+ComponentResult component_result(const Part& part, const ExtractOptions& options,
+                                 const Monitor& monitor, ComponentStages* kept, TryLog& log,
+                                 int part_of) {
+  const TriesOf of{part.number, part_of, part_of};
+  const int first = log.next();
+  ComponentResult coarse =
+      made_once(part, options, monitor, kept, log, of, may_be_finer(part, options));
+  if (coarse.skeleton) return coarse;
+  for (int n = first; n < log.next(); ++n) log.drop(n);
+  const ExtractOptions finest = with_all_vertices(options);
+  Part whole = part;
+  whole.size.most =
+      std::max(part.size.least, static_cast<int>(part.component.surface.positions.rows()));
+  using Made = ComponentResult;
+  const std::vector<Plan<Made>> finer{
+      {try_all_vertices,
+       [](const Plan<Made>::SoFar&) {
+         return std::string("coarsened, the cycles do not go round all of its handles");
+       },
+       [&](const Plan<Made>::Room& room) {
+         return made_once(whole, finest, room.monitor, nullptr, room.log,
+                          {part.number, room.number, part_of}, false);
+       }}};
+  ComponentResult fine = best_of(carry_out(
+      finer, of, [](const Made&, const Made*) { return true; },
+      [](const Made&) { return std::nullopt; }, monitor, log));
+  fine.times.insert(fine.times.begin(), coarse.times.begin(), coarse.times.end());
+  fine.has_all_vertices = true;
+  return fine;
 }
 
 }  // namespace curveskel

@@ -30,6 +30,7 @@ struct ComponentResult {
   std::vector<StageTime> times;     ///< of the stages that ran
   std::vector<std::string> reused;  ///< the other ones, maybe repeatedly
   std::vector<int> tries;           ///< numbers of those that led to it
+  bool has_all_vertices = false;    ///< its curve is the one of `with_all_vertices`
 };
 
 /// A component's result as a later try takes it over, which has not made it.
@@ -40,7 +41,8 @@ struct ComponentResult {
 
 /// From the component to its skeleton in the model's frame; so are the monitor's frames. Takes what
 /// it can from `kept` and leaves there what it made; without it, nothing outlives its use. The
-/// tries of its cut are part of try `part_of`.
+/// tries of its cut are part of try `part_of`. If the component was coarsened and no cycles go
+/// round all of its handles then, it is made from all its vertices, unless they are too many.
 /// Throws Error(Fault::solver) when it cannot be contracted, Cancelled on a stop.
 [[nodiscard]] ComponentResult component_result(const Part& part, const ExtractOptions& options,
                                                const Monitor& monitor, ComponentStages* kept,

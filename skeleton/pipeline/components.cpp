@@ -71,11 +71,18 @@ WorkingSize working_size(const ExtractOptions& options, int vertices, int genus,
   return size;
 }
 
-/// As written down for the first of the kind.
-std::vector<Try> tries_of_copy(std::vector<Try> tries, int copy) {
+/// A try within another one of its log goes where that goes.
+void renumber(Try& one, int first, int new_first) {
+  if (one.part_of >= first) one.part_of += new_first - first;
+}
+
+/// As written down for the first of the kind, from number `first` on.
+std::vector<Try> tries_of_copy(const TryLog& log, int copy, int first) {
+  std::vector<Try> tries = log.tries;
   for (Try& one : tries) {
     one.component = copy;
     one.seconds = 0;
+    renumber(one, log.first, first);
   }
   return tries;
 }
@@ -83,9 +90,11 @@ std::vector<Try> tries_of_copy(std::vector<Try> tries, int copy) {
 /// Puts the components' tries one after the other, and tells each component its own.
 void write_down(const std::vector<TryLog>& logs, TryLog& log, std::vector<ComponentResult>& all) {
   for (std::size_t c = 0; c < logs.size(); ++c) {
+    const int first = log.next();
     for (const Try& one : logs[c].tries) {
       if (one.outcome == Outcome::kept) all[c].tries.push_back(log.next());
       log.tries.push_back(one);
+      renumber(log.tries.back(), logs[c].first, first);
     }
   }
 }
@@ -150,7 +159,7 @@ struct ResultsInMaking {
     auto made = result_of_copy(parts[first[c]], all[first[c]], parts[c]);
     if (!made) return false;
     all[c] = std::move(*made);
-    logs[c].tries = tries_of_copy(logs[first[c]].tries, static_cast<int>(c));
+    logs[c].tries = tries_of_copy(logs[first[c]], static_cast<int>(c), logs[c].first);
     return true;
   }
 };
@@ -196,7 +205,7 @@ std::vector<Part> parts_of(const Parts& whole, const ExtractOptions& options) {
 }
 
 ComponentResult taken_over(const ComponentResult& made) {
-  return {made.skeleton, nullptr, made.record, {}, {}, made.tries};
+  return {made.skeleton, nullptr, made.record, {}, {}, made.tries, made.has_all_vertices};
 }
 
 std::vector<ComponentResult> component_results(const Parts& whole, const ExtractOptions& options,
@@ -215,6 +224,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
     for (const std::size_t c : small) waits[c] = 1;
   }
   int next = log.next();  // what is shown has the number that it is written down with
+  for (TryLog& own : making.logs) own.first = next;
   for (std::size_t c = 0; c < parts.size(); ++c) {
     if (standing[c]) making.all[c] = std::move(*standing[c]);
     if (standing[c] || waits[c] != 0) continue;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "skeleton/pipeline/all_vertices.hpp"
 #include "skeleton/pipeline/extract_again.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/mesh/flat_edges.hpp"
@@ -24,11 +25,6 @@ void share_beginning(const SurfaceStages& from, SurfaceStages& to) {
     to.components[c].canonical = from.components[c].canonical;
     to.components[c].tree = from.components[c].tree;
   }
-}
-
-bool is_quick_from_all_vertices(const ComponentRecord& one) {
-  constexpr int most = 80000;  // they take 10 s of the processor
-  return one.vertices <= most;
 }
 
 bool was_coarsened(const ComponentRecord& one) { return one.working_vertices < one.vertices; }
@@ -123,10 +119,11 @@ Plan<Extracted> faired(const Surface& surface, const ExtractOptions& options,
 Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& options,
                                   ExtractionCache::Implementation* kept) {
   const bool embeds = options.embed.method == EmbedMethod::own;  // else nothing keeps it inside
-  const auto may_help = [embeds](const ComponentRecord& one, const Certificate& found) {
+  const auto may_help = [embeds](const ComponentResult& one, const Certificate& found) {
     const bool leaves = embeds && !found.inside_enough;
     const bool is_wrong = leaves || !found.topology_correct();
-    return is_wrong && is_quick_from_all_vertices(one) && (embeds || was_coarsened(one));
+    return is_wrong && !one.has_all_vertices && is_quick_with_all(one.record.vertices) &&
+           (embeds || was_coarsened(one.record));
   };
   // A surface that crosses itself has no inside that all its handles bound.
   const auto has_hope = [](const ComponentRecord& one, const Surface& own,
@@ -137,25 +134,23 @@ Plan<Extracted> from_all_vertices(const Surface& surface, const ExtractOptions& 
   const auto why = [&surface, &options, may_help,
                     has_hope](const SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || !options.all_vertices_if_failed) return std::nullopt;
-    const Extraction& found = so_far.best->found.extraction;
-    const bool single = found.components.size() == 1;
-    const bool helps = std::any_of(found.components.begin(), found.components.end(),
-                                   [&](const ComponentRecord& one) {
-                                     return may_help(one, found.certificate) &&
-                                            (!single || has_hope(one, surface, found.certificate));
-                                   });
+    const Certificate& found = so_far.best->found.extraction.certificate;
+    const std::vector<ComponentResult>& components = so_far.best->components;
+    const bool single = components.size() == 1;
+    const bool helps =
+        std::any_of(components.begin(), components.end(), [&](const ComponentResult& one) {
+          return may_help(one, found) && (!single || has_hope(one.record, surface, found));
+        });
     if (!helps) return std::nullopt;
-    return failures(found.certificate, options.certificate);
+    return failures(found, options.certificate);
   };
   const auto make = [&surface, &options, kept, may_help, has_hope](const Room& room) {
-    ExtractOptions finest = options;
-    finest.resolution = 0;
-    finest.embed.go_below = true;
+    const ExtractOptions finest = with_all_vertices(options);
     if (kept != nullptr) share_beginning(kept->as_asked, kept->all_vertices);
     const AnotherWay way{
         try_all_vertices, finest,
         [&](const ComponentResult& one, const Surface& itself, const Certificate& own) {
-          return may_help(one.record, own) && has_hope(one.record, itself, own);
+          return may_help(one, own) && has_hope(one.record, itself, own);
         }};
     Extracted made =
         extract_again(surface, way, kept != nullptr ? &kept->all_vertices : nullptr, room);

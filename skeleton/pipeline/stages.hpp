@@ -103,10 +103,12 @@ struct ComponentStages {
   Kept<std::tuple<Shared<Coarsened>>, WorkingBalls> balls;
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, LevelSets> level_sets;
-  /// The number is the component's extent over the whole's.
-  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions, double>, EmbeddedCurve> curve;
+  /// The number is the component's extent over the whole's; nothing if it misses handles that it
+  /// must find.
+  Kept<std::tuple<Shared<PartitionGraph>, EmbedOptions, double, bool>, std::optional<EmbeddedCurve>>
+      curve;
   /// The number is the level of detail.
-  Kept<std::tuple<Shared<EmbeddedCurve>, double>, CurveSkeleton> skeleton;
+  Kept<std::tuple<Shared<std::optional<EmbeddedCurve>>, double>, CurveSkeleton> skeleton;
   StagesAsContracted as_contracted;
 };
 

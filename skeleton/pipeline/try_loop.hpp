@@ -74,7 +74,7 @@ struct Plan {
 struct TriesOf {
   int component = -1;
   int part_of = -1;
-  bool cuts = false;  ///< a component of the surface of that try; else they have their own
+  int of_surface = -1;  ///< number of the try whose surface they are of; -1 = they have their own
 };
 
 /// Carries out the plans in their order, each if it has a reason, and writes down how it went.
@@ -96,7 +96,8 @@ typename Plan<Value>::SoFar carry_out(const std::vector<Plan<Value>>& plans, con
                          .why = std::move(*why),
                          .message = {},
                          .certificate = {}});
-    const Monitor marked = in_try(monitor, {number, of.cuts ? of.part_of : number, {}}, plan.name);
+    const Monitor marked =
+        in_try(monitor, {number, of.of_surface >= 0 ? of.of_surface : number, {}}, plan.name);
     std::optional<Value> made;
     const auto start = std::chrono::steady_clock::now();
     auto failure = failure_of([&] { made.emplace(plan.make({so_far, marked, log, number})); });

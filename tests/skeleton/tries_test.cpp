@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <set>
 #include <stdexcept>
@@ -193,6 +194,67 @@ TEST(History, TellsWhySecondContractionsAndLevelSetsWereMade) {
     EXPECT_EQ(found.history.back().outcome, Outcome::kept);
     watch.expect_all_in(found.history);
     EXPECT_EQ(watch.numbers().size(), found.history.size() - 1);
+  }
+}
+
+/// A sieve with walls this thick, holes of 1, in waves.
+Surface thin_walled(int holes_along, double wall) {
+  Surface surface = shapes::subdivided(shapes::sieve(holes_along)).surface;
+  const auto along = [wall](double cells) {
+    double length = 0;
+    for (int cell = 0; cell < cells; ++cell) {
+      length += std::min(cells - cell, 1.0) * (cell % 2 == 0 ? wall : 1);
+    }
+    return length;
+  };
+  for (auto row : surface.positions.rowwise()) {
+    const double x = along(row.x());
+    const double y = along(row.y());
+    row << x + 0.15 * std::sin(3 * y), y, row.z() + 0.3 * std::sin(2 * x) * std::cos(2 * y);
+  }
+  return surface;
+}
+
+// Walls that the coarsened triangles cannot tell apart have other handles there. That was found
+// when all was done, which then was all for nothing.
+TEST(History, OfAComponentThatCoarseningCostsItsHandlesGoesOnFromAllVertices) {
+  for (const int holes : {2, 3, 4}) {
+    const Surface surface = thin_walled(holes, 0.03);
+    shapes::Shape sieve = shapes::sieve(holes);
+    sieve.surface = surface;
+    const Surface two =
+        shapes::together("two", {sieve, shapes::translated(sieve, {0, 0, 9})}).surface;
+    for (const Surface& one : {surface, two}) {
+      ExtractOptions options;
+      options.resolution = 1;
+      options.least_resolution = 1;
+      ShownWatch watch;
+      const Extraction found = extract(one, options, watch.monitor());
+      EXPECT_TRUE(found.certificate.topology_correct()) << holes;
+      watch.expect_all_in(found.history);
+      const Extraction unwatched = extract(one, options);  // small ones side by side
+      ASSERT_EQ(unwatched.history.size(), found.history.size());
+      for (std::size_t t = 0; t < found.history.size(); ++t) {
+        const Try& tried = found.history[t];
+        EXPECT_EQ(unwatched.history[t].part_of, tried.part_of);
+        EXPECT_EQ(unwatched.history[t].component, tried.component);
+        if (tried.part_of < 0) {
+          EXPECT_EQ(tried.name, try_as_asked);
+        } else if (tried.name == try_all_vertices) {
+          EXPECT_EQ(tried.part_of, 0);
+          EXPECT_EQ(tried.outcome, Outcome::kept);
+        } else if (tried.part_of > 0) {
+          const Try& around = found.history[static_cast<std::size_t>(tried.part_of)];
+          EXPECT_EQ(around.name, try_all_vertices);
+          EXPECT_EQ(around.component, tried.component);
+        }
+      }
+      for (const ComponentRecord& component : found.components) {
+        EXPECT_EQ(component.working_vertices, component.vertices);
+        EXPECT_TRUE(is_kept(found.history, try_all_vertices,
+                            static_cast<int>(&component - found.components.data())));
+      }
+    }
   }
 }
 

@@ -115,11 +115,11 @@ class CutSurface {
 
   [[nodiscard]] Shape embedded(const Constants& with) const {
     StepClock unread;
-    const CurveSkeleton skeleton =
+    const std::optional<CurveSkeleton> skeleton =
         embed_tuned({working_, tree_, [this]() -> const SurfaceTree& { return full_tree_; }, balls_,
                      *partition_},
-                    with.options, with.tuning, 0, unread, {});
-    const GraphTopology counted = graph_topology(skeleton);
+                    with.options, with.tuning, {}, unread, {});
+    const GraphTopology counted = graph_topology(*skeleton);
     return {counted.tips, counted.junctions, counted.cycle_rank};
   }
 
