@@ -40,8 +40,8 @@ struct ExtractOptions {
   /// If the topology is still wrong, or too much outside: make the components that are to blame, if
   /// they have 80,000 vertices at most, once more with all of them, just below the surface where
   /// nothing else leads on inside (EmbedOptions::go_below), and keep the better ones. Those that
-  /// have all of them and nothing outside only if they do not cross themselves. A component that was
-  /// coarsened is made so at once if its cycles cannot be led round all of its handles.
+  /// have all of them and nothing outside only if they do not cross themselves. A component that
+  /// was coarsened is made so at once if its cycles cannot be led round all of its handles.
   bool all_vertices_if_failed = true;
   ContractionOptions contraction;
   SurgeryOptions surgery;
