@@ -64,21 +64,6 @@ bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line, double
   return false;
 }
 
-/// In balls of which each begins where the last ends; a line along the surface that needs very many
-/// counts as near.
-bool comes_near(const SurfaceTree& tree, const Point& from, const Point& direction, double length,
-                double near) {
-  constexpr int most_balls = 100;
-  double at = 0;
-  for (int ball = 0; ball < most_balls; ++ball) {
-    const double clear = tree.nearest(from + at * direction, length - at + near).distance;
-    if (clear <= near) return true;
-    at += clear - 0.5 * near;
-    if (at >= length) return false;
-  }
-  return true;
-}
-
 bool put_back(CurvePoint& now, const CurvePoint& before) {
   if (now.place() == before.place()) return false;
   now = before;
@@ -92,7 +77,7 @@ bool crosses(const SurfaceTree& tree, const Point& from, const Point& to, double
   if (!(length > 0)) return false;
   const Point direction = (to - from) / length;
   return tree.ray(from, direction, length).triangle >= 0 ||
-         (near > 0 && comes_near(tree, from, direction, length, near));
+         (near > 0 && tree.comes_near(from, to, near));
 }
 
 HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop, double near)

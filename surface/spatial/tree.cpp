@@ -82,6 +82,13 @@ std::vector<int> SurfaceTree::near_plane(const Eigen::Vector3d& point,
   return find_near_plane(*here.tree, here.to_local(point), here.direction_to_local(normal));
 }
 
+bool SurfaceTree::comes_near(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                             double distance) const {
+  const Implementation& here = *implementation_;
+  return curveskel::comes_near(*here.tree, here.to_local(from), here.to_local(to),
+                               distance * here.scale);
+}
+
 bool SurfaceTree::inside(const Eigen::Vector3d& point) const {
   return winds_around(*implementation_->tree, implementation_->to_local(point));
 }

@@ -39,6 +39,10 @@ void find_distances_in_plane(const WideTree& tree, const Eigen::Vector3d& origin
 [[nodiscard]] std::vector<int> find_near_plane(const WideTree& tree, const Eigen::Vector3d& p,
                                                const Eigen::Vector3d& normal);
 
+/// True if a triangle that the segment does not cross lies within `near` of it.
+[[nodiscard]] bool comes_near(const WideTree& tree, const Eigen::Vector3d& from,
+                              const Eigen::Vector3d& to, double near);
+
 /// True if the surface winds around p a non-zero number of times.
 [[nodiscard]] bool winds_around(const WideTree& tree, const Eigen::Vector3d& p);
 

@@ -165,6 +165,38 @@ TEST(SurfaceTree, NearAPlaneAreAllTrianglesThatItCrosses) {
   }
 }
 
+TEST(SurfaceTree, ComesNearWhereALineIsNearest) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).matrix();
+  for (const auto& [name, surface] : all_shapes()) {
+    SCOPED_TRACE(name);
+    const SurfaceTree whole(surface);
+    const double diagonal = bounding_box_diagonal(surface.positions);
+    const Vector3d away = diagonal * Vector3d(5, 6, 7);
+    const SurfaceTree tree = whole.in_frame(turn, away, 3);
+    Points points(surface);
+    int asked = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vector3d from = turn * points.next() * 3 + away;
+      const Vector3d far = turn * points.next() * 3 + away;
+      const Vector3d to = from + (far - from) / (1 << (i % 8));
+      const double length = (to - from).norm();
+      if (tree.ray(from, (to - from) / length, length).triangle >= 0) continue;
+      constexpr int samples = 200;
+      double nearest = infinity;
+      for (int k = 0; k <= samples; ++k) {
+        const Vector3d place = from + double(k) / samples * (to - from);
+        nearest = std::min(nearest, tree.nearest(place).distance);
+      }
+      ASSERT_TRUE(tree.comes_near(from, to, nearest + 1e-9 * diagonal));
+      const double less = nearest - 0.5 * length / samples;
+      if (less <= 1e-9 * diagonal) continue;
+      ASSERT_FALSE(tree.comes_near(from, to, less - 1e-9 * diagonal));
+      ++asked;
+    }
+    EXPECT_GT(asked, 30);
+  }
+}
+
 TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
   for (const auto& [name, surface] : all_shapes()) {
     SCOPED_TRACE(name);

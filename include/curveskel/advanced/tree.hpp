@@ -59,6 +59,12 @@ class SurfaceTree {
   [[nodiscard]] std::vector<int> near_plane(const Eigen::Vector3d& point,
                                             const Eigen::Vector3d& normal) const;
 
+  /// True if a point of the straight line between two points lies within `distance` of the surface.
+  /// Precondition: the line does not cross the surface, see `ray`. About the cost of a ray where
+  /// the distance is small.
+  [[nodiscard]] bool comes_near(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                double distance) const;
+
   /// True if the surface winds around the point a non-zero number of times. Exact up to rounding at
   /// the surface itself: a ray that passes too close to an edge is retried in another fixed
   /// direction.
