@@ -82,7 +82,8 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
     if (!arguments.bare) {
       edited = format_rig_into(arguments.mesh, rig,
                                {formats[i], old_rig_in(arguments), name.string() + " rig",
-                                program_and_version(), arguments.vrm, arguments.as_bound},
+                                program_and_version(), arguments.vrm, arguments.as_bound,
+                                picture_folder_of(arguments.outputs[i])},
                                monitor);
     }
     if (!edited) {
@@ -98,7 +99,8 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
       summary = fmt::format("replaced: a rig of {} joints, {} channels of animations\n",
                             edited->joints_replaced, edited->channels_removed);
     }
-    files.push_back({arguments.outputs[i], std::move(edited->bytes)});
+    files.push_back(
+        {arguments.outputs[i], std::move(edited->bytes), std::move(edited->side_files)});
   }
   return files;
 }
