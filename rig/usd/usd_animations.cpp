@@ -155,7 +155,6 @@ class SkelAnimationWriter {
     for (const UsdSlider& slider : moved.sliders) {
       const GltfMotion* motion = motion_of(animation, slider.node);
       if (motion == nullptr || motion->sliders.empty()) continue;
-      moves_shapes_ = true;
       tracks_.push_back(&motion->sliders);
     }
   }
@@ -163,10 +162,16 @@ class SkelAnimationWriter {
   bool write(UsdText& text, const std::string& name, UsdSpan& span) const {
     std::vector<double> codes;
     const std::vector<double> moments = distinct(track_moments(tracks_), codes);
-    if (!(moves_joints_ || moves_shapes_) || codes.empty()) return false;
+    if (codes.empty()) return false;
+    const UsdRows shares = shares_at(moments);
+    if (!moves_joints_ && stay(shares, rest_of(moved_.sliders))) return false;
     text.begin("SkelAnimation", name, {{}, usd_true_name(animation_.name, name)});
     if (moves_joints_) write_joints(text, moments, codes);
-    if (!moved_.sliders.empty()) write_shapes(text, moments, codes);
+    if (!moved_.sliders.empty()) {
+      write_shape_names(text, moved_.sliders);
+      write_rows_in_time(text, "float[] blendShapeWeights", 1, codes, shares,
+                         rest_of(moved_.sliders));
+    }
     text.end();
     span.take(codes);
     return true;
@@ -201,8 +206,7 @@ class SkelAnimationWriter {
     write_rows_in_time(text, "half3[] scales", 3, codes, moves.scales, rest.scales[0]);
   }
 
-  void write_shapes(UsdText& text, const std::vector<double>& moments,
-                    const std::vector<double>& codes) const {
+  [[nodiscard]] UsdRows shares_at(const std::vector<double>& moments) const {
     UsdRows rows;
     for (const double seconds : moments) {
       std::vector<double> row;
@@ -213,15 +217,13 @@ class SkelAnimationWriter {
       }
       rows.push_back(std::move(row));
     }
-    write_shape_names(text, moved_.sliders);
-    write_rows_in_time(text, "float[] blendShapeWeights", 1, codes, rows, rest_of(moved_.sliders));
+    return rows;
   }
 
   const GltfAnimation& animation_;
   const UsdMoved& moved_;
   std::vector<const GltfTrack*> tracks_;
   bool moves_joints_ = false;
-  bool moves_shapes_ = false;
 };
 
 bool move_alike(const UsdSlider& one, const UsdSlider& other,

@@ -45,8 +45,8 @@ const char* wrap_of(int mode) {
 /// Also of a texture that has its picture by an extension alone.
 int image_of(const tinygltf::Texture& texture) {
   if (texture.source >= 0) return texture.source;
-  for (const char* extension : {"EXT_texture_webp", "KHR_texture_basisu"}) {
-    const double image = number_in(texture.extensions, extension, "source", -1);
+  for (const char* holder : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+    const double image = number_in(texture.extensions, holder, "source", -1);
     if (image >= 0 && image < 1e6) return static_cast<int>(image);
   }
   return -1;

@@ -22,9 +22,9 @@ namespace {
 
 /// Of a picture that stands in the JSON; the parser gives it to nobody.
 std::string picture_in_json(const FileBytes& file, int image) {
-  const auto json = nlohmann::json::parse(gltf_json(file), nullptr, false);
-  const auto images = json.find("images");
-  if (images == json.end() || idx(image) >= images->size()) return "";
+  const auto gltf = nlohmann::json::parse(gltf_json(file), nullptr, false);
+  const auto images = gltf.find("images");
+  if (images == gltf.end() || idx(image) >= images->size()) return "";
   const std::string uri = (*images)[idx(image)].value("uri", "");
   const std::size_t comma = uri.find(";base64,");
   if (!uri.starts_with("data:") || comma == std::string::npos) return "";

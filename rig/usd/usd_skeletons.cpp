@@ -23,7 +23,7 @@ class SkeletonFinder {
   SkeletonFinder(const FileBytes& file, const tinygltf::Model& model, const GltfScene& scene,
                  const std::set<int>& moved)
       : file_(file), model_(model), scene_(scene) {
-    found_.of_skin.resize(model.skins.size());
+    found_.of_skin.assign(model.skins.size(), 0);
     found_.placed.assign(model.skins.size(), Affine3d::Identity());
     mark_joints(moved);
     name_joints();
@@ -160,8 +160,9 @@ class SkeletonFinder {
       std::vector<int> chain{node};
       int above = scene_.parents[idx(node)];
       for (; above >= 0 && !joints.contains(above); above = scene_.parents[idx(above)]) {
-        chain.insert(chain.begin(), above);
+        chain.push_back(above);
       }
+      std::ranges::reverse(chain);
       const int parent = above < 0 ? -1 : static_cast<int>(made.number_of_node.at(above));
       Affine3d rest = Affine3d::Identity();
       for (const int part : chain) rest = rest * frame_of(model_.nodes[idx(part)]);

@@ -38,7 +38,6 @@ class UsdText {
   void begin(const char* type, const std::string& name, const UsdPrim& prim = {});
   void end();
   void line(std::string_view text);
-  void blank() { text_ += '\n'; }
   /// Tuples of `width` numbers; plain numbers of width 1. `head` is "point3f[] points".
   void numbers(std::string_view head, const std::vector<double>& rows, std::size_t width,
                const UsdAttribute& attribute = {});
