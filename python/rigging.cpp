@@ -177,10 +177,9 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
   std::vector<std::string> findings;
   std::optional<EditedFile> edited;
   if (!file.empty()) {
-    edited = format_rig_into(
-        file, rig.exported,
-        {*chosen, rig.old_rig, name.string() + " rig", program_and_version(), vrm, rig.as_bound,
-         picture_folder_of(output)});
+    edited = format_rig_into(file, rig.exported,
+                             {*chosen, rig.old_rig, name.string() + " rig", program_and_version(),
+                              vrm, rig.as_bound, picture_folder_of(output)});
     if (const auto finding = look_finding(file)) findings.push_back(*finding);
   }
   if (*chosen == RigFormat::vrm) {

@@ -51,16 +51,15 @@ void require_whole(const VrmMeta& meta);
 }
 
 /// The surface with its joints and weights, for Blender and whatever else reads glTF; give the
-/// bytes to `write_file`; it has no pictures. docs/formats.md has what the other formats hold: bvh, json, npz and txt
-/// have joints and weights without the surface. In glTF, vertices and triangles keep their order,
-/// positions and weights are in single precision (as glTF has them), normals are those of
-/// `vertex_normals`, the same for all vertices in one place. The y axis of a joint points along its
-/// bone. All hang from one node named `name`. `provenance` goes to the file's
-/// generator. Precondition: weights have a row for each vertex, of sum 1 and at most four joints.
-/// Throws Error(Fault::output) where there are more than 65,536 joints or where single
-/// precision does not suffice for the coordinates; of vrm, Error(Fault::usage) where `vrm` is not
-/// whole and Error(Fault::input) where the roles that VRM requires are not there. O(#V + #F +
-/// joints).
+/// bytes to `write_file`; it has no pictures. docs/formats.md has what the other formats hold: bvh,
+/// json, npz and txt have joints and weights without the surface. In glTF, vertices and triangles
+/// keep their order, positions and weights are in single precision (as glTF has them), normals are
+/// those of `vertex_normals`, the same for all vertices in one place. The y axis of a joint points
+/// along its bone. All hang from one node named `name`. `provenance` goes to the file's generator.
+/// Precondition: weights have a row for each vertex, of sum 1 and at most four joints. Throws
+/// Error(Fault::output) where there are more than 65,536 joints or where single precision does not
+/// suffice for the coordinates; of vrm, Error(Fault::usage) where `vrm` is not whole and
+/// Error(Fault::input) where the roles that VRM requires are not there. O(#V + #F + joints).
 [[nodiscard]] std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                      const std::string& name, const std::string& provenance,
                                      const VrmMeta& vrm = {});
@@ -88,9 +87,9 @@ struct SideFile {
 
 struct EditedFile {
   std::string bytes;
-  std::vector<std::string> notes;  ///< what is missing or left out, a line each
-  int joints_replaced = 0;         ///< of an old rig
-  int channels_removed = 0;        ///< of animations that moved them
+  std::vector<std::string> notes;         ///< what is missing or left out, a line each
+  int joints_replaced = 0;                ///< of an old rig
+  int channels_removed = 0;               ///< of animations that moved them
   std::vector<SideFile> side_files = {};  ///< of usda: its pictures, for `write_rig_file`
 };
 

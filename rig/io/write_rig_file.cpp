@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Empty where there is none.
-std::string content_of(const fs::path& file) {
+std::string bytes_in_file(const fs::path& file) {
   const std::ifstream stream(file, std::ios::binary);
   std::ostringstream content;
   if (stream) content << stream.rdbuf();
@@ -30,7 +30,7 @@ fs::path place_of_side(const fs::path& file, const SideFile& side) {
 bool is_written(const fs::path& place, const SideFile& side) {
   std::error_code none;
   return fs::is_regular_file(place, none) && fs::file_size(place, none) == side.bytes.size() &&
-         content_of(place) == side.bytes;
+         bytes_in_file(place) == side.bytes;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void require_free_places(const fs::path& file, const std::vector<SideFile>& side
     const fs::path place = place_of_side(file, side);
     std::error_code none;
     if (!fs::exists(place, none) || is_written(place, side)) continue;
-    if (!is_read) replaced = content_of(file);
+    if (!is_read) replaced = bytes_in_file(file);
     is_read = true;
     if (replaced.find("@./" + side.name + "@") != std::string::npos) continue;
     throw Error(Fault::output, place.string() +

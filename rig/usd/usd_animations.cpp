@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include "base/free_name.hpp"
 #include "rig/animations/node_move.hpp"
 #include "rig/animations/track_moments.hpp"
 #include "rig/usd/usd_names.hpp"
@@ -86,7 +84,7 @@ struct UsdMoves {
   }
 };
 
-bool stay(const UsdRows& rows, const std::vector<double>& rest) {
+bool all_stay(const UsdRows& rows, const std::vector<double>& rest) {
   constexpr double rounding = 1e-6;
   return std::ranges::all_of(rows, [&](const std::vector<double>& row) {
     for (std::size_t k = 0; k < row.size(); ++k) {
@@ -100,15 +98,15 @@ bool stay(const UsdRows& rows, const std::vector<double>& rest) {
 void write_rows_in_time(UsdText& text, const std::string& head, std::size_t width,
                         const std::vector<double>& codes, const UsdRows& rows,
                         const std::vector<double>& rest, bool is_array = true) {
-  if (stay(rows, rest)) return text.samples(head, {}, {rest}, width, is_array);
-  if (stay(rows, rows.front())) {
+  if (all_stay(rows, rest)) return text.samples(head, {}, {rest}, width, is_array);
+  if (all_stay(rows, rows.front())) {
     return text.samples(head, {codes.front()}, {rows.front()}, width, is_array);
   }
   text.samples(head, codes, rows, width, is_array);
 }
 
 /// Those that differ as time codes.
-std::vector<double> distinct(const std::vector<double>& moments, std::vector<double>& codes) {
+std::vector<double> distinct_codes(const std::vector<double>& moments, std::vector<double>& codes) {
   std::vector<double> kept;
   for (const double seconds : moments) {
     const double code = time_code(seconds);
@@ -161,10 +159,10 @@ class SkelAnimationWriter {
 
   bool write(UsdText& text, const std::string& name, UsdSpan& span) const {
     std::vector<double> codes;
-    const std::vector<double> moments = distinct(track_moments(tracks_), codes);
+    const std::vector<double> moments = distinct_codes(track_moments(tracks_), codes);
     if (codes.empty()) return false;
     const UsdRows shares = shares_at(moments);
-    if (!moves_joints_ && stay(shares, rest_of(moved_.sliders))) return false;
+    if (!moves_joints_ && all_stay(shares, rest_of(moved_.sliders))) return false;
     text.begin("SkelAnimation", name, {{}, usd_true_name(animation_.name, name)});
     if (moves_joints_) write_joints(text, moments, codes);
     if (!moved_.sliders.empty()) {
@@ -212,8 +210,7 @@ class SkelAnimationWriter {
       std::vector<double> row;
       for (const UsdSlider& slider : moved_.sliders) {
         const GltfMotion* motion = motion_of(animation_, slider.node);
-        row.push_back(motion == nullptr ? slider.rest
-                                        : share_at(motion->sliders, slider, seconds));
+        row.push_back(motion == nullptr ? slider.rest : share_at(motion->sliders, slider, seconds));
       }
       rows.push_back(std::move(row));
     }
@@ -226,8 +223,8 @@ class SkelAnimationWriter {
   bool moves_joints_ = false;
 };
 
-bool move_alike(const UsdSlider& one, const UsdSlider& other,
-                const std::vector<GltfAnimation>& animations) {
+bool slide_alike(const UsdSlider& one, const UsdSlider& other,
+                 const std::vector<GltfAnimation>& animations) {
   if (one.rest != other.rest) return false;
   return std::ranges::all_of(animations, [&](const GltfAnimation& animation) {
     const auto track = [&](const UsdSlider& slider) {
@@ -248,30 +245,28 @@ bool move_alike(const UsdSlider& one, const UsdSlider& other,
 std::vector<std::string> usd_shape_tokens(const std::vector<UsdSlider>& shapes,
                                           const std::string& mesh,
                                           const std::vector<GltfAnimation>& animations,
-                                          std::vector<UsdSlider>& sliders) {
-  const std::size_t known = sliders.size();
-  std::set<std::string> taken;
-  for (const UsdSlider& slider : sliders) taken.insert(slider.token);
-  std::set<std::string> own;
+                                          UsdSliders& sliders) {
+  const std::size_t known = sliders.all.size();
   std::vector<std::string> tokens;
   for (const UsdSlider& shape : shapes) {
-    const std::string token = usd_identifier(shape.token, "shape");
-    const auto same = std::find_if(
-        sliders.begin(), sliders.begin() + static_cast<std::ptrdiff_t>(known),
-        [&](const UsdSlider& other) {
-          return other.token == token && move_alike(shape, other, animations);
-        });
-    const bool is_shared = same != sliders.begin() + static_cast<std::ptrdiff_t>(known);
-    if (is_shared && own.insert(token).second) {
+    std::string token = usd_identifier(shape.token, "shape");
+    const auto same = sliders.number_of_token.find(token);
+    const bool is_taken = same != sliders.number_of_token.end();
+    const bool is_others = is_taken && same->second < known;
+    const bool is_own = std::ranges::find(tokens, token) != tokens.end();
+    if (is_others && !is_own && slide_alike(shape, sliders.all[same->second], animations)) {
       tokens.push_back(token);
       continue;
     }
-    const bool is_another = taken.contains(token) && !own.contains(token);
-    UsdSlider made = shape;
-    made.token = free_name(taken, is_another ? mesh + "_" + token : token, "_");
-    own.insert(made.token);
-    tokens.push_back(made.token);
-    sliders.push_back(std::move(made));
+    if (is_others && !is_own) token = mesh + "_" + token;
+    std::string free = token;
+    for (int number = 2; sliders.number_of_token.contains(free); ++number) {
+      free = token + "_" + std::to_string(number);
+    }
+    sliders.number_of_token[free] = sliders.all.size();
+    sliders.all.push_back(shape);
+    sliders.all.back().token = free;
+    tokens.push_back(std::move(free));
   }
   return tokens;
 }
@@ -311,7 +306,7 @@ std::string usd_place(const tinygltf::Node& node, const GltfMotion* motion, std:
   std::vector<double> codes;
   std::vector<double> moments;
   if (motion != nullptr) {
-    moments = distinct(track_moments({&motion->shift, &motion->turn, &motion->scale}), codes);
+    moments = distinct_codes(track_moments({&motion->shift, &motion->turn, &motion->scale}), codes);
   }
   if (moments.empty() && frame_of(node).matrix().isIdentity(0)) return "";
   UsdMoves moves = rest;
@@ -325,8 +320,9 @@ std::string usd_place(const tinygltf::Node& node, const GltfMotion* motion, std:
   write("double3 xformOp:translate", moves.shifts, rest.shifts);
   write("quatf xformOp:orient", moves.turns, rest.turns);
   write("float3 xformOp:scale", moves.scales, rest.scales);
-  text.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\", "
-            "\"xformOp:scale\"]");
+  text.line(
+      "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\", "
+      "\"xformOp:scale\"]");
   span.take(codes);
   return text.text();
 }

@@ -27,11 +27,16 @@ struct UsdSlider {
   double rest = 0;
 };
 
+struct UsdSliders {
+  std::vector<UsdSlider> all;
+  std::map<std::string, std::size_t> number_of_token;
+};
+
 /// The tokens of a mesh's shapes, which are appended to `sliders`: one whose name another mesh has,
 /// too, shares its token if it moves as that one in all animations.
 [[nodiscard]] std::vector<std::string> usd_shape_tokens(
     const std::vector<UsdSlider>& shapes, const std::string& mesh,
-    const std::vector<GltfAnimation>& animations, std::vector<UsdSlider>& sliders);
+    const std::vector<GltfAnimation>& animations, UsdSliders& sliders);
 
 /// The first and the last time code.
 struct UsdSpan {

@@ -14,36 +14,38 @@
 namespace curveskel {
 namespace {
 
-using Colour = std::array<double, 4>;
+using UsdColour = std::array<double, 4>;
 
-Colour colour_of(const std::vector<double>& given, const Colour& otherwise) {
-  Colour colour = otherwise;
+UsdColour usd_colour(const std::vector<double>& given, const UsdColour& otherwise) {
+  UsdColour colour = otherwise;
   std::copy_n(given.begin(), std::min<std::size_t>(4, given.size()), colour.begin());
   return colour;
 }
 
-std::string rgb(const Colour& colour) { return usd_tuple({colour[0], colour[1], colour[2]}); }
+std::string usd_rgb(const UsdColour& colour) {
+  return usd_tuple({colour[0], colour[1], colour[2]});
+}
 
-std::string rgba(const Colour& colour) {
+std::string usd_rgba(const UsdColour& colour) {
   return usd_tuple({colour[0], colour[1], colour[2], colour[3]});
 }
 
 /// A picture's numbers times `scale` plus `bias`.
 struct PictureUse {
-  const char* name;  ///< of the shader
+  const char* name;   ///< of the shader
   const char* space;  ///< "sRGB" or "raw"
-  Colour scale{1, 1, 1, 1};
-  Colour bias{};
-  Colour otherwise{0, 0, 0, 1};  ///< where the picture is not found
+  UsdColour scale{1, 1, 1, 1};
+  UsdColour bias{};
+  UsdColour otherwise{0, 0, 0, 1};  ///< where the picture is not found
 };
 
-const char* wrap_of(int mode) {
+const char* wrap_name(int mode) {
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return "clamp";
   return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? "mirror" : "repeat";
 }
 
 /// Also of a texture that has its picture by an extension alone.
-int image_of(const tinygltf::Texture& texture) {
+int picture_number(const tinygltf::Texture& texture) {
   if (texture.source >= 0) return texture.source;
   for (const char* holder : {"EXT_texture_webp", "KHR_texture_basisu"}) {
     const double image = number_in(texture.extensions, holder, "source", -1);
@@ -58,14 +60,14 @@ class UsdMaterialWriter {
       : text_(text), model_(model), pictures_(pictures) {}
 
   /// Returns the factor of colours of vertices, where it shows some.
-  Colour write(int number, const std::string& path) {
+  UsdColour write(int number, const std::string& path) {
     const tinygltf::Material& given = model_.materials[idx(number)];
     path_ = path;
     shaders_ = UsdText(text_depth);
     readers_.clear();
     const std::string name = path.substr(path.rfind('/') + 1);
     UsdText surface(text_depth + 1);
-    const Colour factor = write_colour(surface, given, shows_vertex_colours(number));
+    const UsdColour factor = write_colour(surface, given, shows_vertex_colours(number));
     write_metal(surface, given);
     write_light(surface, given);
     write_relief(surface, given);
@@ -98,20 +100,20 @@ class UsdMaterialWriter {
     surface.line(input + ".connect = " + usd_target(path_ + "/" + output));
   }
 
-  Colour write_colour(UsdText& surface, const tinygltf::Material& given, bool shows_colours) {
+  UsdColour write_colour(UsdText& surface, const tinygltf::Material& given, bool shows_colours) {
     const auto& look = given.pbrMetallicRoughness;
-    const Colour factor = colour_of(look.baseColorFactor, {1, 1, 1, 1});
+    const UsdColour factor = usd_colour(look.baseColorFactor, {1, 1, 1, 1});
     const bool is_opaque = given.alphaMode.empty() || given.alphaMode == "OPAQUE";
     const bool has_picture =
         add_texture(look.baseColorTexture, {"Color", "sRGB", factor, {}, factor});
     const bool by_vertex = !has_picture && shows_colours;
     if (has_picture) connect(surface, "color3f inputs:diffuseColor", "Color.outputs:rgb");
-    if (by_vertex) {
-      add_primvar("Vertex_colors", "float3", "displayColor", rgb(factor));
+    if (!has_picture) surface.line("color3f inputs:diffuseColor = " + usd_rgb(factor));
+    if (by_vertex) {  // some programs know no such reader, and take the number above
+      add_primvar("Vertex_colors", "float3", "displayColor", usd_rgb(factor));
       connect(surface, "color3f inputs:diffuseColor", "Vertex_colors.outputs:result");
     }
-    if (!has_picture && !by_vertex) surface.line("color3f inputs:diffuseColor = " + rgb(factor));
-    if (is_opaque) return by_vertex ? factor : Colour{1, 1, 1, 1};
+    if (is_opaque) return by_vertex ? factor : UsdColour{1, 1, 1, 1};
     if (has_picture) connect(surface, "float inputs:opacity", "Color.outputs:a");
     if (by_vertex) {
       add_primvar("Vertex_opacity", "float", "displayOpacity", usd_tuple({factor[3]}));
@@ -123,12 +125,12 @@ class UsdMaterialWriter {
     if (given.alphaMode == "MASK") {
       surface.line("float inputs:opacityThreshold = " + usd_tuple({given.alphaCutoff}));
     }
-    return by_vertex ? factor : Colour{1, 1, 1, 1};
+    return by_vertex ? factor : UsdColour{1, 1, 1, 1};
   }
 
   void write_metal(UsdText& surface, const tinygltf::Material& given) {
     const auto& look = given.pbrMetallicRoughness;
-    const Colour factors{1, look.roughnessFactor, look.metallicFactor, 1};
+    const UsdColour factors{1, look.roughnessFactor, look.metallicFactor, 1};
     if (add_texture(look.metallicRoughnessTexture,
                     {"Metal_roughness", "raw", factors, {}, factors})) {
       connect(surface, "float inputs:roughness", "Metal_roughness.outputs:g");
@@ -140,15 +142,15 @@ class UsdMaterialWriter {
   }
 
   void write_light(UsdText& surface, const tinygltf::Material& given) {
-    Colour light = colour_of(given.emissiveFactor, {0, 0, 0, 1});
+    UsdColour light = usd_colour(given.emissiveFactor, {0, 0, 0, 1});
     const double strength =
         number_in(given.extensions, emissive_strength_extension, "emissiveStrength", 1);
     for (std::size_t k = 0; k < 3; ++k) light[k] *= strength;
-    if (light == Colour{0, 0, 0, 1}) return;
+    if (light == UsdColour{0, 0, 0, 1}) return;
     if (add_texture(given.emissiveTexture, {"Emission", "sRGB", light, {}, light})) {
       connect(surface, "color3f inputs:emissiveColor", "Emission.outputs:rgb");
     } else {
-      surface.line("color3f inputs:emissiveColor = " + rgb(light));
+      surface.line("color3f inputs:emissiveColor = " + usd_rgb(light));
     }
   }
 
@@ -223,7 +225,7 @@ class UsdMaterialWriter {
   bool add_texture(const TextureInfo& info, const PictureUse& use) {
     if (info.index < 0 || idx(info.index) >= model_.textures.size()) return false;
     const tinygltf::Texture& texture = model_.textures[idx(info.index)];
-    const std::string picture = pictures_.path_of(image_of(texture));
+    const std::string picture = pictures_.path_of(picture_number(texture));
     if (picture.empty()) return false;
     const double map = number_in(info.extensions, texture_transform_extension, "texCoord",
                                  static_cast<double>(info.texCoord));
@@ -237,12 +239,13 @@ class UsdMaterialWriter {
     shaders_.line("uniform token info:id = \"UsdUVTexture\"");
     shaders_.line("asset inputs:file = @" + picture + "@");
     shaders_.line("float2 inputs:st.connect = " + usd_target(path_ + "/" + coordinates));
-    shaders_.line("token inputs:wrapS = \"" + std::string(wrap_of(sampler.wrapS)) + "\"");
-    shaders_.line("token inputs:wrapT = \"" + std::string(wrap_of(sampler.wrapT)) + "\"");
+    shaders_.line("token inputs:wrapS = \"" + std::string(wrap_name(sampler.wrapS)) + "\"");
+    shaders_.line("token inputs:wrapT = \"" + std::string(wrap_name(sampler.wrapT)) + "\"");
     shaders_.line("token inputs:sourceColorSpace = \"" + std::string(use.space) + "\"");
-    if (use.scale != Colour{1, 1, 1, 1}) shaders_.line("float4 inputs:scale = " + rgba(use.scale));
-    if (use.bias != Colour{}) shaders_.line("float4 inputs:bias = " + rgba(use.bias));
-    shaders_.line("float4 inputs:fallback = " + rgba(use.otherwise));
+    if (use.scale != UsdColour{1, 1, 1, 1})
+      shaders_.line("float4 inputs:scale = " + usd_rgba(use.scale));
+    if (use.bias != UsdColour{}) shaders_.line("float4 inputs:bias = " + usd_rgba(use.bias));
+    shaders_.line("float4 inputs:fallback = " + usd_rgba(use.otherwise));
     for (const char* output : {"float outputs:r", "float outputs:g", "float outputs:b",
                                "float outputs:a", "float3 outputs:rgb"}) {
       shaders_.line(output);

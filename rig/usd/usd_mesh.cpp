@@ -13,7 +13,7 @@ namespace {
 
 std::string last_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-std::vector<double> bounds_of(const MeshRows& places) {
+std::vector<double> extent_of(const MeshRows& places) {
   constexpr double far = std::numeric_limits<double>::max();
   std::vector<double> bounds{far, far, far, -far, -far, -far};
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -33,7 +33,7 @@ class MeshPrim {
 
   void write() {
     text_.begin("Mesh", last_name(links_.path), {schemas(), links_.true_name});
-    for (const std::string& line : links_.place) text_.line(line);
+    text_.append(links_.place);
     write_faces();
     write_normals();
     write_maps();
@@ -59,7 +59,7 @@ class MeshPrim {
   void write_faces() {
     text_.line("uniform token subdivisionScheme = \"none\"");
     if (links_.is_double_sided) text_.line("uniform bool doubleSided = 1");
-    text_.numbers("float3[] extent", bounds_of(mesh_.places), 3);
+    text_.numbers("float3[] extent", extent_of(mesh_.places), 3);
     std::vector<std::int32_t> counts;
     for (std::size_t face = 0; face + 1 < mesh_.offsets.size(); ++face) {
       counts.push_back(static_cast<std::int32_t>(mesh_.offsets[face + 1] - mesh_.offsets[face]));

@@ -13,10 +13,10 @@ namespace curveskel {
 
 /// What a mesh names of the rest of the layer.
 struct UsdMeshLinks {
-  std::string path;                  ///< of the prim
-  std::string true_name;             ///< where it is another
-  std::vector<std::string> place;    ///< lines of its transform
-  std::string skeleton;              ///< path; empty = none
+  std::string path;       ///< of the prim
+  std::string true_name;  ///< where it is another
+  std::string place;      ///< lines of its transform
+  std::string skeleton;   ///< path; empty = none
   std::optional<UsdWeights> weights;
   std::vector<std::string> materials;     ///< paths by the mesh's numbers; empty = none
   std::vector<std::string> shape_tokens;  ///< by shape

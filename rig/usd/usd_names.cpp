@@ -11,14 +11,14 @@ bool is_letter_or_digit(char c) {
 }
 
 /// A byte of a character of several that is not the first.
-bool goes_on(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 }  // namespace
 
 std::string usd_identifier(const std::string& name, const std::string& otherwise) {
   std::string made;
   for (const char c : as_utf8(name)) {
-    if (goes_on(c)) continue;
+    if (continues_character(c)) continue;
     made += is_letter_or_digit(c) ? c : '_';
   }
   if (made.empty()) return otherwise;
@@ -36,8 +36,9 @@ std::string usd_true_name(const std::string& name, const std::string& of_prim) {
 std::string plain_file_name(const std::string& name) {
   std::string made;
   for (const char c : as_utf8(name)) {
-    if (goes_on(c)) continue;
-    const bool is_plain = is_letter_or_digit(c) || c == '-' || c == '_' || (c == '.' && !made.empty());
+    if (continues_character(c)) continue;
+    const bool is_plain =
+        is_letter_or_digit(c) || c == '-' || c == '_' || (c == '.' && !made.empty());
     made += is_plain ? c : '_';
   }
   return made;

@@ -114,7 +114,7 @@ class LayerWriter {
     const std::string name = names.free(given.name, "node");
     const std::string path = above + "/" + name;
     text.begin("Xform", name, {{}, usd_true_name(given.name, name)});
-    for (const std::string& lines : place_of(node, path)) text.append(lines);
+    text.append(place_of(node, path));
     UsdNames children;
     for (const int child : given.children) add_node(text, child, path, children);
     if (is_mesh) add_mesh(text, node, path, children, true);
@@ -122,14 +122,14 @@ class LayerWriter {
   }
 
   /// As of the animation that is shown.
-  [[nodiscard]] std::vector<std::string> place_of(int node, const std::string& path) {
+  [[nodiscard]] std::string place_of(int node, const std::string& path) {
     const auto depth = static_cast<std::size_t>(std::ranges::count(path, '/'));
     const GltfMotion* motion = nullptr;
     if (const GltfAnimation* shown = shown_animation()) {
       const auto found = shown->motions.find(node);
       if (found != shown->motions.end()) motion = &found->second;
     }
-    return {usd_place(node_of(node), motion, depth, span_)};
+    return usd_place(node_of(node), motion, depth, span_);
   }
 
   /// The first that moves what the scene has.
@@ -210,8 +210,7 @@ class LayerWriter {
       links.materials.push_back(is_there ? materials_.paths[idx(material)] : "");
       if (!is_there) continue;
       factors.insert(materials_.colour_factors[idx(material)]);
-      links.is_double_sided =
-          links.is_double_sided || model_.materials[idx(material)].doubleSided;
+      links.is_double_sided = links.is_double_sided || model_.materials[idx(material)].doubleSided;
     }
     if (mesh.colours.empty() || factors.size() != 1) return;
     for (std::size_t k = 0; k < mesh.colours[0].size(); ++k) {
@@ -232,7 +231,8 @@ class LayerWriter {
 
   void add_skeleton(UsdText& text, std::size_t number) {
     const UsdSkeleton& skeleton = skeletons_.all[number];
-    const UsdMoved moved{model_, skeleton, sliders_[number]};
+    const std::vector<UsdSlider>& sliders = sliders_[number].all;
+    const UsdMoved moved{model_, skeleton, sliders};
     UsdText animations(2);
     UsdNames names;
     std::string bound;
@@ -247,9 +247,9 @@ class LayerWriter {
       bound = name;
       span_.take({span.first, span.last});
     }
-    if (bound.empty() && !sliders_[number].empty()) {
+    if (bound.empty() && !sliders.empty()) {
       bound = names.free("Shapes", "");
-      write_usd_rest_shapes(animations, bound, sliders_[number]);
+      write_usd_rest_shapes(animations, bound, sliders);
     }
     text.begin("Skeleton", skeleton.name,
                bound.empty() ? UsdPrim{} : UsdPrim{{"SkelBindingAPI"}, ""});
@@ -288,8 +288,8 @@ class LayerWriter {
   GltfScene scene_;
   std::vector<GltfAnimation> animations_;
   UsdSkeletons skeletons_;
-  std::vector<std::vector<UsdSlider>> sliders_;  // by skeleton
-  std::vector<bool> shown_;                      // by node
+  std::vector<UsdSliders> sliders_;  // by skeleton
+  std::vector<bool> shown_;          // by node
   UsdNames names_of_root_;
   UsdMaterials materials_;
   UsdSpan span_;

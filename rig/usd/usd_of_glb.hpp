@@ -22,13 +22,13 @@ struct UsdLayer {
   std::vector<SideFile> pictures;  ///< that it names
 };
 
-/// A SkelRoot `/Model` with skeletons, nodes as Xforms, meshes (a mesh's primitives as one, a subset
-/// for each of several materials), shape keys, materials with their pictures, animations; metres, y
-/// up. Meshes that joints move lie in the scene's coordinates, as they were bound. `polygons` of
-/// each mesh, if given, take the place of its triangles, as of `fbx_of_glb`. The first animation
-/// that moves something is bound; nodes that are no joints have it alone. Left out: cameras,
-/// lights, points and lines, moved texture coordinates. `notes` gets a line for each picture that
-/// USD cannot show. Precondition: the bytes are a binary glTF file as `format_rig` and
+/// A SkelRoot `/Model` with skeletons, nodes as Xforms, meshes (a mesh's primitives as one, a
+/// subset for each of several materials), shape keys, materials with their pictures, animations;
+/// metres, y up. Meshes that joints move lie in the scene's coordinates, as they were bound.
+/// `polygons` of each mesh, if given, take the place of its triangles, as of `fbx_of_glb`. The
+/// first animation that moves something is bound; nodes that are no joints have it alone. Left out:
+/// cameras, lights, points and lines, moved texture coordinates. `notes` gets a line for each
+/// picture that USD cannot show. Precondition: the bytes are a binary glTF file as `format_rig` and
 /// `format_rig_into` write it. O(bytes).
 [[nodiscard]] UsdLayer usd_of_glb(std::string glb, const UsdOptions& options,
                                   std::vector<std::string>& notes,

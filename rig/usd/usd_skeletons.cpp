@@ -59,8 +59,8 @@ class SkeletonFinder {
       const tinygltf::Node& given = model_.nodes[idx(node)];
       const int parent = scene_.parents[idx(node)];
       const bool hangs = parent >= 0 && found_.is_joint[idx(parent)];
-      const bool only_holds = given.mesh >= 0 && given.children.empty() &&
-                              (given.skin >= 0 || !moved.contains(node));
+      const bool only_holds =
+          given.mesh >= 0 && given.children.empty() && (given.skin >= 0 || !moved.contains(node));
       found_.is_joint[idx(node)] = of_skins.contains(node) || (hangs && !only_holds);
     }
   }

@@ -22,22 +22,22 @@ class Node;
 namespace curveskel {
 
 struct UsdSkeleton {
-  std::string name;                  ///< of the prim
-  std::vector<int> joints;           ///< nodes, parents first
-  std::vector<int> above;            ///< of each joint the number of its parent; -1 = none
-  std::vector<std::string> paths;    ///< "hips/spine"
-  std::vector<std::string> names;    ///< the true ones
-  std::vector<Eigen::Affine3d> bound;      ///< in the scene
-  std::vector<Eigen::Affine3d> rest;       ///< in the joint above
-  std::vector<std::vector<int>> chains;    ///< of each joint the nodes below the joint above, it last
+  std::string name;                      ///< of the prim
+  std::vector<int> joints;               ///< nodes, parents first
+  std::vector<int> above;                ///< of each joint the number of its parent; -1 = none
+  std::vector<std::string> paths;        ///< "hips/spine"
+  std::vector<std::string> names;        ///< the true ones
+  std::vector<Eigen::Affine3d> bound;    ///< in the scene
+  std::vector<Eigen::Affine3d> rest;     ///< in the joint above
+  std::vector<std::vector<int>> chains;  ///< of each joint the nodes below the joint above, it last
   std::map<int, std::size_t> number_of_node;
 };
 
 struct UsdSkeletons {
   std::vector<UsdSkeleton> all;
-  std::vector<bool> is_joint;               ///< by node
-  std::vector<std::size_t> of_skin;         ///< by skin, one of `all`
-  std::vector<Eigen::Affine3d> placed;      ///< by skin: from its meshes to the scene, as bound
+  std::vector<bool> is_joint;           ///< by node
+  std::vector<std::size_t> of_skin;     ///< by skin, one of `all`
+  std::vector<Eigen::Affine3d> placed;  ///< by skin: from its meshes to the scene, as bound
 };
 
 /// One skeleton with all joints, whose nodes below that hold no mesh, or move, are joints of it,

@@ -35,7 +35,7 @@ void append_tuple(std::string& text, const std::vector<double>& numbers) {
 }
 
 template <typename Items, typename Append>
-void append_list(std::string& text, const Items& items, const Append& append) {
+void append_usd_list(std::string& text, const Items& items, const Append& append) {
   text += '[';
   bool first = true;
   for (const auto& item : items) {
@@ -92,7 +92,7 @@ void UsdText::begin(const char* type, const std::string& name, const UsdPrim& pr
   std::vector<std::string> about;
   if (!prim.schemas.empty()) {
     std::string list = "prepend apiSchemas = ";
-    append_list(list, prim.schemas, [&](const char* schema) {
+    append_usd_list(list, prim.schemas, [&](const char* schema) {
       list += '"';
       list += schema;
       list += '"';
@@ -155,21 +155,21 @@ void UsdText::integers(std::string_view head, const std::vector<std::int32_t>& n
                        const UsdAttribute& attribute) {
   indent();
   text_.append(head).append(" = ");
-  append_list(text_, numbers, [&](std::int32_t number) { append_decimal(text_, number); });
+  append_usd_list(text_, numbers, [&](std::int32_t number) { append_decimal(text_, number); });
   end_attribute(attribute);
 }
 
 void UsdText::words(std::string_view head, const std::vector<std::string>& words) {
   indent();
   text_.append(head).append(" = ");
-  append_list(text_, words, [&](const std::string& word) { text_ += usd_quoted(word); });
+  append_usd_list(text_, words, [&](const std::string& word) { text_ += usd_quoted(word); });
   text_ += '\n';
 }
 
 void UsdText::matrices(std::string_view head, const std::vector<Eigen::Affine3d>& frames) {
   indent();
   text_.append(head).append(" = ");
-  append_list(text_, frames, [&](const Eigen::Affine3d& frame) { text_ += usd_matrix(frame); });
+  append_usd_list(text_, frames, [&](const Eigen::Affine3d& frame) { text_ += usd_matrix(frame); });
   text_ += '\n';
 }
 

@@ -303,8 +303,8 @@ class Usd(CommandLineTest):
         primitive["attributes"]["TEXCOORD_1"] = gltf.add(
             [(k % 3 / 4, k % 11 / 16) for k in range(len(points))], "VEC2")
         primitive["targets"] = [
-            {"POSITION": gltf.add([(0, .25 * (k % 4 == 0), 0) for k in range(len(points))], "VEC3")},
-            {"POSITION": gltf.add([(-.5 * (k == 3), 0, 0) for k in range(len(points))], "VEC3")}]
+            {"POSITION": gltf.add([row(k) for k in range(len(points))], "VEC3")}
+            for row in (lambda k: (0, .25 * (k % 4 == 0), 0), lambda k: (-.5 * (k == 3), 0, 0))]
         indices = j["accessors"][primitive["indices"]]
         half = indices["count"] // 6 * 3
         second = dict(indices, count=indices["count"] - half,
@@ -404,8 +404,8 @@ class Usd(CommandLineTest):
         corners = [int(k) for one in (first, second) for (k,) in gltf.rows(one["indices"])]
         self.assertEqual(body["faceVertexIndices"], corners)
         for name, key in (("primvars:st", "TEXCOORD_0"), ("primvars:st1", "TEXCOORD_1")):
-            self.assert_near(body[name], [(u, 1 - v) for u, v in gltf.rows(first["attributes"][key])],
-                             1e-6)
+            wanted = [(u, 1 - v) for u, v in gltf.rows(first["attributes"][key])]
+            self.assert_near(body[name], wanted, 1e-6)
         self.assert_near(body["normals"], gltf.rows(first["attributes"]["NORMAL"]), 1e-6)
         self.assert_near(deformed(body, skeleton), shown(gltf, node))
         self.assert_near(deformed(hat, skeleton), shown(gltf, gltf.node("hat")))
@@ -542,8 +542,8 @@ class Usd(CommandLineTest):
     def test_meshes_that_were_bound_elsewhere_stand_where_they_are_shown(self):
         """Alike but for one move: on the same skeleton; in another pose: on one of their own."""
         angle = math.sin(.2), math.cos(.2)
-        moves = [("alike", lambda k: [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0], [1, 2, 3, 1]], 1),
-                 ("mirrored", lambda k: [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], 1),
+        moves = [("alike", lambda k: frame({"translation": [1, 2, 3], "scale": [2] * 3}), 1),
+                 ("mirrored", lambda k: frame({"scale": [-1, 1, 1]}), 1),
                  ("bent", lambda k: frame({"rotation": [0, 0, *angle]}) if k == 2 else IDENTITY, 2)]
         for name, move, skeletons in moves:
             with self.subTest(name):
@@ -639,7 +639,7 @@ class Usd(CommandLineTest):
         gltf.json["images"][2] = {"bufferView": gltf.add_view(b"\xabKTX 20\xbb" + bytes(9)),
                                   "mimeType": "image/ktx2", "name": "packed"}
         gltf.write(self.folder / "doll.glb")
-        result = self.run_ok("rig", "doll.glb", "-o", "a.usdz", cwd=self.folder)
+        result = self.run_ok("rig", "doll.glb", "-o", "a.glb", "-o", "a.usdz", cwd=self.folder)
         self.assertIn("painted", result.err)
         self.assertIn("packed", result.err)
         with zipfile.ZipFile(self.folder / "a.usdz") as packed:
@@ -648,6 +648,26 @@ class Usd(CommandLineTest):
                                  packed.namelist().__contains__)
         skin = root.all("Material")[0].children[0]
         self.assertEqual(skin["inputs:diffuseColor"], (1, .5, .25))
+
+    def test_colours_of_vertices_show(self):
+        corners = [(0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1), (.5, 4, .5)]
+        faces = [(0, 1, 2, 3), (1, 0, 4), (2, 1, 4), (3, 2, 4), (0, 3, 4)]
+        head = ["ply", "format ascii 1.0", f"element vertex {len(corners)}",
+                *(f"property float {axis}" for axis in "xyz"),
+                *(f"property uchar {name}" for name in ("red", "green", "blue")),
+                f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+        rows = [" ".join(map(str, (*place, 255 * (k % 2), 0, 255))) for k, place in
+                enumerate(corners)]
+        rows += [" ".join(map(str, (len(face), *face))) for face in faces]
+        (self.folder / "p.ply").write_text("\n".join(head + rows) + "\n")
+        _, root, _ = self.rig("p.ply")
+        (mesh,), (material,) = root.all("Mesh"), root.all("Material")
+        self.assertEqual(mesh["faceVertexCounts"], list(map(len, faces)))
+        self.assertEqual(mesh["primvars:displayColor"], [(k % 2, 0, 1) for k in range(5)])
+        surface, reader = material.children
+        self.assertEqual(surface.attributes["inputs:diffuseColor"].connection,
+                         reader.path + ".outputs:result")
+        self.assertEqual(reader["inputs:varname"], "displayColor")
 
     def test_the_surface_alone_is_whole(self):
         for options in ((Y, "--bare"), (Y,)):

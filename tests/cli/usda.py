@@ -124,8 +124,9 @@ class Reader:
         kind, name = self.next("word"), self.next("word")
         assert kind.removesuffix("[]") in WIDTHS, kind
         base, _, suffix = name.partition(".")
-        assert base not in prim.attributes, base
-        attribute = prim.attributes[base] = Attribute(kind)
+        known = prim.attributes.get(base)
+        assert known is None or (suffix == "connect" and known.connection is None), base
+        attribute = prim.attributes[base] = known or Attribute(kind)
         if not suffix and not self.takes("="):
             return
         if suffix:

@@ -228,8 +228,9 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   std::string without;  // why the file's own content is not in what is saved
   try {
     constexpr bool as_bound = false;  // the viewer's surface rests as shown
-    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(),
-                              vrm,    as_bound, picture_folder_of(file)};
+    const EditOptions options{
+        format, OldRig::replaced, name + " rig",          program_and_version(),
+        vrm,    as_bound,         picture_folder_of(file)};
     edited = format_rig_into(document.mesh_file, rig, options);
   } catch (const Error& error) {
     without = error.what();
