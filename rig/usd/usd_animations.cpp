@@ -119,12 +119,14 @@ std::vector<double> distinct_codes(const std::vector<double>& moments, std::vect
 
 void write_shape_names(UsdText& text, const std::vector<UsdSlider>& sliders) {
   std::vector<std::string> tokens;
+  tokens.reserve(sliders.size());
   for (const UsdSlider& slider : sliders) tokens.push_back(slider.token);
   text.words("uniform token[] blendShapes", tokens);
 }
 
 std::vector<double> rest_of(const std::vector<UsdSlider>& sliders) {
   std::vector<double> rest;
+  rest.reserve(sliders.size());
   for (const UsdSlider& slider : sliders) rest.push_back(slider.rest);
   return rest;
 }
@@ -261,7 +263,8 @@ std::vector<std::string> usd_shape_tokens(const std::vector<UsdSlider>& shapes,
     if (is_others && !is_own) token = mesh + "_" + token;
     std::string free = token;
     for (int number = 2; sliders.number_of_token.contains(free); ++number) {
-      free = token + "_" + std::to_string(number);
+      free = token;
+      free.append("_").append(std::to_string(number));
     }
     sliders.number_of_token[free] = sliders.all.size();
     sliders.all.push_back(shape);

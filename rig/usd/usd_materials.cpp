@@ -206,7 +206,7 @@ class UsdMaterialWriter {
   /// The output that such coordinates come from, moved as the texture says.
   std::string coordinates_of(std::size_t map, const TextureTransform& move,
                              const std::string& name) {
-    const std::string read = reader_of(map);
+    std::string read = reader_of(map);
     if (move == TextureTransform()) return read;
     constexpr double degrees = 180 / std::numbers::pi;
     shaders_.begin("Shader", name + "_transform");
@@ -273,7 +273,8 @@ UsdMaterials write_usd_materials(UsdText& text, const tinygltf::Model& model,
   text.begin("Scope", "Materials");
   for (int number = 0; idx(number) < model.materials.size(); ++number) {
     const std::string name = names.free(model.materials[idx(number)].name, "material");
-    made.paths.push_back(root + "/Materials/" + name);
+    std::string path = root;
+    made.paths.push_back(std::move(path.append("/Materials/").append(name)));
     made.colour_factors.push_back(writer.write(number, made.paths.back()));
   }
   text.end();

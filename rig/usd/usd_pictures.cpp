@@ -97,7 +97,8 @@ std::string UsdPictures::add(int image) {
   }
   std::string free = stem;
   for (int number = 2; !names_.insert(in_lower_case(free + extension)).second; ++number) {
-    free = stem + "_" + std::to_string(number);
+    free = stem;
+    free.append("_").append(std::to_string(number));
   }
   taken_.push_back({folder_ + "/" + free + extension, std::move(bytes)});
   return "./" + taken_.back().name;
