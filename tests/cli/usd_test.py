@@ -1,7 +1,6 @@
 """Rigs as USD: a layer that is whole, has what the .glb of the same run has, and its pictures.
 The collection's characters are there with CURVESKEL_COLLECTION."""
 
-import base64
 import json
 import math
 import os
@@ -10,143 +9,11 @@ import shutil
 import struct
 import unittest
 import zipfile
-import zlib
 
 import usda
+from doll import doll, picture
+from glb import IDENTITY, Gltf, frame, inverse, moved, product, shown
 from program import Y, CommandLineTest
-
-KINDS = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-IDENTITY = [[float(i == j) for j in range(4)] for i in range(4)]
-
-
-def picture(shade):
-    """A PNG of one pixel."""
-    def chunk(name, data):
-        return (struct.pack(">I", len(data)) + name + data
-                + struct.pack(">I", zlib.crc32(name + data)))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(bytes([0, shade, shade, shade]))) + chunk(b"IEND", b""))
-
-
-class Gltf:
-    """A GLB file that can be added to."""
-
-    def __init__(self, path):
-        data = path.read_bytes()
-        (length,) = struct.unpack_from("<I", data, 12)
-        self.json, self.numbers = json.loads(data[20:20 + length]), data[28 + length:]
-
-    def rows(self, number):
-        accessor = self.json["accessors"][number]
-        view = self.json["bufferViews"][accessor["bufferView"]]
-        kind, width = KINDS[accessor["componentType"]], WIDTHS[accessor["type"]]
-        size = struct.calcsize(kind) * width
-        begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        stride = view.get("byteStride", size)
-        scale = {"B": 255, "H": 65535}.get(kind, 1) if accessor.get("normalized") else 1
-        return [tuple(x / scale for x in
-                      struct.unpack_from(f"<{width}{kind}", self.numbers, begin + k * stride))
-                for k in range(accessor["count"])]
-
-    def add_view(self, data):
-        self.numbers += b"\0" * (-len(self.numbers) % 4)
-        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.numbers),
-                                         "byteLength": len(data)})
-        self.numbers += data
-        return len(self.json["bufferViews"]) - 1
-
-    def add(self, rows, shape):
-        flat = [x for row in rows for x in (row if isinstance(row, tuple) else (row,))]
-        accessor = {"bufferView": self.add_view(struct.pack(f"<{len(flat)}f", *flat)),
-                    "componentType": 5126, "type": shape, "count": len(flat) // WIDTHS[shape]}
-        if shape in ("SCALAR", "VEC3"):
-            columns = list(zip(*[iter(flat)] * WIDTHS[shape]))
-            accessor["min"] = [min(column) for column in zip(*columns)]
-            accessor["max"] = [max(column) for column in zip(*columns)]
-        self.json["accessors"].append(accessor)
-        return len(self.json["accessors"]) - 1
-
-    def write(self, path):
-        self.numbers += b"\0" * (-len(self.numbers) % 4)
-        self.json["buffers"][0]["byteLength"] = len(self.numbers)
-        body = json.dumps(self.json).encode()
-        body += b" " * (-len(body) % 4)
-        path.write_bytes(b"glTF" + struct.pack("<III", 2, 28 + len(body) + len(self.numbers),
-                                               len(body))
-                         + b"JSON" + body + struct.pack("<I", len(self.numbers)) + b"BIN\0"
-                         + self.numbers)
-
-    def node(self, name):
-        return next(k for k, node in enumerate(self.json["nodes"]) if node.get("name") == name)
-
-
-def product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
-
-
-def inverse(matrix):
-    """By Gauss and Jordan."""
-    rows = [list(row) + [float(i == j) for j in range(4)] for i, row in enumerate(matrix)]
-    for i in range(4):
-        pivot = max(range(i, 4), key=lambda k: abs(rows[k][i]))
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        rows[i] = [x / rows[i][i] for x in rows[i]]
-        for k in range(4):
-            if k != i:
-                rows[k] = [x - rows[k][i] * y for x, y in zip(rows[k], rows[i])]
-    return [row[4:] for row in rows]
-
-
-def moved(point, matrix):
-    """A row of a point times a matrix."""
-    return tuple(sum(x * matrix[i][j] for i, x in enumerate((*point, 1))) for j in range(3))
-
-
-def frame(node):
-    """Of a node in its parent, for rows."""
-    if "matrix" in node:
-        return [node["matrix"][4 * i:4 * i + 4] for i in range(4)]
-    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
-    turn = [[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
-            [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)],
-            [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)]]
-    scale = node.get("scale", (1, 1, 1))
-    return [[*(s * t for t in row), 0] for s, row in zip(scale, turn)] + [
-        [*node.get("translation", (0, 0, 0)), 1]]
-
-
-def frames(gltf):
-    """Of every node in the scene."""
-    found = {}
-
-    def place(number, above):
-        found[number] = product(frame(gltf.json["nodes"][number]), above)
-        for child in gltf.json["nodes"][number].get("children", []):
-            place(child, found[number])
-    for root in gltf.json["scenes"][0]["nodes"]:
-        place(root, IDENTITY)
-    return found
-
-
-def shown(gltf, number):
-    """The vertices of the first primitive of a node's mesh where the scene shows them."""
-    node, world = gltf.json["nodes"][number], frames(gltf)
-    attributes = gltf.json["meshes"][node["mesh"]]["primitives"][0]["attributes"]
-    points = gltf.rows(attributes["POSITION"])
-    if "skin" not in node:
-        return [moved(point, world[number]) for point in points]
-    skin = gltf.json["skins"][node["skin"]]
-    binds = gltf.rows(skin["inverseBindMatrices"])
-    moves = [product([bind[4 * i:4 * i + 4] for i in range(4)], world[joint])
-             for bind, joint in zip(binds, skin["joints"])]
-    result = []
-    for point, joints, weights in zip(points, gltf.rows(attributes["JOINTS_0"]),
-                                      gltf.rows(attributes["WEIGHTS_0"])):
-        places = [(w, moved(point, moves[int(j)])) for j, w in zip(joints, weights) if w]
-        result.append(tuple(sum(w * place[k] for w, place in places) for k in range(3)))
-    return result
-
 
 def deformed(mesh, skeleton):
     """What UsdSkel makes of a mesh at rest."""
@@ -292,103 +159,13 @@ class Usd(CommandLineTest):
                 self.assertEqual(len(rows), size)
 
     def doll(self):
-        """A rigged Y with all that a character has; its names are no identifiers, and alike."""
         self.run_ok("rig", Y, "-o", "y.glb", "-q", cwd=self.folder)
-        gltf = Gltf(self.folder / "y.glb")
-        j = gltf.json
-        body = next(k for k, node in enumerate(j["nodes"]) if "mesh" in node)
-        (primitive,) = j["meshes"][j["nodes"][body]["mesh"]]["primitives"]
-        points = gltf.rows(primitive["attributes"]["POSITION"])
-        primitive["attributes"]["TEXCOORD_0"] = gltf.add(
-            [(k % 7 / 7, k % 5 / 8) for k in range(len(points))], "VEC2")
-        primitive["attributes"]["TEXCOORD_1"] = gltf.add(
-            [(k % 3 / 4, k % 11 / 16) for k in range(len(points))], "VEC2")
-        primitive["targets"] = [
-            {"POSITION": gltf.add([row(k) for k in range(len(points))], "VEC3")}
-            for row in (lambda k: (0, .25 * (k % 4 == 0), 0), lambda k: (-.5 * (k == 3), 0, 0))]
-        indices = j["accessors"][primitive["indices"]]
-        half = indices["count"] // 6 * 3
-        second = dict(indices, count=indices["count"] - half,
-                      byteOffset=indices.get("byteOffset", 0)
-                      + half * struct.calcsize(KINDS[indices["componentType"]]))
-        indices["count"] = half
-        for one in (indices, second):
-            one.pop("min", None), one.pop("max", None)
-        j["accessors"].append(second)
-        mesh = j["meshes"][j["nodes"][body]["mesh"]]
-        mesh["primitives"].append(dict(primitive, indices=len(j["accessors"]) - 1, material=1))
-        primitive["material"] = 0
-        mesh.update(weights=[0.25, 0], extras={"targetNames": ["Lächeln", "1 blink"]})
-        j["nodes"][body]["name"] = 'body "1"'
-        self.add_looks(gltf)
-        self.add_parts(gltf, primitive)
-        return gltf
-
-    @staticmethod
-    def add_looks(gltf):
-        j = gltf.json
-        j["images"] = [
-            {"bufferView": gltf.add_view(picture(10)), "mimeType": "image/png", "name": "skin/a"},
-            {"uri": "data:image/png;base64," + base64.b64encode(picture(20)).decode(),
-             "name": "Skin a"},
-            {"bufferView": gltf.add_view(picture(30)), "mimeType": "image/png", "name": "skin/a"}]
-        j["samplers"] = [{"wrapS": 33071, "wrapT": 33648}]
-        j["textures"] = [{"source": 0, "sampler": 0}, {"source": 1}, {"source": 2}]
-        j["materials"] = [
-            {"name": "skin", "doubleSided": True, "alphaMode": "MASK", "alphaCutoff": 0.25,
-             "pbrMetallicRoughness": {
-                 "baseColorFactor": [1, 0.5, 0.25, 1],
-                 "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": {
-                     "offset": [0.25, 0.5], "rotation": math.pi / 6, "scale": [2, 3]}}},
-                 "metallicRoughnessTexture": {"index": 1, "texCoord": 1},
-                 "metallicFactor": 0.5, "roughnessFactor": 0.75},
-             "normalTexture": {"index": 2, "scale": 0.5},
-             "occlusionTexture": {"index": 1, "strength": 0.75},
-             "emissiveTexture": {"index": 2}, "emissiveFactor": [0.5, 0.5, 0.5]},
-            {"name": "skin", "alphaMode": "BLEND",
-             "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 0.5],
-                                      "metallicFactor": 0.125, "roughnessFactor": 0.25}}]
-        j["extensionsUsed"] = ["KHR_texture_transform"]
-
-    @staticmethod
-    def add_parts(gltf, body):
-        """A hat on a joint, a stand that moves, and animations of these, joints and shapes."""
-        j = gltf.json
-        part = {key: body[key] for key in ("attributes", "indices", "material")}
-        part["attributes"] = {key: body["attributes"][key] for key in ("POSITION", "NORMAL")
-                              if key in body["attributes"]}
-        j["meshes"].append({"name": "hat", "primitives": [part]})
-        number = len(j["meshes"]) - 1
-        joint = j["skins"][-1]["joints"][1]
-        hat, holder, stand = range(len(j["nodes"]), len(j["nodes"]) + 3)
-        j["nodes"] += [
-            {"name": "hat", "mesh": number, "translation": [0, 3, 0], "scale": [.25, .25, .25]},
-            {"name": "1st holder", "children": [stand], "rotation": [0, math.sin(.5), 0,
-                                                                     math.cos(.5)]},
-            {"name": "stand", "mesh": number, "translation": [9, 0, 0]}]
-        j["nodes"][joint].setdefault("children", []).append(hat)
-        j["scenes"][0]["nodes"].append(holder)
-
-        def channel(animation, node, path, times, rows, shape, between="LINEAR"):
-            animation["samplers"].append({"input": gltf.add(times, "SCALAR"),
-                                          "output": gltf.add(rows, shape),
-                                          "interpolation": between})
-            animation["channels"].append({"sampler": len(animation["samplers"]) - 1,
-                                          "target": {"node": node, "path": path}})
-
-        walk, jump = ({"name": name, "samplers": [], "channels": []} for name in ("Walk 1", "jump"))
-        body_node = gltf.node('body "1"')
-        turns = [(0, 0, math.sin(a), math.cos(a)) for a in (0.1, 0.4, -0.9)]
-        channel(walk, joint, "rotation", [0, 0.5, 1], turns, "VEC4")
-        channel(walk, body_node, "weights", [0, 1], [0.5, 0, 0, 1], "SCALAR")
-        channel(walk, stand, "translation", [0, 1], [(9, 0, 0), (9, 2, 0)], "VEC3")
-        channel(jump, joint, "translation", [0, 2], [(0, 1, 0), (0, 3, 0)], "VEC3", "STEP")
-        j["animations"] = [walk, jump]
+        return doll(self.folder / "y.glb")
 
     def test_a_character_keeps_all_that_it_has(self):
-        doll = self.folder / "Döll @1.glb"
-        self.doll().write(doll)
-        metadata, root, gltf = self.rig(doll, "--keep-rig")
+        source = self.folder / "Döll @1.glb"
+        self.doll().write(source)
+        metadata, root, gltf = self.rig(source, "--keep-rig")
         (skeleton,) = root.all("Skeleton")
         j = gltf.json
         self.assertEqual(metadata["timeCodesPerSecond"], 30)
