@@ -2,7 +2,6 @@
 stand that moves, animations."""
 
 import base64
-import json
 import math
 import struct
 import zlib
