@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
 
 namespace curveskel {
@@ -72,6 +71,7 @@ void make_folder(const fs::path& folder) {
 }
 
 void write_outputs(const std::vector<OutputFile>& files, Session& session) {
+  for (const OutputFile& file : files) require_free_places(file.name, file.side_files);
   for (const OutputFile& file : files) {
     session.interruption.check();
     const auto hold = session.interruption.hold();
@@ -79,7 +79,7 @@ void write_outputs(const std::vector<OutputFile>& files, Session& session) {
       session.terminal.end_progress();
       Terminal::write_output(file.bytes);
     } else {
-      write_file(file.name, file.bytes);
+      write_rig_file(file.name, file.bytes, file.side_files);
     }
   }
 }

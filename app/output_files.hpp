@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <curveskel/advanced/file_names.hpp>
+#include <curveskel/rig_files.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "app/verbs/verbs.hpp"
 
@@ -17,6 +18,7 @@ namespace curveskel {
 struct OutputFile {
   std::string name;  ///< "-" for standard output
   std::string bytes;
+  std::vector<SideFile> side_files = {};
 };
 
 /// The format that a file name's extension stands for. Throws UsageError listing the right ones.
@@ -50,7 +52,8 @@ void check_outputs(const std::vector<std::string>& names, const std::filesystem:
 /// Error(Fault::output).
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes each file whole; an interruption takes effect between files.
+/// Writes each file whole, with its side files; an interruption takes effect between files, and
+/// nothing is written where a side file is in the way.
 void write_outputs(const std::vector<OutputFile>& files, Session& session);
 
 }  // namespace curveskel

@@ -82,11 +82,11 @@ std::optional<std::string> bind_pose_finding(const std::filesystem::path& mesh,
 }
 
 void require_pose(RigFormat format, RestPose pose, const std::string& output) {
-  if (pose != RestPose::t || keeps_the_file(format) || format == RigFormat::usda) return;
+  if (pose != RestPose::t || keeps_the_file(format)) return;
   throw Error(Fault::usage,
               output +
                   ": has no pose at rest apart from the surface's; --pose t is for glb, gltf, vrm, "
-                  "fbx and usda");
+                  "fbx, usda and usdz");
 }
 
 void require_root_alone(int root, BodyKind plan) {

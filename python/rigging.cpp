@@ -177,9 +177,9 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
   std::vector<std::string> findings;
   std::optional<EditedFile> edited;
   if (!file.empty()) {
-    edited = format_rig_into(
-        file, rig.exported,
-        {*chosen, rig.old_rig, name.string() + " rig", program_and_version(), vrm, rig.as_bound});
+    edited = format_rig_into(file, rig.exported,
+                             {*chosen, rig.old_rig, name.string() + " rig", program_and_version(),
+                              vrm, rig.as_bound, picture_folder_of(output)});
     if (const auto finding = look_finding(file)) findings.push_back(*finding);
   }
   if (*chosen == RigFormat::vrm) {
@@ -192,9 +192,12 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
       findings.push_back(file.filename().string() + ": " + note);
     }
   }
-  write_file(output, edited ? edited->bytes
-                            : format_rig(rig.given, rig.exported, *chosen, name.string(),
-                                         program_and_version(), vrm));
+  if (edited) {
+    write_rig_file(output, edited->bytes, edited->side_files);
+  } else {
+    write_file(output, format_rig(rig.given, rig.exported, *chosen, name.string(),
+                                  program_and_version(), vrm));
+  }
   return findings;
 }
 

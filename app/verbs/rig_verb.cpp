@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,14 +77,16 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   fs::path name = is_standard_input(arguments.mesh) ? "surface" : arguments.mesh.stem();
   if (arguments.mesh.extension() == ".gz") name = name.stem();
   std::vector<OutputFile> files;
+  std::set<std::string> said;  // several formats have the same notes
   for (std::size_t i = 0; i < formats.size(); ++i) {
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
     std::optional<EditedFile> edited;
     if (!arguments.bare) {
-      edited = format_rig_into(arguments.mesh, rig,
-                               {formats[i], old_rig_in(arguments), name.string() + " rig",
-                                program_and_version(), arguments.vrm, arguments.as_bound},
-                               monitor);
+      edited = format_rig_into(
+          arguments.mesh, rig,
+          {formats[i], old_rig_in(arguments), name.string() + " rig", program_and_version(),
+           arguments.vrm, arguments.as_bound, picture_folder_of(arguments.outputs[i])},
+          monitor);
     }
     if (!edited) {
       const Surface given{soup.positions, triangulate(soup)};
@@ -92,13 +95,15 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
           {}};
     }
     for (const std::string& note : edited->notes) {
-      if (i == 0) session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
+      if (!said.insert(note).second) continue;
+      session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
     }
     if (edited->joints_replaced > 0) {
       summary = fmt::format("replaced: a rig of {} joints, {} channels of animations\n",
                             edited->joints_replaced, edited->channels_removed);
     }
-    files.push_back({arguments.outputs[i], std::move(edited->bytes)});
+    files.push_back(
+        {arguments.outputs[i], std::move(edited->bytes), std::move(edited->side_files)});
   }
   return files;
 }

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
-#include "rig/animations/moments.hpp"
+#include "rig/animations/track_moments.hpp"
 #include "rig/fbx/fbx_time.hpp"
 #include "rig/fbx/local_move.hpp"
 #include "rig/gltf/gltf_animations.hpp"
@@ -37,21 +37,6 @@ struct TimeSpan {
     last = std::max(last, times.back());
   }
 };
-
-/// Keys of all tracks, and times between them.
-std::vector<double> moments(const std::vector<const GltfTrack*>& tracks) {
-  std::vector<double> keys;
-  for (const GltfTrack* track : tracks) {
-    keys.insert(keys.end(), track->times().begin(), track->times().end());
-    if (track->between() != GltfTrack::Between::step) continue;
-    for (std::size_t k = 1; k < track->times().size(); ++k) {
-      const double before = track->times()[k - 1];
-      const double now = track->times()[k];
-      keys.push_back(std::max(now - step_seconds, 0.5 * (before + now)));
-    }
-  }
-  return moments_between(std::move(keys));
-}
 
 template <int Count>
 std::array<double, Count> numbers_or(const std::vector<double>& given,
@@ -155,7 +140,7 @@ class AnimationWriter {
 
   void add_moves(int node, const GltfMotion& motion) {
     const auto model = nodes_.models.find(node);
-    const std::vector<double> times = moments({&motion.shift, &motion.turn, &motion.scale});
+    const std::vector<double> times = track_moments({&motion.shift, &motion.turn, &motion.scale});
     if (model == nodes_.models.end() || times.empty()) return;
     const tinygltf::Node& given = model_.nodes[idx(node)];
     if (!given.matrix.empty()) return;  // which the standard forbids, as nothing could be moved
@@ -180,7 +165,7 @@ class AnimationWriter {
     if (sliders == nodes_.sliders.end() || track.empty()) return;
     const std::vector<double>& rest = model_.meshes[idx(model_.nodes[idx(node)].mesh)].weights;
     constexpr double percent = 100;
-    const std::vector<double> times = moments({&track});
+    const std::vector<double> times = track_moments({&track});
     for (std::size_t shape = 0; shape < sliders->second.size(); ++shape) {
       FbxCurves curves;
       for (const double seconds : times) {

@@ -13,6 +13,7 @@
 #include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include "rig/fbx/fbx_set_names.hpp"
+#include "rig/gltf/extension_numbers.hpp"
 #include "rig/gltf/texture_transform.hpp"
 
 namespace curveskel {
@@ -26,30 +27,6 @@ struct Look {
   double metal = 0;
   double normal_strength = 1;
 };
-
-/// `otherwise` where the extension is not there, or has no such number.
-double number_in(const tinygltf::ExtensionMap& extensions, const char* extension, const char* name,
-                 double otherwise) {
-  const auto found = extensions.find(extension);
-  if (found == extensions.end() || !found->second.Has(name)) return otherwise;
-  const tinygltf::Value& value = found->second.Get(name);
-  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
-}
-
-/// As of FBX, where v counts from the lower edge.
-TextureTransform transform_in(const tinygltf::ExtensionMap& extensions) {
-  const auto found = extensions.find(texture_transform_extension);
-  if (found == extensions.end()) return {};
-  const auto pair = [&](const char* name, double otherwise) {
-    std::array<double, 2> numbers{otherwise, otherwise};
-    if (!found->second.Has(name) || found->second.Get(name).ArrayLen() != 2) return numbers;
-    for (const int k : {0, 1}) numbers[idx(k)] = found->second.Get(name).Get(k).GetNumberAsDouble();
-    return numbers;
-  };
-  return flipped({pair("scale", 1),
-                  -number_in(extensions, texture_transform_extension, "rotation", 0),
-                  pair("offset", 0)});
-}
 
 Look look_of(const tinygltf::Material& material) {
   Look look;

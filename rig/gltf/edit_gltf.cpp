@@ -38,6 +38,7 @@
 #include "rig/io/rig_formats.hpp"
 #include "rig/joints/placed_rig.hpp"
 #include "rig/joints/sound_rig.hpp"
+#include "rig/usd/usd_of_glb.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
 #include "surface/read/placed_vertices.hpp"
@@ -186,10 +187,19 @@ void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const Edi
             const Monitor& monitor, const std::vector<MeshPolygons>& polygons = {}) {
   if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
   const bool is_fbx = options.format == RigFormat::fbx;
-  edited.bytes = format_gltf(std::move(document), is_fbx ? RigFormat::glb : options.format);
+  const bool is_plain = !is_fbx && !is_usd(options.format);
+  edited.bytes = format_gltf(std::move(document), is_plain ? options.format : RigFormat::glb);
   if (is_fbx) {
     edited.bytes = fbx_of_glb(std::move(edited.bytes), options.provenance, polygons, monitor);
   }
+  if (!is_usd(options.format)) return;
+  const bool packed = options.format == RigFormat::usdz;
+  UsdLayer layer = usd_of_glb(
+      std::move(edited.bytes),
+      {options.name, options.provenance, packed ? "textures" : options.picture_folder, packed},
+      edited.notes, polygons, monitor);
+  edited.bytes = packed ? usdz_of(layer, "rig.usda") : std::move(layer.text);
+  if (!packed) edited.side_files = std::move(layer.pictures);
 }
 
 /// Of a file with its new joints, which keep the names of their roles: programs find them by these.
@@ -246,6 +256,8 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   return edited;
 }
 
+bool keeps_polygons(RigFormat format) { return format == RigFormat::fbx || is_usd(format); }
+
 /// Of the file's own joints.
 AnimatedJoints read_animations(const FileBytes& file, const Rig& rig, const Monitor& monitor) {
   AnimatedJoints animated = read_joint_animations(file, monitor);
@@ -271,7 +283,7 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
   const bool keeps = options.old_rig == OldRig::kept;
   AnimatedJoints animated;
   if (keeps) animated = read_animations(file, rig, monitor);
-  const LookOptions looks{options.as_bound && !keeps, options.format == RigFormat::fbx,
+  const LookOptions looks{options.as_bound && !keeps, keeps_polygons(options.format),
                           !animated.animations.empty()};
   auto dressed = read_dressed_file(file, looks, edited.notes, monitor);
   if (!dressed) return std::nullopt;

@@ -7,12 +7,20 @@
 #include "rig/io/rig_writers.hpp"
 #include "rig/joints/placed_rig.hpp"
 #include "rig/joints/sound_rig.hpp"
+#include "rig/usd/usd_of_glb.hpp"
 
 namespace curveskel {
 namespace {
 
 /// The format says which axis is up.
-bool has_y_up(RigFormat format) { return keeps_the_file(format) || format == RigFormat::usda; }
+bool has_y_up(RigFormat format) { return keeps_the_file(format); }
+
+UsdLayer usd_layer(const Surface& surface, const Rig& rig, const std::string& name,
+                   const std::string& provenance) {
+  std::vector<std::string> notes;  // none without pictures
+  return usd_of_glb(format_gltf_rig(surface, rig, RigFormat::glb, name, provenance),
+                    {name, provenance}, notes);
+}
 
 }  // namespace
 
@@ -42,7 +50,9 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
     case RigFormat::bvh:
       return format_bvh_rig(rig);
     case RigFormat::usda:
-      return format_usda_rig(surface, rig, name, provenance);
+      return usd_layer(surface, rig, name, provenance).text;
+    case RigFormat::usdz:
+      return usdz_of(usd_layer(surface, rig, name, provenance), "rig.usda");
     case RigFormat::glb:
     case RigFormat::gltf:
       break;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 #include <string>
@@ -15,24 +14,21 @@
 namespace curveskel {
 namespace {
 
-std::string by_rule(std::string name, NameRule rule) {
+std::string as_word(std::string name) {
   for (char& c : name) {
     const auto code = static_cast<unsigned char>(c);
-    const bool fits =
-        rule == NameRule::word ? code > ' ' && code != 127 : std::isalnum(code) != 0 && code < 128;
-    if (!fits) c = '_';
+    if (code <= ' ' || code == 127) c = '_';
   }
-  const bool digit_first = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) != 0;
-  return rule == NameRule::identifier && digit_first ? "_" + name : name;
+  return name;
 }
 
 }  // namespace
 
-std::vector<std::string> names_by(const Rig& rig, NameRule rule) {
+std::vector<std::string> names_as_words(const Rig& rig) {
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
-    std::string name = by_rule(as_utf8(rig.names[static_cast<std::size_t>(joint)]), rule);
+    std::string name = as_word(as_utf8(rig.names[static_cast<std::size_t>(joint)]));
     if (name.empty()) name = "joint_" + std::to_string(joint + 1);
     names.push_back(free_name(taken, name, "_"));
   }

@@ -19,8 +19,6 @@ namespace curveskel {
 [[nodiscard]] std::string format_npz_rig(const Rig& rig);
 [[nodiscard]] std::string format_rignet_rig(const Rig& rig);
 [[nodiscard]] std::string format_bvh_rig(const Rig& rig);
-[[nodiscard]] std::string format_usda_rig(const Surface& surface, const Rig& rig,
-                                          const std::string& name, const std::string& provenance);
 
 /// The shortest text that reads back as the same number.
 template <typename Number>
@@ -30,13 +28,9 @@ template <typename Number>
   return text;
 }
 
-enum class NameRule {
-  word,       ///< without blanks, for formats that part words by these
-  identifier  ///< letters, digits and _ alone, no digit first
-};
-/// Each joint's name by the rule; empty ones become joint_1 and so on, of several alike the later
-/// ones get a number.
-[[nodiscard]] std::vector<std::string> names_by(const Rig& rig, NameRule rule);
+/// Each joint's name without blanks, for formats that part words by these; empty ones become
+/// joint_1 and so on, of several alike the later ones get a number.
+[[nodiscard]] std::vector<std::string> names_as_words(const Rig& rig);
 
 /// The four largest weights of a vertex, which sum to 1; joint 0 has all of a vertex without any.
 struct FourWeights {

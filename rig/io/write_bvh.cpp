@@ -17,7 +17,7 @@ constexpr const char* six_channels =
 class BvhWriter {
  public:
   explicit BvhWriter(const Rig& rig)
-      : rig_(rig), names_(names_by(rig, NameRule::word)), children_(idx(rig.joints.rows())) {
+      : rig_(rig), names_(names_as_words(rig)), children_(idx(rig.joints.rows())) {
     for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
       const int parent = rig.parents[joint];
       (parent < 0 ? roots_ : children_[idx(parent)]).push_back(static_cast<int>(joint));

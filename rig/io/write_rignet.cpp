@@ -7,7 +7,7 @@
 namespace curveskel {
 
 std::string format_rignet_rig(const Rig& rig) {
-  const std::vector<std::string> names = names_by(rig, NameRule::word);
+  const std::vector<std::string> names = names_as_words(rig);
   std::string text;
   for (Eigen::Index joint = 0; joint < rig.joints.rows(); ++joint) {
     text += "joints " + names[idx(joint)];

@@ -95,6 +95,29 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(curveskel.UsageError):
             rig.save(self.folder / "h.vrm")
 
+    def test_pictures_of_usd_go_where_the_program_puts_them(self):
+        """A pyramid with a picture on it, a TGA of one pixel."""
+        corners = ["0 0 0", "1 0 0", "1 0 1", "0 0 1", "0.5 4 0.5"]
+        faces = ["1/1 2/2 3/3 4/4", *(f"{a}/{a} 5/1 {b}/{b}" for a, b in
+                                      ((2, 1), (3, 2), (4, 3), (1, 4)))]
+        lines = ["mtllib p.mtl", *(f"v {corner}" for corner in corners),
+                 "vt 0 0", "vt 1 0", "vt 1 1", "vt 0 1", "usemtl skin", *(f"f {f}" for f in faces)]
+        (self.folder / "p.obj").write_text("\n".join(lines) + "\n")
+        (self.folder / "p.mtl").write_text("newmtl skin\nmap_Kd skin.tga\n")
+        (self.folder / "skin.tga").write_bytes(
+            bytes([0, 0, 2] + [0] * 9 + [1, 0, 1, 0, 24, 0, 1, 2, 3]))
+        made = []
+        for folder in ("program", "python"):
+            (self.folder / folder).mkdir()
+            output = self.folder / folder / "a.usda"
+            if folder == "program":
+                self.program("rig", self.folder / "p.obj", "-o", output)
+            else:
+                curveskel.rig(self.folder / "p.obj").save(output)
+            made.append((output.read_bytes(),
+                         (output.parent / "a_textures" / "skin.png").read_bytes()))
+        self.assertEqual(*made)
+
     def test_rig_of_a_file_as_it_is_shown_or_as_it_was_bound(self):
         rex = MESHES / "free" / "rigs" / "quaternius-trex-1k.glb"  # rests as it runs
         made = []

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -251,6 +252,21 @@ std::string list_after(const std::string& text, const std::string& key) {
   return text.substr(first, text.find(']', first) - first);
 }
 
+/// Those in quotes, without the backslashes before quotes.
+std::vector<std::string> words_in(const std::string& list) {
+  std::vector<std::string> words;
+  bool is_open = false;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (list[k] == '"') {
+      is_open = !is_open;
+      if (is_open) words.emplace_back();
+    } else if (is_open) {
+      words.back() += list[k] == '\\' ? list[++k] : list[k];
+    }
+  }
+  return words;
+}
+
 TEST_F(RigFormats, UsdHasPathsFramesAndWeights) {
   for (const WrittenCase& one : written_cases()) {
     const Rig rig = random_rig_of(one);
@@ -260,13 +276,17 @@ TEST_F(RigFormats, UsdHasPathsFramesAndWeights) {
       EXPECT_EQ(std::count(text.begin(), text.end(), opening),
                 std::count(text.begin(), text.end(), closing));
     }
-    std::vector<std::string> paths;
-    std::istringstream joints(list_after(text, "token[] joints"));
-    for (std::string path; joints >> path;) {
-      path.erase(std::remove(path.begin(), path.end(), ','), path.end());
-      paths.push_back(path.substr(1, path.size() - 2));
+    const std::vector<std::string> all_paths = words_in(list_after(text, "token[] joints"));
+    const std::vector<std::string> names = words_in(list_after(text, "token[] jointNames"));
+    ASSERT_EQ(all_paths.size(), idx(rig.joints.rows()));
+    ASSERT_EQ(names.size(), all_paths.size());
+    std::vector<std::string> paths;  // in the rig's order
+    for (const std::string& name : rig.names) {
+      const auto place = std::find(names.begin(), names.end(), name);
+      ASSERT_NE(place, names.end()) << name;
+      paths.push_back(all_paths[static_cast<std::size_t>(place - names.begin())]);
     }
-    ASSERT_EQ(paths.size(), idx(rig.joints.rows()));
+    EXPECT_EQ(std::set<std::string>(paths.begin(), paths.end()).size(), paths.size());
     for (int joint = 0; joint < rig.joints.rows(); ++joint) {
       const std::string& path = paths[idx(joint)];
       const std::size_t slash = path.rfind('/');
@@ -283,8 +303,13 @@ TEST_F(RigFormats, UsdHasPathsFramesAndWeights) {
     EXPECT_EQ(numbers("bindTransforms"), 16 * rig.joints.rows());
     EXPECT_EQ(numbers("restTransforms"), 16 * rig.joints.rows());
     EXPECT_EQ(numbers("points"), 3 * rig.weights.rows());
-    EXPECT_EQ(numbers("skel:jointIndices"), 4 * rig.weights.rows());
-    EXPECT_EQ(numbers("skel:jointWeights"), 4 * rig.weights.rows());
+    Eigen::Index most = 1;
+    for (Eigen::Index row = 0; row < rig.weights.rows(); ++row) {
+      most = std::max<Eigen::Index>(most, rig.weights.row(row).nonZeros());
+    }
+    EXPECT_NE(text.find("elementSize = " + std::to_string(most) + "\n"), std::string::npos);
+    EXPECT_EQ(numbers("skel:jointIndices"), most * rig.weights.rows());
+    EXPECT_EQ(numbers("skel:jointWeights"), most * rig.weights.rows());
   }
 }
 

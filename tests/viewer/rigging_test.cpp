@@ -129,6 +129,13 @@ TEST_F(Rigging, OfAFileThatRestsInAnotherPoseIsSavedIntoTheFile) {
   std::ifstream stream(saved, std::ios::binary);
   const Glb glb = glb_of(std::string(std::istreambuf_iterator<char>(stream), {}));
   EXPECT_EQ(glb.json["materials"], subject.json()["materials"]);
+  const std::filesystem::path layer = folder.path() / "saved.usda";
+  bench.save(layer);
+  EXPECT_TRUE(last_said().ends_with("saved.usda")) << last_said();
+  std::ifstream text(layer);
+  const std::string usd(std::istreambuf_iterator<char>(text), {});
+  EXPECT_NE(usd.find("@./saved_textures/picture_1.png@"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "saved_textures" / "picture_1.png"));
 }
 
 TEST_F(Rigging, HangsFromTheRootThatWasSet) {

@@ -228,15 +228,18 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   std::string without;  // why the file's own content is not in what is saved
   try {
     constexpr bool as_bound = false;  // the viewer's surface rests as shown
-    const EditOptions options{format, OldRig::replaced, name + " rig", program_and_version(),
-                              vrm,    as_bound};
+    const EditOptions options{
+        format, OldRig::replaced, name + " rig",          program_and_version(),
+        vrm,    as_bound,         picture_folder_of(file)};
     edited = format_rig_into(document.mesh_file, rig, options);
   } catch (const Error& error) {
     without = error.what();
   }
-  write_file(file,
-             edited ? edited->bytes
-                    : format_rig(document.surface, rig, format, name, program_and_version(), vrm));
+  if (edited) {
+    write_rig_file(file, edited->bytes, edited->side_files);
+  } else {
+    write_file(file, format_rig(document.surface, rig, format, name, program_and_version(), vrm));
+  }
   history_.note_saved();
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
