@@ -260,7 +260,7 @@ std::vector<std::string> usd_shape_tokens(const std::vector<UsdSlider>& shapes,
       tokens.push_back(token);
       continue;
     }
-    if (is_others && !is_own) token = mesh + "_" + token;
+    if (is_others && !is_own) token.insert(0, "_").insert(0, mesh);
     std::string free = token;
     for (int number = 2; sliders.number_of_token.contains(free); ++number) {
       free = token;

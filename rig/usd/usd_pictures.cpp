@@ -87,7 +87,7 @@ std::string UsdPictures::add(int image) {
     notes_.push_back("the picture " + in_quotes(name) +
                      " is WebP, which few programs for USD show; export it as PNG or JPEG");
   }
-  const std::string extension = extension_for(type);
+  const std::string ending = extension_for(type);
   std::string stem = plain_file_name(name);
   const std::string lower = in_lower_case(stem);
   for (const char* end : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp", ".gif", ".psd"}) {
@@ -96,11 +96,11 @@ std::string UsdPictures::add(int image) {
     break;
   }
   std::string free = stem;
-  for (int number = 2; !names_.insert(in_lower_case(free + extension)).second; ++number) {
+  for (int number = 2; !names_.insert(in_lower_case(free + ending)).second; ++number) {
     free = stem;
     free.append("_").append(std::to_string(number));
   }
-  taken_.push_back({folder_ + "/" + free + extension, std::move(bytes)});
+  taken_.push_back({folder_ + "/" + free + ending, std::move(bytes)});
   return "./" + taken_.back().name;
 }
 
