@@ -401,9 +401,11 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
          return made_once(whole, finest, room.monitor, nullptr, room.log,
                           {part.number, room.number, part_of}, false);
        }}};
-  ComponentResult fine = best_of(carry_out(
+  auto so_far = carry_out(
       finer, of, [](const Made&, const Made*) { return true; },
-      [](const Made&) { return std::nullopt; }, monitor, log));
+      [](const Made&) { return std::nullopt; }, monitor, log);
+  if (!so_far.best) return made_once(part, options, monitor, kept, log, of, false);
+  ComponentResult fine = std::move(*so_far.best);
   fine.times.insert(fine.times.begin(), coarse.times.begin(), coarse.times.end());
   fine.has_all_vertices = true;
   return fine;

@@ -258,6 +258,28 @@ TEST(History, OfAComponentThatCoarseningCostsItsHandlesGoesOnFromAllVertices) {
   }
 }
 
+TEST(History, OfAComponentWhoseFinerTryFailsHasTheCoarsenedOne) {
+  ExtractOptions options;
+  options.resolution = 1;
+  options.least_resolution = 1;
+  Monitor monitor;
+  monitor.frame = [](const Frame& frame) {
+    if (frame.made_in.name.starts_with(try_all_vertices)) throw Error(Fault::input, "too fine");
+  };
+  const Extraction found = extract(thin_walled(3, 0.03), options, monitor);
+  EXPECT_GT(found.skeleton.nodes.rows(), 0);
+  EXPECT_LT(found.components[0].working_vertices, found.components[0].vertices);
+  EXPECT_FALSE(is_kept(found.history, try_all_vertices));
+  EXPECT_TRUE(is_kept(found.history, try_as_asked));
+  int finer = 0;
+  for (const Try& one : found.history) {
+    if (one.name != try_all_vertices) continue;
+    EXPECT_EQ(one.message, "too fine");
+    ++finer;
+  }
+  EXPECT_GE(finer, 2) << "of the component, and of the whole";
+}
+
 // A second try's frames were those of the first, on top of them.
 TEST(ThoroughHistory, TellsTheTriesApartInFramesAndCurves) {
   const RepairedSurface repaired = repair(soup_of(ragged().surface), {}, {});
