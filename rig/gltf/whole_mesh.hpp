@@ -48,7 +48,8 @@ struct WholeMesh {
   [[nodiscard]] bool has_materials() const { return materials != std::vector<int>{-1}; }
 };
 
-/// How many sets of texture coordinates and of colours are read, and the first one of colours.
+/// Numbers of the sets of texture coordinates and of colours that are read, and the first one of
+/// colours.
 struct MeshSets {
   std::size_t maps = 0;
   std::size_t colours = 0;

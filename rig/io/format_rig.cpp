@@ -12,9 +12,6 @@
 namespace curveskel {
 namespace {
 
-/// The format says which axis is up.
-bool has_y_up(RigFormat format) { return keeps_the_file(format); }
-
 UsdLayer usd_layer(const Surface& surface, const Rig& rig, const std::string& name,
                    const std::string& provenance) {
   std::vector<std::string> notes;  // none without pictures
@@ -29,7 +26,8 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
   require_sound(surface, "format_rig");
   require_sound(rig, "format_rig");
   require_weights_of(rig, surface.positions.rows(), "format_rig");
-  if (has_y_up(format) && !rig.to_y_up.isIdentity(0)) {
+  const bool has_y_up = keeps_the_file(format);
+  if (has_y_up && !rig.to_y_up.isIdentity(0)) {
     const Surface turned{surface.positions * rig.to_y_up.transpose(), surface.triangles};
     return format_rig(turned, placed(rig, Eigen::Affine3d(rig.to_y_up)), format, name, provenance,
                       vrm);

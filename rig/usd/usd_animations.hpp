@@ -19,7 +19,7 @@ namespace curveskel {
 
 inline constexpr double usd_codes_a_second = 30;
 
-/// How far a shape key of a node's mesh is on.
+/// A shape key of a node's mesh, and the weight that it has at rest.
 struct UsdSlider {
   std::string token;
   int node = 0;
@@ -47,7 +47,7 @@ struct UsdSpan {
   void take(const std::vector<double>& codes);
 };
 
-/// What a SkelAnimation moves.
+/// Joints and shapes that a SkelAnimation moves.
 struct UsdMoved {
   const tinygltf::Model& model;
   const UsdSkeleton& skeleton;

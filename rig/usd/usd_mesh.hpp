@@ -11,7 +11,7 @@
 
 namespace curveskel {
 
-/// What a mesh names of the rest of the layer.
+/// The rest of the layer as a mesh names it.
 struct UsdMeshLinks {
   std::string path;       ///< of the prim
   std::string true_name;  ///< where it is another

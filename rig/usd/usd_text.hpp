@@ -16,14 +16,14 @@ namespace curveskel {
 /// "</Model/Body>".
 [[nodiscard]] std::string usd_target(const std::string& path);
 
-/// What stands in brackets behind a prim's name.
+/// Metadata in the brackets behind a prim's name.
 struct UsdPrim {
   std::vector<const char*> schemas;
   std::string true_name;  ///< where the prim's name could not be that
   const char* kind = "";
 };
 
-/// What stands in brackets behind an attribute.
+/// Metadata in the brackets behind an attribute.
 struct UsdAttribute {
   const char* interpolation = "";
   std::size_t element_size = 0;  ///< 0 = none is said

@@ -1,4 +1,4 @@
-// What leads a curve inside leaves its cycles on their handles.
+// A curve that is led inside keeps its cycles on their handles.
 #include "skeleton/embed/contain/inside.hpp"
 
 #include <gtest/gtest.h>
