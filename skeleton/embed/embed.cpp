@@ -68,7 +68,7 @@ std::optional<CurveSkeleton> embed_tuned(const EmbedInput& input, const EmbedOpt
   // The surface given, of which this one is a rounded copy, may lie as far beside it.
   const double rounding = options.go_below ? 2 * canonical_step : 0;
   HomologyGuard guard =
-      clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop, rounding); });
+      clock("handle loops", [&] { return HomologyGuard(surface, monitor.stop, rounding, &tree); });
   const WorkingSurface working(surface, input.balls);
   const Spacing spacing = spacing_on(surface, tuning.spacing);
   const std::vector<MirrorPlane> planes = clock(

@@ -64,6 +64,20 @@ bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line, double
   return false;
 }
 
+/// True if two lines, each between two neighbouring points, lie farther than `near` from the surface
+/// within the inscribed ball of either of the first line's ends: nothing lies between the two.
+bool share_a_ball(const SurfaceTree& tree, const std::array<const CurvePoint*, 2>& was,
+                  const std::array<Point, 2>& is, double near) {
+  constexpr double strictly = 1e-9;  // D = 1; more than the rounding of the linking numbers
+  for (const std::size_t end : {0U, 1U}) {
+    const Point& centre = was[end]->place();
+    const double reach = was[end]->radius(tree) - std::max(near, strictly);
+    const auto holds = [&](const Point& p) { return (p - centre).norm() < reach; };
+    if (holds(was[1 - end]->place()) && holds(is[0]) && holds(is[1])) return true;
+  }
+  return false;
+}
+
 bool put_back(CurvePoint& now, const CurvePoint& before) {
   if (now.place() == before.place()) return false;
   now = before;
@@ -80,8 +94,9 @@ bool crosses(const SurfaceTree& tree, const Point& from, const Point& to, double
          (near > 0 && tree.comes_near(from, to, near));
 }
 
-HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop, double near)
-    : stop_(std::move(stop)), near_(near) {
+HomologyGuard::HomologyGuard(const Surface& surface, std::stop_token stop, double near,
+                             const SurfaceTree* own_tree)
+    : stop_(std::move(stop)), near_(near), own_tree_(own_tree) {
   const Eigen::Index euler = surface.positions.rows() - surface.triangles.rows() / 2;
   if (euler != 2) classes_.emplace(surface);
 }
@@ -206,6 +221,8 @@ std::vector<int> HomologyGuard::restore_points(const SkeletonGraph& before, Skel
       for (std::size_t k = 0; k + 1 < was.size(); ++k) {
         if (was[k] == is[k] && was[k + 1] == is[k + 1]) continue;
         if (!last.empty() && last[k] == is[k] && last[k + 1] == is[k + 1]) continue;
+        const std::array ends{&point_of(before, s, k), &point_of(before, s, k + 1)};
+        if (&tree == own_tree_ && share_a_ball(tree, ends, {is[k], is[k + 1]}, near_)) continue;
         const bool stays =
             classes_->homologous({was[k], was[k + 1]}, {is[k], is[k + 1]}) &&
             (!crosses(tree, is[k], is[k + 1], near_) || crosses(tree, was[k], was[k + 1], near_));

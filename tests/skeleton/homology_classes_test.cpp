@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -142,6 +143,42 @@ TEST(HomologyGuard, StopsWhenAsked) {
   EXPECT_THROW((void)guard.restore_points(graph, graph, tree), Cancelled);
   EXPECT_THROW(guard.restore_arcs(graph, graph, tree), Cancelled);
   EXPECT_THROW(guard.pull_taut(graph, tree), Cancelled);
+}
+
+/// A curve round a ring, and the same with its points moved by up to `most` any way.
+std::array<SkeletonGraph, 2> before_and_after(double most, unsigned seed) {
+  SkeletonGraph before;
+  before.nodes = {{Point(3, 0, 0), {0}, true, {0, 0}}};
+  const auto points = arc(0.2, 2 * pi - 0.2);
+  before.arcs.push_back({0, 0, {points.begin(), points.end()}, {0}});
+  SkeletonGraph after = before;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> part(-most, most);
+  for (CurvePoint& point : after.arcs[0].points) {
+    point = Point(point.place() + Point(part(random), part(random), part(random)));
+  }
+  return {before, after};
+}
+
+TEST(HomologyGuard, OwnTreeChangesNothing) {
+  const Shape ring = shapes::torus(3, 0.5, 24);
+  const SurfaceTree tree(ring.surface);
+  HomologyGuard by_numbers(ring.surface);
+  HomologyGuard by_balls(ring.surface, {}, 0, &tree);
+  std::size_t restored = 0;
+  for (const double most : {0.05, 0.2, 0.4, 1.0, 4.0}) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+      const auto [before, after] = before_and_after(most, seed);
+      SkeletonGraph one = after;
+      SkeletonGraph other = after;
+      EXPECT_EQ(by_numbers.restore_points(before, one, tree),
+                by_balls.restore_points(before, other, tree));
+      EXPECT_EQ(one.polyline(one.arcs[0]), other.polyline(other.arcs[0])) << most << ", " << seed;
+      if (one.polyline(one.arcs[0]) != after.polyline(after.arcs[0])) ++restored;
+    }
+  }
+  EXPECT_GT(restored, 8U);
+  EXPECT_LT(restored, 32U);
 }
 
 TEST(HomologyRank, OfCopiedLoopsNeedsNoSource) {

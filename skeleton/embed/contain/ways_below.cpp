@@ -101,20 +101,14 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
   constexpr std::int64_t most_places = 300000;
   constexpr int most_ways = 20;
   const std::int64_t last_place = std::min(most_places, more_places_);
-  if (!half_edges_) {
-    half_edges_ =
-        pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
-  }
+  pair_edges();
   std::unordered_map<Place, Reached, HashOfPlace> reached;
   using Entry = std::pair<double, Place>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto reach = [&](std::int32_t h, const Place& by, const Point& at, double length) {
     if (!avoided.empty() && avoided.contains({by.half_edge, h})) return;
     Place to{h, by.number};
-    if (task.handles != nullptr) {
-      const Point here = by.half_edge < 0 ? task.start : below_edge(by.half_edge);
-      to.number ^= task.handles->number(here, h < 0 ? task.end : below_edge(h));
-    }
+    if (task.handles != nullptr) to.number ^= number_of_step(task, by.half_edge, h);
     const Point place = h < 0 ? Point(task.to.point) : middle(h);
     const double its = length + (place - at).norm();
     const auto [entry, is_new] = reached.try_emplace(to);
@@ -153,6 +147,25 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<S
   }
   if (task.handles != nullptr) more_places_ -= count();
   return std::nullopt;
+}
+
+void WaysBelow::pair_edges() {
+  if (half_edges_) return;
+  half_edges_ =
+      pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
+  step_numbers_.resize(2 * half_edges_->twin.size());
+}
+
+std::uint64_t WaysBelow::number_of_step(const Task& task, std::int32_t from, std::int32_t to) {
+  const auto computed = [&] {
+    return task.handles->number(from < 0 ? task.start : below_edge(from),
+                                to < 0 ? task.end : below_edge(to));
+  };
+  if (from < 0 || to < 0) return computed();
+  const bool is_next = to == next_half_edge(half_edges_->twin[idx(from)]);
+  auto& known = step_numbers_[2 * idx(from) + (is_next ? 1 : 0)];
+  if (!known) known = computed();
+  return *known;
 }
 
 Point WaysBelow::below(std::int32_t face, const Point& place) const {

@@ -39,7 +39,7 @@ class WaysBelow {
   /// The same by the shortest of those ways that go round different handles that `is_good` takes.
   /// Of ways round many handles there are too many: nothing, either, if none of the 20 shortest is
   /// good, or these are not found among 300,000 places, a million for all ways together.
-  /// Precondition: the handles' surface has handles.
+  /// Precondition: the handles' surface has handles, and `handles` is the same for all ways.
   using IsGood = std::function<bool(const std::vector<Point>& way)>;
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
                                                           const CurvePoint& to,
@@ -87,6 +87,8 @@ class WaysBelow {
   [[nodiscard]] bool stays_inside(const std::vector<Point>& line,
                                   const std::vector<std::int32_t>& edges,
                                   std::set<Step>& avoided) const;
+  void pair_edges();
+  [[nodiscard]] std::uint64_t number_of_step(const Task& task, std::int32_t from, std::int32_t to);
   [[nodiscard]] Point below(std::int32_t face, const Point& place) const;
   [[nodiscard]] Point below_edge(std::int32_t half_edge) const;
   [[nodiscard]] Point middle(std::int32_t half_edge) const;
@@ -95,6 +97,9 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
+  // Of the two steps from each half-edge across the face beyond it: a search takes the same step
+  // once for each number that it comes with.
+  std::vector<std::optional<std::uint64_t>> step_numbers_;
   // For all ways, as a surface may meet itself everywhere.
   int more_fruitless_tries_ = 1000;
   std::int64_t more_places_ = 1000000;  // with handles
