@@ -13,8 +13,8 @@ SkeletonComparison compare_skeletons(const CurveSkeleton& skeleton, const CurveS
   SkeletonComparison found;
   found.hausdorff_distance = hausdorff_distance(skeleton, other, spacing) / diagonal;
   found.mean_distance = mean_distance(skeleton, other, spacing) / diagonal;
-  found.common_ground =
-      common_ground(SurfaceTree(surface), diagonal, skeleton, other, options, monitor);
+  found.common_ground = common_ground(SurfaceTree(surface, options.threads), diagonal, skeleton,
+                                      other, options, monitor);
   return found;
 }
 

@@ -75,12 +75,6 @@ std::string Interruption::message() const {
                      files == 0 ? "nothing was written" : before + " before", remedy_);
 }
 
-std::unique_lock<std::mutex> Interruption::hold() {
-  std::unique_lock lock(writing_);
-  ++files_;
-  return lock;
-}
-
 void Interruption::check() const {
   if (stop_.stop_requested()) throw Cancelled();
 }

@@ -33,8 +33,11 @@ class Interruption {
   /// The message: interrupted, or the limit that was reached, with a remedy and the number of files
   /// written before.
   [[nodiscard]] std::string message() const;
-  /// While held, the process does not end halfway through a file. To be held once for each.
-  [[nodiscard]] std::unique_lock<std::mutex> hold();
+  /// While held, the process does not end halfway through a file. Not for a pipe, whose reader may
+  /// have it wait for ever.
+  [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(writing_); }
+  /// One more file is there, for the message.
+  void count_written() { ++files_; }
 
  private:
   void watch(const std::stop_token& finished);
@@ -46,7 +49,7 @@ class Interruption {
   std::mutex mutex_;
   std::condition_variable_any ended_;
   std::atomic<double> reached_limit_ = 0;
-  std::atomic<int> files_ = 0;  // written, or being written
+  std::atomic<int> files_ = 0;  // written
   std::jthread watcher_;
   std::jthread timer_;
 };

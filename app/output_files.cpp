@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 
 #include <curveskel/error.hpp>
@@ -41,7 +42,7 @@ void require_extension(const std::string& name, std::string_view option,
                                extension, extension));
 }
 
-void check_outputs(const std::vector<std::string>& names, const fs::path& input) {
+void check_outputs(const std::vector<std::string>& names, const std::vector<fs::path>& inputs) {
   std::set<fs::path> seen;
   for (const std::string& name : names) {
     std::error_code none;
@@ -50,8 +51,10 @@ void check_outputs(const std::vector<std::string>& names, const fs::path& input)
       throw UsageError(name + " is named twice as an output");
     }
     if (name == "-") continue;
-    if (fs::equivalent(name, input, none)) {
-      throw UsageError(name + " is the input; name another output");
+    const auto is_output = [&](const fs::path& input) { return fs::equivalent(name, input, none); };
+    if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
+      throw UsageError(name + (inputs.size() == 1 ? " is the input" : " is an input") +
+                       "; name another output");
     }
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, none)) {
@@ -74,13 +77,15 @@ void write_outputs(const std::vector<OutputFile>& files, Session& session) {
   for (const OutputFile& file : files) require_free_places(file.name, file.side_files);
   for (const OutputFile& file : files) {
     session.interruption.check();
-    const auto hold = session.interruption.hold();
     if (file.name == "-") {
       session.terminal.end_progress();
       Terminal::write_output(file.bytes);
-    } else {
-      write_rig_file(file.name, file.bytes, file.side_files);
+      session.interruption.count_written();
+      continue;
     }
+    const auto hold = session.interruption.hold();
+    write_rig_file(file.name, file.bytes, file.side_files);
+    session.interruption.count_written();
   }
 }
 

@@ -44,9 +44,10 @@ template <typename Format, std::size_t Count>
 void require_extension(const std::string& name, std::string_view option,
                        std::string_view extension);
 
-/// Before hours of work: throws UsageError where an output is named twice or is the input, and
-/// Error(Fault::output) where its folder does not exist.
-void check_outputs(const std::vector<std::string>& names, const std::filesystem::path& input);
+/// Before hours of work: throws UsageError where an output is named twice or is one of the inputs,
+/// of which those not named are empty, and Error(Fault::output) where its folder does not exist.
+void check_outputs(const std::vector<std::string>& names,
+                   const std::vector<std::filesystem::path>& inputs);
 
 /// Makes a folder for outputs, and those that it is in; one that exists will do. Throws
 /// Error(Fault::output).

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -75,6 +76,19 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
   return files;
 }
 
+/// Throws UsageError if the file's name is one that a frame will have.
+void require_no_frame(const fs::path& file, const fs::path& folder) {
+  const std::string stem = file.stem().string();
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  std::error_code none;
+  const fs::path within = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (stem.size() < 4 || !std::all_of(stem.begin(), stem.end(), is_digit) ||
+      file.extension() != ".ply" || !fs::equivalent(within, folder, none)) {
+    return;
+  }
+  throw UsageError(file.string() + ": --frames would write over it; name another folder");
+}
+
 /// The contraction of one component, in a line.
 std::string outcome(const Contraction& contraction, int component) {
   const auto reason = std::find_if(stops.begin(), stops.end(),
@@ -90,8 +104,12 @@ int run_contract(const ContractArguments& arguments, Session& session) {
   if (format != SurfaceFormat::ply && format != SurfaceFormat::om) {
     throw UsageError(arguments.output + ": the contracted surface is written as ply or om");
   }
-  check_outputs({arguments.output}, arguments.mesh);
-  if (!arguments.frames.empty()) make_folder(arguments.frames);
+  check_outputs({arguments.output}, {arguments.mesh});
+  if (!arguments.frames.empty()) {
+    require_no_frame(arguments.mesh, arguments.frames);
+    require_no_frame(arguments.output, arguments.frames);
+    make_folder(arguments.frames);
+  }
 
   session.interruption.limit(arguments.time_limit_seconds);
   Monitor monitor = session.monitor();

@@ -96,7 +96,6 @@ void give_surface(const EvaluateArguments& arguments, const RiggedSurface& rig,
 }
 
 int run_rig_truth(const EvaluateArguments& arguments, Session& session) {
-  if (!arguments.json.empty()) check_outputs({arguments.json}, arguments.rig_truth);
   const Monitor monitor = session.monitor();
   const RiggedSurface rig = rigged_surface(arguments.mesh, monitor);
   RiggedSurface truth = rigged_surface(arguments.rig_truth, monitor);
@@ -131,8 +130,8 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   require_one_task(arguments);
   require_extension(arguments.json, "--json", "json");
   if (!arguments.json.empty()) {
-    check_outputs({arguments.json}, arguments.mesh);
-    check_outputs({arguments.json}, arguments.skeleton);
+    check_outputs({arguments.json},
+                  {arguments.mesh, arguments.skeleton, arguments.rig_truth, arguments.against});
   }
   if (arguments.json == "-") session.terminal.keep_output_clean();
 

@@ -249,7 +249,7 @@ void check_names(const ExtractArguments& arguments, Session& session) {
     (void)format_of(name, labelled_formats);
     names.push_back(name);
   }
-  check_outputs(names, arguments.mesh);
+  check_outputs(names, {arguments.mesh});
   const bool to_output = std::count(names.begin(), names.end(), "-") > 0;
   if (to_output) session.terminal.keep_output_clean();
 }

@@ -45,7 +45,7 @@ std::string moved(const Positions& from, const Positions& to) {
 int run_fair(const FairArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   const SurfaceFormat format = format_of(arguments.output, written_surface_formats);
-  check_outputs({arguments.output}, arguments.mesh);
+  check_outputs({arguments.output}, {arguments.mesh});
 
   session.interruption.limit(arguments.time_limit_seconds);
   const Monitor monitor = session.monitor();

@@ -93,8 +93,7 @@ int run_match(MatchArguments arguments, Session& session) {
   if (is_standard_input(arguments.a) && is_standard_input(arguments.b)) {
     throw UsageError("- is standard input, which gives one surface; name a file for the other");
   }
-  check_outputs({arguments.output}, arguments.a);
-  check_outputs({arguments.output}, arguments.b);
+  check_outputs({arguments.output}, {arguments.a, arguments.b});
   if (arguments.output == "-") session.terminal.keep_output_clean();
   session.interruption.limit(arguments.time_limit_seconds);
   arguments.extract.fairing = false;

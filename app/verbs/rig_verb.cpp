@@ -141,7 +141,7 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   std::vector<std::string> names = arguments.outputs;
   require_extension(arguments.report, "--report", "json");
   if (!arguments.report.empty()) names.push_back(arguments.report);
-  check_outputs(names, arguments.mesh);
+  check_outputs(names, {arguments.mesh, arguments.joints, arguments.skeleton});
   return formats;
 }
 

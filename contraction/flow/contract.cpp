@@ -121,9 +121,12 @@ void check(const Extent& initial) {
 }
 
 double fraction_done(const Step& step, const ContractionOptions& options) {
-  const double by_volume = std::log(step.volume_ratio) / std::log(options.stop_volume_ratio);
-  const double by_area = std::log(step.area_ratio) / std::log(options.stop_area_ratio);
-  return std::clamp(std::max(by_volume, by_area), 0.0, 1.0);
+  const auto share = [](double ratio, double stop) {
+    return stop > 0 && stop < 1 ? std::log(ratio) / std::log(stop) : 0;
+  };
+  const double done = std::max(share(step.volume_ratio, options.stop_volume_ratio),
+                               share(step.area_ratio, options.stop_area_ratio));
+  return std::clamp(done, 0.0, 1.0);
 }
 
 std::optional<Stop> reason_to_stop(const Step& step, const ContractionOptions& options) {

@@ -26,8 +26,8 @@ RepairedContraction contract_repaired(const RepairedSurface& repaired,
     }
     Positions centres;
     if (options.flow == Flow::medial) {
-      centres =
-          inscribed_balls(surface, SurfaceTree(surface), options.threads, monitor.stop).centres;
+      const SurfaceTree tree(surface, options.threads);
+      centres = inscribed_balls(surface, tree, options.threads, monitor.stop).centres;
     }
     Contraction contraction = contract(surface, centres, options, with_number);
     for (std::size_t v = 0; v < vertex_in_whole.size(); ++v) {

@@ -3,6 +3,8 @@
 // All keep what CurveSkeleton promises: edges i < j, sorted, no row twice; radii (if there are any)
 // and node_of_vertex in step with the nodes; a vertex that had a node still has one. Nodes keep
 // their order: where one is taken out, those after it move up by one; a new one comes last.
+// Lives (see CurveSkeleton) are the tips': one that takes the place of another has the larger life
+// of the two, any other new one the largest of all, so that no detail hides it.
 // With `tree`, the radius of a node that is new or moved is its distance to the surface
 // (0 outside); without, it comes from the nodes that it was made of. All throw
 // Error(Fault::input) that says what was found and needed. O(#V + #E log #E), and O(#N + #E) for

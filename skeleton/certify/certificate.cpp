@@ -183,9 +183,10 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
   require_closed_manifold(surface, "evaluate", options.threads);
   monitor.report("certify", 0);
   const Topology counted = topology(surface);
-  return evaluate({surface, SurfaceTree(surface), bounding_box_diagonal(surface.positions),
-                   counted.components(), counted.total_genus()},
-                  skeleton, options, monitor);
+  return evaluate(
+      {surface, SurfaceTree(surface, options.threads), bounding_box_diagonal(surface.positions),
+       counted.components(), counted.total_genus()},
+      skeleton, options, monitor);
 }
 
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,

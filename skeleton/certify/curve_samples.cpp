@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 
@@ -43,9 +46,27 @@ std::vector<Vector3d> points_along(const std::vector<Vector3d>& line,
   return points;
 }
 
+namespace {
+
+void require_few_samples(const CurveSkeleton& skeleton, const std::vector<Branch>& branches,
+                         double spacing) {
+  constexpr double most = 1e7;  // a gigabyte
+  double length = 0;
+  for (const Branch& branch : branches) length += polyline_length(polyline(skeleton, branch));
+  if (length <= most * spacing) return;
+  std::ostringstream message;
+  message << "the skeleton is " << length / spacing << " times as long as the spacing of its "
+          << "samples, needed at most " << most << "; give a skeleton in the coordinates of the "
+          << "surface, or samples farther apart";
+  throw Error(Fault::input, message.str());
+}
+
+}  // namespace
+
 std::vector<CurveSample> sample_branches(const CurveSkeleton& skeleton,
                                          const std::vector<Branch>& branches, double spacing,
                                          double tangent_length) {
+  require_few_samples(skeleton, branches, spacing);
   std::vector<CurveSample> samples;
   std::vector<double> middles;
   std::vector<double> starts;

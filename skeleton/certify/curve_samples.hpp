@@ -31,6 +31,8 @@ struct CurveSample {
 /// Each branch is cut into equal pieces of at most `spacing` with a sample in the middle of each,
 /// so it matters little how finely a branch is divided into edges. A branch of no length has one
 /// sample. Samples follow their branches. Lengths are in model units.
+/// Throws Error(Fault::input) where that makes more than ten million: the skeleton is in another
+/// unit than the spacing.
 [[nodiscard]] std::vector<CurveSample> sample_branches(const CurveSkeleton& skeleton,
                                                        const std::vector<Branch>& branches,
                                                        double spacing, double tangent_length);

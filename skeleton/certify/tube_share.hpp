@@ -7,7 +7,7 @@
 namespace curveskel {
 
 /// The share of the surface's area within 2.5 inscribed radii of the curve: those at the curve's
-/// nearest point. By 10,000 points spread evenly over the area, whatever the triangles' sizes; 0
+/// nearest point. By 2,500 points spread evenly over the area, whatever the triangles' sizes; 0
 /// without a curve. Deterministic; some microseconds per point. Throws Cancelled on a stop.
 [[nodiscard]] double tube_share(const MeasuredCurve& curve, const Surface& surface,
                                 const Monitor& monitor);

@@ -94,6 +94,25 @@ void Draft::dissolve(int node, int heir) {
   for (int& whose : heir_) {
     if (whose == node) whose = heir;
   }
+  if (!has_lives(skeleton_)) return;
+  skeleton_.lives[heir] = std::max(skeleton_.lives[heir], skeleton_.lives[node]);
+}
+
+void Draft::give_lives(CurveSkeleton& result, const std::vector<int>& kept) const {
+  const auto degrees_in = [](const CurveSkeleton& skeleton) {
+    std::vector<int> degrees(idx(skeleton.nodes.rows()), 0);
+    for (const int end : skeleton.edges.reshaped()) ++degrees[idx(end)];
+    return degrees;
+  };
+  const std::vector<int> before = degrees_in(skeleton_);
+  const std::vector<int> now = degrees_in(result);
+  result.lives = skeleton_.lives(kept);
+  const double largest = std::max(skeleton_.lives.maxCoeff(), least_life(0));
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    double& life = result.lives[static_cast<Eigen::Index>(k)];
+    if (now[k] > 1) life = 0;
+    if (now[k] == 1 && before[idx(kept[k])] != 1 && life == 0) life = largest;
+  }
 }
 
 CurveSkeleton Draft::finish() const {
@@ -107,10 +126,10 @@ CurveSkeleton Draft::finish() const {
   CurveSkeleton result;
   result.nodes = skeleton_.nodes(kept, Eigen::all);
   if (skeleton_.radii.size() > 0) result.radii = skeleton_.radii(kept);
-  if (has_lives(skeleton_)) result.lives = skeleton_.lives(kept);
   result.edges.resize(static_cast<Eigen::Index>(edges_.size()), 2);
   Eigen::Index row = 0;
   for (const auto& [i, j] : edges_) result.edges.row(row++) << number[idx(i)], number[idx(j)];
+  if (has_lives(skeleton_)) give_lives(result, kept);
   result.node_of_vertex = skeleton_.node_of_vertex;
   for (int& node : result.node_of_vertex) {
     if (node >= 0) node = number[idx(heir_[idx(node)])];

@@ -40,12 +40,17 @@ class Draft {
   void set_life(int node, double life) { skeleton_.lives[node] = life; }
   /// Precondition: the skeleton has node_of_vertex.
   void hand_vertex(int vertex, int node) { skeleton_.node_of_vertex[vertex] = node; }
-  /// Edges and vertices of `node` go to `heir`, then it is gone.
+  /// Edges and vertices of `node` go to `heir`, which has the larger life of the two; then it is
+  /// gone.
   void dissolve(int node, int heir);
 
+  /// A tip that was none, and took over from none, has the largest life, so that no detail hides
+  /// it.
   [[nodiscard]] CurveSkeleton finish() const;
 
  private:
+  void give_lives(CurveSkeleton& result, const std::vector<int>& kept) const;
+
   CurveSkeleton skeleton_;  // its edges are those at the start
   std::set<std::pair<int, int>> edges_;
   std::vector<int> heir_;  // per node: itself, or the one that took over

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
 #include "skeleton/graph/draft.hpp"
 
 namespace curveskel {
@@ -176,7 +177,9 @@ CurveSkeleton add_node(const CurveSkeleton& skeleton, int neighbour,
   require_node(skeleton, neighbour, "add_node");
   require_place(position, "add_node");
   Draft draft(skeleton);
-  draft.connect(neighbour, draft.add(position, draft.radius(neighbour), tree));
+  const int added = draft.add(position, draft.radius(neighbour), tree);
+  if (has_lives(skeleton)) draft.set_life(added, skeleton.lives[neighbour]);
+  draft.connect(neighbour, added);
   return draft.finish();
 }
 

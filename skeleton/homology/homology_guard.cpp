@@ -64,8 +64,9 @@ bool any_crosses(const SurfaceTree& tree, const std::vector<Point>& line, double
   return false;
 }
 
-/// True if two lines, each between two neighbouring points, lie farther than `near` from the surface
-/// within the inscribed ball of either of the first line's ends: nothing lies between the two.
+/// True if two lines, each between two neighbouring points, lie farther than `near` from the
+/// surface within the inscribed ball of either of the first line's ends: nothing lies between the
+/// two.
 bool share_a_ball(const SurfaceTree& tree, const std::array<const CurvePoint*, 2>& was,
                   const std::array<Point, 2>& is, double near) {
   constexpr double strictly = 1e-9;  // D = 1; more than the rounding of the linking numbers

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 
 namespace curveskel {
@@ -136,7 +137,8 @@ class GeodesicDistance::Front {
   std::size_t count_ = 0;
 };
 
-Eigen::VectorXf GeodesicDistance::from(int vertex) const {
+Eigen::VectorXf GeodesicDistance::from(int vertex, const std::stop_token& stop) const {
+  constexpr std::size_t taken_between_looks = 1 << 16;
   const std::size_t count = wedges_around_.offsets.size() - 1;
   Eigen::VectorXf distance = Eigen::VectorXf::Constant(static_cast<Eigen::Index>(count), nowhere);
   std::vector<char> is_done(count, 0);
@@ -157,6 +159,7 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
     if (is_done[idx(v)] != 0) continue;
     is_done[idx(v)] = 1;
     if (++taken % many == 0) worth_it *= 4;
+    if (taken % taken_between_looks == 0) throw_if_stopped(stop);
     const float reached = distance[v];
     for (std::int64_t i = wedges_around_.offsets[idx(v)]; i < wedges_around_.offsets[idx(v) + 1];
          ++i) {
@@ -187,12 +190,15 @@ Eigen::VectorXf GeodesicDistance::from(int vertex) const {
 }
 
 Eigen::VectorXd mean_geodesic_distance(const Surface& surface, const Eigen::VectorXd& areas,
-                                       int samples, int threads) {
+                                       int samples, int threads, const std::stop_token& stop) {
   const GeodesicDistance distance(surface);
   const std::vector<int> chosen = samples_of(surface, samples);
   std::vector<Eigen::VectorXf> from(chosen.size());
   parallel_for(chosen.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) from[k] = distance.from(chosen[k]);
+    for (std::size_t k = begin; k < end; ++k) {
+      throw_if_stopped(stop);
+      from[k] = distance.from(chosen[k], stop);
+    }
   });
   Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(chosen.size()));
   for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {

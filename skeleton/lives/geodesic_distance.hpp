@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/surface.hpp>
@@ -18,8 +19,8 @@ class GeodesicDistance {
   explicit GeodesicDistance(const Surface& surface);
 
   /// n, in the surface's units; infinite where no way leads. O(n). May be called from several
-  /// threads.
-  [[nodiscard]] Eigen::VectorXf from(int vertex) const;
+  /// threads. Throws Cancelled soon after a stop was requested.
+  [[nodiscard]] Eigen::VectorXf from(int vertex, const std::stop_token& stop = {}) const;
 
  private:
   class Front;
@@ -46,9 +47,10 @@ class GeodesicDistance {
 
 /// n, the mean over the surface of the geodesic distance from each vertex: by `samples` vertices
 /// far from each other, each for the part of the surface that is nearest to it. `areas`: n, of the
-/// vertices. Precondition: one component. O(samples n).
+/// vertices. Precondition: one component. O(samples n). Throws
+/// Cancelled soon after a stop was requested.
 [[nodiscard]] Eigen::VectorXd mean_geodesic_distance(const Surface& surface,
                                                      const Eigen::VectorXd& areas, int samples,
-                                                     int threads);
+                                                     int threads, const std::stop_token& stop);
 
 }  // namespace curveskel

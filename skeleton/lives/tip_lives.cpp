@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <queue>
+#include <stop_token>
 #include <utility>
 
 #include <curveskel/advanced/closed_manifold.hpp>
@@ -39,12 +40,12 @@ std::vector<std::vector<int>> neighbours_of(const Surface& surface) {
 
 class Lives {
  public:
-  Lives(const Surface& surface, const LifeOptions& options)
+  Lives(const Surface& surface, const LifeOptions& options, const std::stop_token& stop)
       : surface_(surface),
         areas_(vertex_areas(surface)),
         whole_(areas_.sum()),
         size_(bounding_box_diagonal(surface.positions)),
-        value_(mean_geodesic_distance(surface, areas_, options.samples, options.threads)),
+        value_(mean_geodesic_distance(surface, areas_, options.samples, options.threads, stop)),
         around_(neighbours_of(surface)),
         triangles_(bucket<std::int32_t>(
             surface.triangles.size(), surface.positions.rows(),
@@ -273,7 +274,7 @@ std::vector<TipLife> tip_lives(const Surface& surface, const LifeOptions& option
   if (surface.positions.rows() == 0) return {};
   require_closed_manifold(surface, "tip_lives", options.threads);
   monitor.report("lives", 0);
-  return Lives(surface, options).find(options.least_height, monitor);
+  return Lives(surface, options, monitor.stop).find(options.least_height, monitor);
 }
 
 }  // namespace curveskel

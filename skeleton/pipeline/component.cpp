@@ -85,17 +85,31 @@ class Pipeline {
           [](const Made&) { return std::nullopt; }, monitor_, log));
     }
     const Shared<WorkingBalls> balls = balls_in(*source, working);
-    // Beside the contraction, which leaves a core idle.
-    auto lives = in_background(options_.threads, [working, stop = monitor_.stop] {
-      return lives_of(working->surface, stop);
-    });
+    auto lives = started_lives(working);
     const Cut cut = best_of(carry_out(
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
         [](const Cut&) { return std::nullopt; }, monitor_, log));
-    return embedded(cut, *balls, std::move(lives), needs_all_handles);
+    auto skeleton = embedded(cut, *balls, lives, needs_all_handles);
+    if (skeleton && stage_.keeps() && lives.valid()) kept_.lives = {{working}, lives.get()};
+    return skeleton;
   }
 
  private:
+  using Lives = std::shared_future<Shared<std::vector<TipLife>>>;
+
+  /// Beside the contraction, which leaves a core idle. Those kept are there already.
+  Lives started_lives(const Shared<Coarsened>& working) {
+    if (kept_.lives.value && kept_.lives.key == std::tuple(working)) {
+      return in_background(1, [kept = kept_.lives.value] { return kept; }).share();
+    }
+    return in_background(options_.threads,
+                         [working, stop = monitor_.stop] {
+                           return std::make_shared<const std::vector<TipLife>>(
+                               lives_of(working->surface, stop));
+                         })
+        .share();
+  }
+
   /// By fewer samples where there are few vertices.
   static std::vector<TipLife> lives_of(const Surface& surface, const std::stop_token& stop) {
     constexpr int vertices_per_sample = 64;
@@ -259,8 +273,8 @@ class Pipeline {
     monitor.curve({"surgery", 0, middles_of_groups(graph, vertices), graph.edges});
   }
 
-  Shared<CurveSkeleton> embedded(const Cut& cut, const WorkingBalls& trees,
-                                 std::future<std::vector<TipLife>> lives, bool needs_all_handles) {
+  Shared<CurveSkeleton> embedded(const Cut& cut, const WorkingBalls& trees, const Lives& lives,
+                                 bool needs_all_handles) {
     EmbedOptions embedding = options_.embed;
     embedding.detail = EmbedOptions().detail;  // a level is made of it below
     const Surface& surface = *cut.surface;
@@ -277,7 +291,7 @@ class Pipeline {
           if (!skeleton) return std::nullopt;
           EmbeddedCurve made{std::move(*skeleton), {}};
           steps("lives", [&] {
-            made.lives = lives.get();  // what levels cut keeps its vertices' numbers
+            made.lives = *lives.get();  // what levels cut keeps its vertices' numbers
             set_lives(made.skeleton, made.lives);
             // Tips so clear that they stay at every level.
             draw_missing(made.skeleton, surface, made.lives, trees.rough, least_life(0));
@@ -382,12 +396,15 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
                                  const Monitor& monitor, ComponentStages* kept, TryLog& log,
                                  int part_of) {
   const TriesOf of{part.number, part_of, part_of};
+  if (!may_be_finer(part, options)) return made_once(part, options, monitor, kept, log, of, false);
+  ComponentStages passing;
+  ComponentStages& stages = kept != nullptr ? *kept : passing;
   const int first = log.next();
-  ComponentResult coarse =
-      made_once(part, options, monitor, kept, log, of, may_be_finer(part, options));
+  ComponentResult coarse = made_once(part, options, monitor, &stages, log, of, true);
   if (coarse.skeleton) return coarse;
   for (int n = first; n < log.next(); ++n) log.drop(n);
   const ExtractOptions finest = with_all_vertices(options);
+  if (!stages.of_all_vertices) stages.of_all_vertices = std::make_shared<ComponentStages>();
   Part whole = part;
   whole.size.most =
       std::max(part.size.least, static_cast<int>(part.component.surface.positions.rows()));
@@ -398,17 +415,18 @@ ComponentResult component_result(const Part& part, const ExtractOptions& options
          return std::string("coarsened, the cycles do not go round all of its handles");
        },
        [&](const Plan<Made>::Room& room) {
-         return made_once(whole, finest, room.monitor, nullptr, room.log,
+         return made_once(whole, finest, room.monitor, stages.of_all_vertices.get(), room.log,
                           {part.number, room.number, part_of}, false);
        }}};
   auto so_far = carry_out(
       finer, of, [](const Made&, const Made*) { return true; },
       [](const Made&) { return std::nullopt; }, monitor, log);
-  if (!so_far.best) return made_once(part, options, monitor, kept, log, of, false);
-  ComponentResult fine = std::move(*so_far.best);
-  fine.times.insert(fine.times.begin(), coarse.times.begin(), coarse.times.end());
-  fine.has_all_vertices = true;
-  return fine;
+  const bool is_finer = so_far.best.has_value();
+  ComponentResult result = is_finer ? std::move(*so_far.best)
+                                    : made_once(part, options, monitor, &stages, log, of, false);
+  result.times.insert(result.times.begin(), coarse.times.begin(), coarse.times.end());
+  result.has_all_vertices = is_finer;
+  return result;
 }
 
 }  // namespace curveskel

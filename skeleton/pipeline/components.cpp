@@ -172,12 +172,9 @@ void make_side_by_side(ResultsInMaking& making, const std::vector<std::size_t>& 
   if (making.parts.size() > 1) {
     alone.threads = alone.fair.threads = alone.contraction.threads = alone.certificate.threads = 1;
   }
-  Monitor silent;  // callbacks are for the calling thread
-  silent.stop = stop;
   const std::thread::id caller = std::this_thread::get_id();
   const auto make = [&](std::size_t c) {
-    const bool here = std::this_thread::get_id() == caller;
-    making.make(c, alone, here ? notes.monitor() : silent);
+    making.make(c, alone, notes.monitor_of(c, std::this_thread::get_id() == caller));
   };
   parallel_for(components.size(), 1, options.threads, [&](std::size_t i, std::size_t) {
     if (making.first[components[i]] == components[i]) make(components[i]);
@@ -216,7 +213,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
   standing.resize(whole.components.size());
   const std::vector<Part> parts = parts_of(whole, options);
   const std::vector<std::size_t> small = small_parts(parts, whole.counted, options, standing);
-  NotesOfComponents notes(monitor);
+  NotesOfComponents notes(monitor, parts.size());
   ResultsInMaking making(parts, kept, part_of, first_of_each(parts, small));
   const bool watched = monitor.frame || monitor.curve;
   std::vector<char> waits(parts.size(), 0);  // to be made side by side
@@ -229,7 +226,7 @@ std::vector<ComponentResult> component_results(const Parts& whole, const Extract
     if (standing[c]) making.all[c] = std::move(*standing[c]);
     if (standing[c] || waits[c] != 0) continue;
     making.logs[c].first = next;
-    if (!making.take_over(c, monitor.stop)) making.make(c, options, notes.monitor());
+    if (!making.take_over(c, monitor.stop)) making.make(c, options, notes.monitor_of(c, true));
     next = making.logs[c].next();
   }
   if (!watched) make_side_by_side(making, small, options, notes, monitor.stop);

@@ -146,7 +146,8 @@ std::optional<ComponentResult> result_of_copy(const Part& first, const Component
                          result.record,
                          {},
                          {},
-                         {}};
+                         {},
+                         result.has_all_vertices};
 }
 
 }  // namespace curveskel

@@ -47,7 +47,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   const Surface& surface = repaired.surface;
   require_closed_manifold(surface, "evaluate_repaired", options.threads);
   const Topology counted = topology(surface);
-  const SurfaceTree tree(surface);
+  const SurfaceTree tree(surface, options.threads);
   const double diagonal = bounding_box_diagonal(surface.positions);
   const CertifiedSurface given{surface, tree, diagonal, counted.components(),
                                counted.total_genus()};
@@ -58,6 +58,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   std::vector<ComponentWrap> wraps;
   const auto owners = component_by_place(skeleton, split_components(surface, counted));
   const auto all_failing = failing_components(surface, counted, skeleton, owners, options, monitor);
+  if (all_failing.empty()) return result;
   const double gap = as_repaired.wrap_gap;
   const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(all_failing.size());
   for (const FailingComponent& failing : all_failing) {

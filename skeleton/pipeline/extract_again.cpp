@@ -87,8 +87,9 @@ Extracted extract_again(const Surface& surface, const AnotherWay& way, SurfaceSt
     return verdict_alone(before.parts->components[c].surface, before.parts->counted.genus[c],
                          diagonal, *result.skeleton, way.options.certificate, room.monitor);
   };
-  const NotesOfComponents notes(room.monitor);
-  OtherTries tries(way, *before.parts, stages, kept != nullptr, room, notes.monitor());
+  NotesOfComponents notes(room.monitor, 1);
+  const Monitor noting = notes.monitor_of(0, true);  // one after the other
+  OtherTries tries(way, *before.parts, stages, kept != nullptr, room, noting);
   StandingResults standing;
   bool any = false;
   for (std::size_t c = 0; c < before.components.size(); ++c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,35 +12,45 @@
 
 namespace curveskel {
 
-/// The notes of a surface's components: each line once, with the number of those it is about.
+/// The notes of a surface's components: each line once, with the number of those it is about, in
+/// the components' order whatever the threads'.
 class NotesOfComponents {
  public:
-  explicit NotesOfComponents(const Monitor& monitor) : monitor_(monitor), listening_(monitor) {
-    listening_.note = [this](std::string_view line) { ++times_of(line); };
-  }
-  NotesOfComponents(const NotesOfComponents&) = delete;
-  NotesOfComponents& operator=(const NotesOfComponents&) = delete;
-  ~NotesOfComponents() = default;
+  NotesOfComponents(const Monitor& monitor, std::size_t components)
+      : monitor_(monitor), lines_(components) {}
 
-  /// That of the components.
-  [[nodiscard]] const Monitor& monitor() const { return listening_; }
+  /// That of a component; the other callbacks are for the calling thread. Refers to this.
+  [[nodiscard]] Monitor monitor_of(std::size_t component, bool on_calling_thread) {
+    Monitor listening;
+    if (on_calling_thread) listening = monitor_;
+    listening.stop = monitor_.stop;
+    listening.note = [&lines = lines_[component]](std::string_view line) {
+      lines.emplace_back(line);
+    };
+    return listening;
+  }
 
   void say_all() const {
-    for (const auto& [line, times] : lines_) {
+    std::vector<std::pair<std::string, int>> counted;
+    for (const auto& lines : lines_) {
+      for (const std::string& line : lines) {
+        const auto known = std::find_if(counted.begin(), counted.end(),
+                                        [&](const auto& one) { return one.first == line; });
+        if (known != counted.end()) {
+          ++known->second;
+        } else {
+          counted.emplace_back(line, 1);
+        }
+      }
+    }
+    for (const auto& [line, times] : counted) {
       monitor_.say(times == 1 ? line : line + " (" + std::to_string(times) + " components)");
     }
   }
 
  private:
-  int& times_of(std::string_view line) {
-    const auto found = std::find_if(lines_.begin(), lines_.end(),
-                                    [&](const auto& known) { return known.first == line; });
-    return found != lines_.end() ? found->second : lines_.emplace_back(line, 0).second;
-  }
-
   const Monitor& monitor_;
-  Monitor listening_;
-  std::vector<std::pair<std::string, int>> lines_;
+  std::vector<std::vector<std::string>> lines_;  // by component
 };
 
 }  // namespace curveskel

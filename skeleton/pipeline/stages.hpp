@@ -101,6 +101,7 @@ struct ComponentStages {
   Kept<std::tuple<Shared<Canonical>, FairOptions>, Surface> faired;
   Kept<std::tuple<Shared<Surface>, WorkingSize>, Coarsened> working;
   Kept<std::tuple<Shared<Coarsened>>, WorkingBalls> balls;
+  Kept<std::tuple<Shared<Coarsened>>, std::vector<TipLife>> lives;
   std::array<ContractionAttempt, 2> contractions;  ///< as asked, and gentler
   Kept<std::tuple<Shared<WorkingBalls>>, LevelSets> level_sets;
   /// The number is the component's extent over the whole's; nothing if it misses handles that it
@@ -110,6 +111,7 @@ struct ComponentStages {
   /// The number is the level of detail.
   Kept<std::tuple<Shared<std::optional<EmbeddedCurve>>, double>, CurveSkeleton> skeleton;
   StagesAsContracted as_contracted;
+  std::shared_ptr<ComponentStages> of_all_vertices;  ///< if the coarsened one misses handles
 };
 
 struct Parts {

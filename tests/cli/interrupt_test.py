@@ -42,6 +42,18 @@ class Interrupt(CommandLineTest):
         self.assertLess(self.interrupted(process, 2), 10)
         self.assertEqual(self.files(), [])
 
+    def test_ends_a_write_to_a_pipe_that_nobody_reads(self):
+        small = write_torus(self.folder / "torus.ply", 300, 100)
+        process = start("extract", small, "-o", "-", "--format", "json", cwd=self.folder)
+        for line in process.stderr:
+            if line == b"write ...\n":
+                break
+        time.sleep(1)
+        self.assertIsNone(process.poll(), "all of it went into the pipe")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=10), 130)
+        Result(process)
+
     def test_leaves_an_old_output_as_it_was(self):
         old = self.folder / "x.obj"
         old.write_text("old")

@@ -131,6 +131,26 @@ class WrongArguments(CommandLineTest):
         self.assertEqual(mesh.read_bytes(), TORUS.read_bytes())
 
 
+    def test_never_overwrite_any_other_input(self):
+        self.run_ok("extract", Y, "-o", "one.json", "-o", "other.json", cwd=self.folder)
+        self.run_ok("rig", Y, "-o", "joints.json", "-o", "rigged.glb", cwd=self.folder)
+        frame = self.folder / "frames" / "0003.ply"
+        frame.parent.mkdir()
+        self.run_ok("fair", TORUS, "-o", frame)
+        before = {path: path.read_bytes() for path in self.folder.rglob("*.*")}
+        for arguments in (
+                ("evaluate", Y, "one.json", "--json", "one.json"),
+                ("evaluate", Y, "one.json", "--against", "other.json", "--json", "other.json"),
+                ("evaluate", "rigged.glb", "--rig-truth", "joints.json", "--json", "joints.json"),
+                ("rig", Y, "--joints", "joints.json", "-o", "joints.json"),
+                ("rig", Y, "--joints", "rigged.glb", "-o", "rigged.glb"),
+                ("rig", Y, "--skeleton", "one.json", "-o", "x.glb", "--report", "one.json"),
+                ("contract", frame, "-o", "x.ply", "--frames", "frames"),
+                ("contract", TORUS, "-o", "frames/0000.ply", "--frames", "frames")):
+            self.refused(USAGE, *arguments, says=["name another"], cwd=self.folder)
+        self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*.*")}, before)
+
+
 class WrongFiles(CommandLineTest):
     def test_a_missing_surface_is_an_input_fault(self):
         (self.folder / "skeleton.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/topology.hpp>
@@ -60,6 +61,36 @@ TEST(EvaluateRepaired, FindsNoWrapToExcuseAWrongSkeleton) {
   const RepairedEvaluation found = evaluate_repaired(repaired, {}, tree, {}, {});
   EXPECT_FALSE(found.wrapped);
   EXPECT_FALSE(found.certificate.topology_correct());
+}
+
+// The budget of wraps was divided among no components.
+TEST(EvaluateRepaired, AnEdgeFarFromAllComponentsNeedsNoWrap) {
+  const RepairedSurface repaired =
+      given(shapes::tube("limb", shapes::straight(4), shapes::constant(0.3), 12));
+  CurveSkeleton skeleton = extract(repaired.surface, {}, {}).skeleton;
+  const auto nodes = static_cast<int>(skeleton.nodes.rows());
+  skeleton.nodes.conservativeResize(nodes + 2, Eigen::NoChange);
+  skeleton.nodes.bottomRows(2) << 50, 50, 50, 51, 50, 50;
+  skeleton.edges.conservativeResize(skeleton.edges.rows() + 1, Eigen::NoChange);
+  skeleton.edges.bottomRows(1) << nodes, nodes + 1;
+  skeleton.radii.resize(0);
+  skeleton.lives.resize(0);
+  const RepairedEvaluation found = evaluate_repaired(repaired, {}, skeleton, {}, {});
+  EXPECT_FALSE(found.wrapped);
+  EXPECT_FALSE(found.certificate.correct());
+}
+
+TEST(EvaluateRepaired, RefusesASkeletonInAnotherUnit) {
+  const RepairedSurface repaired =
+      given(shapes::tube("limb", shapes::straight(4), shapes::constant(0.3), 12));
+  CurveSkeleton skeleton = extract(repaired.surface, {}, {}).skeleton;
+  for (const double unit : {1e6, 1e100, 1e300}) {
+    CurveSkeleton other = skeleton;
+    other.nodes *= unit;
+    EXPECT_THROW((void)evaluate_repaired(repaired, {}, other, {}, {}), Error);
+  }
+  skeleton.nodes *= 1000;
+  EXPECT_FALSE(evaluate_repaired(repaired, {}, skeleton, {}, {}).certificate.correct());
 }
 
 TEST(EvaluateRepaired, GivesPiecesToTheSmallestThatHoldsThem) {

@@ -12,6 +12,7 @@
 
 #include <curveskel/extract.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/skeleton/thin_walled.hpp"
 
 namespace curveskel::extraction_cache_laws {
 namespace {
@@ -256,6 +257,20 @@ TEST(CachedSurface, IsFreshThroughSecondContractionsAndLevelSets) {
   expect_from("level", options_with(1000, 2, 1, 0.5));
   expect_from("contract", options_with(3, 0.3, 1, 0.5));
   EXPECT_EQ(met, (std::set<std::string>{"as asked", "gentler contraction", "level-set graph"}));
+}
+
+// What its vertices gave was made anew in each run.
+TEST(CachedSurface, KeepsAComponentThatIsMadeFromAllItsVertices) {
+  const Surface sieve = thin_walled(3, 0.03);
+  ExtractOptions options;
+  options.resolution = 1;
+  options.least_resolution = 1;
+  ExtractionCache cache;
+  const Extraction first = extract(sieve, options, {}, cache);
+  ASSERT_EQ(first.components[0].working_vertices, first.components[0].vertices);
+  const Extraction again = extract(sieve, options, {}, cache);
+  expect_equal(first, again);
+  expect_run_from("", false, again);
 }
 
 TEST(CachedSurface, OfOtherContentStartsAnew) {

@@ -14,6 +14,7 @@
 #include <curveskel/extract_repaired.hpp>
 #include "meshes/shapes.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
+#include "tests/skeleton/thin_walled.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::tries_laws {
@@ -195,24 +196,6 @@ TEST(History, TellsWhySecondContractionsAndLevelSetsWereMade) {
     watch.expect_all_in(found.history);
     EXPECT_EQ(watch.numbers().size(), found.history.size() - 1);
   }
-}
-
-/// A sieve with walls this thick, holes of 1, in waves.
-Surface thin_walled(int holes_along, double wall) {
-  Surface surface = shapes::subdivided(shapes::sieve(holes_along)).surface;
-  const auto along = [wall](double cells) {
-    double length = 0;
-    for (int cell = 0; cell < cells; ++cell) {
-      length += std::min(cells - cell, 1.0) * (cell % 2 == 0 ? wall : 1);
-    }
-    return length;
-  };
-  for (auto row : surface.positions.rowwise()) {
-    const double x = along(row.x());
-    const double y = along(row.y());
-    row << x + 0.15 * std::sin(3 * y), y, row.z() + 0.3 * std::sin(2 * x) * std::cos(2 * y);
-  }
-  return surface;
 }
 
 // Walls that the coarsened triangles cannot tell apart have other handles there. That was found

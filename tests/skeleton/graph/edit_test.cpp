@@ -17,6 +17,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/levels.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
 #include "tests/skeleton/graph/edited_skeletons.hpp"
@@ -57,6 +58,37 @@ TEST(Edits, OfASkeletonWithoutRadiiAndVerticesAddNone) {
         move_node(bare, 0, {0, 0, 0}, &tree), cut_edge(bare, 0), split_edge(bare, 0, 0.5, &tree)}) {
     expect_invariants(after, bare);
   }
+}
+
+int tips_at_usual_detail(const CurveSkeleton& skeleton) {
+  return graph_topology(level_of(skeleton, least_life(ExtractOptions().embed.detail))).tips;
+}
+
+// A limb whose tip was drawn on or shortened by hand had no life, so a level hid the whole of it.
+TEST(Edits, KeepTheLifeOfALimb) {
+  int asked = 0;
+  for (const Subject& subject : subjects()) {
+    const CurveSkeleton& before = subject.skeleton;
+    const int tips = tips_at_usual_detail(before);
+    for (int node = 0; node < nodes_of(before); ++node) {
+      const auto neighbours = neighbours_of(before, node);
+      if (neighbours.size() > 2) continue;
+      ++asked;
+      SCOPED_TRACE(subject.name + ", node " + std::to_string(node));
+      const Eigen::Vector3d beyond =
+          before.nodes.row(node).transpose() + Eigen::Vector3d(0.1, 0.2, 0.3);
+      const CurveSkeleton longer = add_node(before, node, beyond);
+      EXPECT_EQ(tips_at_usual_detail(longer), tips + (neighbours.size() == 2 ? 1 : 0));
+      const auto last = longer.lives.size() - 1;
+      EXPECT_GT(longer.lives[last], 0);
+      if (neighbours.size() == 2) continue;
+      EXPECT_EQ(longer.lives[last], before.lives[node]);
+      EXPECT_EQ(longer.lives[node], 0);
+      if (neighbours_of(before, neighbours[0]).size() > 2) continue;
+      EXPECT_EQ(tips_at_usual_detail(remove_node(before, node)), tips);
+    }
+  }
+  EXPECT_GT(asked, 100);
 }
 
 TEST(Edits, GiveTheVerticesOfAPrunedBranchToItsJunction) {

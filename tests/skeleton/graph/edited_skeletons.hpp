@@ -65,6 +65,7 @@ inline void expect_invariants(const CurveSkeleton& now, const CurveSkeleton& sta
   }
   ASSERT_EQ(now.radii.size(), start.radii.size() > 0 ? nodes : 0);
   ASSERT_TRUE((now.radii.array() >= 0).all());
+  ASSERT_EQ(now.lives.size(), start.lives.size() > 0 ? nodes : 0);
   ASSERT_TRUE(now.nodes.allFinite());
   ASSERT_EQ(now.node_of_vertex.size(), start.node_of_vertex.size());
   for (Eigen::Index v = 0; v < start.node_of_vertex.size(); ++v) {
