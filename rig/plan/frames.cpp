@@ -1,6 +1,7 @@
 #include "rig/plan/frames.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 
 #include <curveskel/error.hpp>
@@ -37,6 +38,11 @@ Eigen::Matrix3d axes_of(const Vector3d& up, const Vector3d& front) {
 }
 
 }  // namespace
+
+Direction direction_of(const Vector3d& axis) {
+  const auto is_along = [&](const auto& one) { return vector_of(one.value).dot(axis) > 0.5; };
+  return std::find_if(directions.begin(), directions.end(), is_along)->value;
+}
 
 std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options) {
   // The usual ones first: y up and z ahead, as in glTF, or z up and -y ahead, as in Blender; then

@@ -11,6 +11,9 @@ namespace curveskel {
 /// The usual one first. Throws Error(usage) where up and front are one direction.
 [[nodiscard]] std::vector<Eigen::Matrix3d> frames_of(const PlanOptions& options);
 
+/// Precondition: `axis` is one of a frame's.
+[[nodiscard]] Direction direction_of(const Eigen::Vector3d& axis);
+
 /// Those of a body whose up is none of a file's usual directions; none where up is given. Up is
 /// never -y: few bodies lie so in files whose up is z, and chairs upside down have arms and legs.
 [[nodiscard]] std::vector<Eigen::Matrix3d> frames_of_lying(const PlanOptions& options);

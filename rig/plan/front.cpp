@@ -15,6 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double clearly_ahead = 0.05;  // of a leg's length
+constexpr double foot_height = 0.1;     // the same, at most
+constexpr double shin_height = 0.35;    // its upper end
 
 // Of the way from the hip to the tip of the foot, by the heights of knees and ankles and by a foot
 // of a fifth of it.
@@ -31,10 +33,10 @@ double reach_ahead(const Places& places, const Seen& seen) {
   int count = 0;
   for (const auto& place : places) {
     const Vector2d p = seen(place);
-    if (p.y() < 0.1) {
+    if (p.y() < foot_height) {
       ahead = std::max(ahead, p.x());
       behind = std::min(behind, p.x());
-    } else if (p.y() < 0.35) {
+    } else if (p.y() < shin_height) {
       shin += p.x();
       ++count;
     }
@@ -50,6 +52,24 @@ double foot_ahead(const CurveTree& tree, const LimbPair& leg) {
     const Vector3d& p = tree.vertices[idx(v)];
     return Vector2d(p.z(), (p.y() - tree.ground) / length);
   });
+}
+
+/// Points evenly over the left foot and shin, those nearest to the leg's nodes: boots of boxes have
+/// vertices at their toes alone.
+std::vector<Vector3d> surface_of_shin(const CurveTree& tree, const Limbs& limbs,
+                                      const LimbPair& leg) {
+  const std::vector<char> is_own = nodes_of_side(tree, limbs, leg.ways.front().path);
+  const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
+  std::vector<Vector3d> surface;
+  for (const Vector3d& p : tree.spread) {
+    if (p.y() > tree.ground + shin_height * length) continue;
+    std::size_t nearest = 0;
+    for (std::size_t n = 1; n < tree.nodes.size(); ++n) {
+      if ((tree.nodes[n] - p).squaredNorm() < (tree.nodes[nearest] - p).squaredNorm()) nearest = n;
+    }
+    if (is_own[nearest] != 0) surface.push_back(p);
+  }
+  return surface;
 }
 
 /// A leg of a human in a pose, seen from its side: (z, y).
@@ -142,7 +162,10 @@ double ears_ahead(const CurveTree& tree, const Limbs& limbs, const PlanFound& fo
 bool toes_point_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   const LimbPair& leg = limbs.pairs[idx(found.legs.front())];
   const double length = tree.nodes[idx(leg.root)].y() - tree.ground;
-  return -foot_ahead(tree, leg) > clearly_ahead * length;
+  const double ahead = reach_ahead(surface_of_shin(tree, limbs, leg), [&](const Vector3d& p) {
+    return Vector2d(p.z(), (p.y() - tree.ground) / length);
+  });
+  return -ahead > clearly_ahead * length;
 }
 
 bool legs_bend_back(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {

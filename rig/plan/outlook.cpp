@@ -63,12 +63,29 @@ struct Refusal {
   }
 };
 
+/// Four feet on one ground are less of an accident than two: a stag that lies on its back stands on
+/// its hind legs, with antlers for arms.
+void prefer_four_feet(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames,
+                      const PlanOptions& options, Outlook& human) {
+  for (const Eigen::Matrix3d& axes : frames) {
+    if (axes.row(1) == human.axes.row(1)) continue;
+    Outlook other = look(Sides::images, body, axes, options.plan);
+    if (other.found.plan != BodyKind::quadruped) continue;
+    if (asymmetry(other.tree, 0, other.tree.middle) >= symmetric) continue;
+    human = std::move(other);
+    return;
+  }
+}
+
 Outlook best_by_place(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames,
                       const PlanOptions& options, Refusal& refusal) {
   Outlook best = look(Sides::images, body, frames.front(), options.plan);
   refusal.consider(best);
   double off = asymmetry(best.tree, 0, best.tree.middle);
-  if (is_clear(best.found.plan) && off < symmetric) return best;
+  if (is_clear(best.found.plan) && off < symmetric) {
+    if (best.found.plan == BodyKind::humanoid) prefer_four_feet(body, frames, options, best);
+    return best;
+  }
   for (std::size_t k = 1; k < frames.size(); ++k) {
     Outlook other = look(Sides::images, body, frames[k], options.plan);
     refusal.consider(other);
@@ -123,7 +140,7 @@ Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
   return best;
 }
 
-Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
+Outlook best_of_tubes(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
   Outlook best = best_by_place(body, frames, options, refusal);
@@ -148,6 +165,11 @@ Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
     best.found.reason = refusal.reason;
   }
   return best;
+}
+
+Outlook best_before_turning(LookedAt& body, const PlanOptions& options) {
+  const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
+  return may_be_any ? best_of_tubes(body, options) : best_of_flat_parts(body, options);
 }
 
 bool is_turned(const Outlook& outlook, const PlanOptions& options) {
@@ -177,6 +199,19 @@ bool hides_limbs(const Outlook& outlook) {
          (outlook.found.is_forced && !shows_all_limbs(outlook));
 }
 
+/// The same body from its other side, where other limbs may be what is seen first.
+Outlook turned_round(LookedAt& body, const Outlook& outlook, const PlanOptions& options) {
+  const Eigen::Matrix3d axes =
+      Eigen::Vector3d(-1, 1, -1).asDiagonal() * outlook.axes;  // left, up, front
+  if (outlook.found.hidden) return as_standing(look(outlook.sides, body, axes, BodyKind::other));
+  Outlook same = look(outlook.sides, body, axes, options.plan);
+  if (same.found.plan == outlook.found.plan) return same;
+  PlanOptions turned = options;
+  turned.up = direction_of(axes.row(1));
+  turned.front = direction_of(axes.row(2));
+  return best_before_turning(body, turned);
+}
+
 }  // namespace
 
 bool is_alike_from_both_ends(const Outlook& outlook) {
@@ -196,9 +231,7 @@ bool is_alike_from_both_ends(const Outlook& outlook) {
 Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
                      const PlanOptions& options) {
   LookedAt body(surface, skeleton);
-  const bool may_be_any = options.made_of_tubes || options.plan != BodyKind::automatic;
-  Outlook outlook =
-      may_be_any ? best_before_turning(body, options) : best_of_flat_parts(body, options);
+  Outlook outlook = best_before_turning(body, options);
   if (options.plan == BodyKind::humanoid && options.by_proportion && hides_limbs(outlook)) {
     std::optional<Outlook> standing = best_standing(body, options);
     if (standing) {
@@ -207,13 +240,7 @@ Outlook best_outlook(const Surface& surface, const CurveSkeleton& skeleton,
       outlook.found.reason.insert(0, "it is not upright, and ");
     }
   }
-  if (is_turned(outlook, options)) {
-    Eigen::Matrix3d axes = outlook.axes;
-    axes.row(0) *= -1;
-    axes.row(2) *= -1;
-    outlook = outlook.found.hidden ? as_standing(look(outlook.sides, body, axes, BodyKind::other))
-                                   : look(outlook.sides, body, axes, options.plan);
-  }
+  if (is_turned(outlook, options)) outlook = turned_round(body, outlook, options);
   if (outlook.sides == Sides::posed) move_spread(outlook.posed, outlook.tree);
   const std::vector<Eigen::Matrix3d> usual = frames_of(options);
   if (std::none_of(usual.begin(), usual.end(), [&](const Eigen::Matrix3d& axes) {
