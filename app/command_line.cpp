@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <numeric>
 #include <string>
@@ -137,6 +138,16 @@ std::string what_is_too_much(const CLI::App& verb) {
   return name + " is no option; the options are: " + options_of(verb);
 }
 
+/// Of a file whose name begins with a dash; empty if none is given.
+std::string what_looks_like_an_option(const CLI::App& verb) {
+  for (const std::string& text : verb.remaining()) {
+    std::error_code none;
+    if (!text.starts_with("-") || !std::filesystem::exists(text, none)) continue;
+    return text + " begins as options do; for the file write ./" + text;
+  }
+  return "";
+}
+
 /// CLI11's words for options that are given too often or without a value, in plain ones.
 std::string in_plain_words(std::string message) {
   const std::string often = "At Most 1 required but received ";
@@ -161,8 +172,11 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   }
   const CLI::App& verb = *chosen.front();
   const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  const std::string message =
-      verb.get_name() + ": " + (has_extras ? what_is_too_much(verb) : in_plain_words(error.what()));
+  const std::string file = what_looks_like_an_option(verb);
+  const std::string fault = !file.empty() ? file
+                            : has_extras  ? what_is_too_much(verb)
+                                          : in_plain_words(error.what());
+  const std::string message = verb.get_name() + ": " + fault;
   return message + "\nsee curveskel " + verb.get_name() + " --help";
 }
 

@@ -71,14 +71,22 @@ JointPlaces places_of(const Rig& rig, const Positions& positions,
                       const std::filesystem::path& file) {
   const Eigen::Index count = rig.joints.rows();
   const Eigen::Index within = joints_within(rig, positions, 1);
-  if (2 * within >= count) return {};
+  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(positions);
+  const auto fits_times = [&](double factor) {
+    constexpr double alike = 3;  // a skeleton is about as large as its body
+    const bool is_as_large = factor * sizes < alike && factor * sizes > 1 / alike;
+    return is_as_large && 2 * joints_within(rig, positions, factor) >= count;
+  };
+  if (2 * within >= count && !fits_times(100)) return {};
+  if (2 * within >= count) {
+    return {true, fmt::format("{}: the joints lie within {:.2g} of the size of the surface; times "
+                              "100 they would be as large as it: export both in one unit",
+                              file.string(), sizes)};
+  }
   std::string remedy =
       "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
-  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(positions);
   for (const double factor : {0.01, 100.0}) {
-    constexpr double alike = 3;  // a skeleton is about as large as its body
-    const bool fits = factor * sizes < alike && factor * sizes > 1 / alike;
-    if (!fits || 2 * joints_within(rig, positions, factor) < count) continue;
+    if (!fits_times(factor)) continue;
     remedy = fmt::format("times {} they would: export both in one unit", factor);
   }
   return {within > 0,

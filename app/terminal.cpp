@@ -102,12 +102,11 @@ void Terminal::result(std::string_view text) {
 
 void Terminal::write_output(std::string_view bytes) {
   const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
-  if (written != bytes.size() || std::fflush(stdout) != 0) {
-    throw Error(Fault::output,
-                fmt::format("standard output: could write {} of {} bytes ({}); write to a file "
-                            "with -o FILE",
-                            written, bytes.size(), std::strerror(errno)));
-  }
+  if (written == bytes.size() && std::fflush(stdout) == 0) return;
+  throw Error(Fault::output,
+              fmt::format("standard output: could not write all of {} bytes ({}); write to a file "
+                          "with -o FILE",
+                          bytes.size(), std::strerror(errno)));
 }
 
 }  // namespace curveskel

@@ -89,6 +89,15 @@ void require_no_frame(const fs::path& file, const fs::path& folder) {
   throw UsageError(file.string() + ": --frames would write over it; name another folder");
 }
 
+/// Of a longer run before this one, after the last of this one's.
+void warn_of_older_frames(const fs::path& folder, std::size_t count, Session& session) {
+  const std::string next = fmt::format("{:04}.ply", count);
+  if (!fs::exists(folder / next)) return;
+  session.terminal.warn(fmt::format(
+      "{}: {} and those after it are of an earlier run; remove them, or name another folder",
+      folder.string(), next));
+}
+
 /// The contraction of one component, in a line.
 std::string outcome(const Contraction& contraction, int component) {
   const auto reason = std::find_if(stops.begin(), stops.end(),
@@ -136,6 +145,7 @@ int run_contract(const ContractArguments& arguments, Session& session) {
                                         : frame_files(frames, arguments.frames, provenance);
   files.push_back({arguments.output, format_surface(written, format, provenance)});
   write_outputs(files, session);
+  if (files.size() > 1) warn_of_older_frames(arguments.frames, files.size() - 1, session);
 
   if (!arguments.quiet) {
     if (files.size() > 1) {

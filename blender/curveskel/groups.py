@@ -63,7 +63,7 @@ def check_mirrored(thing, rows, rig, names):
             f"{thing.name}: its mirror modifier would move the half that it makes with the other "
             f"half's bones, as it gives nothing to {max(set(wrong), key=wrong.count)}; apply it, "
             "or turn its Vertex Groups on and choose Names that Blender mirrors: auto, rigify, "
-            "vrm, unreal or unity")
+            "vrm, unreal, unity or godot")
 
 
 def fill(thing, rows, rig, names, old_bones):

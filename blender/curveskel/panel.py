@@ -11,7 +11,7 @@ PLANS = [(name, name, meaning) for name, meaning in (
 NAMES = [(name, name, meaning) for name, meaning in (
     ("auto", "readable, with .L and .R"), ("rigify", "Rigify's human or wolf"),
     ("vrm", "VRM 1.0"), ("mixamo", "Mixamo"), ("unreal", "Unreal's mannequin"),
-    ("unity", "Unity and Godot"), ("neutral", "joint_001 and so on"))]
+    ("unity", "Unity"), ("godot", "Godot"), ("neutral", "joint_001 and so on"))]
 AXES = [(name, name, "") for name in ("x", "y", "z", "-x", "-y", "-z")]
 
 

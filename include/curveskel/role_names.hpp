@@ -11,14 +11,24 @@
 
 namespace curveskel {
 
-enum class NameStyle : std::uint8_t { automatic, neutral, vrm, mixamo, unreal, unity, rigify };
-inline constexpr NameTable<NameStyle, 7> name_styles{{
+enum class NameStyle : std::uint8_t {
+  automatic,
+  neutral,
+  vrm,
+  mixamo,
+  unreal,
+  unity,
+  godot,
+  rigify
+};
+inline constexpr NameTable<NameStyle, 8> name_styles{{
     {NameStyle::automatic, "auto", "readable words with .L and .R, as Blender mirrors them"},
     {NameStyle::neutral, "neutral", "joint_001 and so on"},
     {NameStyle::vrm, "vrm", "VRM 1.0, of humanoids"},
     {NameStyle::mixamo, "mixamo", "Mixamo, of humanoids"},
     {NameStyle::unreal, "unreal", "Unreal's mannequin, of humanoids"},
-    {NameStyle::unity, "unity", "Unity and Godot, of humanoids"},
+    {NameStyle::unity, "unity", "Unity, of humanoids"},
+    {NameStyle::godot, "godot", "Godot, of humanoids"},
     {NameStyle::rigify, "rigify", "Rigify's human or wolf"},
 }};
 

@@ -51,7 +51,7 @@ def match(a, b, *, by_shape=False, threads=0, time_limit=0, progress=None, **opt
     threads, time_limit, progress: as of `extract`; the limit is for all of it.
     options: those of `extract`, for what is extracted here.
 
-    Raises UsageError for a skeleton that was read from a file, and what `extract` raises.
+    Raises UsageError for a skeleton that was read from a file or pickled, and what `extract` raises.
     """
     sides = []
     threads = index(threads, "threads", 0, MOST_THREADS)
@@ -61,7 +61,8 @@ def match(a, b, *, by_shape=False, threads=0, time_limit=0, progress=None, **opt
                 side = extracted(side, listener, dict(options, threads=threads))
                 warn_or_fail(side, False, 2)
             if not hasattr(side._extraction, "picture"):  # of a file, or pickled
-                raise UsageError("match: needs skeletons with their surfaces, as extract makes them")
+                raise UsageError("match: needs skeletons with their surfaces, as extract makes them; "
+                                 "of one from a file or a pickle give the surface instead")
             sides.append(side)
         found = _core.match(sides[0]._extraction, sides[1]._extraction, by_shape, threads,
                             listener)

@@ -132,13 +132,12 @@ class Skeleton:
         most: so many levels, 1 to 100; fewer where the lives of the branches tell fewer apart. Each
             is part of the one before; limits are the widest gaps between the lives.
 
-        Each has its own certificate, and nodes and branches their own numbers. Raises UsageError of
-        a skeleton that was pickled.
+        Each has its own certificate, and nodes and branches their own numbers. Those of a skeleton
+        that was pickled have neither certificate nor surface, as those of a file.
         """
         count = index(most, "most", 1, 100)
-        if self._extraction is None:
+        if self._extraction is None or isinstance(self._extraction, _Kept):
             return [Skeleton(graph) for graph in self._graph.levels(count)]
-        self._need_surface("levels")
         with listening(progress) as listener:
             return [Skeleton(level.skeleton, level)
                     for level in self._extraction.levels(count, listener)]

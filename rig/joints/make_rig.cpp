@@ -7,44 +7,16 @@
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
-#include "base/parallel.hpp"
+#include "rig/joints/fully_mapped.hpp"
 #include "rig/joints/ground_nodes.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/joints/sides.hpp"
 #include "rig/joints/sound_rig.hpp"
 #include "rig/joints/standing_joints.hpp"
 #include "rig/skin/skin_bones.hpp"
-#include "skeleton/graph/node_balls.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
 namespace curveskel {
-namespace {
-
-/// The skeleton with a node for every vertex.
-CurveSkeleton fully_mapped(const Surface& surface, const CurveSkeleton& skeleton, int threads,
-                           const Monitor& monitor) {
-  CurveSkeleton mapped = skeleton;
-  if (mapped.node_of_vertex.size() == 0) {
-    mapped.node_of_vertex.setConstant(surface.positions.rows(), -1);
-  }
-  const NodeBalls balls(skeleton);
-  constexpr std::size_t block = 16384;
-  const auto count = static_cast<std::size_t>(mapped.node_of_vertex.size());
-  for (std::size_t first = 0; first < count; first += block) {
-    monitor.report("joints", static_cast<double>(first) / static_cast<double>(count));
-    parallel_for(std::min(block, count - first), 512, threads,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t k = first + begin; k < first + end; ++k) {
-                     const auto v = static_cast<Eigen::Index>(k);
-                     int& node = mapped.node_of_vertex[v];
-                     if (node < 0) node = balls.nearest(surface.positions.row(v).transpose());
-                   }
-                 });
-  }
-  return mapped;
-}
-
-}  // namespace
 
 void require_valid(const RigOptions& options) {
   require_valid(options.joints);

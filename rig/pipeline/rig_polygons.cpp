@@ -13,6 +13,7 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/joints/fully_mapped.hpp"
 #include "rig/pipeline/figures.hpp"
 
 namespace curveskel {
@@ -52,6 +53,10 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
   if (sources.skeleton) {
     curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
                                           body.surface.positions.rows());
+    // Plans are by the vertices of limbs, too; most formats of skeletons have none.
+    if (curve.skeleton.node_of_vertex.size() == 0) {
+      curve.skeleton = fully_mapped(body.surface, curve.skeleton, options.threads, monitor);
+    }
     return curve;
   }
   ExtractOptions wanted = options.extract;

@@ -131,6 +131,7 @@ std::string_view word(const HumanWords& words, NameStyle style) {
     case NameStyle::unreal:
       return words.unreal;
     case NameStyle::unity:
+    case NameStyle::godot:
       return words.unity;
     case NameStyle::rigify:
       return words.rigify;
@@ -159,6 +160,11 @@ std::string finger_name(std::string_view left, NameStyle style) {
       case NameStyle::unreal:
         return with(words.unreal, "_0" + number, "_l");
       case NameStyle::unity:
+        // Its thumbs have joints as the other fingers do.
+        return words.role == "Thumb" && joint < 2
+                   ? with("Left", words.role, joints[static_cast<std::size_t>(joint) + 1])
+                   : with("Left", left, "");
+      case NameStyle::godot:
         return with("Left", left, "");
       case NameStyle::rigify:
         return with(words.rigify, ".0" + number, ".L");

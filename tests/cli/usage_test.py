@@ -131,6 +131,12 @@ class WrongArguments(CommandLineTest):
         self.assertEqual(mesh.read_bytes(), TORUS.read_bytes())
 
 
+    def test_a_name_that_begins_with_a_dash(self):
+        (self.folder / "-x.off").write_bytes(Y.read_bytes())
+        self.refused(USAGE, "extract", "-x.off", "-o", "x.obj", says=["write ./-x.off"],
+                     cwd=self.folder)
+        self.run_ok("extract", "./-x.off", "-o", "x.obj", cwd=self.folder)
+
     def test_never_overwrite_any_other_input(self):
         self.run_ok("extract", Y, "-o", "one.json", "-o", "other.json", cwd=self.folder)
         self.run_ok("rig", Y, "-o", "joints.json", "-o", "rigged.glb", cwd=self.folder)
@@ -149,6 +155,14 @@ class WrongArguments(CommandLineTest):
                 ("contract", TORUS, "-o", "frames/0000.ply", "--frames", "frames")):
             self.refused(USAGE, *arguments, says=["name another"], cwd=self.folder)
         self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*.*")}, before)
+
+
+class Frames(CommandLineTest):
+    def test_of_an_earlier_run_are_told_of(self):
+        for count, warned in ((5, False), (3, True), (5, False)):
+            result = self.run_ok("contract", TORUS, "-o", "x.ply", "--frames", "frames",
+                                 "--iterations", count, cwd=self.folder)
+            self.assertEqual("earlier run" in result.err, warned, result.err)
 
 
 class WrongFiles(CommandLineTest):

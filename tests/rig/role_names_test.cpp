@@ -31,7 +31,9 @@ TEST(RoleNames, OfFingersAreThoseOfThePrograms) {
   has(NameStyle::vrm, {"leftThumbMetacarpal", "leftThumbDistal", "rightLittleIntermediate"});
   has(NameStyle::mixamo, {"mixamorig:LeftHandThumb1", "mixamorig:RightHandPinky2"});
   has(NameStyle::unreal, {"thumb_01_l", "thumb_03_l", "pinky_02_r"});
-  has(NameStyle::unity, {"LeftThumbMetacarpal", "RightLittleIntermediate"});
+  has(NameStyle::unity, {"LeftThumbProximal", "LeftThumbIntermediate", "RightThumbDistal",
+                         "RightLittleIntermediate"});
+  has(NameStyle::godot, {"LeftThumbMetacarpal", "LeftThumbProximal", "RightLittleIntermediate"});
   has(NameStyle::rigify, {"thumb.01.L", "f_pinky.02.R"});
   has(NameStyle::automatic, {"thumb_1.L", "thumb_3.L", "finger_pinky_2.R"});
 }
@@ -66,7 +68,8 @@ TEST(RoleNames, AreUniqueAndOfTheirStyle) {
                 is_human && style.value == NameStyle::mixamo);
       EXPECT_EQ(names.count("calf_r") > 0, is_human && style.value == NameStyle::unreal);
       EXPECT_EQ(names.count("rightLowerLeg") > 0, is_human && style.value == NameStyle::vrm);
-      EXPECT_EQ(names.count("RightLowerLeg") > 0, is_human && style.value == NameStyle::unity);
+      EXPECT_EQ(names.count("RightLowerLeg") > 0,
+                is_human && (style.value == NameStyle::unity || style.value == NameStyle::godot));
       EXPECT_EQ(names.count("forearm.R") > 0, is_human && style.value == NameStyle::rigify);
       EXPECT_EQ(names.count("upper_leg.L") > 0, is_human && style.value == NameStyle::automatic);
       // A limb is called after the joint of the plan that it hangs from.

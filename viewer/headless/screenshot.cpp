@@ -90,6 +90,12 @@ void go_to(Scene& scene, const StageWish& wish) {
   }
 }
 
+std::string name_of_frame(int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%04d.png", frame);
+  return name;
+}
+
 void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& options,
                      Session& session) {
   const Monitor monitor = session.monitor();
@@ -98,8 +104,8 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
   // image, so that the middle of the box is the middle of the picture.
   std::vector<glm::vec3> points = scene.points();
   const glm::vec3 middle = scene.bounds().middle();
-  std::transform(scene.points().begin(), scene.points().end(), std::back_inserter(points),
-                 [&](const glm::vec3& point) { return 2.0F * middle - point; });
+  const std::size_t count = points.size();
+  for (std::size_t k = 0; k < count; ++k) points.push_back(2.0F * middle - points[k]);
   float distance = 0;
   for (int frame = 0; frame < options.frames; ++frame) {
     const float angle = 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames);
@@ -112,13 +118,15 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
   scene.camera.target = middle;
   for (int frame = 0; frame < options.frames; ++frame) {
     monitor.report("turntable", static_cast<double>(frame) / options.frames);
-    char name[32];
-    std::snprintf(name, sizeof name, "%04d.png", frame);
-    write_outputs({{(options.turntable / name).string(),
+    write_outputs({{(options.turntable / name_of_frame(frame)).string(),
                     screenshot(scene, renderer, options.width, options.height)}},
                   session);
     orbit(scene.camera, 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
   }
+  if (!fs::exists(options.turntable / name_of_frame(options.frames))) return;
+  session.terminal.warn(options.turntable.string() + ": " + name_of_frame(options.frames) +
+                        " and those after it are of an earlier run; remove them, or name another "
+                        "folder");
 }
 
 /// Drawn so many times as wide and high, for smooth edges.
@@ -239,7 +247,17 @@ void require_picture_of(int width, int height, const Look& look, Renderer& rende
   triangle.surface.triangles << 0, 1, 2;
   Scene scene(std::move(triangle));
   scene.look = look;
-  (void)drawn(scene, renderer, width, height, {0, 0, width, height});
+  try {
+    (void)drawn(scene, renderer, width, height, {0, 0, width, height});
+  } catch (const Error& error) {
+    if (error.fault() != Fault::device) throw;
+    throw Error(Fault::device,
+                "--size " + std::to_string(width) + "x" + std::to_string(height) +
+                    ": OpenGL made no picture so large, which is drawn " +
+                    std::to_string(factor_of(width, height)) +
+                    " times as wide and high, for smooth edges; take a smaller one, 2048x2048 "
+                    "every driver draws");
+  }
 }
 
 }  // namespace

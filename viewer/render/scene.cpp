@@ -25,15 +25,18 @@ void add_ball(std::vector<glm::vec3>& points, const glm::vec3& middle, float rad
   }
 }
 
-/// Enough of them to fit the picture to.
-std::vector<glm::vec3> some_points(const Document& document, const ShownSurface& given) {
+std::vector<glm::vec3> some_of(const std::vector<glm::vec3>& positions) {
   constexpr std::size_t enough = 50000;
   std::vector<glm::vec3> points;
-  const std::size_t every = given.positions.size() / enough + 1;
-  points.reserve(given.positions.size() / every + 1);
-  for (std::size_t v = 0; v < given.positions.size(); v += every) {
-    points.push_back(given.positions[v]);
-  }
+  const std::size_t every = positions.size() / enough + 1;
+  points.reserve(positions.size() / every + 1);
+  for (std::size_t v = 0; v < positions.size(); v += every) points.push_back(positions[v]);
+  return points;
+}
+
+/// Enough of them to fit the picture to.
+std::vector<glm::vec3> some_points(const Document& document, const ShownSurface& given) {
+  std::vector<glm::vec3> points = some_of(given.positions);
   if (document.rig) {
     for (const auto& joint : document.rig->joints.rowwise()) {
       points.push_back(shown_point(joint, document.space));
@@ -196,6 +199,25 @@ void Scene::upload_given(Renderer& renderer, const Uploaded& now) const {
   }
 }
 
+bool Scene::moves_with(const Rig& rig) const {
+  return rig.weights.rows() == document.surface.positions.rows();
+}
+
+std::vector<glm::vec3> Scene::points() const {
+  const auto shown = rig();
+  const auto turned = turns();
+  if (!turned || !moves_with(*shown)) return points_;
+  ShownSurface moved;
+  move_surface(moved,
+               moved_surface(document.surface.positions, *shown, joint_motions(*shown, *turned)),
+               document.space);
+  std::vector<glm::vec3> points = some_of(moved.positions);
+  for (const auto& joint : joints_now().rowwise()) {
+    points.push_back(shown_point(joint, document.space));
+  }
+  return points;
+}
+
 /// Without triangles, as `given_`.
 ShownSurface Scene::turned_surface(const Uploaded& now) const {
   const Positions moved =
@@ -286,8 +308,7 @@ bool Scene::upload(Renderer& renderer) {
   now.curve = shows_curve();
   now.look = look_now();
   now.highlights = highlights;
-  const bool can_turn = now.rig && now.rig->weights.rows() == document.surface.positions.rows();
-  if (can_turn) now.turns = turns();
+  if (now.rig && moves_with(*now.rig)) now.turns = turns();
   // Lit up vertices need colours of their own.
   const bool own_look = now.look.surface_colour == ColourBy::file && highlights.nodes.empty() &&
                         highlights.failed_faces.empty();

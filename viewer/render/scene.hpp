@@ -56,7 +56,8 @@ class Scene {
   /// True if the curve is seen now; bones stand for it if it was made a rig of.
   [[nodiscard]] bool shows_curve() const;
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
-  [[nodiscard]] const std::vector<glm::vec3>& points() const { return points_; }
+  /// Enough points of all that is shown to fit the camera to, as turned joints move them.
+  [[nodiscard]] std::vector<glm::vec3> points() const;
   /// Rows right, up, to the viewer of the first view.
   [[nodiscard]] const glm::mat3& best_axes() const { return best_axes_; }
 
@@ -93,6 +94,8 @@ class Scene {
   };
   void upload_given(Renderer& renderer, const Uploaded& now) const;
   [[nodiscard]] ShownSurface turned_surface(const Uploaded& now) const;
+  /// True if turned joints move the surface.
+  [[nodiscard]] bool moves_with(const Rig& rig) const;
   void colour_given(Renderer& renderer, const Uploaded& now) const;
   bool upload_surfaces(Renderer& renderer, Uploaded& now, bool all);
   bool upload_skeleton(Renderer& renderer, const Uploaded& now, bool all);
