@@ -181,8 +181,7 @@ class MaterialReader {
     add_colours(primitive, rows);
     const std::size_t corners =
         primitive.indices >= 0 ? model_.accessors[idx(primitive.indices)].count : rows;
-    const bool separate = primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode < 0;
-    const std::size_t faces = separate ? corners / 3 : std::max<std::size_t>(corners, 2) - 2;
+    const std::size_t faces = gltf_triangle_count(primitive.mode, corners);
     for (std::size_t corner = 0; corner < 3 * faces; ++corner) {
       const std::int32_t vertex = soup.corners[3 * next_face_ + corner];
       corners_.push_back(first + vertex - static_cast<int>(part.first_vertex));
