@@ -16,6 +16,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include "surface/mesh/meeting_boxes.hpp"
+#include "surface/spatial/box_tree.hpp"
 
 namespace curveskel {
 namespace {
@@ -59,21 +60,47 @@ std::vector<std::vector<int>> near_boxes(const std::vector<Box>& boxes,
   return near;
 }
 
+/// Components by their boxes.
+class BoxesInReach {
+ public:
+  explicit BoxesInReach(const std::vector<Box>& boxes) : tree_(middles_of_boxes(boxes)) {
+    for (std::size_t c = 0; c < boxes.size(); ++c) tree_.put(c, {boxes[c]});
+  }
+
+  /// True if the box of a component other than `own` has a point in common with this one.
+  [[nodiscard]] bool has_other(std::size_t own, const Box& box) const {
+    bool found = false;
+    double most = 0;
+    const auto bound = [&](const BoxTree::Item& item) {
+      return item.box.intersects(box) ? 0.0 : 1.0;
+    };
+    tree_.search(bound, most, [&](std::size_t other) {
+      if (other == own) return;
+      found = true;
+      most = -1;  // one will do
+    });
+    return found;
+  }
+
+ private:
+  BoxTree tree_;
+};
+
 /// The boxes of the triangles that come into the box of a component other than their own.
 std::vector<FaceBox> faces_within_reach(const Surface& surface, const Members& members,
-                                        const std::vector<std::vector<int>>& near) {
+                                        const std::vector<std::vector<int>>& near,
+                                        const std::stop_token& stop) {
+  const BoxesInReach boxes(members.boxes);
   std::vector<FaceBox> reached;
   for (std::size_t c = 0; c < near.size(); ++c) {
     if (near[c].empty()) continue;
+    throw_if_stopped(stop);
     for (const std::int32_t f : members.faces[c]) {
       Box box;
       for (const std::int32_t v : surface.triangles.row(f)) {
         box.extend(Eigen::Vector3d(surface.positions.row(v)));
       }
-      const bool within = std::any_of(near[c].begin(), near[c].end(), [&](int other) {
-        return members.boxes[idx(other)].intersects(box);
-      });
-      if (!within) continue;
+      if (!boxes.has_other(c, box)) continue;
       reached.emplace_back(CGAL::Bbox_3(box.min().x(), box.min().y(), box.min().z(), box.max().x(),
                                         box.max().y(), box.max().z()),
                            f);
@@ -146,7 +173,7 @@ Overlaps overlaps_of(const Surface& surface, const Topology& counted, const Moni
   if (counted.components() < 2) return result;
   const Members members = members_of(surface, counted);
   const auto near = near_boxes(members.boxes, monitor.stop);
-  auto reached = faces_within_reach(surface, members, near);
+  auto reached = faces_within_reach(surface, members, near, monitor.stop);
   const auto meeting = meeting_pairs(surface, counted, reached, monitor.stop);
   for (const auto& [a, b] : meeting) {
     result.met[idx(a)].push_back(b);

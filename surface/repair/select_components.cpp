@@ -101,7 +101,7 @@ Boxes boxes_of(const Surface& surface, const Topology& counted) {
 class BoxesByArea {
  public:
   BoxesByArea(Boxes boxes, const std::vector<double>& area)
-      : boxes_(std::move(boxes)), area_(area), tree_(middles_of(boxes_)) {
+      : boxes_(std::move(boxes)), area_(area), tree_(middles_of_boxes(boxes_)) {
     for (std::size_t c = 0; c < boxes_.size(); ++c) tree_.put(c, {boxes_[c], area[c]});
   }
 
@@ -117,14 +117,6 @@ class BoxesByArea {
   }
 
  private:
-  static Positions middles_of(const Boxes& boxes) {
-    Positions middles(static_cast<Eigen::Index>(boxes.size()), 3);
-    for (std::size_t c = 0; c < boxes.size(); ++c) {
-      middles.row(static_cast<Eigen::Index>(c)) = boxes[c].center().transpose();
-    }
-    return middles;
-  }
-
   template <typename Fits>
   [[nodiscard]] double largest_of_others(std::size_t component, const Fits& fits) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
