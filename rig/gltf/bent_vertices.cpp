@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/gltf/number_bytes.hpp"
+#include "rig/gltf/vertex_maps.hpp"
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_pose.hpp"
 
@@ -31,15 +32,6 @@ Vectors vectors_in(const FileBytes& file, const tinygltf::Model& model, int acce
     for (Eigen::Index k = 0; k < 3; ++k) vectors(k, v) = rows.at(idx(v), idx(k));
   }
   return vectors;
-}
-
-/// Normals turn as the planes that they stand on.
-Eigen::Matrix3d turn_of_normals(const Eigen::Matrix3d& linear) {
-  Eigen::Matrix3d cofactors;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    cofactors.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
-  }
-  return linear.determinant() < 0 ? Eigen::Matrix3d(-cofactors) : cofactors;
 }
 
 /// The vertices of one primitive that joints bend.
@@ -95,9 +87,9 @@ class BentPrimitive {
     const auto found = primitive_.attributes.find("NORMAL");
     if (found == primitive_.attributes.end()) return;
     const Vectors normals = read(found->second, 3, "normals");
-    std::vector<Eigen::Matrix3d> turns;
+    std::vector<Eigen::Matrix3d> turns = normal_maps(turns_);
     for (Eigen::Index v = 0; v < count_; ++v) {
-      turns.push_back(to_unit_length(turn_of_normals(turns_[idx(v)]), normals.col(v)));
+      turns[idx(v)] = to_unit_length(turns[idx(v)], normals.col(v));
     }
     attributes["NORMAL"] = add_vectors(document, turned(turns, normals));
     for_each_target("NORMAL", [&](std::size_t target, const Vectors& shifts) {

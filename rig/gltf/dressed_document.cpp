@@ -105,12 +105,17 @@ std::vector<bool> with_pictures(const GltfDocument& document, std::size_t materi
   return result;
 }
 
-Triangles triangles_of(const SplitMesh& split, std::size_t group) {
+/// By group.
+std::vector<Triangles> triangles_of(const SplitMesh& split) {
   PolygonSoup soup;
   soup.positions = split.soup.positions;
-  soup.corners = split.corners[group];
-  soup.offsets = split.offsets[group];
-  return triangulate(soup);
+  std::vector<Triangles> groups;
+  for (std::size_t group = 0; group < split.corners.size(); ++group) {
+    soup.corners = split.corners[group];
+    soup.offsets = split.offsets[group];
+    groups.push_back(triangulate(soup));
+  }
+  return groups;
 }
 
 std::size_t add_triangles(GltfDocument& document, const Triangles& triangles) {
@@ -121,24 +126,32 @@ std::size_t add_triangles(GltfDocument& document, const Triangles& triangles) {
   return add_accessor(document, rows, "SCALAR", gltf_uint32, idx(triangles.size()), gltf_indices);
 }
 
+Eigen::Index triangle_count(const std::vector<Triangles>& groups) {
+  Eigen::Index rows = 0;
+  for (const Triangles& triangles : groups) rows += triangles.rows();
+  return rows;
+}
+
 Positions normals_of(const SplitMesh& split, const std::vector<Triangles>& groups) {
-  Surface whole{split.soup.positions, {}};
+  Surface whole{split.soup.positions, Triangles(triangle_count(groups), 3)};
+  Eigen::Index filled = 0;
   for (const Triangles& triangles : groups) {
-    whole.triangles.conservativeResize(whole.triangles.rows() + triangles.rows(), 3);
-    whole.triangles.bottomRows(triangles.rows()) = triangles;
+    whole.triangles.middleRows(filled, triangles.rows()) = triangles;
+    filled += triangles.rows();
   }
   return normals_across_seams(whole);
 }
 
 /// Sets of texture coordinates that the materials of these faces name.
-std::size_t sets_shown(const GltfDocument& document, const std::vector<Triangles>& groups) {
+std::size_t sets_shown(const GltfDocument& document, const DressedMesh& mesh,
+                       const SplitMesh& split, const std::vector<Triangles>& groups) {
   std::size_t sets = 0;
   const auto take = [&](const OrderedJson& owner, const char* name) {
     if (owner.contains(name)) sets = std::max(sets, owner[name].value("texCoord", 0UL) + 1);
   };
-  for (std::size_t group = 0; group + 1 < groups.size(); ++group) {
-    if (groups[group].rows() == 0) continue;
-    const OrderedJson& material = document.json["materials"][group];
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    if (groups[group].rows() == 0 || split.materials[group] >= mesh.materials.size()) continue;
+    const OrderedJson& material = document.json["materials"][split.materials[group]];
     take(material, "normalTexture");
     take(material, "emissiveTexture");
     if (material.contains("pbrMetallicRoughness")) {
@@ -158,7 +171,8 @@ OrderedJson attributes_of(GltfDocument& document, const DressedMesh& mesh, const
   OrderedJson attributes{
       {"POSITION", add_places(document, split.soup.positions.transpose().cast<float>())}};
   attributes["NORMAL"] = add_normals(document, mesh, split, normals_of(split, groups));
-  const std::size_t maps = std::max(part.texture_sets.size(), sets_shown(document, groups));
+  const std::size_t maps =
+      std::max(part.texture_sets.size(), sets_shown(document, mesh, split, groups));
   for (std::size_t set = 0; !mesh.textures.empty() && set < maps; ++set) {
     const std::size_t textures = add_textures(document, mesh, split, set);
     attributes["TEXCOORD_" + std::to_string(set)] = textures;
@@ -215,13 +229,8 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
   GltfDocument& document = made.document;
   const SplitMesh split = curveskel::split(mesh, part, file);
   require_single_precision(split.soup.positions, "glTF");
-  std::vector<Triangles> groups;
-  Eigen::Index triangles = 0;
-  for (std::size_t group = 0; group < split.corners.size(); ++group) {
-    groups.push_back(triangles_of(split, group));
-    triangles += groups.back().rows();
-  }
-  if (triangles == 0 && mesh.parts.size() > 1) return;
+  const std::vector<Triangles> groups = triangles_of(split);
+  if (triangle_count(groups) == 0 && mesh.parts.size() > 1) return;
   const auto first_vertex = static_cast<std::int64_t>(made.row_of_vertex.size());
   for (const DressedCorner& vertex : split.vertices) made.row_of_vertex.push_back(vertex.place);
   OrderedJson written{{"name", as_utf8(part.part.name)}};
@@ -233,7 +242,8 @@ void add_part(DressedDocument& made, const DressedMesh& mesh, const PartRange& p
     if (groups[group].rows() == 0) continue;
     OrderedJson primitive{{"attributes", attributes},
                           {"indices", add_triangles(document, groups[group])}};
-    if (group < mesh.materials.size()) primitive["material"] = group;
+    const std::size_t material = split.materials[group];
+    if (material < mesh.materials.size()) primitive["material"] = material;
     if (!targets.empty()) primitive["targets"] = targets;
     made.parts.push_back({number, number, static_cast<int>(primitives.size()), true, first_vertex,
                           split.soup.positions.rows(), mesh.to_gltf});

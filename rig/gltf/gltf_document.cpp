@@ -146,6 +146,19 @@ std::size_t add_places(GltfDocument& document, const Eigen::Matrix3Xf& places) {
   return accessor;
 }
 
+std::string glb_head(std::string json, std::size_t rest) {
+  pad(json, ' ');
+  const std::size_t size = 20 + json.size() + rest;
+  require_four_gigabytes(size);
+  std::string bytes = "glTF";
+  bytes.reserve(size);
+  put_word(bytes, 2);
+  put_word(bytes, size);
+  put_word(bytes, json.size());
+  bytes += "JSON";
+  return bytes += json;
+}
+
 std::string format_gltf(GltfDocument document, RigFormat format) {
   pad(document.numbers, '\0');
   require_four_gigabytes(document.numbers.size());
@@ -158,17 +171,7 @@ std::string format_gltf(GltfDocument document, RigFormat format) {
     buffer["uri"] = "data:application/octet-stream;base64," + base64_of(document.numbers);
     return dumped();
   }
-  std::string json = dumped();
-  pad(json, ' ');
-  const std::size_t size = 28 + json.size() + document.numbers.size() + document.chunks.size();
-  require_four_gigabytes(size);
-  std::string bytes = "glTF";
-  bytes.reserve(size);
-  put_word(bytes, 2);
-  put_word(bytes, size);
-  put_word(bytes, json.size());
-  bytes += "JSON";
-  bytes += json;
+  std::string bytes = glb_head(dumped(), 8 + document.numbers.size() + document.chunks.size());
   put_word(bytes, document.numbers.size());
   bytes += std::string_view("BIN\0", 4);
   bytes += document.numbers;

@@ -51,6 +51,10 @@ std::size_t add_accessor(GltfDocument& document, std::string_view rows, const st
 /// are those of finite ones.
 std::size_t add_places(GltfDocument& document, const Eigen::Matrix3Xf& places);
 
+/// A binary file up to the end of its JSON; chunks of so many bytes, heads included, are to follow.
+/// Throws Error(Fault::output) beyond 4 GB.
+[[nodiscard]] std::string glb_head(std::string json, std::size_t rest);
+
 /// As a binary file, or as text with the buffer in it. Throws Error(Fault::output) beyond 4 GB.
 [[nodiscard]] std::string format_gltf(GltfDocument document, RigFormat format);
 

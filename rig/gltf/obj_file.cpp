@@ -1,6 +1,7 @@
 #include "rig/gltf/obj_file.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -107,19 +108,13 @@ void finish_objects(DressedMesh& mesh) {
   mesh.parts = std::move(objects);
 }
 
-int number_of(std::vector<std::string>& names, const std::string& name) {
-  const auto known = std::find(names.begin(), names.end(), name);
-  const auto number = static_cast<int>(known - names.begin());
-  if (known == names.end()) names.push_back(name);
-  return number;
-}
-
 }  // namespace
 
 ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
   ObjFile obj;
   DressedMesh& mesh = obj.mesh;
   int material = -1;
+  std::map<std::string, int> number_of_material;
   begin_object("", mesh);
   TextCursor text(file);
   for (std::int64_t row = 0; !text.done(); ++row) {
@@ -138,7 +133,10 @@ ObjFile read_obj_file(const FileBytes& file, const Monitor& monitor) {
     } else if (text.accept("o")) {
       begin_object(rest_of_line(text), mesh);
     } else if (text.accept("usemtl")) {
-      material = number_of(mesh.materials, rest_of_line(text));
+      const auto next = static_cast<int>(mesh.materials.size());
+      const auto [named, is_new] = number_of_material.try_emplace(rest_of_line(text), next);
+      if (is_new) mesh.materials.push_back(named->first);
+      material = named->second;
     } else if (text.accept("mtllib")) {
       obj.libraries.push_back(rest_of_line(text));
     } else if (text.peek() == '#') {

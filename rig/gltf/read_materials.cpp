@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -123,19 +124,29 @@ class MaterialReader {
     made_.materials.push_back(material);
   }
 
-  /// The picture's number in the result, or -1.
+  /// The picture's number in the result, the same for all that show it, or -1.
   int picture_of(const tinygltf::Texture& texture) {
     int source = texture.source;
     const auto webp = texture.extensions.find("EXT_texture_webp");
     if (source < 0 && webp != texture.extensions.end() && webp->second.Has("source")) {
       source = webp->second.Get("source").GetNumberAsInt();
     }
-    const OrderedJson images = document_.json.value("images", OrderedJson::array());
+    const OrderedJson& images = listed("images");
     if (source < 0 || idx(source) >= images.size()) return -1;
-    const std::string bytes = picture_bytes(images[idx(source)]);
+    const auto [known, is_new] = picture_of_image_.try_emplace(source, -1);
+    if (!is_new) return known->second;
+    std::string bytes = picture_bytes(images[idx(source)]);
     if (bytes.empty()) return -1;
-    made_.pictures.push_back({bytes});
-    return static_cast<int>(made_.pictures.size()) - 1;
+    known->second = static_cast<int>(made_.pictures.size());
+    made_.pictures.push_back({std::move(bytes)});
+    return known->second;
+  }
+
+  /// The document's list of this name, which may have whole pictures in it.
+  [[nodiscard]] const OrderedJson& listed(const char* name) const {
+    static const OrderedJson none = OrderedJson::array();
+    const auto found = document_.json.find(name);
+    return found == document_.json.end() ? none : *found;
   }
 
   [[nodiscard]] std::string picture_bytes(const OrderedJson& image) const {
@@ -147,7 +158,7 @@ class MaterialReader {
       append_from_base64(bytes, digits, std::numeric_limits<std::size_t>::max());
       return bytes;
     }
-    const OrderedJson views = document_.json.value("bufferViews", OrderedJson::array());
+    const OrderedJson& views = listed("bufferViews");
     const auto view = image.value("bufferView", views.size());
     if (view >= views.size()) return {};
     const auto from = views[view].value("byteOffset", std::size_t{0});
@@ -170,8 +181,7 @@ class MaterialReader {
     add_colours(primitive, rows);
     const std::size_t corners =
         primitive.indices >= 0 ? model_.accessors[idx(primitive.indices)].count : rows;
-    const bool separate = primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode < 0;
-    const std::size_t faces = separate ? corners / 3 : std::max<std::size_t>(corners, 2) - 2;
+    const std::size_t faces = gltf_triangle_count(primitive.mode, corners);
     for (std::size_t corner = 0; corner < 3 * faces; ++corner) {
       const std::int32_t vertex = soup.corners[3 * next_face_ + corner];
       corners_.push_back(first + vertex - static_cast<int>(part.first_vertex));
@@ -235,7 +245,8 @@ class MaterialReader {
   const FileBytes& file_;
   const tinygltf::Model& model_;
   const GltfDocument& document_;
-  std::vector<TextureUse> uses_;  // by material
+  std::vector<TextureUse> uses_;         // by material
+  std::map<int, int> picture_of_image_;  // those that materials have named; -1 = has no bytes
   std::vector<Eigen::Vector2f> places_;
   std::vector<Eigen::Vector4f> colours_;
   std::vector<int> corners_;

@@ -99,26 +99,44 @@ class PlacesOfParts {
   std::vector<std::size_t> last_part_;  // whose faces have the place
 };
 
+bool is_placed(const DressedMesh& mesh, std::size_t face) {
+  const auto begin = mesh.corners.begin() + mesh.offsets[face];
+  const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
+  return std::all_of(begin, end, [&](const DressedCorner& corner) {
+    const double* place = mesh.places.data() + 3 * idx(corner.place);
+    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+  });
+}
+
+/// One past the last for none.
+std::size_t material_or_none(const DressedMesh& mesh, std::size_t face) {
+  const int material = mesh.material_of_face[face];
+  return material < 0 ? mesh.materials.size() : idx(material);
+}
+
 }  // namespace
 
 std::vector<PartRange> ranges_of(const DressedMesh& mesh) { return PlacesOfParts(mesh).ranges(); }
 
 SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes& file) {
   SplitMesh result;
-  const std::size_t materials = mesh.materials.size();
-  result.corners.resize(materials + 1);
-  result.offsets.resize(materials + 1, {0});
-  Splitting splitting(part.places);
-  const auto is_placed = [&](const DressedCorner& corner) {
-    const double* place = mesh.places.data() + 3 * idx(corner.place);
-    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
-  };
+  std::vector<std::size_t> faces;
   for (std::size_t face = part.first_face; face < part.end_face; ++face) {
+    if (!is_placed(mesh, face)) continue;
+    faces.push_back(face);
+    result.materials.push_back(material_or_none(mesh, face));
+  }
+  std::sort(result.materials.begin(), result.materials.end());
+  const auto repeats = std::ranges::unique(result.materials);
+  result.materials.erase(repeats.begin(), repeats.end());
+  result.corners.resize(result.materials.size());
+  result.offsets.resize(result.materials.size(), {0});
+  Splitting splitting(part.places);
+  for (const std::size_t face : faces) {
+    const auto own = std::ranges::lower_bound(result.materials, material_or_none(mesh, face));
+    const std::size_t group = idx(own - result.materials.begin());
     const auto begin = mesh.corners.begin() + mesh.offsets[face];
     const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
-    if (!std::all_of(begin, end, is_placed)) continue;
-    const int material = mesh.material_of_face[face];
-    const std::size_t group = material < 0 ? materials : idx(material);
     for (auto corner = begin; corner != end; ++corner) {
       result.corners[group].push_back(splitting.vertex_of(*corner));
     }

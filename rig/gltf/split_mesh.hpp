@@ -15,9 +15,10 @@ namespace curveskel {
 struct SplitMesh {
   PolygonSoup soup;                     ///< without faces
   std::vector<DressedCorner> vertices;  ///< the first corner there of the file's; then the copies
-  std::vector<std::vector<std::int32_t>> corners;  ///< by material, the last: of none
+  std::vector<std::size_t> materials;   ///< of the groups of faces, ascending; past all: none
+  std::vector<std::vector<std::int32_t>> corners;  ///< by group
   std::vector<std::vector<std::int64_t>> offsets;  ///< likewise
-  std::vector<std::size_t> group_of_face;          ///< the material's number, in the file's order
+  std::vector<std::size_t> group_of_face;          ///< in the file's order
   std::vector<std::int32_t> place_of_vertex;       ///< the number of the part's place
 };
 
@@ -35,7 +36,8 @@ struct PartRange {
 [[nodiscard]] std::vector<PartRange> ranges_of(const DressedMesh& mesh);
 
 /// The part's own places first, in their order, then copies at seams. A face with a vertex that has
-/// no place is left out; vertices without one are put as by `drop_unplaced_vertices`.
+/// no place is left out; vertices without one are put as by `drop_unplaced_vertices`. Groups are
+/// those of the materials that the other faces have. O(#corners * log #groups + #V log #V).
 [[nodiscard]] SplitMesh split(const DressedMesh& mesh, const PartRange& part,
                               const FileBytes& file);
 

@@ -13,6 +13,7 @@
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
 #include "base/utf8.hpp"
+#include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/figure_name.hpp"
 
@@ -44,11 +45,6 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
-}
-
-void append_word(std::string& bytes, std::size_t word) {
-  const auto value = static_cast<std::uint32_t>(word);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 /// True for an absolute address of the web, which a link in another program opens.
@@ -110,14 +106,8 @@ std::string with_vrm(const std::string& glb, const Rig& rig, const VrmMeta& meta
   const std::size_t length = word_at(glb, head);
   Json gltf = Json::parse(glb.substr(head + chunk_head, length));
   add_vrm(gltf, rig, meta);
-  std::string json = gltf.dump();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::string rest = glb.substr(head + chunk_head + length);
-  std::string bytes = glb.substr(0, 8);
-  append_word(bytes, head + chunk_head + json.size() + rest.size());
-  append_word(bytes, json.size());
-  bytes += glb.substr(head + 4, 4);
-  return bytes + json + rest;
+  return glb_head(gltf.dump(), rest.size()) + rest;
 }
 
 }  // namespace curveskel

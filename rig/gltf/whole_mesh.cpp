@@ -10,6 +10,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include "surface/read/gltf_numbers.hpp"
 #include "surface/read/gltf_pose.hpp"
+#include "surface/read/gltf_scene.hpp"
 
 namespace curveskel {
 namespace {
@@ -171,16 +172,9 @@ class MeshReader {
       for (std::size_t v = 0; v < count; ++v) corners.push_back(v);
     }
     std::vector<std::array<std::size_t, 3>> found;
-    const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
-    const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
-    const std::size_t step = is_strip || is_fan ? 1 : 3;
-    for (std::size_t k = 0; k + 2 < corners.size(); k += step) {
-      if (is_fan) {
-        found.push_back({corners[0], corners[k + 1], corners[k + 2]});
-      } else {
-        const std::size_t turned = is_strip ? k % 2 : 0;
-        found.push_back({corners[k + turned], corners[k + 1 - turned], corners[k + 2]});
-      }
+    for (std::size_t k = 0; k < gltf_triangle_count(primitive.mode, corners.size()); ++k) {
+      const auto [a, b, c] = gltf_triangle(primitive.mode, k);
+      found.push_back({corners[a], corners[b], corners[c]});
     }
     return found;
   }

@@ -1,6 +1,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/joints/contacts.hpp"
@@ -17,17 +20,22 @@ std::vector<std::vector<Vector3d>> hinges_by_curve(const CurveSkeleton& skeleton
                                                    const std::vector<int>& curve_of_node) {
   std::vector<std::vector<Vector3d>> hinges(
       idx(1 + *std::max_element(curve_of_node.begin(), curve_of_node.end())));
+  std::map<std::pair<int, int>, std::vector<Vector3d>> middles;  // of the contacts of two curves
+  for (const Contact& contact : skeleton.contacts) {
+    const int one = curve_of_node[idx(contact.one.node)];
+    const int other = curve_of_node[idx(contact.other.node)];
+    middles[std::minmax(one, other)].push_back(contact.middle);
+  }
   const RootedTree rooted = rooted_tree(skeleton, -1);
   for (std::size_t k = 0; k < rooted.roots.size(); ++k) {
     if (rooted.above[k] < 0) continue;
     const int lower = curve_of_node[idx(rooted.roots[k])];
     const int upper = curve_of_node[idx(rooted.above[k])];
-    for (const Contact& contact : skeleton.contacts) {
-      const int one = curve_of_node[idx(contact.one.node)];
-      const int other = curve_of_node[idx(contact.other.node)];
-      if (std::minmax(one, other) != std::minmax(lower, upper)) continue;
-      hinges[idx(lower)].push_back(contact.middle);
-      hinges[idx(upper)].push_back(contact.middle);
+    const auto found = middles.find(std::minmax(lower, upper));
+    if (found == middles.end()) continue;
+    for (const int curve : {lower, upper}) {
+      hinges[idx(curve)].insert(hinges[idx(curve)].end(), found->second.begin(),
+                                found->second.end());
     }
   }
   return hinges;

@@ -15,6 +15,7 @@
 #include "rig/parts/body.hpp"
 #include "rig/parts/nearest_first.hpp"
 #include "rig/parts/sound_parts.hpp"
+#include "rig/parts/twins.hpp"
 #include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/select_components.hpp"
@@ -123,47 +124,15 @@ class PartFinder {
     part.reach = contacts[contacts.size() * 98 / 100].distance / thickness;
   }
 
-  /// Of the planes through the middle of the largest component's box the one that pairs most area.
   void pair_twins() {
     std::vector<Vector3d> middles;
     for (const Component& component : components_) middles.push_back(centroid(component.surface));
     const Positions& largest = components_[idx(by_area_[0])].surface.positions;
     const Vector3d middle =
         0.5 * (largest.colwise().minCoeff() + largest.colwise().maxCoeff()).transpose();
-    std::vector<int> best(components_.size(), -1);
-    double most = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::vector<int> twins = twins_through(middles, axis, middle[axis]);
-      double paired = 0;
-      for (std::size_t c = 0; c < twins.size(); ++c) paired += twins[c] >= 0 ? areas_[c] : 0;
-      if (paired <= most) continue;
-      most = paired;
-      best = twins;
-    }
-    for (std::size_t c = 0; c < best.size(); ++c) found_.parts[c].twin = best[c];
-  }
-
-  [[nodiscard]] std::vector<int> twins_through(const std::vector<Vector3d>& middles, int axis,
-                                               double plane) const {
-    constexpr double least_alike = 0.97;  // areas
-    const double tolerance = 0.01 * diagonal_;
-    std::vector<int> twins(middles.size(), -1);
-    for (std::size_t i = 0; i < by_area_.size(); ++i) {
-      const std::size_t c = idx(by_area_[i]);
-      if (twins[c] >= 0) continue;
-      Vector3d image = middles[c];
-      image[axis] = 2 * plane - image[axis];
-      if ((image - middles[c]).norm() < tolerance) continue;
-      for (std::size_t j = i + 1; j < by_area_.size(); ++j) {
-        const std::size_t other = idx(by_area_[j]);
-        if (areas_[other] < least_alike * areas_[c]) break;
-        if (twins[other] >= 0 || (middles[other] - image).norm() > tolerance) continue;
-        twins[c] = static_cast<int>(other);
-        twins[other] = static_cast<int>(c);
-        break;
-      }
-    }
-    return twins;
+    const std::vector<int> twins =
+        mirrored_twins({middles, areas_, by_area_}, middle, 0.01 * diagonal_, monitor_.stop);
+    for (std::size_t c = 0; c < twins.size(); ++c) found_.parts[c].twin = twins[c];
   }
 
   const PartOptions& options_;

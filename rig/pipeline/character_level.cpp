@@ -15,33 +15,61 @@
 #include "rig/joints/sound_rig.hpp"
 #include "rig/pipeline/kept_joints.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/spatial/box_tree.hpp"
 #include "surface/spatial/segment.hpp"
 
 namespace curveskel {
 namespace {
 
-double distance_to_edge(const CurveSkeleton& skeleton, Eigen::Index edge,
-                        const Eigen::Vector3d& place) {
-  const Eigen::Vector3d from = skeleton.nodes.row(skeleton.edges(edge, 0));
-  const Eigen::Vector3d to = skeleton.nodes.row(skeleton.edges(edge, 1));
-  return (nearest_on_segment(place, from, to) - place).norm();
-}
+/// Of the edges that lie near a place, without asking each.
+class LivesByPlace {
+ public:
+  explicit LivesByPlace(const CurveSkeleton& skeleton)
+      : skeleton_(skeleton), lives_(edge_lives(skeleton)), tree_(middles_of(skeleton)) {
+    for (Eigen::Index edge = 0; edge < lives_.size(); ++edge) {
+      const auto [from, to] = ends_of(edge);
+      tree_.put(idx(edge), {Eigen::AlignedBox3d(from.cwiseMin(to), from.cwiseMax(to))});
+    }
+  }
 
-/// Of the nearest edge; where branches meet, that of the longest life.
-double life_at(const CurveSkeleton& skeleton, const Eigen::VectorXd& lives,
-               const Eigen::RowVector3d& place, double near) {
-  double least = std::numeric_limits<double>::infinity();
-  std::vector<double> distances(lives.size());
-  for (Eigen::Index edge = 0; edge < lives.size(); ++edge) {
-    distances[idx(edge)] = distance_to_edge(skeleton, edge, place);
-    least = std::min(least, distances[idx(edge)]);
+  /// Of the nearest edge; where branches meet, that of the longest life.
+  [[nodiscard]] double at(const Eigen::Vector3d& place, double near) const {
+    constexpr double rounding = 1e-12;  // of distances to boxes beside those to what is in them
+    const auto bound = [&](const BoxTree::Item& item) {
+      return (1 - rounding) * item.box.exteriorDistance(place);
+    };
+    double least = std::numeric_limits<double>::infinity();
+    tree_.search(bound, least,
+                 [&](std::size_t edge) { least = std::min(least, distance_to(edge, place)); });
+    double life = 0;
+    const double most = least + near;
+    tree_.search(bound, most, [&](std::size_t edge) {
+      if (distance_to(edge, place) > most) return;
+      life = std::max(life, lives_[static_cast<Eigen::Index>(edge)]);
+    });
+    return life;
   }
-  double life = 0;
-  for (Eigen::Index edge = 0; edge < lives.size(); ++edge) {
-    if (distances[idx(edge)] <= least + near) life = std::max(life, lives[edge]);
+
+ private:
+  static Positions middles_of(const CurveSkeleton& skeleton) {
+    return 0.5 * (skeleton.nodes(skeleton.edges.col(0), Eigen::all) +
+                  skeleton.nodes(skeleton.edges.col(1), Eigen::all));
   }
-  return life;
-}
+
+  [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> ends_of(Eigen::Index edge) const {
+    return {skeleton_.nodes.row(skeleton_.edges(edge, 0)),
+            skeleton_.nodes.row(skeleton_.edges(edge, 1))};
+  }
+
+  [[nodiscard]] double distance_to(std::size_t edge, const Eigen::Vector3d& place) const {
+    const auto [from, to] = ends_of(static_cast<Eigen::Index>(edge));
+    return (nearest_on_segment(place, from, to) - place).norm();
+  }
+
+  const CurveSkeleton& skeleton_;
+  Eigen::VectorXd lives_;  // by edge
+  BoxTree tree_;
+};
 
 /// "left" or "right" for a role such as "leftIndexProximal", else "". That of a scene's second
 /// figure begins with "figure2_", and so on.
@@ -97,14 +125,14 @@ void share_with_twins(const Rig& rig, std::vector<double>& lives) {
 
 /// By joint; a root lives for ever.
 std::vector<double> lives_of_joints(const Rig& rig, const CurveSkeleton& skeleton) {
-  const Eigen::VectorXd of_edges = edge_lives(skeleton);
+  const LivesByPlace by_place(skeleton);
   const double near =
       1e-6 * (skeleton.nodes.colwise().maxCoeff() - skeleton.nodes.colwise().minCoeff()).norm();
   std::vector<double> lives(rig.names.size(), lives_for_ever);
   for (std::size_t joint = 0; joint < lives.size(); ++joint) {
     const auto row = static_cast<Eigen::Index>(joint);
     if (rig.parents[row] < 0) continue;
-    lives[joint] = life_at(skeleton, of_edges, rig.joints.row(row), near);
+    lives[joint] = by_place.at(rig.joints.row(row), near);
   }
   share_with_twins(rig, lives);
   share_in_hands(rig, lives);

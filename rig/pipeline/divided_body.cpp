@@ -1,6 +1,7 @@
 #include "rig/pipeline/divided_body.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -36,6 +37,8 @@ DividedBody::DividedBody(const RepairedSurface& body, const CurveSkeleton& skele
       skeleton_(skeleton),
       vertices_(idx(counted.components())),
       faces_(vertices_.size()),
+      inputs_(vertices_.size()),
+      rims_(vertices_.size()),
       sheets_(vertices_.size()),
       curves_(vertices_.size()),
       number_of_vertex_(idx(body.surface.positions.rows()), -1),
@@ -57,6 +60,13 @@ DividedBody::DividedBody(const RepairedSurface& body, const CurveSkeleton& skele
   for (int f = 0; f < static_cast<int>(body.surface.triangles.rows()); ++f) {
     faces_[component(body.surface.triangles(f, 0))].push_back(f);
   }
+  for (int input = 0; input < static_cast<int>(body.vertex_of_input.size()); ++input) {
+    const int v = body.vertex_of_input[input];
+    if (v >= 0) inputs_[component(v)].push_back(input);
+  }
+  for (std::size_t k = 0; k < body.rims.size(); ++k) {
+    if (!body.rims[k].empty()) rims_[component(body.rims[k][0])].push_back(static_cast<int>(k));
+  }
   for (std::size_t k = 0; k < body.sheets.size(); ++k) {
     sheets_[component(body.sheets[k])].push_back(static_cast<int>(k));
   }
@@ -75,20 +85,59 @@ DividedBody::DividedBody(const RepairedSurface& body, const CurveSkeleton& skele
 }
 
 PartOfBody DividedBody::part(const std::vector<int>& components) {
-  const std::vector<int> vertices = members_of(vertices_, components);
-  std::vector<int> curves = members_of(curves_, components);
-  curves.insert(curves.end(), curves_of_none_.begin(), curves_of_none_.end());
-  const std::vector<int> nodes = members_of(nodes_, curves);
-  number_in_order(vertices, number_of_vertex_);
-  number_in_order(nodes, number_of_node_);
+  const std::vector<int> own_vertices = vertices(components);
+  const std::vector<int> own_nodes = nodes(components);
+  number_in_order(own_vertices, number_of_vertex_);
+  number_in_order(own_nodes, number_of_node_);
   PartOfBody made;
-  add_surface(made, components, vertices);
-  add_skeleton(made, curves, nodes);
-  made.skeleton.node_of_vertex = skeleton_.node_of_vertex(vertices).unaryExpr(
-      [&](int node) { return node < 0 ? -1 : number_of_node_[idx(node)]; });
-  forget(vertices, number_of_vertex_);
-  forget(nodes, number_of_node_);
+  add_surface(made, components, own_vertices);
+  add_skeleton(made, curves(components), own_nodes);
+  made.skeleton.node_of_vertex = skeleton_.node_of_vertex(own_vertices).unaryExpr([&](int node) {
+    return node < 0 ? -1 : number_of_node_[idx(node)];
+  });
+  forget(own_vertices, number_of_vertex_);
+  forget(own_nodes, number_of_node_);
   return made;
+}
+
+PartOfBody DividedBody::part_of_file(const std::vector<int>& components) {
+  PartOfBody made = part(components);
+  made.body.changes = body_.changes;
+  made.body.repairs = body_.repairs;
+  const std::vector<int> own_vertices = vertices(components);
+  number_in_order(own_vertices, number_of_vertex_);
+  add_inputs(made, components);
+  forget(own_vertices, number_of_vertex_);
+  return made;
+}
+
+std::vector<int> DividedBody::vertices(const std::vector<int>& components) const {
+  return members_of(vertices_, components);
+}
+
+std::vector<int> DividedBody::nodes(const std::vector<int>& components) const {
+  return members_of(nodes_, curves(components));
+}
+
+std::vector<int> DividedBody::curves(const std::vector<int>& components) const {
+  std::vector<int> own = members_of(curves_, components);
+  own.insert(own.end(), curves_of_none_.begin(), curves_of_none_.end());
+  return own;
+}
+
+/// A rim with a vertex that is not in the part is none.
+void DividedBody::add_inputs(PartOfBody& part, const std::vector<int>& components) const {
+  part.body.vertex_of_input = Eigen::VectorXi::Constant(body_.vertex_of_input.size(), -1);
+  for (const int c : components) {
+    for (const int input : inputs_[idx(c)]) {
+      part.body.vertex_of_input[input] = number_of_vertex_[idx(body_.vertex_of_input[input])];
+    }
+  }
+  for (const int k : members_of(rims_, components)) {
+    std::vector<std::int32_t> rim = body_.rims[idx(k)];
+    for (std::int32_t& v : rim) v = number_of_vertex_[idx(v)];
+    if (std::find(rim.begin(), rim.end(), -1) == rim.end()) part.body.rims.push_back(rim);
+  }
 }
 
 void DividedBody::add_surface(PartOfBody& part, const std::vector<int>& components,

@@ -25,7 +25,17 @@ class DividedBody {
   /// that its own size takes. Precondition: ascending numbers.
   [[nodiscard]] PartOfBody part(const std::vector<int>& components);
 
+  /// With `vertex_of_input`, rims and all else that `body_of` keeps: in time that the file's number
+  /// of vertices takes to be written, too.
+  [[nodiscard]] PartOfBody part_of_file(const std::vector<int>& components);
+
+  /// Ascending, those of `part`.
+  [[nodiscard]] std::vector<int> vertices(const std::vector<int>& components) const;
+  [[nodiscard]] std::vector<int> nodes(const std::vector<int>& components) const;
+
  private:
+  [[nodiscard]] std::vector<int> curves(const std::vector<int>& components) const;
+  void add_inputs(PartOfBody& part, const std::vector<int>& components) const;
   /// Surface vertices are numbered in `number_of_vertex_` afterwards, nodes in `number_of_node_`.
   void add_surface(PartOfBody& part, const std::vector<int>& components,
                    const std::vector<int>& vertices);
@@ -37,6 +47,8 @@ class DividedBody {
   // By component, each ascending.
   std::vector<std::vector<int>> vertices_;
   std::vector<std::vector<int>> faces_;
+  std::vector<std::vector<int>> inputs_;  // vertices of the file
+  std::vector<std::vector<int>> rims_;    // places in `body_.rims`, by the first vertex
   std::vector<std::vector<int>> sheets_;  // places in `body_.sheets`
   std::vector<std::vector<int>> curves_;  // to which its vertices collapsed
   // By component of the skeleton, each ascending.

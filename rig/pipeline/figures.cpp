@@ -155,33 +155,31 @@ class Groups {
     return group_of_vertex;
   }
 
-  [[nodiscard]] RigParts parts_of(const std::vector<int>& group, int wanted) const {
-    RigParts parts;
-    parts.part_of_vertex = counted_.component_of_vertex;
-    for (const int own : group) parts.parts.push_back({.follows = own != wanted});
-    return parts;
+  [[nodiscard]] static std::vector<int> members_of(const std::vector<int>& group, int wanted) {
+    std::vector<int> members;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (group[k] == wanted) members.push_back(static_cast<int>(k));
+    }
+    return members;
   }
 
   /// The ground ends below the group's middle; without one, any group does.
   [[nodiscard]] bool stands_on(const BodyPlan& plan, const std::vector<int>& group, int wanted,
                                int ground) const {
     if (ground < 0) return true;
-    const Eigen::VectorXd heights = body_.surface.positions * plan.axes.row(1).transpose();
-    Eigen::AlignedBox1d of_ground;
-    Eigen::AlignedBox1d of_group;
-    for (Eigen::Index v = 0; v < heights.size(); ++v) {
-      const int component = counted_.component_of_vertex[v];
-      if (component == ground) of_ground.extend(heights.segment<1>(v));
-      if (group[idx(component)] == wanted) of_group.extend(heights.segment<1>(v));
-    }
-    return of_ground.max()[0] < of_group.center()[0];
+    const auto heights = [&](const std::vector<int>& components) {
+      Eigen::AlignedBox1d range;
+      for (const int v : divided_.vertices(components)) {
+        const double height = body_.surface.positions.row(v).dot(plan.axes.row(1));
+        range.extend(Eigen::Matrix<double, 1, 1>(height));
+      }
+      return range;
+    };
+    return heights({ground}).max()[0] < heights(members_of(group, wanted)).center()[0];
   }
 
   [[nodiscard]] BodyPlan plan_of(const std::vector<int>& group, int wanted) {
-    std::vector<int> members;
-    for (std::size_t k = 0; k < group.size(); ++k) {
-      if (group[k] == wanted) members.push_back(static_cast<int>(k));
-    }
+    std::vector<int> members = members_of(group, wanted);
     const auto known = plans_.find(members);
     if (known != plans_.end()) return known->second;
     return plans_[members] = plan_alone(members);
@@ -220,16 +218,17 @@ class Groups {
   /// The plan is by the nodes of the group alone.
   [[nodiscard]] Figure with_all_that_joins(const std::vector<int>& group,
                                            const std::vector<int>& joined, int wanted,
-                                           BodyPlan plan) const {
-    const RigParts parts = parts_of(joined, wanted);
-    const std::vector<int> alone = nodes_of_body(skeleton_, parts_of(group, wanted));
-    const std::vector<int> all = nodes_of_body(skeleton_, parts);
+                                           BodyPlan plan) {
+    const std::vector<int> components = members_of(joined, wanted);
+    const std::vector<int> alone = divided_.nodes(members_of(group, wanted));
+    const std::vector<int> all = divided_.nodes(components);
     for (PlannedJoint& joint : plan.joints) {
       if (joint.node < 0) continue;
       const auto found = std::lower_bound(all.begin(), all.end(), alone[idx(joint.node)]);
       joint.node = static_cast<int>(found - all.begin());
     }
-    return {body_of(body_, parts), skeleton_of_body(skeleton_, parts), std::move(plan)};
+    auto [body, skeleton] = divided_.part_of_file(components);
+    return {std::move(body), std::move(skeleton), std::move(plan)};
   }
 
   const RepairedSurface& body_;

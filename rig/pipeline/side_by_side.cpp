@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,77 +14,121 @@
 namespace curveskel {
 namespace {
 
-template <typename Rows>
-void append_rows(Rows& rows, const Rows& more) {
-  const Eigen::Index before = rows.rows();
-  rows.conservativeResize(before + more.rows(), more.cols());
-  rows.bottomRows(more.rows()) = more;
+void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
+  names.insert(names.end(), more.begin(), more.end());
 }
 
 /// `shift` is added to what is not negative.
 template <typename Numbers>
-Numbers shifted(Numbers numbers, Eigen::Index shift) {
+void shift_all(Numbers& numbers, Eigen::Index shift) {
   for (auto& number : numbers.reshaped()) number += number < 0 ? 0 : static_cast<int>(shift);
-  return numbers;
 }
 
-void append(RiggedBody& all, const RiggedBody& more) {
-  const Eigen::Index vertices = all.body.surface.positions.rows();
-  const Eigen::Index nodes = all.skeleton.nodes.rows();
-  const Eigen::VectorXi own = shifted(more.body.vertex_of_input, vertices);
-  for (Eigen::Index v = 0; v < own.size(); ++v) {
-    if (own[v] >= 0) all.body.vertex_of_input[v] = own[v];
+/// Each figure's numbers as they are behind those of the figures before it.
+void number_through(std::vector<RiggedBody>& figures) {
+  Eigen::Index vertices = 0;
+  Eigen::Index nodes = 0;
+  Eigen::Index joints = 0;
+  for (RiggedBody& figure : figures) {
+    shift_all(figure.body.vertex_of_input, vertices);
+    shift_all(figure.body.surface.triangles, vertices);
+    shift_all(figure.skeleton.edges, nodes);
+    shift_all(figure.skeleton.node_of_vertex, nodes);
+    shift_all(figure.rig.parents, joints);
+    vertices += figure.body.surface.positions.rows();
+    nodes += figure.skeleton.nodes.rows();
+    joints += figure.rig.joints.rows();
   }
-  append_rows(all.body.surface.positions, more.body.surface.positions);
-  append_rows(all.body.surface.triangles, shifted(more.body.surface.triangles, vertices));
-  append_rows(all.skeleton.nodes, more.skeleton.nodes);
-  append_rows(all.skeleton.edges, shifted(more.skeleton.edges, nodes));
-  append_rows(all.skeleton.radii, more.skeleton.radii);
-  append_rows(all.skeleton.node_of_vertex, shifted(more.skeleton.node_of_vertex, nodes));
 }
 
-void append(Rig& all, const Rig& more) {
-  const Eigen::Index joints = all.joints.rows();
-  const Eigen::Index vertices = all.weights.rows();
-  SkinWeights weights(vertices + more.weights.rows(), joints + more.weights.cols());
-  weights.reserve(all.weights.nonZeros() + more.weights.nonZeros());
-  const auto insert = [&](const SkinWeights& from, Eigen::Index row, Eigen::Index column) {
-    for (Eigen::Index v = 0; v < from.rows(); ++v) {
-      for (SkinWeights::InnerIterator it(from, v); it; ++it) {
-        weights.insert(row + v, column + it.col()) = it.value();
+/// Those rows of each figure, one below the other.
+template <typename Of>
+auto stacked(const std::vector<RiggedBody>& figures, const Of& of) {
+  std::decay_t<decltype(of(figures.front()))> all;
+  Eigen::Index count = 0;
+  for (const RiggedBody& figure : figures) count += of(figure).rows();
+  all.resize(count, of(figures.front()).cols());
+  Eigen::Index filled = 0;
+  for (const RiggedBody& figure : figures) {
+    all.middleRows(filled, of(figure).rows()) = of(figure);
+    filled += of(figure).rows();
+  }
+  return all;
+}
+
+SkinWeights stacked_weights(const std::vector<RiggedBody>& figures) {
+  Eigen::Index rows = 0;
+  Eigen::Index columns = 0;
+  Eigen::Index entries = 0;
+  for (const RiggedBody& figure : figures) {
+    rows += figure.rig.weights.rows();
+    columns += figure.rig.weights.cols();
+    entries += figure.rig.weights.nonZeros();
+  }
+  SkinWeights all(rows, columns);
+  all.reserve(entries);
+  Eigen::Index row = 0;
+  Eigen::Index joints = 0;
+  for (const RiggedBody& figure : figures) {
+    const SkinWeights& weights = figure.rig.weights;
+    for (Eigen::Index v = 0; v < weights.rows(); ++v, ++row) {
+      all.startVec(row);
+      for (SkinWeights::InnerIterator it(weights, v); it; ++it) {
+        all.insertBack(row, joints + it.col()) = it.value();
       }
     }
-  };
-  insert(all.weights, 0, 0);
-  insert(more.weights, vertices, joints);
-  weights.makeCompressed();
-  all.weights.swap(weights);
-  append_rows(all.joints, more.joints);
-  append_rows(all.parents, shifted(more.parents, joints));
-  if (!all.readable.empty() || !more.readable.empty()) {
-    const std::vector<std::string>& added = readable_names(more);
-    all.readable = readable_names(all);
-    all.readable.insert(all.readable.end(), added.begin(), added.end());
+    joints += weights.cols();
   }
-  all.names.insert(all.names.end(), more.names.begin(), more.names.end());
-  all.roles.insert(all.roles.end(), more.roles.begin(), more.roles.end());
+  all.finalize();
+  return all;
 }
 
 }  // namespace
 
 RiggedBody side_by_side(std::vector<RiggedBody> figures) {
-  RiggedBody all = std::move(figures.front());
-  all.rig.roles.resize(all.rig.names.size());
-  for (std::size_t k = 1; k < figures.size(); ++k) {
+  const bool is_readable = std::any_of(figures.begin(), figures.end(), [](const RiggedBody& one) {
+    return !one.rig.readable.empty();
+  });
+  for (std::size_t k = 0; k < figures.size(); ++k) {
     Rig& rig = figures[k].rig;
     rig.roles.resize(rig.names.size());
+    if (k == 0) continue;
     for (auto* const names : {&rig.names, &rig.readable, &rig.roles}) {
       for (std::string& name : *names) {
         if (!name.empty()) name.insert(0, figure_prefix(k));
       }
     }
-    append(all, figures[k]);
-    append(all.rig, figures[k].rig);
+  }
+  number_through(figures);
+  using One = const RiggedBody&;
+  RiggedBody all = figures.front();
+  all.body.surface.positions = stacked(
+      figures, [](One one) -> auto& { return one.body.surface.positions; });
+  all.body.surface.triangles = stacked(
+      figures, [](One one) -> auto& { return one.body.surface.triangles; });
+  all.skeleton.nodes = stacked(
+      figures, [](One one) -> auto& { return one.skeleton.nodes; });
+  all.skeleton.edges = stacked(
+      figures, [](One one) -> auto& { return one.skeleton.edges; });
+  all.skeleton.radii = stacked(
+      figures, [](One one) -> auto& { return one.skeleton.radii; });
+  all.skeleton.node_of_vertex = stacked(
+      figures, [](One one) -> auto& { return one.skeleton.node_of_vertex; });
+  all.rig.joints = stacked(
+      figures, [](One one) -> auto& { return one.rig.joints; });
+  all.rig.parents = stacked(
+      figures, [](One one) -> auto& { return one.rig.parents; });
+  all.rig.weights = stacked_weights(figures);
+  if (is_readable) all.rig.readable = readable_names(all.rig);
+  for (std::size_t k = 1; k < figures.size(); ++k) {
+    const RiggedBody& more = figures[k];
+    for (Eigen::Index v = 0; v < more.body.vertex_of_input.size(); ++v) {
+      const int own = more.body.vertex_of_input[v];
+      if (own >= 0) all.body.vertex_of_input[v] = own;
+    }
+    if (is_readable) append(all.rig.readable, readable_names(more.rig));
+    append(all.rig.names, more.rig.names);
+    append(all.rig.roles, more.rig.roles);
   }
   return all;
 }

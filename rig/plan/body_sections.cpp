@@ -15,19 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The node whose ball is nearest.
-int node_nearest_to(const CurveTree& tree, const Vector3d& point) {
-  int nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int node = 0; node < tree.own_nodes; ++node) {
-    const double off = (tree.nodes[idx(node)] - point).norm() - tree.radii[idx(node)];
-    if (off >= least) continue;
-    least = off;
-    nearest = node;
-  }
-  return nearest;
-}
-
 /// Of most of the values, which are at least one.
 std::pair<double, double> range_of_most(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
@@ -45,7 +32,7 @@ double BodySection::depth_within(double z) const {
 BodySections::BodySections(const CurveTree& tree, const std::vector<char>& is_limb) : tree_(tree) {
   const bool has_limbs = std::find(is_limb.begin(), is_limb.end(), 1) != is_limb.end();
   for (const Vector3d& point : tree.spread) {
-    if (has_limbs && is_limb[idx(node_nearest_to(tree, point))] != 0) continue;
+    if (has_limbs && is_limb[idx(nearest_ball(tree, tree.own_nodes, point))] != 0) continue;
     points_.push_back(point);
   }
 }

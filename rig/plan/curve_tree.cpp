@@ -22,6 +22,18 @@ std::vector<int> tips_of(const CurveTree& tree) {
   return tips;
 }
 
+int nearest_ball(const CurveTree& tree, int nodes, const Vector3d& point) {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int node = 0; node < nodes; ++node) {
+    const double off = (tree.nodes[idx(node)] - point).norm() - tree.radii[idx(node)];
+    if (off >= least) continue;
+    least = off;
+    nearest = node;
+  }
+  return nearest;
+}
+
 const RootedTree& LookedAt::rooted(const Vector3d& up) {
   const auto found = std::find_if(known_.begin(), known_.end(),
                                   [&](const auto& known) { return known.first == up; });

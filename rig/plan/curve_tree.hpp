@@ -34,6 +34,9 @@ struct CurveTree {
 
 [[nodiscard]] std::vector<int> tips_of(const CurveTree& tree);
 
+/// Of the first so many nodes the one whose ball is nearest to the point, of several the lowest.
+[[nodiscard]] int nearest_ball(const CurveTree& tree, int nodes, const Eigen::Vector3d& point);
+
 /// A body that is looked at from several sides; both its surface and its curve must outlive this.
 class LookedAt {
  public:

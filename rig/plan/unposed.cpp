@@ -103,14 +103,8 @@ Unposed unpose(const CurveTree& tree, const Limbs& limbs) {
 
 void move_spread(const CurveTree& posed, CurveTree& unposed) {
   for (Vector3d& point : unposed.spread) {
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < posed.nodes.size(); ++k) {
-      const double off = (posed.nodes[k] - point).norm() - posed.radii[k];
-      if (off >= least) continue;
-      least = off;
-      nearest = k;
-    }
+    const std::size_t nearest =
+        idx(nearest_ball(posed, static_cast<int>(posed.nodes.size()), point));
     point += unposed.nodes[nearest] - posed.nodes[nearest];
   }
 }

@@ -1,13 +1,13 @@
 #include "rig/skin/skin_sources.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/parallel.hpp"
 #include "rig/skin/skin_bones.hpp"
 
@@ -77,22 +77,40 @@ class Sight {
   SurfaceTree tree_;
 };
 
-std::vector<Bone> bones_for(int curve, const std::vector<Bone>& bones) {
-  std::vector<Bone> chosen;
-  std::copy_if(bones.begin(), bones.end(), std::back_inserter(chosen),
-               [&](const Bone& bone) { return bone.part < 0 || bone.part == curve; });
-  return chosen;
-}
+/// Bones by the component of the curve that they are of; some are of all.
+class BonesByCurve {
+ public:
+  BonesByCurve(const std::vector<Bone>& bones, const std::vector<int>& curve_of_node) {
+    int curves = 0;
+    for (const int curve : curve_of_node) curves = std::max(curves, curve + 1);
+    of_curve_.resize(idx(curves));
+    for (const Bone& bone : bones) {
+      if (bone.part < 0) of_all_.push_back(bone);
+      if (bone.part >= 0 && bone.part < curves) of_curve_[idx(bone.part)].push_back(bone);
+    }
+  }
+
+  [[nodiscard]] std::vector<Bone> of(int curve) const {
+    std::vector<Bone> bones = of_all_;
+    bones.insert(bones.end(), of_curve_[idx(curve)].begin(), of_curve_[idx(curve)].end());
+    return bones;
+  }
+
+ private:
+  std::vector<Bone> of_all_;
+  std::vector<std::vector<Bone>> of_curve_;
+};
 
 /// In the order of the vertices; empty where hardly any is held.
 std::vector<Holders> holders_of(const std::vector<int>& vertices, const std::vector<Bone>& bones,
-                                const Sight& sight, int threads) {
+                                const Sight& sight, int threads, const std::stop_token& stop) {
   constexpr double least_held = 0.1;  // few that see a bone by chance do not decide for all
   if (bones.empty()) return {};
   std::vector<Holders> holders(vertices.size());
   parallel_for(holders.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<double> distances;
     for (std::size_t v = begin; v < end; ++v) {
+      throw_if_stopped(stop);
       holders[v] = sight.holders_of(vertices[v], bones, distances);
     }
   });
@@ -121,19 +139,22 @@ SkinSources sources_of_curve(const Surface& surface, const CurveSkeleton& skelet
 
 SkinSources sources_of_bones(const Surface& surface, const CurveSkeleton& skeleton,
                              const std::vector<Component>& parts, const std::vector<Bone>& bones,
-                             const SkinSources& otherwise, int threads) {
+                             const SkinSources& otherwise, int threads,
+                             const std::stop_token& stop) {
   const double least = least_distance(surface);
   const Sight sight(surface, threads);
   const std::vector<int> curves = connected_components(skeleton.nodes.rows(), skeleton.edges);
+  const BonesByCurve by_curve(bones, curves);
   SkinSources sources{SkinSources::Shares(otherwise.shares.rows(), otherwise.shares.cols()),
                       otherwise.distances};
   std::vector<Eigen::Triplet<double>> shares;
   shares.reserve(idx(otherwise.shares.nonZeros()));
   for (const Component& part : parts) {
+    throw_if_stopped(stop);
     const std::vector<int>& vertices = part.vertex_in_whole;
     const int curve = curves[idx(skeleton.node_of_vertex[vertices.front()])];
     const std::vector<Holders> holders =
-        holders_of(vertices, bones_for(curve, bones), sight, threads);
+        holders_of(vertices, by_curve.of(curve), sight, threads, stop);
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       const int vertex = vertices[v];
       if (holders.empty()) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/advanced/skin_weights.hpp>
@@ -32,6 +33,7 @@ struct SkinSources {
 [[nodiscard]] SkinSources sources_of_bones(const Surface& surface, const CurveSkeleton& skeleton,
                                            const std::vector<Component>& parts,
                                            const std::vector<Bone>& bones,
-                                           const SkinSources& otherwise, int threads);
+                                           const SkinSources& otherwise, int threads,
+                                           const std::stop_token& stop);
 
 }  // namespace curveskel

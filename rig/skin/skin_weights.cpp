@@ -90,9 +90,10 @@ class SkinHeat {
     rates_.setFromTriplets(rates.begin(), rates.end());
   }
 
-  /// report(share done) is called from this thread.
+  /// report(share done) is called from this thread. Throws Cancelled on a stop.
   template <typename Report>
-  void solve(std::vector<TopShares>& shares, int threads, const Report& report) {
+  void solve(std::vector<TopShares>& shares, int threads, const std::stop_token& stop,
+             const Report& report) {
     const std::vector<int>& joints = joints_;
     if (joints.size() == 1) {
       for (const int vertex : part_.vertex_in_whole) {
@@ -102,7 +103,7 @@ class SkinHeat {
     }
     SparseMatrix heat = -intrinsic_delaunay_laplacian(part_.surface);
     heat.diagonal() += strength_;
-    factor_.factorize(heat);
+    factor_.factorize(heat, stop);
     const std::size_t workers = std::min(thread_count(threads), most_workers);
     while (workspaces_.size() < workers) {
       workspaces_.push_back(std::make_unique<CholeskyFactor::Workspace>());
@@ -189,9 +190,9 @@ class SkinRun {
  private:
   void solve_large(const Component& part) {
     const std::size_t size = part.vertex_in_whole.size();
-    SkinHeat(part, sources_, options_).solve(shares_, options_.threads, [&](double fraction) {
-      report(fraction * static_cast<double>(size));
-    });
+    SkinHeat(part, sources_, options_)
+        .solve(shares_, options_.threads, monitor_.stop,
+               [&](double fraction) { report(fraction * static_cast<double>(size)); });
     done_ += size;
   }
 
@@ -199,7 +200,7 @@ class SkinRun {
     report(0);
     parallel_for(parts.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
       for (const Component* part : parts.subspan(begin, end - begin)) {
-        SkinHeat(*part, sources_, options_).solve(shares_, 1, [](double /*fraction*/) {});
+        SkinHeat(*part, sources_, options_).solve(shares_, 1, monitor_.stop, [](double) {});
       }
     });
     for (const Component* part : parts) done_ += part->vertex_in_whole.size();
@@ -276,7 +277,8 @@ SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
   SkinSources sources = sources_of_curve(surface, skeleton, joint_of_node, joints);
   if (!bones.empty()) {
     monitor.report("weights", 0);
-    sources = sources_of_bones(surface, skeleton, parts, bones, sources, options.threads);
+    sources =
+        sources_of_bones(surface, skeleton, parts, bones, sources, options.threads, monitor.stop);
   }
   SkinRun run(surface.positions.rows(), sources, options, monitor);
   return without_islands(surface, matrix_of(run.solve(parts), joints, options.least_weight),

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <stop_token>
@@ -16,6 +15,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include "surface/mesh/meeting_boxes.hpp"
+#include "surface/spatial/box_tree.hpp"
 
 namespace curveskel {
 namespace {
@@ -47,41 +48,59 @@ Members members_of(const Surface& surface, const Topology& counted) {
 }
 
 /// Per component the others whose boxes have a point in common with its own, ascending.
-std::vector<std::vector<int>> near_boxes(const std::vector<Box>& boxes) {
-  std::vector<int> by_start(boxes.size());
-  std::iota(by_start.begin(), by_start.end(), 0);
-  std::stable_sort(by_start.begin(), by_start.end(),
-                   [&](int a, int b) { return boxes[idx(a)].min().x() < boxes[idx(b)].min().x(); });
+std::vector<std::vector<int>> near_boxes(const std::vector<Box>& boxes,
+                                         const std::stop_token& stop) {
   std::vector<std::vector<int>> near(boxes.size());
-  for (std::size_t i = 0; i < by_start.size(); ++i) {
-    const Box& one = boxes[idx(by_start[i])];
-    for (std::size_t j = i + 1; j < by_start.size(); ++j) {
-      const Box& other = boxes[idx(by_start[j])];
-      if (other.min().x() > one.max().x()) break;
-      if (!one.intersects(other)) continue;
-      near[idx(by_start[i])].push_back(by_start[j]);
-      near[idx(by_start[j])].push_back(by_start[i]);
-    }
-  }
+  for_meeting_boxes(boxes, [&](int a, int b) {
+    throw_if_stopped(stop);
+    near[idx(a)].push_back(b);
+    near[idx(b)].push_back(a);
+  });
   for (auto& its : near) std::sort(its.begin(), its.end());
   return near;
 }
 
+/// Components by their boxes.
+class BoxesInReach {
+ public:
+  explicit BoxesInReach(const std::vector<Box>& boxes) : tree_(middles_of_boxes(boxes)) {
+    for (std::size_t c = 0; c < boxes.size(); ++c) tree_.put(c, {boxes[c]});
+  }
+
+  /// True if the box of a component other than `own` has a point in common with this one.
+  [[nodiscard]] bool has_other(std::size_t own, const Box& box) const {
+    bool found = false;
+    double most = 0;
+    const auto bound = [&](const BoxTree::Item& item) {
+      return item.box.intersects(box) ? 0.0 : 1.0;
+    };
+    tree_.search(bound, most, [&](std::size_t other) {
+      if (other == own) return;
+      found = true;
+      most = -1;  // one will do
+    });
+    return found;
+  }
+
+ private:
+  BoxTree tree_;
+};
+
 /// The boxes of the triangles that come into the box of a component other than their own.
 std::vector<FaceBox> faces_within_reach(const Surface& surface, const Members& members,
-                                        const std::vector<std::vector<int>>& near) {
+                                        const std::vector<std::vector<int>>& near,
+                                        const std::stop_token& stop) {
+  const BoxesInReach boxes(members.boxes);
   std::vector<FaceBox> reached;
   for (std::size_t c = 0; c < near.size(); ++c) {
     if (near[c].empty()) continue;
+    throw_if_stopped(stop);
     for (const std::int32_t f : members.faces[c]) {
       Box box;
       for (const std::int32_t v : surface.triangles.row(f)) {
         box.extend(Eigen::Vector3d(surface.positions.row(v)));
       }
-      const bool within = std::any_of(near[c].begin(), near[c].end(), [&](int other) {
-        return members.boxes[idx(other)].intersects(box);
-      });
-      if (!within) continue;
+      if (!boxes.has_other(c, box)) continue;
       reached.emplace_back(CGAL::Bbox_3(box.min().x(), box.min().y(), box.min().z(), box.max().x(),
                                         box.max().y(), box.max().z()),
                            f);
@@ -120,16 +139,14 @@ std::set<std::pair<int, int>> meeting_pairs(const Surface& surface, const Topolo
   return meeting;
 }
 
-/// The surface of one component alone; all positions stay.
-SurfaceTree tree_of(const Surface& surface, const std::vector<std::int32_t>& faces) {
-  return SurfaceTree({surface.positions, surface.triangles(faces, Eigen::all)});
-}
-
 /// A component that meets no other lies inside it with all its vertices or with none.
-std::vector<int> components_around(const Surface& surface, const Members& members,
+std::vector<int> components_around(const Surface& surface, const Topology& counted,
+                                   const Members& members,
                                    const std::vector<std::vector<int>>& near,
-                                   const std::set<std::pair<int, int>>& meeting) {
+                                   const std::set<std::pair<int, int>>& meeting,
+                                   const std::stop_token& stop) {
   std::vector<int> around(near.size(), -1);
+  std::vector<Component> components;
   for (std::size_t c = 0; c < near.size(); ++c) {
     std::optional<SurfaceTree> tree;
     for (const int inner : near[c]) {
@@ -138,7 +155,9 @@ std::vector<int> components_around(const Surface& surface, const Members& member
       if (!box.contains(members.boxes[idx(inner)])) continue;
       if (meeting.contains(std::minmax(static_cast<int>(c), inner))) continue;
       if (so_far >= 0 && members.boxes[idx(so_far)].volume() <= box.volume()) continue;
-      if (!tree) tree.emplace(tree_of(surface, members.faces[c]));
+      throw_if_stopped(stop);
+      if (components.empty()) components = split_components(surface, counted);
+      if (!tree) tree.emplace(components[c].surface);
       const Eigen::Vector3d vertex = surface.positions.row(members.a_vertex[idx(inner)]);
       if (tree->inside(vertex)) so_far = static_cast<int>(c);
     }
@@ -153,15 +172,15 @@ Overlaps overlaps_of(const Surface& surface, const Topology& counted, const Moni
                   std::vector<int>(counted.genus.size(), -1)};
   if (counted.components() < 2) return result;
   const Members members = members_of(surface, counted);
-  const auto near = near_boxes(members.boxes);
-  auto reached = faces_within_reach(surface, members, near);
+  const auto near = near_boxes(members.boxes, monitor.stop);
+  auto reached = faces_within_reach(surface, members, near, monitor.stop);
   const auto meeting = meeting_pairs(surface, counted, reached, monitor.stop);
   for (const auto& [a, b] : meeting) {
     result.met[idx(a)].push_back(b);
     result.met[idx(b)].push_back(a);
   }
   for (auto& others : result.met) std::sort(others.begin(), others.end());
-  result.around = components_around(surface, members, near, meeting);
+  result.around = components_around(surface, counted, members, near, meeting, monitor.stop);
   return result;
 }
 

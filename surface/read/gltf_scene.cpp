@@ -304,17 +304,12 @@ class SceneReader {
 
   /// The corners of triangle i by mode are those of section 3.7.2.1 of the standard.
   void append_triangles(const std::vector<std::int64_t>& vertices, int mode, const Run& run) {
-    const bool separate = mode == TINYGLTF_MODE_TRIANGLES;
-    const std::size_t count =
-        separate ? vertices.size() / 3 : std::max<std::size_t>(vertices.size(), 2) - 2;
-    if (separate && vertices.size() % 3 != 0) {
+    if (mode == TINYGLTF_MODE_TRIANGLES && vertices.size() % 3 != 0) {
       file_.fail(std::to_string(vertices.size()) + " indices of triangles", "a multiple of three",
                  gltf_remedy);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      std::array<std::size_t, 3> corner{3 * i, 3 * i + 1, 3 * i + 2};
-      if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) corner = {i, i + 1 + i % 2, i + 2 - i % 2};
-      if (mode == TINYGLTF_MODE_TRIANGLE_FAN) corner = {i + 1, i + 2, 0};
+    for (std::size_t i = 0; i < gltf_triangle_count(mode, vertices.size()); ++i) {
+      std::array<std::size_t, 3> corner = gltf_triangle(mode, i);
       if (run.mirrored) std::swap(corner[1], corner[2]);
       for (const std::size_t k : corner) {
         scene_.soup.corners.push_back(static_cast<std::int32_t>(run.first + vertices[k]));
@@ -337,6 +332,18 @@ class SceneReader {
 };
 
 }  // namespace
+
+std::size_t gltf_triangle_count(int mode, std::size_t corners) {
+  const bool joined = mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
+  return joined ? std::max<std::size_t>(corners, 2) - 2 : corners / 3;
+}
+
+std::array<std::size_t, 3> gltf_triangle(int mode, std::size_t number) {
+  const std::size_t i = number;
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {i, i + 1 + i % 2, i + 2 - i % 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {i + 1, i + 2, 0};
+  return {3 * i, 3 * i + 1, 3 * i + 2};
+}
 
 GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,
                           const Monitor& monitor, const GltfReading& reading) {

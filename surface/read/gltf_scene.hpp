@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -49,6 +51,12 @@ struct GltfScene {
   std::vector<int> parents;             ///< of each node; -1 = none
   std::vector<int> nodes;               ///< those in the scene, each before its children
 };
+
+/// How many triangles so many corners are, in a mode of triangles, strips or fans.
+[[nodiscard]] std::size_t gltf_triangle_count(int mode, std::size_t corners);
+
+/// The places of a triangle's corners among those of all, in the standard's order.
+[[nodiscard]] std::array<std::size_t, 3> gltf_triangle(int mode, std::size_t number);
 
 /// Valid as long as the model. Throws Error(Fault::input) where indices or numbers are wrong.
 [[nodiscard]] GltfScene read_gltf_scene(const FileBytes& file, const tinygltf::Model& model,

@@ -413,11 +413,13 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
     const double copy_distance =
         options.join_distance * bounding_box_diagonal(result.surface.positions);
     const bool floors_stay = options.least_sheet > 0;
-    leave_out_components(result, {copy_distance, options.least_area, floors_stay, least_crumb,
-                                  options.merge_overlapping ? 0 : options.components});
+    leave_out_components(result,
+                         {copy_distance, options.least_area, floors_stay, least_crumb,
+                          options.merge_overlapping ? 0 : options.components},
+                         monitor.stop);
     if (options.merge_overlapping) {
       merge_overlapping(result, monitor);
-      leave_out_components(result, {copy_distance, 0, false, 0, options.components});
+      leave_out_components(result, {copy_distance, 0, false, 0, options.components}, monitor.stop);
     }
   }
   describe_repairs(result.repairs, monitor);

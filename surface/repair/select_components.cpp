@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -11,10 +14,12 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/monitor.hpp>
 #include "surface/mesh/component_areas.hpp"
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/weld.hpp"
+#include "surface/spatial/box_tree.hpp"
 
 namespace curveskel {
 namespace {
@@ -92,40 +97,70 @@ Boxes boxes_of(const Surface& surface, const Topology& counted) {
   return boxes;
 }
 
-/// The largest area of the other components whose boxes hold the middle of this one's, or else meet
-/// this one's; 0: none does.
-double largest_about(const Boxes& boxes, const std::vector<double>& area, std::size_t component) {
-  double holds = 0;
-  double meets = 0;
-  for (std::size_t other = 0; other < boxes.size(); ++other) {
-    if (other == component || area[other] <= holds) continue;
-    if (!boxes[other].intersects(boxes[component])) continue;
-    meets = std::max(meets, area[other]);
-    if (boxes[other].contains(boxes[component].center())) holds = area[other];
+/// The boxes of the components, to be asked for the one of the largest area.
+class BoxesByArea {
+ public:
+  BoxesByArea(Boxes boxes, const std::vector<double>& area)
+      : boxes_(std::move(boxes)), area_(area), tree_(middles_of_boxes(boxes_)) {
+    for (std::size_t c = 0; c < boxes_.size(); ++c) tree_.put(c, {boxes_[c], area[c]});
   }
-  return holds > 0 ? holds : meets;
-}
+
+  /// The largest area of the other components whose boxes hold the middle of this one's, or else
+  /// meet this one's; 0: none does.
+  [[nodiscard]] double largest_about(std::size_t component) const {
+    const Eigen::AlignedBox3d& own = boxes_[component];
+    const double holds = largest_of_others(
+        component, [&](const Eigen::AlignedBox3d& box) { return box.contains(own.center()); });
+    if (holds > 0) return holds;
+    return largest_of_others(component,
+                             [&](const Eigen::AlignedBox3d& box) { return box.intersects(own); });
+  }
+
+ private:
+  template <typename Fits>
+  [[nodiscard]] double largest_of_others(std::size_t component, const Fits& fits) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double largest = 0;
+    double most = std::nextafter(-largest, -infinity);  // of equal areas one will do
+    const auto bound = [&](const BoxTree::Item& item) {
+      return fits(item.box) ? -item.weight : infinity;
+    };
+    tree_.search(bound, most, [&](std::size_t other) {
+      if (other == component || area_[other] <= largest) return;
+      largest = area_[other];
+      most = std::nextafter(-largest, -infinity);
+    });
+    return largest;
+  }
+
+  Boxes boxes_;
+  const std::vector<double>& area_;
+  BoxTree tree_;  // weights are areas
+};
 
 void mark_specks(const Surface& surface, const Topology& counted, const std::vector<double>& area,
-                 const SelectionRules& rules, std::vector<Fate>& fates) {
+                 const SelectionRules& rules, const std::stop_token& stop,
+                 std::vector<Fate>& fates) {
   const double least = rules.least_area * *std::max_element(area.begin(), area.end());
-  const Boxes boxes = rules.by_place ? boxes_of(surface, counted) : Boxes{};
+  std::optional<BoxesByArea> boxes;
   for (std::size_t c = 0; c < fates.size(); ++c) {
     if (fates[c] != Fate::kept || area[c] >= least) continue;
-    const double about = rules.by_place ? largest_about(boxes, area, c) : 0;
+    throw_if_stopped(stop);
+    if (rules.by_place && !boxes) boxes.emplace(boxes_of(surface, counted), area);
+    const double about = boxes ? boxes->largest_about(c) : 0;
     if (about == 0 || area[c] < rules.least_area * about) fates[c] = Fate::speck;
   }
 }
 
 /// Fate of each component, by the order of the rules in `leave_out_components`.
 std::vector<Fate> choose_components(const Surface& surface, const Topology& counted,
-                                    const SelectionRules& rules) {
+                                    const SelectionRules& rules, const std::stop_token& stop) {
   std::vector<Fate> fates(idx(counted.components()), Fate::kept);
   if (counted.components() < 2) return fates;
   mark_copies(surface, counted, rules.copy_distance, fates);
   const auto area = component_areas(surface, counted);
   if (rules.least_crumb > 0) mark_crumbs(surface, counted, area, rules.least_crumb, fates);
-  mark_specks(surface, counted, area, rules, fates);
+  mark_specks(surface, counted, area, rules, stop, fates);
   std::vector<int> by_area;
   for (int c = 0; c < counted.components(); ++c) {
     if (fates[idx(c)] == Fate::kept) by_area.push_back(c);
@@ -162,9 +197,10 @@ std::vector<std::int32_t> keep_components(Surface& surface, const Topology& coun
   return number;
 }
 
-void leave_out_components(RepairedSurface& result, const SelectionRules& rules) {
+void leave_out_components(RepairedSurface& result, const SelectionRules& rules,
+                          const std::stop_token& stop) {
   const Topology counted = topology(result.surface);
-  const auto fates = choose_components(result.surface, counted, rules);
+  const auto fates = choose_components(result.surface, counted, rules, stop);
   const auto count = [&](Fate fate) { return std::count(fates.begin(), fates.end(), fate); };
   result.repairs.copies_dropped += count(Fate::copy);
   result.repairs.crumbs_dropped += count(Fate::crumb);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/repair.hpp>
@@ -30,7 +31,8 @@ std::vector<std::int32_t> keep_components(Surface& surface, const Topology& coun
 /// one vertex by vertex, within the copy distance; those that touch, in a position that both have,
 /// directly or through others, a much larger one; those with little area; and all but the largest
 /// by area (the earlier one of two equals). Vertices of crumbs follow the nearest one that stays.
-/// O(#V log #V).
-void leave_out_components(RepairedSurface& result, const SelectionRules& rules);
+/// O(#V log #V). Throws Cancelled on a stop.
+void leave_out_components(RepairedSurface& result, const SelectionRules& rules,
+                          const std::stop_token& stop);
 
 }  // namespace curveskel

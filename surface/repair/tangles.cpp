@@ -57,6 +57,20 @@ bool its_long_faces_cross(const Surface& surface) {
   return crosses_nearly_everywhere(surface, long_edge * box.diagonal().norm());
 }
 
+/// These faces and the vertices that they use, in their order.
+Surface part_alone(const Surface& surface, const std::vector<Eigen::Index>& faces) {
+  Surface part{{}, surface.triangles(faces, Eigen::all)};
+  std::vector<int> vertices(part.triangles.data(), part.triangles.data() + part.triangles.size());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  part.positions = surface.positions(vertices, Eigen::all);
+  for (int& v : part.triangles.reshaped()) {
+    const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
+    v = static_cast<int>(found - vertices.begin());
+  }
+  return part;
+}
+
 }  // namespace
 
 double long_faces_on_a_line(const Surface& surface) {
@@ -110,17 +124,17 @@ bool is_tangle(const Surface& surface, bool was_cut_much) {
 
 bool is_mostly_tangle(const Surface& surface) {
   const LooseParts loose = loose_parts(surface);
-  const auto met = long_faces_on_lines(surface, loose.part_of_face, loose.areas.size());
+  const std::size_t parts = loose.areas.size();
+  const auto met = long_faces_on_lines(surface, loose.part_of_face, parts);
+  std::vector<std::vector<Eigen::Index>> faces(parts);  // of those that may be tangled
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    const std::size_t part = idx(loose.part_of_face[idx(f)]);
+    if (met[part] > again_and_again) faces[part].push_back(f);
+  }
   double balance = 0;
-  for (std::size_t part = 0; part < loose.areas.size(); ++part) {
-    bool tangled = met[part] > again_and_again;
-    if (tangled) {
-      std::vector<Eigen::Index> rows;
-      for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-        if (loose.part_of_face[idx(f)] == static_cast<int>(part)) rows.push_back(f);
-      }
-      tangled = its_long_faces_cross({surface.positions, surface.triangles(rows, Eigen::all)});
-    }
+  for (std::size_t part = 0; part < parts; ++part) {
+    const bool tangled =
+        !faces[part].empty() && its_long_faces_cross(part_alone(surface, faces[part]));
     balance += tangled ? loose.areas[part] : -loose.areas[part];
   }
   return balance > 0;

@@ -19,6 +19,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/union_find.hpp>
 #include "surface/mesh/cgal_mesh.hpp"
+#include "surface/repair/open_pairs.hpp"
 
 namespace curveskel {
 namespace {
@@ -181,7 +182,7 @@ class Uniting {
  public:
   Uniting(const std::vector<Component>& parts, const std::vector<std::pair<int, int>>& meeting)
       : meeting_(meeting),
-        is_open_(meeting.size(), 1),
+        open_(meeting.size()),
         joined_(static_cast<std::int64_t>(parts.size())),
         bodies_(parts.size()),
         pairs_of_(parts.size()) {
@@ -204,19 +205,21 @@ class Uniting {
     for (std::size_t pair = 0; pair < meeting.size(); ++pair) {
       const auto& [a, b] = meeting[pair];
       const std::string& why = unfit[idx(a)].empty() ? unfit[idx(b)] : unfit[idx(a)];
-      if (why.empty()) continue;
-      is_open_[pair] = 0;
-      refused_.push_back({a, b, why});
+      if (why.empty()) {
+        open_.open(pair, size_of(pair));
+      } else {
+        refused_.push_back({a, b, why});
+      }
     }
   }
 
   void run(const Monitor& monitor) {
-    while (const auto next = smallest_pair()) {
-      monitor.report("merge", double(std::count(is_open_.begin(), is_open_.end(), char{0})) /
-                                  double(meeting_.size()));
-      const auto& [a, b] = meeting_[*next];
+    while (open_.count() > 0) {
+      monitor.report("merge", double(meeting_.size() - open_.count()) / double(meeting_.size()));
+      const std::size_t smallest = open_.smallest();
+      const auto& [a, b] = meeting_[smallest];
       const int hub = triangles(joined_.root(a)) < triangles(joined_.root(b)) ? b : a;
-      unite_with(hub, pairs_at(hub, *next), monitor);
+      unite_with(hub, pairs_at(hub, smallest), monitor);
     }
   }
 
@@ -232,21 +235,22 @@ class Uniting {
     return bodies_[idx(root)].mesh.number_of_faces();
   }
 
-  /// Of the open pairs; closes those that came to belong to one body.
-  std::optional<std::size_t> smallest_pair() {
-    std::optional<std::size_t> smallest;
-    std::size_t fewest = 0;
-    for (std::size_t pair = 0; pair < meeting_.size(); ++pair) {
-      if (!is_open_[pair]) continue;
-      const int a = joined_.root(meeting_[pair].first);
-      const int b = joined_.root(meeting_[pair].second);
-      if (a == b) is_open_[pair] = 0;
-      const std::size_t both = triangles(a) + triangles(b);
-      if (a == b || (smallest && both >= fewest)) continue;
-      smallest = pair;
-      fewest = both;
+  [[nodiscard]] std::size_t size_of(std::size_t pair) {
+    const auto& [a, b] = meeting_[pair];
+    return triangles(joined_.root(a)) + triangles(joined_.root(b));
+  }
+
+  /// Its pairs, now that the body has grown: without those that came to belong to it.
+  void sort_pairs_of(int root) {
+    Pairs& pairs = pairs_of_[idx(root)];
+    std::erase_if(pairs, [&](std::size_t pair) {
+      const bool is_within = other_than(root, pair) == root;
+      if (is_within) open_.close(pair);
+      return is_within;
+    });
+    for (const std::size_t pair : pairs) {
+      if (open_.has(pair)) open_.open(pair, size_of(pair));
     }
-    return smallest;
   }
 
   /// An open pair for each of several bodies that meet the hub, but not one another; `first` is one
@@ -261,7 +265,7 @@ class Uniting {
     std::set<int> barred{root};
     for (const std::size_t pair : at_hub) {
       const int other = other_than(root, pair);
-      if (!is_open_[pair] || triangles(other) > triangles(root)) continue;
+      if (!open_.has(pair) || triangles(other) > triangles(root)) continue;
       if (!barred.insert(other).second) continue;
       for (const std::size_t its : pairs_of_[idx(other)]) barred.insert(other_than(other, its));
       chosen.push_back(pair);
@@ -305,7 +309,7 @@ class Uniting {
       return;
     }
     for (const std::size_t pair : pairs) {
-      is_open_[pair] = 0;
+      open_.close(pair);
       const auto& [a, b] = meeting_[pair];
       if (!outcome.body) {
         refused_.push_back({a, b, outcome.why});
@@ -313,7 +317,10 @@ class Uniting {
       }
       join(joined_.root(a), joined_.root(b));
     }
-    if (outcome.body) bodies_[idx(joined_.root(hub))] = std::move(*outcome.body);
+    if (!outcome.body) return;
+    const int united = joined_.root(hub);
+    bodies_[idx(united)] = std::move(*outcome.body);
+    sort_pairs_of(united);
   }
 
   /// Two bodies; the mesh of the union is still to be given to the one that stands for it.
@@ -333,7 +340,7 @@ class Uniting {
   }
 
   const std::vector<std::pair<int, int>>& meeting_;
-  std::vector<char> is_open_;
+  OpenPairs open_;  // by the triangles of both bodies
   UnionFind joined_;
   std::vector<Growing> bodies_;
   std::vector<Pairs> pairs_of_;  // with a part of the body, by the part that stands for it

@@ -26,21 +26,6 @@ constexpr std::size_t part_size = 16384;  // vertices; such a part fits the seco
 constexpr std::size_t parts_leave = 2;    // times the target, before the last collapses
 constexpr std::size_t parts_pay = 8;      // times the target: surfaces at least as fine
 
-// Vertices along a Morton curve, equal cells in the given order: neighbours in space become
-// neighbours in memory, and ties are broken by place rather than by numbering.
-std::vector<Index> vertices_along_curve(const Positions& positions) {
-  const Eigen::RowVector3d low = positions.colwise().minCoeff();
-  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
-  const double cells = extent > 0 ? 2047 / extent : 0;
-  std::vector<std::uint64_t> keys(static_cast<std::size_t>(positions.rows()));
-  for (std::size_t v = 0; v < keys.size(); ++v) {
-    const Eigen::RowVector3d cell = (positions.row(static_cast<Eigen::Index>(v)) - low) * cells;
-    keys[v] = morton_key(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
-                         static_cast<std::uint64_t>(cell.z()));
-  }
-  return order_by_key(keys, 33);
-}
-
 void add_planes(CollapsingPatch& patch, const std::array<Index, 3>& face) {
   const auto& p = patch.vertices[static_cast<std::size_t>(face[0])].position;
   const auto& q = patch.vertices[static_cast<std::size_t>(face[1])].position;
@@ -241,7 +226,8 @@ Coarsened coarsen_whole(const Surface& surface, const CoarsenOptions& options,
     return result;
   }
 
-  const std::vector<Index> order = vertices_along_curve(surface.positions);
+  // Along the curve ties are broken by place rather than by numbering.
+  const std::vector<Index> order = along_morton_curve(surface.positions, options.threads);
   std::vector<Index> place(count);  // first along the curve, then in the result, per input vertex
   for (std::size_t i = 0; i < count; ++i) {
     place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);

@@ -15,6 +15,15 @@
 
 namespace curveskel {
 
+/// A row for each box. Precondition: none is empty.
+[[nodiscard]] inline Positions middles_of_boxes(const std::vector<Eigen::AlignedBox3d>& boxes) {
+  Positions middles(static_cast<Eigen::Index>(boxes.size()), 3);
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    middles.row(static_cast<Eigen::Index>(k)) = boxes[k].center().transpose();
+  }
+  return middles;
+}
+
 class BoxTree {
  public:
   struct Item {

@@ -21,6 +21,8 @@
 #include <curveskel/read_materials.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
+#include "rig/gltf/obj_file.hpp"
+#include "rig/gltf/split_mesh.hpp"
 #include "tests/glb.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/rig/random_rigs.hpp"
@@ -355,6 +357,28 @@ TEST_F(DressObj, AnObjectIsANodeWithItsNameAndItsFaces) {
   }
 }
 
+/// Else a scene of thousands of objects would be gone through for each.
+TEST_F(DressObj, AnObjectHasGroupsOfItsOwnMaterialsOnly) {
+  std::string text;
+  for (int object = 0; object < 40; ++object) {
+    const std::string number = std::to_string(object);
+    text += "o " + number + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m " + number;
+    text += "\nf -4 -2 -3\nf -4 -3 -1\nusemtl shared\nf -3 -2 -1\n";
+    if (object % 3 == 0) text += "usemtl m " + number + "\nf -4 -1 -2\n";
+  }
+  const FileBytes file{"objects.obj", text};
+  const DressedMesh mesh = read_obj_file(file, {}).mesh;
+  ASSERT_EQ(mesh.materials.size(), 41U);
+  for (const PartRange& part : ranges_of(mesh)) {
+    const SplitMesh made = split(mesh, part, file);
+    std::vector<std::string> names;
+    for (const std::size_t material : made.materials) names.push_back(mesh.materials[material]);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, std::vector<std::string>({"m " + part.part.name, "shared"}));
+    EXPECT_EQ(made.corners.size(), 2U);
+  }
+}
+
 TEST_F(DressObj, NothingWhereThereIsNothingToKeep) {
   const std::string plain = ObjSubject{.seams = 0, .materials = 0}.text();
   EXPECT_FALSE(format_rig_into(folder_.write("plain.obj", plain), rig_));
@@ -391,6 +415,27 @@ TEST_F(DressObj, MaterialsAreReadAsTheyAreSeen) {
       EXPECT_EQ(found->material[idx(f)], f * runs / found->triangles.rows());
     }
     EXPECT_FLOAT_EQ(found->materials[0].colour[1], 0.5F);
+  }
+}
+
+TEST_F(DressObj, APictureIsThereOnceForAllThatShowIt) {
+  const std::string text = ObjSubject{.materials = 40}.text();
+  std::string library;
+  for (int k = 0; k < 40; ++k) {
+    library += "newmtl m " + std::to_string(k) + "\nmap_Kd " + (k % 4 == 0 ? "other" : "skin");
+    library += ".png\n";
+  }
+  (void)folder_.write("looks of it.mtl", library);
+  (void)folder_.write("skin.png", png);
+  (void)folder_.write("other.png", png + "another");
+  const auto found = read_materials(folder_.write("a thing.obj", text));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->materials.size(), 40U);
+  EXPECT_EQ(found->pictures.size(), 2U);
+  for (std::size_t k = 0; k < 40; ++k) {
+    const int picture = found->materials[k].picture;
+    ASSERT_GE(picture, 0);
+    EXPECT_EQ(found->pictures[idx(picture)].bytes, k % 4 == 0 ? png + "another" : png);
   }
 }
 

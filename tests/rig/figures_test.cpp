@@ -14,6 +14,7 @@
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "rig/joints/figure_name.hpp"
 #include "rig/pipeline/divided_body.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "tests/rig/plan_subjects.hpp"
@@ -74,12 +75,17 @@ struct Divisible {
   Divisible() {
     const RigSubject all = scene({{beast(1), 16}, {human(), 0}, {human(), -16}, {beast(1), 40}});
     body.surface = all.surface;
-    body.vertex_of_input = Eigen::VectorXi::LinSpaced(
-        all.surface.positions.rows(), 0, static_cast<int>(all.surface.positions.rows()) - 1);
+    const auto vertices = static_cast<int>(all.surface.positions.rows());
+    body.vertex_of_input.resize(vertices + 5);  // of others, two of them the same, some none
+    for (int v = 0; v < vertices + 5; ++v) {
+      body.vertex_of_input[v] = v % 7 == 3 ? -1 : v * 5 % vertices;
+    }
     skeleton = all.skeleton;
     counted = topology(body.surface);
     for (int c = 0; c < counted.components(); ++c) {
       const int vertex = vertex_of(c);
+      const int before = vertex_of(std::max(c - 1, 0));
+      body.rims.insert(body.rims.begin(), {vertex, vertex + 2, c % 2 == 0 ? vertex + 1 : before});
       if (c % 2 == 0) body.sheets.insert(body.sheets.begin(), vertex);
       for (const int other : {c + 1, c + 2}) {
         if (other >= counted.components()) continue;
@@ -118,11 +124,15 @@ TEST(DividedBodies, HaveThePartsThatAreLeftIfAllElseFollows) {
       parts.parts.push_back({.follows = !is_member});
       if (is_member) members.push_back(c);
     }
-    const auto [body, skeleton] = divided.part(members);
+    const auto [body, skeleton] = divided.part_of_file(members);
+    EXPECT_EQ(divided.part(members).body.surface.positions, body.surface.positions);
+    EXPECT_EQ(divided.nodes(members), nodes_of_body(whole.skeleton, parts));
     const RepairedSurface left = body_of(whole.body, parts);
     const CurveSkeleton curves = skeleton_of_body(whole.skeleton, parts);
     EXPECT_EQ(body.surface.positions, left.surface.positions);
     EXPECT_EQ(body.surface.triangles, left.surface.triangles);
+    EXPECT_EQ(body.vertex_of_input, left.vertex_of_input);
+    EXPECT_EQ(body.rims, left.rims);
     EXPECT_EQ(body.sheets, left.sheets);
     EXPECT_EQ(skeleton.nodes, curves.nodes);
     EXPECT_EQ(skeleton.edges, curves.edges);
@@ -135,6 +145,63 @@ TEST(DividedBodies, HaveThePartsThatAreLeftIfAllElseFollows) {
       EXPECT_EQ(skeleton.contacts[k].other.node, curves.contacts[k].other.node);
       EXPECT_EQ(skeleton.contacts[k].area, curves.contacts[k].area);
     }
+  }
+}
+
+/// Of so many vertices and joints, each vertex of its own figure's joints.
+RiggedBody small_figure(int vertices, int joints, int inputs, int first_input) {
+  RiggedBody made;
+  made.body.surface.positions = Positions::Constant(vertices, 3, double(vertices));
+  made.body.surface.triangles = Triangles::Constant(1, 3, vertices - 1);
+  made.body.vertex_of_input = Eigen::VectorXi::Constant(inputs, -1);
+  for (int v = 0; v < vertices; ++v) made.body.vertex_of_input[first_input + v] = v;
+  made.skeleton.nodes = Positions::Constant(2, 3, double(joints));
+  made.skeleton.edges.resize(1, 2);
+  made.skeleton.edges << 0, 1;
+  made.skeleton.radii = Eigen::VectorXd::Constant(2, 0.5);
+  made.skeleton.node_of_vertex = Eigen::VectorXi::Constant(vertices, 1);
+  made.rig.joints = Positions::Constant(joints, 3, double(joints));
+  made.rig.parents = Eigen::VectorXi::LinSpaced(joints, -1, joints - 2);
+  made.rig.names.assign(std::size_t(joints), "joint");
+  made.rig.weights = SkinWeights(vertices, joints);
+  for (int v = 0; v < vertices; ++v) made.rig.weights.insert(v, v % joints) = float(vertices);
+  return made;
+}
+
+TEST(Figures, SideBySideHaveEachItsOwnRowsAndJoints) {
+  for (const int count : {1, 2, 9}) {
+    std::vector<RiggedBody> figures;
+    const int inputs = count * (count + 5);
+    for (int k = 0; k < count; ++k) {
+      figures.push_back(small_figure(4 + k, 2 + k % 3, inputs, k * (count + 5)));
+    }
+    if (count == 9) figures[4].rig.readable.assign(figures[4].rig.names.size(), "Joint");
+    const RiggedBody all = side_by_side(figures);
+    const Eigen::MatrixXf weights = all.rig.weights;
+    EXPECT_EQ(all.rig.readable.size(), count == 9 ? all.rig.names.size() : 0U);
+    int vertex = 0;
+    int joint = 0;
+    float sum = 0;
+    for (int k = 0; k < count; ++k) {
+      const auto vertices = static_cast<int>(figures[std::size_t(k)].rig.weights.rows());
+      const auto joints = static_cast<int>(figures[std::size_t(k)].rig.weights.cols());
+      const Eigen::MatrixXf own = figures[std::size_t(k)].rig.weights;
+      EXPECT_EQ(weights.block(vertex, joint, vertices, joints), own);
+      EXPECT_EQ(all.rig.joints(joint, 0), joints);
+      EXPECT_EQ(all.rig.parents[joint], -1);
+      EXPECT_EQ(all.rig.parents[joint + 1], joint);
+      EXPECT_EQ(all.rig.names[std::size_t(joint)], figure_prefix(std::size_t(k)) + "joint");
+      EXPECT_EQ(all.body.surface.triangles(k, 2), vertex + vertices - 1);
+      EXPECT_EQ(all.body.vertex_of_input[k * (count + 5) + 1], vertex + 1);
+      EXPECT_EQ(all.skeleton.edges(k, 1), 2 * k + 1);
+      EXPECT_EQ(all.skeleton.node_of_vertex[vertex], 2 * k + 1);
+      vertex += vertices;
+      joint += joints;
+      sum += own.sum();
+    }
+    EXPECT_EQ(weights.rows(), vertex);
+    EXPECT_EQ(weights.cols(), joint);
+    EXPECT_EQ(weights.sum(), sum);
   }
 }
 

@@ -9,12 +9,15 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/make_rig.hpp>
 #include <curveskel/topology.hpp>
+#include "rig/skin/skin_sources.hpp"
 #include "tests/rig/rig_subjects.hpp"
 
 namespace curveskel::skin_weights_laws {
@@ -311,6 +314,20 @@ TEST(SkinWeights, FollowTheBonesNotTheNodes) {
     EXPECT_GT(weights.coeff(vertex, x > 0 ? 1 : 0), 0.85F) << x;
   }
   EXPECT_EQ(Eigen::MatrixXf(skin_weights(bar.surface, axis, first, {}, 2)).col(1).norm(), 0);
+}
+
+TEST(SkinWeights, AreLookedForUntilAStop) {
+  const RigSubject& subject = rig_subjects().front();
+  const Eigen::VectorXi joint_of_node = Eigen::VectorXi::Zero(subject.skeleton.nodes.rows());
+  const SkinSources of_curve =
+      sources_of_curve(subject.surface, subject.skeleton, joint_of_node, 1);
+  const auto parts = split_components(subject.surface, topology(subject.surface));
+  const std::vector<Bone> bones{{0, subject.skeleton.nodes.row(0), subject.skeleton.nodes.row(1)}};
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW((void)sources_of_bones(subject.surface, subject.skeleton, parts, bones, of_curve, 1,
+                                      stop.get_token()),
+               Cancelled);
 }
 
 }  // namespace

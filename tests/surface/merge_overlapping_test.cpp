@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <random>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -19,6 +21,7 @@
 #include <curveskel/topology.hpp>
 #include "meshes/random.hpp"
 #include "meshes/shapes.hpp"
+#include "surface/repair/open_pairs.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::merging_laws {
@@ -335,6 +338,28 @@ TEST(Merging, ObeysAStop) {
   options.merge_overlapping = true;
   const Shape all = shapes::together("parts", {ball(), at(ball(), 1, 0, 0)});
   EXPECT_THROW((void)repair(soup_of(all.surface), options, monitor), Cancelled);
+}
+
+TEST(OpenPairs, GiveTheSmallestFirstOfEqualOnes) {
+  constexpr std::size_t pairs = 60;
+  std::mt19937 draw(3);
+  OpenPairs open(pairs);
+  std::map<std::size_t, std::size_t> sizes;
+  for (int step = 0; step < 2000; ++step) {
+    const std::size_t pair = draw() % pairs;
+    if (draw() % 3 == 0) {
+      open.close(pair);
+      sizes.erase(pair);
+    } else {
+      open.open(pair, sizes[pair] = draw() % 9);
+    }
+    ASSERT_EQ(open.count(), sizes.size());
+    ASSERT_EQ(open.has(pair), sizes.contains(pair));
+    if (sizes.empty()) continue;
+    const auto smallest = std::min_element(sizes.begin(), sizes.end(),
+                                           [](auto& a, auto& b) { return a.second < b.second; });
+    ASSERT_EQ(open.smallest(), smallest->first);
+  }
 }
 
 }  // namespace
