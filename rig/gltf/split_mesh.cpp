@@ -99,7 +99,7 @@ class PlacesOfParts {
   std::vector<std::size_t> last_part_;  // whose faces have the place
 };
 
-bool is_placed(const DressedMesh& mesh, std::size_t face) {
+bool has_places(const DressedMesh& mesh, std::size_t face) {
   const auto begin = mesh.corners.begin() + mesh.offsets[face];
   const auto end = mesh.corners.begin() + mesh.offsets[face + 1];
   return std::all_of(begin, end, [&](const DressedCorner& corner) {
@@ -122,7 +122,7 @@ SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes&
   SplitMesh result;
   std::vector<std::size_t> faces;
   for (std::size_t face = part.first_face; face < part.end_face; ++face) {
-    if (!is_placed(mesh, face)) continue;
+    if (!has_places(mesh, face)) continue;
     faces.push_back(face);
     result.materials.push_back(material_or_none(mesh, face));
   }
