@@ -133,9 +133,7 @@ int run_view(ViewOptions options, Session& session) {
   if (options.files.empty()) throw UsageError("a picture of what? name a surface or a skeleton");
   if (!options.frame_times.empty()) throw UsageError("--frame-times is for the window");
   session.interruption.limit(options.time_limit_seconds);  // of a window: its runs
-  if (!options.screenshot.empty()) {
-    for (const auto& file : options.files) check_outputs({options.screenshot}, file);
-  }
+  if (!options.screenshot.empty()) check_outputs({options.screenshot}, options.files);
   const std::string written = write_pictures(options, session);
   session.terminal.end_progress();
   session.terminal.result(written);
