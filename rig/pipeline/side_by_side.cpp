@@ -41,7 +41,7 @@ void number_through(std::vector<RiggedBody>& figures) {
   }
 }
 
-/// Those rows of each figure, one below the other.
+/// The same rows of each figure, one below the other.
 template <typename Of>
 auto stacked(const std::vector<RiggedBody>& figures, const Of& of) {
   std::decay_t<decltype(of(figures.front()))> all;

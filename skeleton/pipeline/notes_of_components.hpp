@@ -19,7 +19,7 @@ class NotesOfComponents {
   NotesOfComponents(const Monitor& monitor, std::size_t components)
       : monitor_(monitor), lines_(components) {}
 
-  /// That of a component; the other callbacks are for the calling thread. Refers to this.
+  /// The monitor of a component; its other callbacks are for the calling thread. Refers to this.
   [[nodiscard]] Monitor monitor_of(std::size_t component, bool on_calling_thread) {
     Monitor listening;
     if (on_calling_thread) listening = monitor_;

@@ -52,7 +52,7 @@ struct GltfScene {
   std::vector<int> nodes;               ///< those in the scene, each before its children
 };
 
-/// How many triangles so many corners are, in a mode of triangles, strips or fans.
+/// The number of triangles that so many corners are, in a mode of triangles, strips or fans.
 [[nodiscard]] std::size_t gltf_triangle_count(int mode, std::size_t corners);
 
 /// The places of a triangle's corners among those of all, in the standard's order.

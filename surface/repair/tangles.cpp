@@ -57,7 +57,7 @@ bool its_long_faces_cross(const Surface& surface) {
   return crosses_nearly_everywhere(surface, long_edge * box.diagonal().norm());
 }
 
-/// These faces and the vertices that they use, in their order.
+/// The faces and the vertices that they use, in their order.
 Surface part_alone(const Surface& surface, const std::vector<Eigen::Index>& faces) {
   Surface part{{}, surface.triangles(faces, Eigen::all)};
   std::vector<int> vertices(part.triangles.data(), part.triangles.data() + part.triangles.size());

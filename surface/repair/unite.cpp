@@ -240,7 +240,7 @@ class Uniting {
     return triangles(joined_.root(a)) + triangles(joined_.root(b));
   }
 
-  /// Its pairs, now that the body has grown: without those that came to belong to it.
+  /// The pairs of a body that has grown: without those that came to belong to it.
   void sort_pairs_of(int root) {
     Pairs& pairs = pairs_of_[idx(root)];
     std::erase_if(pairs, [&](std::size_t pair) {

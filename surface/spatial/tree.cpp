@@ -102,7 +102,9 @@ double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point, const Ball& i
   const double off_centre = (point - inner.centre).norm();
   if (!(off_centre < inner.radius)) return inscribed_radius(point);
   constexpr double slack = 1 + 1e-9;  // for rounding
-  return nearest(point, (inner.radius + off_centre) * slack).distance;
+  const Nearest found = nearest(point, (inner.radius + off_centre) * slack);
+  // A radius of a few last digits of the coordinates is known no better than by these.
+  return found.triangle >= 0 ? found.distance : inscribed_radius(point);
 }
 
 SurfaceTree::Ball SurfaceTree::inscribed_ball(const Eigen::Vector3d& point,

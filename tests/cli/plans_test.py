@@ -8,7 +8,7 @@ import unittest
 from program import CommandLineTest
 
 MESHES = pathlib.Path(os.environ["CURVESKEL_COLLECTION"])
-# Where x, y and z of a body go: about its up, and to z up.
+# The axes to which x, y and z of a body go: about its up, and to z up.
 TURNS = (("x", "y", "z"), ("-x", "y", "-z"), ("z", "y", "-x"), ("x", "-z", "y"), ("-x", "z", "y"))
 
 

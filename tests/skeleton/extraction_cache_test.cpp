@@ -259,7 +259,7 @@ TEST(CachedSurface, IsFreshThroughSecondContractionsAndLevelSets) {
   EXPECT_EQ(met, (std::set<std::string>{"as asked", "gentler contraction", "level-set graph"}));
 }
 
-// What its vertices gave was made anew in each run.
+// The finer try was made anew in each run.
 TEST(CachedSurface, KeepsAComponentThatIsMadeFromAllItsVertices) {
   const Surface sieve = thin_walled(3, 0.03);
   ExtractOptions options;

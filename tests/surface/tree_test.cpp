@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -214,6 +215,32 @@ TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
     }
     if (name != "long triangles") {
       EXPECT_GT(inside, 10);
+    }
+  }
+}
+
+// Nodes a few last digits below the surface had infinite radii.
+TEST(SurfaceTree, ABallThatIsKnownHelpsHoweverSmall) {
+  for (const auto& [name, surface] : all_shapes()) {
+    const SurfaceTree tree(surface);
+    const double size = bounding_box_diagonal(surface.positions);
+    std::mt19937_64 random(3);
+    for (int k = 0; k < 400; ++k) {
+      const auto faces = static_cast<std::uint64_t>(surface.triangles.rows());
+      const auto face = static_cast<Eigen::Index>(random() % faces);
+      const auto corner = [&](int c) {
+        return Vector3d(surface.positions.row(surface.triangles(face, c)).transpose());
+      };
+      const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+      const Vector3d middle = (corner(0) + corner(1) + corner(2)) / 3;
+      const double depth = size * std::pow(10.0, -(k % 16));
+      const Vector3d centre = middle - depth * normal;
+      const double radius = tree.inscribed_radius(centre);
+      if (!(radius > 0)) continue;
+      const Vector3d p = centre + 0.5 * radius * normal.unitOrthogonal();
+      const double plain = tree.inscribed_radius(p);
+      EXPECT_NEAR(tree.inscribed_radius(p, {centre, radius}), std::abs(plain), 1e-12 * size)
+          << name;
     }
   }
 }

@@ -121,13 +121,16 @@ class Keeper {
 
   /// Just below the full surface to the next point that is inside. A line that crosses the surface
   /// goes round no handle of the inside, so of a cycle any way will do with which the graph goes
-  /// round all of them.
+  /// round all of them. Where no way does, the handle is missed whatever becomes of the others.
   std::optional<Stretch> stretch_below(Arc& arc, const std::vector<CurvePoint>& line, std::size_t i,
                                        bool on_cycle, const std::vector<CurvePoint>& covered) {
+    if (on_cycle && misses_handle_) return std::nullopt;
     std::size_t next = i + 1;
     while (next + 1 < line.size() && line[next].radius(tree_) <= 0) ++next;
     if (line[i].radius(tree_) <= 0 || line[next].radius(tree_) <= 0) return std::nullopt;
+    bool was_asked = false;
     const auto finds_all = [&](const std::vector<Point>& way) {
+      was_asked = true;
       const std::vector<CurvePoint> before = arc.points;
       const auto at = [&](std::size_t k) { return line.begin() + static_cast<std::ptrdiff_t>(k); };
       arc.points = covered;
@@ -139,6 +142,7 @@ class Keeper {
     };
     const auto way = on_cycle ? ways_below_->between(line[i], line[next], handles_, finds_all)
                               : ways_below_->between(line[i], line[next]);
+    if (was_asked && !way) misses_handle_ = true;
     if (!way) return std::nullopt;
     Stretch stretch{next, {}, 0};
     for (const Point& point : *way) stretch.between.emplace_back(point);
@@ -437,7 +441,8 @@ class Keeper {
   std::map<std::pair<int, int>, BallStep> ball_steps_;  ///< of the steps taken so far
   std::map<std::array<double, 6>, CoveredStep> covered_steps_;
   int uncovered_ = 0;
-  int detours_ = 0;  ///< of the arc at hand
+  bool misses_handle_ = false;  ///< whichever way it goes below the surface
+  int detours_ = 0;             ///< of the arc at hand
   // For all detours, as a surface may meet itself everywhere.
   int more_tries_ = 300;
   int more_fruitless_ways_ = 300;  ///< below the surface, from ball to ball
