@@ -362,9 +362,10 @@ TEST_F(DressObj, AnObjectHasGroupsOfItsOwnMaterialsOnly) {
   std::string text;
   for (int object = 0; object < 40; ++object) {
     const std::string number = std::to_string(object);
-    text += "o " + number + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m " + number;
+    text.append("o ").append(number).append("\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m ");
+    text.append(number);
     text += "\nf -4 -2 -3\nf -4 -3 -1\nusemtl shared\nf -3 -2 -1\n";
-    if (object % 3 == 0) text += "usemtl m " + number + "\nf -4 -1 -2\n";
+    if (object % 3 == 0) text.append("usemtl m ").append(number).append("\nf -4 -1 -2\n");
   }
   const FileBytes file{"objects.obj", text};
   const DressedMesh mesh = read_obj_file(file, {}).mesh;

@@ -171,6 +171,7 @@ RiggedBody small_figure(int vertices, int joints, int inputs, int first_input) {
 TEST(Figures, SideBySideHaveEachItsOwnRowsAndJoints) {
   for (const int count : {1, 2, 9}) {
     std::vector<RiggedBody> figures;
+    figures.reserve(std::size_t(count));
     const int inputs = count * (count + 5);
     for (int k = 0; k < count; ++k) {
       figures.push_back(small_figure(4 + k, 2 + k % 3, inputs, k * (count + 5)));
