@@ -98,12 +98,13 @@ class RanksInCells {
 std::vector<int> twins_through(const MeasuredComponents& components, int axis, double plane,
                                double tolerance, const std::stop_token& stop) {
   constexpr double least_alike = 0.97;  // areas
-  const auto& [middles, areas, by_area] = components;
+  const auto& middles = components.middles;
+  const auto& by_area = components.by_area;
   std::vector<double> in_order;
   RanksInCells cells(tolerance);
   for (const int c : by_area) {
     cells.add(middles[idx(c)], in_order.size());
-    in_order.push_back(areas[idx(c)]);
+    in_order.push_back(components.areas[idx(c)]);
   }
   const OrderedAreas ordered(std::move(in_order));
   std::vector<int> twins(middles.size(), -1);

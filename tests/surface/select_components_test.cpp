@@ -23,15 +23,16 @@ namespace {
 /// many of one size, as leaves have.
 RepairedSurface scene_of_boxes(int count, unsigned seed) {
   std::mt19937 draw(seed);
-  std::vector<int> cells(16 * 16 * 16);
+  constexpr std::size_t side = 16;
+  std::vector<int> cells(side * side * side);
   std::iota(cells.begin(), cells.end(), 0);
   std::shuffle(cells.begin(), cells.end(), draw);
   std::vector<shapes::Shape> boxes;
   for (int k = 0; k < count; ++k) {
     const double size = k % 3 == 0 ? 1 : std::pow(10, 3 * double(draw()) / double(draw.max()) - 2);
     const int cell = cells[idx(k)];
-    const Eigen::Vector3d place(cell % 16, cell / 16 % 16, cell / 256);
-    boxes.push_back(shapes::translated(shapes::box({size, size, size}, 1), place));
+    const Eigen::Vector3i place(cell % 16, cell / 16 % 16, cell / 256);
+    boxes.push_back(shapes::translated(shapes::box({size, size, size}, 1), place.cast<double>()));
   }
   RepairedSurface scene;
   scene.surface = shapes::together("boxes", boxes).surface;

@@ -221,7 +221,8 @@ TEST(SurfaceTree, InsideIsANonZeroWindingNumber) {
 
 // Nodes a few last digits below the surface had infinite radii.
 TEST(SurfaceTree, ABallThatIsKnownHelpsHoweverSmall) {
-  for (const auto& [name, surface] : all_shapes()) {
+  for (const auto& [name, shape] : all_shapes()) {
+    const Surface& surface = shape;
     const SurfaceTree tree(surface);
     const double size = bounding_box_diagonal(surface.positions);
     std::mt19937_64 random(3);

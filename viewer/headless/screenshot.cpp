@@ -251,12 +251,11 @@ void require_picture_of(int width, int height, const Look& look, Renderer& rende
     (void)drawn(scene, renderer, width, height, {0, 0, width, height});
   } catch (const Error& error) {
     if (error.fault() != Fault::device) throw;
-    throw Error(Fault::device,
-                "--size " + std::to_string(width) + "x" + std::to_string(height) +
-                    ": OpenGL made no picture so large, which is drawn " +
-                    std::to_string(factor_of(width, height)) +
-                    " times as wide and high, for smooth edges; take a smaller one, 2048x2048 "
-                    "every driver draws");
+    const std::string twice =
+        factor_of(width, height) == 2 ? ", as it is drawn twice as wide and high" : "";
+    throw Error(Fault::device, "--size " + std::to_string(width) + "x" + std::to_string(height) +
+                                   ": OpenGL made no picture so large" + twice +
+                                   "; make it smaller, every driver draws 2048x2048");
   }
 }
 
