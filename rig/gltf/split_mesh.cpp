@@ -127,8 +127,8 @@ SplitMesh split(const DressedMesh& mesh, const PartRange& part, const FileBytes&
     result.materials.push_back(material_or_none(mesh, face));
   }
   std::sort(result.materials.begin(), result.materials.end());
-  const auto repeats = std::ranges::unique(result.materials);
-  result.materials.erase(repeats.begin(), repeats.end());
+  result.materials.erase(std::unique(result.materials.begin(), result.materials.end()),
+                         result.materials.end());
   result.corners.resize(result.materials.size());
   result.offsets.resize(result.materials.size(), {0});
   Splitting splitting(part.places);
