@@ -143,7 +143,7 @@ std::string what_looks_like_an_option(const CLI::App& verb) {
   for (const std::string& text : verb.remaining()) {
     std::error_code none;
     if (!text.starts_with("-") || !std::filesystem::exists(text, none)) continue;
-    return text + " begins as options do; for the file write ./" + text;
+    return fmt::format("{0} begins as options do; for the file write ./{0}", text);
   }
   return "";
 }
