@@ -51,8 +51,8 @@ void check_outputs(const std::vector<std::string>& names, const std::vector<fs::
       throw UsageError(name + " is named twice as an output");
     }
     if (name == "-") continue;
-    const auto is_output = [&](const fs::path& input) { return fs::equivalent(name, input, none); };
-    if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
+    const auto is_it = [&](const fs::path& input) { return fs::equivalent(name, input, none); };
+    if (std::any_of(inputs.begin(), inputs.end(), is_it)) {
       throw UsageError(name + (inputs.size() == 1 ? " is the input" : " is an input") +
                        "; name another output");
     }
@@ -71,6 +71,13 @@ void make_folder(const fs::path& folder) {
     throw Error(Fault::output, folder.string() + ": cannot be created (" + error.message() +
                                    "); name another folder");
   }
+}
+
+void warn_of_older_files(const fs::path& folder, const std::string& next, Session& session) {
+  if (!fs::exists(folder / next)) return;
+  session.terminal.warn(fmt::format(
+      "{}: {} and those after it are of an earlier run; remove them, or name another folder",
+      folder.string(), next));
 }
 
 void write_outputs(const std::vector<OutputFile>& files, Session& session) {

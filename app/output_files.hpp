@@ -53,6 +53,11 @@ void check_outputs(const std::vector<std::string>& names,
 /// Error(Fault::output).
 void make_folder(const std::filesystem::path& folder);
 
+/// After a row of numbered files: warns where the folder has the next one, too, of a longer run
+/// before this one.
+void warn_of_older_files(const std::filesystem::path& folder, const std::string& next,
+                         Session& session);
+
 /// Writes each file whole, with its side files; an interruption takes effect between files, and
 /// nothing is written where a side file is in the way.
 void write_outputs(const std::vector<OutputFile>& files, Session& session);

@@ -77,8 +77,8 @@ JointPlaces places_of(const Rig& rig, const Positions& positions,
     const bool is_as_large = factor * sizes < alike && factor * sizes > 1 / alike;
     return is_as_large && 2 * joints_within(rig, positions, factor) >= count;
   };
-  if (2 * within >= count && !fits_times(100)) return {};
   if (2 * within >= count) {
+    if (!fits_times(100)) return {};
     return {true, fmt::format("{}: the joints lie within {:.2g} of the size of the surface; times "
                               "100 they would be as large as it: export both in one unit",
                               file.string(), sizes)};

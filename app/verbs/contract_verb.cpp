@@ -58,6 +58,8 @@ Surface together(const std::vector<const Surface*>& parts) {
   return whole;
 }
 
+std::string name_of_frame(std::size_t frame) { return fmt::format("{:04}.ply", frame); }
+
 /// Frame k has every component after its iteration k, or its last one.
 std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const fs::path& folder,
                                     const std::string& provenance) {
@@ -70,7 +72,7 @@ std::vector<OutputFile> frame_files(const std::vector<Frames>& components, const
     for (const Frames& frames : components)
       parts.push_back(&frames[std::min(k, frames.size() - 1)]);
     const Surface whole = together(parts);
-    files.push_back({(folder / fmt::format("{:04}.ply", k)).string(),
+    files.push_back({(folder / name_of_frame(k)).string(),
                      format_surface(whole, SurfaceFormat::ply, provenance)});
   }
   return files;
@@ -87,15 +89,6 @@ void require_no_frame(const fs::path& file, const fs::path& folder) {
     return;
   }
   throw UsageError(file.string() + ": --frames would write over it; name another folder");
-}
-
-/// Of a longer run before this one, after the last of this one's.
-void warn_of_older_frames(const fs::path& folder, std::size_t count, Session& session) {
-  const std::string next = fmt::format("{:04}.ply", count);
-  if (!fs::exists(folder / next)) return;
-  session.terminal.warn(fmt::format(
-      "{}: {} and those after it are of an earlier run; remove them, or name another folder",
-      folder.string(), next));
 }
 
 /// The contraction of one component, in a line.
@@ -145,7 +138,9 @@ int run_contract(const ContractArguments& arguments, Session& session) {
                                         : frame_files(frames, arguments.frames, provenance);
   files.push_back({arguments.output, format_surface(written, format, provenance)});
   write_outputs(files, session);
-  if (files.size() > 1) warn_of_older_frames(arguments.frames, files.size() - 1, session);
+  if (files.size() > 1) {
+    warn_of_older_files(arguments.frames, name_of_frame(files.size() - 1), session);
+  }
 
   if (!arguments.quiet) {
     if (files.size() > 1) {

@@ -90,7 +90,7 @@ class Pipeline {
         plans(working, balls, record), of, [](const Cut&, const Cut*) { return true; },
         [](const Cut&) { return std::nullopt; }, monitor_, log));
     auto skeleton = embedded(cut, *balls, lives, needs_all_handles);
-    if (skeleton && stage_.keeps() && lives.valid()) kept_.lives = {{working}, lives.get()};
+    if (skeleton && stage_.keeps()) kept_.lives = {{working}, lives.get()};
     return skeleton;
   }
 

@@ -7,7 +7,7 @@ import unittest
 import xml.etree.ElementTree
 import zipfile
 
-from program import LINKED_RINGS, TORUS, Y, CommandLineTest, run
+from program import LINKED_RINGS, MESHES, TORUS, Y, CommandLineTest, run
 
 USAGE, INPUT = 2, 3
 
@@ -329,6 +329,24 @@ class Rig(CommandLineTest):
         self.run_ok("extract", TORUS, "-o", "x.json", cwd=self.folder)
         self.refused(3, "rig", Y, "-o", "y.glb", "--skeleton", "x.json",
                      says=["x.json", "a node for each of", "extract it again"], cwd=self.folder)
+
+    def test_of_a_skeleton_without_vertices_has_the_same_plan(self):
+        spot = MESHES / "free" / "spot-3k.obj"
+        self.run_ok("extract", spot, "-o", "s.json", "-o", "s.ply", "-o", "s.swc", "-q",
+                    cwd=self.folder)
+        for name in ("s.json", "s.ply", "s.swc"):
+            result = self.run_ok("rig", spot, "--skeleton", name, "-o", "x.glb", cwd=self.folder)
+            self.assertIn("plan: quadruped", result.out.decode(), name)
+
+    def test_of_joints_in_too_small_a_unit_says_so(self):
+        self.run_ok("rig", Y, "-o", "j.json", "-q", cwd=self.folder)
+        rig = json.loads((self.folder / "j.json").read_text())
+        for factor, warned in ((1, False), (0.01, True)):
+            for joint in rig["joints"]:
+                joint["position"] = [factor * x for x in joint["position"]]
+            (self.folder / "t.json").write_text(json.dumps(rig))
+            result = self.run_ok("rig", Y, "--joints", "t.json", "-o", "x.glb", cwd=self.folder)
+            self.assertEqual("times 100" in result.err, warned, result.err)
 
     def test_options_change_the_joints_and_the_weights(self):
         data = self.rig("x.glb")[0]

@@ -104,9 +104,10 @@ class Files(Folder):
                 self.assertEqual((self.folder / f"m.{extension}").read_bytes(),
                                  (self.folder / f"s.{number}.{extension}").read_bytes())
         skeleton.save(self.folder / "whole.ply")
-        again = curveskel.read(self.folder / "whole.ply").levels(4)
-        self.assertEqual([len(level.edges) for level in again],
-                         [len(level.edges) for level in levels])
+        read = curveskel.read(self.folder / "whole.ply")
+        for other in (read, pickle.loads(pickle.dumps(skeleton))):
+            self.assertEqual([len(level.edges) for level in other.levels(4)],
+                             [len(level.edges) for level in levels])
         for most in (0, 101, 2.5, "two"):
             with self.assertRaises(curveskel.UsageError):
                 skeleton.levels(most)

@@ -123,10 +123,7 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
                   session);
     orbit(scene.camera, 2 * std::numbers::pi_v<float> / static_cast<float>(options.frames), 0);
   }
-  if (!fs::exists(options.turntable / name_of_frame(options.frames))) return;
-  session.terminal.warn(options.turntable.string() + ": " + name_of_frame(options.frames) +
-                        " and those after it are of an earlier run; remove them, or name another "
-                        "folder");
+  warn_of_older_files(options.turntable, name_of_frame(options.frames), session);
 }
 
 /// Drawn so many times as wide and high, for smooth edges.
