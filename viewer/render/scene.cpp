@@ -212,7 +212,8 @@ std::vector<glm::vec3> Scene::points() const {
                moved_surface(document.surface.positions, *shown, joint_motions(*shown, *turned)),
                document.space);
   std::vector<glm::vec3> points = some_of(moved.positions);
-  for (const auto& joint : joints_now().rowwise()) {
+  const Positions joints = joints_now();
+  for (const auto& joint : joints.rowwise()) {
     points.push_back(shown_point(joint, document.space));
   }
   return points;
