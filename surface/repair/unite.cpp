@@ -1,5 +1,6 @@
 #include "surface/repair/unite.hpp"
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -10,8 +11,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -104,8 +108,58 @@ bool fill_cavities(Growing& body) {
   return true;
 }
 
+/// The same surface, its vertices in the order of their places and its faces in that of their
+/// corners. CGAL numbers what it cuts by addresses in memory, which differ from run to run.
+BodyMesh numbered_by_place(const BodyMesh& mesh) {
+  const Surface given = surface_of_cgal(mesh);
+  const auto place = [&](std::int32_t v) {
+    const auto p = given.positions.row(v);
+    return std::array{p.x(), p.y(), p.z()};
+  };
+  std::vector<std::int32_t> order(idx(given.positions.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, place);
+  std::vector<std::int32_t> number(order.size());
+  Surface sorted = given;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    number[idx(order[k])] = static_cast<std::int32_t>(k);
+    sorted.positions.row(static_cast<Eigen::Index>(k)) = given.positions.row(order[k]);
+  }
+  std::vector<std::array<std::int32_t, 3>> faces;
+  faces.reserve(idx(given.triangles.rows()));
+  for (const auto& t : given.triangles.rowwise()) {
+    std::array<std::int32_t, 3> face{number[idx(t[0])], number[idx(t[1])], number[idx(t[2])]};
+    std::ranges::rotate(face, std::ranges::min_element(face));
+    faces.push_back(face);
+  }
+  std::ranges::sort(faces);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    sorted.triangles.row(static_cast<Eigen::Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  return cgal_mesh<BodyMesh>(sorted);
+}
+
 constexpr const char* crossing = "their union would cross itself";
 constexpr const char* touching = "they touch in an edge or a vertex only, where no body can be one";
+
+/// While one lives, CGAL rounds the points that it constructs from their exact coordinates. From an
+/// interval, as it does otherwise, the last digits depend on which end of an edge came first.
+class RoundedFromExact {
+  using Number = CGAL::Exact_predicates_exact_constructions_kernel::FT;
+
+ public:
+  RoundedFromExact() : before_(Number::get_relative_precision_of_to_double()) {
+    Number::set_relative_precision_of_to_double(std::numeric_limits<double>::min());
+  }
+  ~RoundedFromExact() { Number::set_relative_precision_of_to_double(before_); }
+  RoundedFromExact(const RoundedFromExact&) = delete;
+  RoundedFromExact& operator=(const RoundedFromExact&) = delete;
+  RoundedFromExact(RoundedFromExact&&) = delete;
+  RoundedFromExact& operator=(RoundedFromExact&&) = delete;
+
+ private:
+  double before_;
+};
 
 /// As both are.
 UnionOrReason union_as_given(const Growing& one, const Growing& other) {
@@ -115,6 +169,7 @@ UnionOrReason union_as_given(const Growing& one, const Growing& other) {
   found.is_united = true;
   found.cavities = one.cavities + other.cavities;
   try {
+    const RoundedFromExact rounded;
     const auto strictly = CGAL::parameters::throw_on_self_intersection(true);
     if (!pmp::corefine_and_compute_union(a, b, found.mesh, strictly)) {
       return {std::nullopt, touching};
@@ -125,6 +180,7 @@ UnionOrReason union_as_given(const Growing& one, const Growing& other) {
     return {std::nullopt, "one has no clear inside where they meet"};
   }
   found.mesh.collect_garbage();
+  found.mesh = numbered_by_place(found.mesh);
   const double its_volume = CGAL::to_double(pmp::volume(found.mesh));
   if (!has_volume_of_union(its_volume, one.volume, other.volume)) {
     return {std::nullopt, "what came of them has not the volume of a union"};
