@@ -26,7 +26,8 @@ struct Free {
 };
 
 constexpr std::size_t least_size = 64;
-constexpr std::size_t of_the_system = std::size_t(1) << 18;  ///< such blocks come from it, one by one
+constexpr std::size_t of_the_system = std::size_t(1)
+                                      << 18;  ///< such blocks come from it, one by one
 constexpr int lists = 16;  ///< of free blocks of one size: each block goes to one by chance
 
 std::mutex mutex;
@@ -46,8 +47,7 @@ std::uint64_t chance() {
 
 void* from_system(std::size_t size) {
   void* const wish = reinterpret_cast<void*>(0x100000000000U + (chance() % (1U << 28)) * 4096);
-  void* const found =
-      mmap(wish, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const found = mmap(wish, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return found == MAP_FAILED ? nullptr : found;
 }
 
