@@ -4,6 +4,7 @@
 #include <string>
 
 #include <curveskel/clean.hpp>
+#include "surface/repair/join_soup.hpp"
 
 namespace curveskel {
 namespace {
@@ -26,12 +27,21 @@ std::optional<CleanSurface> cleaned_if_closed(const PolygonSoup& soup, const Mon
 
 Surface fair_polygons(const PolygonSoup& soup, const FairOptions& options, const Monitor& monitor) {
   Surface surface{soup.positions, triangulate(soup)};
-  const auto cleaned = cleaned_if_closed(soup, monitor, options.threads);
-  if (!cleaned) return fair(surface, options, monitor);
-  const Surface smooth = fair(cleaned->surface, options, monitor);
-  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
-    const int vertex = cleaned->vertex_of_input[v];
-    if (vertex >= 0) surface.positions.row(v) = smooth.positions.row(vertex);
+  if (const auto cleaned = cleaned_if_closed(soup, monitor, options.threads)) {
+    const Surface smooth = fair(cleaned->surface, options, monitor);
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+      const int vertex = cleaned->vertex_of_input[v];
+      if (vertex >= 0) surface.positions.row(v) = smooth.positions.row(vertex);
+    }
+    return surface;
+  }
+  Changes changes;
+  JoinCounts counts;
+  const Joined joined = join_soup(soup, {.stop = monitor.stop}, changes, counts);
+  const Surface smooth = fair(joined.surface, options, monitor);
+  for (std::size_t v = 0; v < joined.merged_into.size(); ++v) {
+    surface.positions.row(static_cast<Eigen::Index>(v)) =
+        smooth.positions.row(joined.merged_into[v]);
   }
   return surface;
 }

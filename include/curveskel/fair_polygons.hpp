@@ -8,9 +8,9 @@
 
 namespace curveskel {
 
-/// `fair` of the file's own vertices, in triangles. A closed surface is faired as one, seams or
-/// not. Any other is faired as it is in the file: its boundaries and seams stay where they are, and
-/// a note says so. Errors as `fair`.
+/// `fair` of the file's own vertices, in triangles. Seams, where vertices of the boundary coincide,
+/// are faired as if there were none. The boundaries of a surface that is not closed stay where they
+/// are, and a note says so. Errors as `fair`.
 [[nodiscard]] Surface fair_polygons(const PolygonSoup& soup, const FairOptions& options = {},
                                     const Monitor& monitor = {});
 

@@ -5,12 +5,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stop_token>
 
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/fair_polygons.hpp>
 #include <curveskel/topology.hpp>
 #include "tests/contraction/faired.hpp"
+#include "tests/soups.hpp"
 
 namespace curveskel::fair_laws {
 namespace {
@@ -256,6 +259,22 @@ TEST(Fair, BoundaryVerticesStayWhereTheyAre) {
     moved += same ? 0 : 1;
   }
   EXPECT_GT(moved, 0.9 * static_cast<double>(faired.positions.rows()));
+}
+
+TEST(Fair, OfPolygonsSeamsMoveWhetherOrNotTheSurfaceIsClosed) {
+  for (const Shape& shape : noisy_and_clean_shapes()) {
+    for (const Eigen::Index missing : {0, 2}) {
+      Surface surface = shape.surface;
+      surface.triangles.conservativeResize(surface.triangles.rows() - missing, 3);
+      const Surface whole = fair(surface);
+      const Surface in_pieces = fair_polygons(torn(soup_of(surface)));
+      for (Eigen::Index corner = 0; corner < surface.triangles.size(); ++corner) {
+        const std::int32_t v = surface.triangles.data()[corner];
+        const double apart = (in_pieces.positions.row(corner) - whole.positions.row(v)).norm();
+        EXPECT_LE(apart, 1e-9 * bounding_box_diagonal(surface.positions)) << shape.name;
+      }
+    }
+  }
 }
 
 TEST(Fair, DegenerateFacesAndNothingAtAllAreNoTrouble) {
