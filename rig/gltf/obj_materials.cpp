@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 struct MtlPicture {
   fs::path library;
   std::string name;
+  TextureTransform transform;
 };
 
 struct MtlMaterial {
@@ -42,27 +43,45 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-/// The name behind options such as "-s 1 1 1", with the separators of this system.
-std::string picture_name(std::string text) {
+/// Leaves out what is no finite number.
+std::array<double, 2> first_two(std::istringstream numbers, std::array<double, 2> otherwise) {
+  for (double& one : otherwise) {
+    double given = 0;
+    if (!(numbers >> given) || !std::isfinite(given)) break;
+    one = given;
+  }
+  return otherwise;
+}
+
+/// Options such as "-s 2 2 1", of which the scale and the shift count, and the name behind them,
+/// with the separators of this system.
+MtlPicture picture_of(const fs::path& library, std::string text) {
   const auto is_value = [](const std::string& word) {
     return word == "on" || word == "off" ||
            word.find_first_not_of("+-.0123456789eE") == std::string::npos;
   };
+  MtlPicture picture{library, "", {}};
   while (text.starts_with('-')) {
     std::istringstream words(text);
-    std::string word;
-    words >> word;
-    const bool has_word = word == "-imfchan" || word == "-type";
+    std::string option;
+    words >> option;
+    if (option == "-s")
+      picture.transform.scale = first_two(std::istringstream(text.substr(2)), {1, 1});
+    if (option == "-o")
+      picture.transform.shift = first_two(std::istringstream(text.substr(2)), {0, 0});
+    const bool has_word = option == "-imfchan" || option == "-type";
     std::streamoff end = words.tellg();
+    std::string word;
     for (bool first = true; words >> word && (is_value(word) || (first && has_word));
          first = false) {
       end = words.tellg();
     }
-    if (end < 0) return "";
+    if (end < 0) return picture;
     text = trimmed(text.substr(static_cast<std::size_t>(end)));
   }
   std::replace(text.begin(), text.end(), '\\', '/');
-  return text;
+  picture.name = text;
+  return picture;
 }
 
 void read_line(const std::string& key, const std::string& rest, const fs::path& library,
@@ -79,9 +98,9 @@ void read_line(const std::string& key, const std::string& rest, const fs::path& 
   if (key == "pr" && is_number) material.roughness = three[0];
   if (key == "pm" && is_number) material.metalness = three[0];
   if (key.starts_with("map_") || key == "norm") {
-    const std::string name = picture_name(rest);
-    const bool is_none = name.empty() || name == ".";  // as Blender writes
-    if (!is_none) material.pictures[key] = {library, name};
+    const MtlPicture picture = picture_of(library, rest);
+    const bool is_none = picture.name.empty() || picture.name == ".";  // as Blender writes
+    if (!is_none) material.pictures[key] = picture;
   }
 }
 
@@ -130,8 +149,9 @@ MaterialLook look_of(const MtlMaterial& material) {
   const auto picture = [&](const char* key) -> std::optional<DressedPicture> {
     const auto named = material.pictures.find(key);
     if (named == material.pictures.end()) return std::nullopt;
-    const auto& [library, name] = named->second;
-    return DressedPicture{picture_place(library, library.parent_path(), name), name, {}};
+    const auto& [library, name, transform] = named->second;
+    return DressedPicture{
+        picture_place(library, library.parent_path(), name), name, {}, 0, transform};
   };
   look.base = picture("map_kd");
   look.normals = picture("norm");

@@ -95,11 +95,12 @@ class DressObj : public testing::Test {
   }
 
   void write_materials() const {
-    (void)folder_.write("looks of it.mtl",
-                        "newmtl m 0\nKd 0.25 0.5 1\nd 0.5\nNs 250\n"
-                        "newmtl m 1\nKd 0.1 0.1 0.1\nmap_Kd -s 1 1 1 skin one.png\nKe 0 0 0\n"
-                        "newmtl m 2\nmap_Kd C:\\work\\skin one.png\nmap_Ke none.png\nPm 1\n"
-                        "newmtl m 3\nmap_Kd painting.tga\nmap_d painting.tga\n");
+    (void)folder_.write(
+        "looks of it.mtl",
+        "newmtl m 0\nKd 0.25 0.5 1\nd 0.5\nNs 250\n"
+        "newmtl m 1\nKd 0.1 0.1 0.1\nmap_Kd -s 2 4 1 -o 0.25 0.5 skin one.png\nKe 0 0 0\n"
+        "newmtl m 2\nmap_Kd C:\\work\\skin one.png\nmap_Ke none.png\nPm 1\n"
+        "newmtl m 3\nmap_Kd painting.tga\nmap_d painting.tga\n");
     (void)folder_.write("skin one.png", png);
     (void)folder_.write("painting.tga", "no glTF has this");
   }
@@ -205,6 +206,12 @@ TEST_F(DressObj, MaterialsAreThoseOfTheLibrary) {
   for (const std::size_t m : {1U, 2U}) {
     EXPECT_EQ(materials[m]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
   }
+  const auto tiled = [&](std::size_t m) {
+    const Json& picture = materials[m]["pbrMetallicRoughness"]["baseColorTexture"];
+    return picture.value("/extensions/KHR_texture_transform"_json_pointer, Json());
+  };
+  EXPECT_EQ(tiled(1), Json({{"scale", {2.0, 4.0}}, {"offset", {0.25, -3.5}}}));  // from above
+  EXPECT_TRUE(tiled(2).is_null());
   const Json& view =
       glb.json["bufferViews"][glb.json["images"][0]["bufferView"].get<std::size_t>()];
   EXPECT_EQ(glb.numbers.substr(view["byteOffset"], view["byteLength"]), png);
@@ -405,7 +412,8 @@ TEST_F(DressObj, MaterialsAreReadAsTheyAreSeen) {
       for (Eigen::Index k = 0; k < 3; ++k) {
         const int drawn = found->triangles(f, k);
         corners[idx(k)] = found->vertices[idx(drawn)];
-        const float across = found->places_in_picture(drawn, 0);
+        const float seen = found->places_in_picture(drawn, 0);
+        const float across = found->material[idx(f)] == 1 ? (seen - 0.25F) / 2 : seen;  // tiled
         const int kind = std::max(subject.seams, 1);  // of texture coordinates
         if (subject.seams > 0) {
           EXPECT_NEAR(std::fmod(across * 10 + 0.5F, static_cast<float>(kind)),
