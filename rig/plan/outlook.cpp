@@ -29,6 +29,33 @@ bool is_seen_from_aside(const Outlook& outlook, double off) {
   return off < symmetric && (is_biped || is_sure_bird(outlook));
 }
 
+double middle_along(const CurveTree& tree, int axis) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const Vector3d& node : tree.nodes) {
+    least = std::min(least, node[axis]);
+    most = std::max(most, node[axis]);
+  }
+  return 0.5 * (least + most);
+}
+
+/// One whose file has z up, which is as usual as y: nothing else was seen by place. A column that
+/// stands is no fish: its belly is the image of its back.
+std::optional<Outlook> fish_with_other_up(LookedAt& body,
+                                          const std::vector<Eigen::Matrix3d>& frames,
+                                          const PlanOptions& options) {
+  for (const Eigen::Matrix3d& axes : frames) {
+    if (axes.row(1) == frames.front().row(1)) continue;
+    Outlook other = look(Sides::images, body, axes, options.plan);
+    const bool is_seen = other.found.plan == BodyKind::fish &&
+                         asymmetry(other.tree, 0, other.tree.middle) < symmetric &&
+                         asymmetry(other.tree, 1, middle_along(other.tree, 1)) >= symmetric;
+    if (is_seen) return other;
+    break;  // no long thing from aside
+  }
+  return std::nullopt;
+}
+
 /// A trunk that lies across is one that is seen from its side.
 bool lies_across(const CurveTree& tree, const Limbs& limbs) {
   Vector3d mean = Vector3d::Zero();
@@ -102,6 +129,9 @@ Outlook best_by_place(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames
     Outlook other = look(Sides::own, body, frames[k], options.plan);
     refusal.consider(other);
     if (is_clear(other.found.plan)) best = std::move(other);
+  }
+  if (best.found.plan == BodyKind::other) {
+    if (std::optional<Outlook> fish = fish_with_other_up(body, frames, options)) return *fish;
   }
   return best;
 }
@@ -217,13 +247,7 @@ Outlook turned_round(LookedAt& body, const Outlook& outlook, const PlanOptions& 
 bool is_alike_from_both_ends(const Outlook& outlook) {
   if (outlook.sides != Sides::images && outlook.sides != Sides::posed) return false;
   const CurveTree& tree = outlook.sides == Sides::posed ? outlook.posed : outlook.tree;
-  double rear = std::numeric_limits<double>::infinity();
-  double front = -rear;
-  for (const Vector3d& node : tree.nodes) {
-    rear = std::min(rear, node.z());
-    front = std::max(front, node.z());
-  }
-  const double off = asymmetry(tree, 2, 0.5 * (rear + front));
+  const double off = asymmetry(tree, 2, middle_along(tree, 2));
   const bool is_in_pose = outlook.sides == Sides::posed;
   return off < (is_in_pose ? symmetric : std::max(symmetric, asymmetry(tree, 0, tree.middle)));
 }

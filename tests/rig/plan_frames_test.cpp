@@ -87,6 +87,22 @@ TEST(FindPlan, UpAndFrontAreFound) {
   }
 }
 
+/// A long thing is one from somewhere, so no more frames are looked at; nor is one that stands.
+TEST(FindPlan, FishAreFoundWithZUpToo) {
+  using Eigen::Vector3d;
+  const RigSubject subject = fish(1);
+  const BodyPlan usual = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(find_plan(baluster().surface, baluster().skeleton).plan, BodyKind::fish)
+      << "as it lies";
+  for (const double side : {1.0, -1.0}) {
+    const Eigen::Matrix3d axes = frame(Vector3d::UnitZ(), side * Vector3d::UnitY());
+    const RigSubject stands = standing_in(subject, axes);
+    expect_turned(find_plan(stands.surface, stands.skeleton), usual, axes);
+    const RigSubject column = standing_in(baluster(), axes);
+    EXPECT_EQ(find_plan(column.surface, column.skeleton).plan, BodyKind::other);
+  }
+}
+
 // Of a scan with z up the file lay down, as glTF has y up.
 TEST(Upright, IsTheFileOfASurfaceWithZUp) {
   const Surface standing = human().surface;

@@ -181,7 +181,22 @@ inline RigSubject fish(double front) {
   return subject_of("fish", figure, 2);
 }
 
-/// The same with its tail aside, as it swims, and the fins of its sides ahead of its nose.
+/// A body like the fish's whose back is the image of its belly, as of a column.
+inline RigSubject baluster() {
+  BodyCurve figure;
+  const int thick = figure.add({0, 6, 3}, 2);
+  figure.add({0, 6, 8}, 1, thick);
+  const int tail = figure.add({0, 6, -9}, 0.5, figure.add({0, 6, -5}, 0.9, thick));
+  figure.add_pair(tail, {{2, 6, -11}}, 0.3);
+  figure.add_pair(thick, {{5, 6, 2}}, 0.35);
+  for (const double up : {1.0, -1.0}) {
+    figure.add({0, 6 + 5 * up, 2}, 0.35, thick);
+    figure.add({0, 6 + 2 * up, -11}, 0.3, tail);
+  }
+  return subject_of("baluster", figure, 2);
+}
+
+/// The same fish with its tail aside, as it swims, and the fins of its sides ahead of its nose.
 inline RigSubject lionfish() {
   BodyCurve figure;
   const int thick = figure.add({0, 6, 3}, 2.2);
