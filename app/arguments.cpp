@@ -22,7 +22,7 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
       ->type_name("all|largest|N")
       ->default_str("all");
   add_number(parser, "--min-size", options.least_area, 0.0, 1.0,
-             "components with less area, of the largest one's, are left out");
+             "components with less than this share of the largest one's area are left out");
   add_choice(parser, "--wrap", options.wrap, wrappings,
              "what is wrapped (closed by shrinking a surface onto it): never, needed or all");
   add_number(parser, "--wrap-gap", options.wrap_gap, 0.0, 0.5,
@@ -68,7 +68,7 @@ void add_mesh(CLI::App& parser, std::filesystem::path& mesh) {
   parser
       .add_option("MESH", mesh,
                   "surface file: " + names_in(surface_formats) +
-                      ", or one of these gzipped; - is standard input")
+                      ", vrm, or one of these gzipped; - is standard input")
       ->required()
       ->type_name("");
 }

@@ -89,6 +89,22 @@ void require_pose(RigFormat format, RestPose pose, const std::string& output) {
                   "fbx, usda and usdz");
 }
 
+void require_human_roles(const Rig& rig, OldRig old_rig) {
+  std::string missing;
+  for (const char* const role : required_human_roles) {
+    if (std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end()) continue;
+    missing += (missing.empty() ? "" : ", ") + std::string(role);
+  }
+  if (missing.empty()) return;
+  const std::string remedy =
+      old_rig == OldRig::kept
+          ? "leave out --keep-rig to have joints made, or write .glb"
+          : "give the joints of the .json file these roles, leave out --joints to have joints "
+            "made, or write .glb";
+  throw Error(Fault::input, "a .vrm file is of a human, found no joint with the role " + missing +
+                                ", needed one for each; " + remedy);
+}
+
 void require_root_alone(int root, BodyKind plan) {
   if (root < 0 || plan == BodyKind::automatic || plan == BodyKind::none) return;
   throw Error(Fault::usage, fmt::format("--root {}: a root that is chosen needs joints without a "

@@ -42,6 +42,10 @@ namespace curveskel {
 /// Throws Error(Fault::usage) for a format that has no pose at rest apart from the surface's.
 void require_pose(RigFormat format, RestPose pose, const std::string& output);
 
+/// Throws Error(Fault::input) where joints that are not made here, but given or kept as the file
+/// has them, lack a role that VRM requires.
+void require_human_roles(const Rig& rig, OldRig old_rig);
+
 /// Throws Error(Fault::usage) for a plan that is named beside a root: the joints are made without.
 void require_root_alone(int root, BodyKind plan);
 

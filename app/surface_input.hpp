@@ -19,4 +19,8 @@ namespace curveskel {
 /// content alone, and files beside it (buffers of a .gltf) are not found.
 [[nodiscard]] PolygonSoup read_surface(const std::filesystem::path& mesh, const Monitor& monitor);
 
+/// The same of standard input; `loses_look` is set where the content may have materials, texture
+/// coordinates or colours, which come with a file alone.
+[[nodiscard]] PolygonSoup read_standard_input(const Monitor& monitor, bool& loses_look);
+
 }  // namespace curveskel

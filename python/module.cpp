@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -56,8 +57,10 @@ const char* class_of(Fault fault) {
   return "Error";
 }
 
-/// "min_size" of "--min-size", anywhere.
-std::string with_keywords(const std::string& message) {
+/// "min_size" of "--min-size", anywhere; "curveskel.rig(joints=...)" of "curveskel rig --joints".
+std::string with_keywords(const std::string& text) {
+  static const std::regex call("curveskel ([a-z]+) (--[a-z-]+)");
+  const std::string message = std::regex_replace(text, call, "curveskel.$1($2=...)");
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   std::string found;
   bool in_option = false;

@@ -37,6 +37,7 @@ struct PythonRig {
   Rig exported;          ///< as it is written
   bool as_bound = true;  ///< the soup was read so
   OldRig old_rig = OldRig::replaced;
+  bool joints_are_given = false;  ///< or those of the file are kept
   RestPose pose = RestPose::input;
   std::string shortcomings;           ///< of the skeleton's certificate
   std::vector<std::string> findings;  ///< all else that the program warns of
@@ -139,7 +140,7 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
   run_beside_interpreter(listener, [&](const Monitor& monitor) {
     result.soup = std::move(soup);
     const RigSources sources = sources_of(wanted, result, monitor);
-    settings.form.as_given = sources.joints.has_value();
+    settings.form.as_given = result.joints_are_given = sources.joints.has_value();
     result.given = {result.soup.positions, triangulate(result.soup)};
     if (as_bound && result.soup.posed) {
       const auto finding = bind_pose_finding(result.soup.file, result.soup, monitor);
@@ -169,7 +170,10 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
     throw Error(Fault::usage,
                 output.string() + ": the extension is none of: " + names_in(rig_formats));
   }
-  if (*chosen == RigFormat::vrm) require_whole(vrm);
+  if (*chosen == RigFormat::vrm) {
+    require_whole(vrm);
+    if (rig.joints_are_given) require_human_roles(rig.exported, rig.old_rig);
+  }
   require_pose(*chosen, rig.pose, output.string());
   const std::filesystem::path& file = rig.soup.file;
   std::filesystem::path name = file.empty() ? "surface" : file.stem();

@@ -120,6 +120,9 @@ void add_look(CLI::App& parser, Look& look) {
 
 int run_view(ViewOptions options, Session& session) {
   options.pipeline.extract.fairing = options.pipeline.extract.fair.iterations > 0;
+  if (std::find(options.files.begin(), options.files.end(), "-") != options.files.end()) {
+    throw UsageError("view reads no standard input, found -; name a file");
+  }
   const bool pictures = !options.screenshot.empty() || !options.turntable.empty();
   if (options.two_sides && options.screenshot.empty()) {
     throw UsageError("--two-sides is for --screenshot");
@@ -197,7 +200,9 @@ void add_extraction(CLI::App& parser, ViewOptions& options) {
              "iterations of fairing before the contraction, for noisy surfaces");
   add_threads(parser, extract_options.threads);
   add_repair(parser, options.pipeline.repair);
-  add_time_limit(parser, options.time_limit_seconds);
+  add_number(parser, "--time-limit", options.time_limit_seconds, 0.0, 1e9,
+             "seconds; then a picture ends with exit 5, and the window cancels the run and stays "
+             "open; 0 = none");
 }
 
 }  // namespace

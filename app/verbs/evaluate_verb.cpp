@@ -58,7 +58,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
 /// Of what `rig` writes.
 void require_readable_rig(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  for (const char* const other : {"usda", "npz", "bvh"}) {
+  for (const char* const other : {"usda", "usdz", "npz", "bvh"}) {
     if (extension != other) continue;
     throw Error(Fault::input, path.string() + ": found a ." + other +
                                   " file, of which --rig-truth reads no rig, needed .glb, .gltf, "
@@ -119,7 +119,16 @@ int run_rig_truth(const EvaluateArguments& arguments, Session& session) {
 }
 
 void require_one_task(const EvaluateArguments& arguments) {
-  if (arguments.skeleton.empty() == !arguments.rig_truth.empty()) return;
+  const bool reads_rigs = !arguments.rig_truth.empty();
+  for (const auto& file : {arguments.rig_truth, arguments.skeleton, arguments.against,
+                           reads_rigs ? arguments.mesh : std::filesystem::path()}) {
+    if (!is_standard_input(file)) continue;
+    throw UsageError(reads_rigs ? "- is standard input, which gives a surface and no rig; name a "
+                                  "file for each rig of --rig-truth"
+                                : "- is standard input, which gives the surface alone; name a file "
+                                  "for the skeleton");
+  }
+  if (arguments.skeleton.empty() == !reads_rigs) return;
   throw UsageError(arguments.skeleton.empty()
                        ? "SKELETON is required, or --rig-truth with another rig"
                        : "--rig-truth compares rigs; leave out SKELETON");
@@ -198,9 +207,9 @@ Verb add_evaluate(CLI::App& program) {
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("--strict", arguments->strict,
-                   "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of "
-                   "another shape is "
-                   "an error, too (exit 5), as a wrong topology always is");
+                   "a skeleton that leaves the surface or stops half-way through a limb, a surface "
+                   "not made of tubes, or a wrap of another shape is an error, too (exit 5), as a "
+                   "wrong topology always is");
   add_threads(*parser, arguments->options.threads);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   return {parser, [arguments](Session& session) { return run_evaluate(*arguments, session); }};

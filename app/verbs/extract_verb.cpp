@@ -18,6 +18,7 @@
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
+#include "app/counted.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
@@ -61,10 +62,6 @@ auto timed(std::vector<StageTime>& times, const char* stage, const Work& work) {
   auto result = work();
   times.push_back({stage, seconds_since(begin), {}});
   return result;
-}
-
-std::string count_of(Eigen::Index count, const std::string& one, const std::string& many = {}) {
-  return fmt::format("{} {}", count, count == 1 ? one : many.empty() ? one + "s" : many);
 }
 
 /// "tried faired: not better (1.25 s)", of the whole surface: a note tells of what was kept.
@@ -282,10 +279,8 @@ int run_extract(ExtractArguments arguments, Session& session) {
 
   const ExtractionRecord record{soup,       repaired, arguments.repair, arguments.options,
                                 extraction, notes,    arguments.preset, {}};
-  std::vector<std::string> skeleton_files;
   auto files = timed(times, "write", [&] {
     auto formatted = format_outputs(arguments, formats, record, session);
-    for (const OutputFile& file : formatted) skeleton_files.push_back(file.name);
     format_tables(arguments, record, session, formatted);
     if (!arguments.html.empty()) {
       formatted.push_back({arguments.html, page_of(arguments, record)});
@@ -293,8 +288,9 @@ int run_extract(ExtractArguments arguments, Session& session) {
     return formatted;
   });
   if (!arguments.report.empty()) {
-    files.push_back(
-        {arguments.report, report_json(record, {times, seconds_since(begin), skeleton_files})});
+    std::vector<std::string> names;
+    for (const OutputFile& file : files) names.push_back(file.name);
+    files.push_back({arguments.report, report_json(record, {times, seconds_since(begin), names})});
   }
   write_outputs(files, session);
 
@@ -413,8 +409,8 @@ Verb add_extract(CLI::App& program) {
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag(
       "--strict", arguments->strict,
-      "a skeleton that leaves the surface, a surface not made of tubes, or a wrap of another shape "
-      "is an error, too (exit 5), as a wrong topology always is");
+      "a skeleton that leaves the surface or stops half-way through a limb, a surface not made of "
+      "tubes, or a wrap of another shape is an error, too (exit 5), as a wrong topology always is");
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Presets", presets) + meanings("Flows", flows) +
                  meanings("Solvers", solvers) + meanings("Surgeries", surgery_methods) +

@@ -15,6 +15,7 @@
 #include "app/arguments.hpp"
 #include "app/certificate_table.hpp"
 #include "app/command_line.hpp"
+#include "app/counted.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/match_report.hpp"
 #include "app/output_files.hpp"
@@ -66,10 +67,14 @@ std::string summary(const MatchRecord& record) {
   const auto ambiguous = std::count_if(pairs.begin(), pairs.end(),
                                        [](const BranchPair& pair) { return pair.ambiguous; });
   const auto vertices = (record.found.vertex_of_a.array() >= 0).count();
+  const auto count = static_cast<std::int64_t>(pairs.size());
+  const auto branches_of = [count](const std::vector<int>& without_partner) {
+    return count_of(count + static_cast<std::int64_t>(without_partner.size()), "branch",
+                    "branches");
+  };
   std::string text =
-      fmt::format("{} and {}: {} of {} and {} branches paired, {} of these ambiguous\n",
-                  record.file_a, record.file_b, pairs.size(), pairs.size() + alone.of_a.size(),
-                  pairs.size() + alone.of_b.size(), ambiguous);
+      fmt::format("{}: {}; {}: {}; {}, {} ambiguous\n", record.file_a, branches_of(alone.of_a),
+                  record.file_b, branches_of(alone.of_b), count_of(count, "pair"), ambiguous);
   if (!alone.of_a.empty()) {
     text +=
         fmt::format("without a partner in {}: {}\n", record.file_a, fmt::join(alone.of_a, ", "));
@@ -78,8 +83,10 @@ std::string summary(const MatchRecord& record) {
     text +=
         fmt::format("without a partner in {}: {}\n", record.file_b, fmt::join(alone.of_b, ", "));
   }
-  text += fmt::format("{} junctions, {} of {} vertices\n", record.found.match.junctions.size(),
-                      vertices, record.found.vertex_of_a.size());
+  const auto junctions = static_cast<std::int64_t>(record.found.match.junctions.size());
+  text +=
+      fmt::format("{}, {} of {}\n", count_of(junctions, "pair of junctions", "pairs of junctions"),
+                  vertices, count_of(record.found.vertex_of_a.size(), "vertex", "vertices"));
   if (record.found.by_vertices) {
     text +=
         "both files have the same faces: paired by their vertices (--by-shape: by shape alone)\n";
@@ -123,7 +130,7 @@ Verb add_match(CLI::App& program) {
   parser
       ->add_option("A", arguments->a,
                    "surface file: " + names_in(surface_formats) +
-                       ", or one of these gzipped; - is standard input")
+                       ", vrm, or one of these gzipped; - is standard input")
       ->required()
       ->type_name("");
   parser

@@ -75,7 +75,7 @@ void add_plan(CLI::App& parser, RigArguments& arguments) {
   parser.add_flag("--ground-root", arguments.ground_root,
                   "one more joint, on the ground, that all hangs from");
   parser.add_flag("--no-ends", arguments.no_ends,
-                  "leave out the joints at tips, which move nothing");
+                  "no joints at tips without a role, which move nothing");
 }
 
 void add_joints(CLI::App& parser, RigArguments& arguments) {

@@ -23,6 +23,7 @@
 #include <curveskel/skeleton_files.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
+#include "app/counted.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
 #include "app/rig_findings.hpp"
@@ -42,24 +43,34 @@ OldRig old_rig_in(const RigArguments& arguments) {
   return arguments.keep_rig ? OldRig::kept : OldRig::replaced;
 }
 
+/// There is no file for the rig, or nothing else of it is wanted.
+bool writes_surface_alone(const RigArguments& arguments) {
+  return arguments.bare || is_standard_input(arguments.mesh);
+}
+
 /// Joints of the file's own are as it shows them, and the surface with them.
 bool reads_as_bound(const RigArguments& arguments) {
   std::error_code ignored;
   const bool has_own_joints =
       !arguments.joints.empty() && fs::equivalent(arguments.joints, arguments.mesh, ignored);
-  return !arguments.bare && !arguments.keep_rig && !arguments.as_shown && !has_own_joints;
+  return !writes_surface_alone(arguments) && !arguments.keep_rig && !arguments.as_shown &&
+         !has_own_joints;
 }
 
 /// Where the file itself gets the rig, in the pose in which its vertices are stored.
 PolygonSoup read_to_rig(const RigArguments& arguments, const Monitor& monitor, Session& session) {
-  if (!arguments.bare) {
+  if (!writes_surface_alone(arguments)) {
     require_editable(arguments.mesh, old_rig_in(arguments), monitor);
     if (const auto finding = look_finding(arguments.mesh)) session.terminal.warn(*finding);
   }
   if (is_standard_input(arguments.mesh)) {
-    session.terminal.warn(
-        "from standard input comes the surface alone; name a file to keep its materials");
-    return read_surface(arguments.mesh, monitor);
+    bool loses_look = false;
+    PolygonSoup soup = read_standard_input(monitor, loses_look);
+    if (loses_look && !arguments.bare) {
+      session.terminal.warn(
+          "from standard input comes the surface alone; name a file to keep its materials");
+    }
+    return soup;
   }
   PolygonSoup soup = read_polygons(arguments.mesh, monitor, {arguments.as_bound});
   if (arguments.as_bound && soup.posed) {
@@ -81,7 +92,7 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
   for (std::size_t i = 0; i < formats.size(); ++i) {
     monitor.report("write", static_cast<double>(i) / static_cast<double>(formats.size()));
     std::optional<EditedFile> edited;
-    if (!arguments.bare) {
+    if (!writes_surface_alone(arguments)) {
       edited = format_rig_into(
           arguments.mesh, rig,
           {formats[i], old_rig_in(arguments), name.string() + " rig", program_and_version(),
@@ -99,8 +110,9 @@ std::vector<OutputFile> rig_files(const RigArguments& arguments, const PolygonSo
       session.terminal.warn(arguments.mesh.filename().string() + ": " + note);
     }
     if (edited->joints_replaced > 0) {
-      summary = fmt::format("replaced: a rig of {} joints, {} channels of animations\n",
-                            edited->joints_replaced, edited->channels_removed);
+      summary = fmt::format("replaced: a rig of {}, {} of animations\n",
+                            count_of(edited->joints_replaced, "joint"),
+                            count_of(edited->channels_removed, "channel"));
     }
     files.push_back(
         {arguments.outputs[i], std::move(edited->bytes), std::move(edited->side_files)});
@@ -136,7 +148,6 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   require_root_alone(arguments.rig.joints.root, arguments.plan.plan);
   if (is_standard_input(arguments.mesh)) {
     if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
-    arguments.bare = true;
   }
   std::vector<std::string> names = arguments.outputs;
   require_extension(arguments.report, "--report", "json");
@@ -178,11 +189,13 @@ void warn_of(const PolygonsRig& found, const RigPolygonsOptions& options, bool j
 
 std::string summary_of(const RigArguments& arguments, const PolygonSoup& soup, const Rig& written,
                        const CharacterRig& character) {
-  std::string text = fmt::format("{}: {} vertices\nrig: {}\n", name_of_input(arguments.mesh),
-                                 soup.positions.rows(), joints_in_words(written));
+  std::string text =
+      fmt::format("{}: {}\nrig: {}\n", name_of_input(arguments.mesh),
+                  count_of(soup.positions.rows(), "vertex", "vertices"), joints_in_words(written));
   if (character.joints_left_out > 0) {
-    text += fmt::format("left out: {} joints that move the least (--joint-budget 0: all)\n",
-                        character.joints_left_out);
+    text +=
+        fmt::format("left out: {} the least (--joint-budget 0: all)\n",
+                    count_of(character.joints_left_out, "joint that moves", "joints that move"));
   }
   text += parts_in_words(character.parts) + plan_in_words(character.plan);
   for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
@@ -211,6 +224,7 @@ int run_rig(RigArguments arguments, Session& session) {
       rig_for_export(found.character.rig, found.character.plan, given,
                      {arguments.pose, arguments.ground_root, !arguments.no_ends, joints_are_given},
                      found.character.other_plans);
+  if (as_vrm && joints_are_given) require_human_roles(written, old_rig_in(arguments));
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);

@@ -131,8 +131,8 @@ std::string left_as_they_were(int left, int components) {
                                 ? "the surface is"
                                 : std::to_string(left) + " of " + std::to_string(components) +
                                       (left == 1 ? " components is" : " components are");
-  return which + " too coarse to be faired, which would cost its shape: left as " +
-         (left == 1 ? "it was" : "they were");
+  return which + " too coarse to be faired, which would cost " +
+         (left == 1 ? "its shape: left as it was" : "their shape: left as they were");
 }
 
 void require_measurable(const Positions& positions) {

@@ -44,7 +44,7 @@ struct ExportOptions {
   bool as_given = false;     ///< somebody's joints: no root is made where there are several
 };
 /// A rig as the program that it is for wants it: the functions above, in their order. Errors as
-/// `rest_in_t_pose`.
+/// `rest_in_t_pose`, which joints that are given cannot.
 [[nodiscard]] Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
                                  const ExportOptions& options,
                                  const std::vector<BodyPlan>& other_plans = {});

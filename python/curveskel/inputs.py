@@ -127,6 +127,11 @@ def path_of(path, name):
     return text
 
 
+def counted(count, one, many=None):
+    """'1 node', '2 nodes'."""
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
 def warn_of(findings, stacklevel):
     """Warns of what the program warns of, options named as Python has them."""
     for finding in findings:

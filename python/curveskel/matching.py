@@ -4,7 +4,7 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .inputs import MOST_THREADS, index, listening
+from .inputs import MOST_THREADS, counted, index, listening
 from .skeleton import Skeleton, extracted, warn_or_fail
 
 
@@ -38,7 +38,7 @@ class Match:
 
     def __repr__(self):
         of_a, of_b = self.alone
-        return (f"<curveskel.Match: {len(self._table['a'])} branches paired, "
+        return (f"<curveskel.Match: {counted(len(self._table['a']), 'pair')} of branches, "
                 f"{sum(self._table['ambiguous'])} ambiguous, {len(of_a)} and {len(of_b)} alone>")
 
 

@@ -9,7 +9,7 @@ import numpy
 
 from . import _core
 from .errors import CertificateWarning, UsageError
-from .inputs import is_path, listening, path_of, soup_of, warn_of
+from .inputs import counted, is_path, listening, path_of, soup_of, warn_of
 from .skeleton import Skeleton, read
 
 
@@ -107,7 +107,7 @@ class Rig:
         return Rig, (self._made if kept else _KeptRig(self._made),)
 
     def __repr__(self):
-        return f"<curveskel.Rig: {len(self.joints)} joints, {self.plan}>"
+        return f"<curveskel.Rig: {counted(len(self.joints), 'joint')}, {self.plan}>"
 
 
 def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, threads=0,

@@ -7,7 +7,7 @@ import numpy
 
 from . import _core, graphs
 from .errors import CertificateWarning, SolverError, UsageError
-from .inputs import MOST_THREADS, index, listening, path_of, soup_of, warn_of
+from .inputs import MOST_THREADS, counted, index, listening, path_of, soup_of, warn_of
 
 
 class _Kept:
@@ -311,8 +311,8 @@ class Skeleton:
             _core.save_skeleton(self._graph, path, format)
 
     def __repr__(self):
-        counts = (f"{len(self.vertices)} nodes, {len(self.edges)} edges, "
-                  f"{len(self.branch_nodes)} branches")
+        counts = (f"{counted(len(self.vertices), 'node')}, {counted(len(self.edges), 'edge')}, "
+                  f"{counted(len(self.branch_nodes), 'branch', 'branches')}")
         if self._extraction is None:
             return f"<curveskel.Skeleton: {counts}>"
         return f"<curveskel.Skeleton: {counts}; {self.shortcomings or 'certificate holds'}>"

@@ -176,7 +176,8 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   const int leg = found.legs.front();
   const Posture posture = posture_of(tree, limbs, leg, found.arms);
   found.lean = posture.lean;
-  const std::string leans = "the trunk leans by " + rounded(posture.lean) + " degrees, " +
+  const std::string leans = "the trunk leans by " + rounded(posture.lean) +
+                            (std::lround(posture.lean) == 1 ? " degree, " : " degrees, ") +
                             rounded(100 * posture.back) + " % of the size lies behind the legs";
   const double leg_length = limbs.pairs[idx(leg)].length;
   const double arm_length = found.arms < 0 ? 0 : limbs.pairs[idx(found.arms)].length;

@@ -168,6 +168,11 @@ Rig without_ends(const Rig& rig) {
 
 Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
                    const ExportOptions& options, const std::vector<BodyPlan>& other_plans) {
+  if (options.pose == RestPose::t && options.as_given) {
+    throw Error(Fault::input,
+                "the T pose is made by a plan of the body, which joints that are "
+                "given have not; leave out --pose, or have the joints made");
+  }
   if (options.pose == RestPose::t) rest_in_t_pose(rig, plan, other_plans);
   if (!options.ends) rig = without_ends(rig);
   const Eigen::RowVector3d up =

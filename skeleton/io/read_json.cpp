@@ -41,6 +41,10 @@ class JsonGraph {
       file_.fail("a rig", "a skeleton, whose JSON has \"nodes\" and \"edges\"",
                  "give the skeleton; curveskel rig --joints takes rigs");
     }
+    if (root_.is_object() && root_.contains("asset") && root_.contains("meshes")) {
+      file_.fail("a surface file (gltf)", "a skeleton, whose JSON has \"nodes\" and \"edges\"",
+                 "give the skeleton of that surface");
+    }
     const json& nodes = list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n) add_node(nodes[n], n);
     add_radii();

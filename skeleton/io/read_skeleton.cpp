@@ -7,6 +7,7 @@
 #include <curveskel/skeleton_files.hpp>
 #include "skeleton/io/raw_graph.hpp"
 #include "surface/read/foreign_formats.hpp"
+#include "surface/read/formats.hpp"
 
 namespace curveskel {
 namespace {
@@ -73,6 +74,12 @@ RootedSkeleton read_rooted_skeleton(const std::filesystem::path& path) {
       file.fail(foreign->name, std::string("a skeleton as ") + std::string(readable), "convert it");
     }
     format = skeleton_format_by_extension(path);
+  }
+  const auto surface = format ? std::nullopt : surface_format_of(file);
+  if (surface) {
+    file.fail("a surface file (" + std::string(name_of(surface_formats, *surface)) + ")",
+              std::string("a skeleton as ") + std::string(readable),
+              "give the skeleton of that surface");
   }
   if (!format) {
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +

@@ -3,20 +3,25 @@
 #include <array>
 #include <string>
 
+#include <curveskel/advanced/file_names.hpp>
+#include "surface/read/zip_archive.hpp"
+
 namespace curveskel {
 namespace {
 
 using namespace std::string_view_literals;
 
 constexpr std::string_view export_scene = "export it as .glb, .obj or .ply";
+constexpr std::string_view export_usd =
+    "curveskel writes USD and does not read it; export it as .glb, .obj or .ply";
 constexpr std::string_view export_solid = "export it from its CAD program as .stl, .3mf or .obj";
 constexpr std::string_view unpack = "unpack it and give the surface file that is in it";
 constexpr std::string_view fetch = "give the surface file itself";
 
 constexpr std::array<ForeignFormat, 23> foreign_starts{{
     {"BLENDER"sv, "a Blender scene", export_scene},
-    {"PXR-USDC"sv, "a USD scene", export_scene},
-    {"#usda"sv, "a USD scene", export_scene},
+    {"PXR-USDC"sv, "a USD scene", export_usd},
+    {"#usda"sv, "a USD scene", export_usd},
     {"#VRML"sv, "a VRML scene", export_scene},
     {"#X3D"sv, "an X3D scene", export_scene},
     {"Ogawa"sv, "an Alembic scene", export_scene},
@@ -49,6 +54,23 @@ constexpr std::array<ForeignFormat, 5> foreign_elements{{
     {"<!DOCTYPE html"sv, "a web page", fetch},
 }};
 
+/// The files of this program that are no surface and look like glTF, as they are JSON.
+constexpr std::array<ForeignFormat, 2> own_json{{
+    {"\"curveskel skeleton\""sv, "a skeleton of curveskel", "give the surface that it is in"},
+    {"\"curveskel-rig\""sv, "a rig of curveskel", "give the surface, or the rig as .glb"},
+}};
+
+/// USDZ begins with the scene, as its standard asks.
+bool is_usd_archive(std::string_view content) {
+  constexpr std::size_t length_at = 26;  // of the first file's name, in two bytes
+  constexpr std::size_t name_at = 30;
+  if (content.size() < name_at || !is_zipped(std::string(content.substr(0, name_at)))) return false;
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(content[k]); };
+  const std::size_t length = byte(length_at) + 256U * byte(length_at + 1);
+  const std::string extension = lower_extension(content.substr(name_at, length));
+  return extension == "usd" || extension == "usda" || extension == "usdc";
+}
+
 }  // namespace
 
 std::optional<ForeignFormat> foreign_format_of(const FileBytes& file) {
@@ -56,6 +78,7 @@ std::optional<ForeignFormat> foreign_format_of(const FileBytes& file) {
   for (const ForeignFormat& format : foreign_starts) {
     if (file.content.starts_with(format.start)) return format;
   }
+  if (is_usd_archive(file.content)) return ForeignFormat{"PK", "a USD scene (USDZ)", export_usd};
   const std::string_view text = std::string_view(file.content).substr(0, first_lines);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin == std::string_view::npos || text[begin] != '<') return std::nullopt;
@@ -63,6 +86,16 @@ std::optional<ForeignFormat> foreign_format_of(const FileBytes& file) {
     if (text.find(format.start) != std::string_view::npos) return format;
   }
   return std::nullopt;
+}
+
+void refuse_own_json(const FileBytes& file) {
+  if (!file.content.starts_with("{")) return;
+  constexpr std::size_t first_words = 60;
+  const std::string_view text = std::string_view(file.content).substr(0, first_words);
+  for (const ForeignFormat& format : own_json) {
+    if (text.find(format.start) == std::string_view::npos) continue;
+    file.fail(format.name, "a surface file", format.remedy);
+  }
 }
 
 void refuse_foreign_format(const FileBytes& file) {

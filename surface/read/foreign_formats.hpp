@@ -17,6 +17,9 @@ struct ForeignFormat {
 /// The kind of the file, if its first bytes tell.
 [[nodiscard]] std::optional<ForeignFormat> foreign_format_of(const FileBytes& file);
 
+/// Throws Error(Fault::input) for a skeleton or a rig that this program wrote as JSON.
+void refuse_own_json(const FileBytes& file);
+
 /// Throws Error(Fault::input) that says what the file is, if its first bytes tell.
 void refuse_foreign_format(const FileBytes& file);
 

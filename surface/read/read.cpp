@@ -85,6 +85,7 @@ PolygonSoup soup_of(const Surface& surface) {
 
 PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
                          const ReadOptions& options) {
+  refuse_own_json(file);
   if (!format_by_content(file)) refuse_foreign_format(file);
   const std::optional<SurfaceFormat> format = surface_format_of(file);
   if (!format) {
@@ -99,7 +100,7 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
   if (soup.offsets.size() < 2) {
     const auto vertices = soup.positions.rows();
     file.fail((vertices > 0 ? "a point cloud: " : "") + std::to_string(vertices) +
-                  " vertices and no faces (read as " +
+                  (vertices == 1 ? " vertex" : " vertices") + " and no faces (read as " +
                   std::string(name_of(surface_formats, *format)) + ")",
               "a surface with faces",
               vertices > 0 ? "reconstruct a surface from the points first"

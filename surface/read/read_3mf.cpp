@@ -8,6 +8,7 @@
 #include <curveskel/advanced/file_names.hpp>
 #include "base/memory.hpp"
 #include "base/uri.hpp"
+#include "surface/read/foreign_formats.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/model_3mf.hpp"
 #include "surface/read/xml.hpp"
@@ -141,6 +142,7 @@ PolygonSoup read_3mf(const FileBytes& file, const Monitor& monitor) {
   const ZipArchive archive(file);
   const std::string name = model_name(archive, monitor);
   if (name.empty()) {
+    refuse_foreign_format(file);
     std::string found = "a ZIP archive that is no 3MF";
     if (!archive.names().empty()) found += " and begins with " + in_quotes(archive.names()[0]);
     file.fail(found, "3MF, whose " + std::string(relationships) + " names a model",

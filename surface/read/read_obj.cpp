@@ -51,7 +51,8 @@ void refuse_without_faces(const FileBytes& file, const OtherElements& others) {
               "polygons", "export it as a mesh, in the program that wrote it");
   }
   if (others.lines > 0) {
-    file.fail("a drawing of lines: " + std::to_string(others.lines) + " lines (\"l\") and no faces",
+    file.fail("a skeleton or a drawing of lines: " + std::to_string(others.lines) +
+                  (others.lines == 1 ? " line" : " lines") + " (\"l\") and no faces",
               "a surface with faces", "give the surface, of which a skeleton can be made");
   }
 }

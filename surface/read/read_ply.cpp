@@ -134,6 +134,15 @@ std::int64_t check_vertices(const FileBytes& file, const PlyHeader& header) {
   return vertices;
 }
 
+void refuse_edges_alone(const FileBytes& file, const PlyHeader& header) {
+  for (const PlyElement& element : header.elements) {
+    if (element.name != "edge" || element.count == 0) continue;
+    file.fail("a skeleton or a drawing of lines: " + std::to_string(element.count) +
+                  (element.count == 1 ? " edge" : " edges") + " and no faces",
+              "a surface with faces", "give the surface, of which a skeleton can be made");
+  }
+}
+
 }  // namespace
 
 PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor) {
@@ -144,6 +153,7 @@ PolygonSoup read_ply(const FileBytes& file, const Monitor& monitor) {
   soup.positions.resize(check_vertices(file, header), 3);
   with_ply_values(file, header,
                   [&](auto values) { read_elements(std::move(values), header, soup, monitor); });
+  if (soup.offsets.size() < 2) refuse_edges_alone(file, header);
   return soup;
 }
 

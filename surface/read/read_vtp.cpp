@@ -123,6 +123,17 @@ class VtpReader {
   std::vector<double> coordinates_;
 };
 
+void refuse_polylines_alone(const FileBytes& file, const XmlElement& root) {
+  const XmlElement* const data = root.child("PolyData");
+  if (data == nullptr) return;
+  for (const XmlElement* piece : data->all("Piece")) {
+    const std::string_view lines = piece->attribute("NumberOfLines");
+    if (lines.empty() || lines == "0") continue;
+    file.fail("a skeleton or a drawing of lines: polylines and no faces", "a surface with faces",
+              "give the surface, of which a skeleton can be made");
+  }
+}
+
 }  // namespace
 
 PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor) {
@@ -134,7 +145,9 @@ PolygonSoup read_vtp_surface(const FileBytes& file, const Monitor& monitor) {
               "extract its surface, in ParaView by Filters, Extract Surface, and save that as .vtp "
               "or .ply");
   }
-  return VtpReader(file, root).read(monitor);
+  PolygonSoup soup = VtpReader(file, root).read(monitor);
+  if (soup.offsets.size() < 2) refuse_polylines_alone(file, root);
+  return soup;
 }
 
 bool looks_like_vtp(const FileBytes& file) { return begins_as_xml(file, vtp_start); }

@@ -319,6 +319,21 @@ class StandardInput(CommandLineTest):
             self.assertEqual(result.returncode, 0, (arguments, result.stderr))
         self.assertEqual(self.piped(content, "match", "-", "-", "-o", "m.json").returncode, 2)
 
+    def test_loses_a_look_with_a_word_and_nothing_else_with_one(self):
+        """Every rig from standard input was told that it lost its materials."""
+        for extension in ("ply", "stl", "obj"):
+            self.run_ok("fair", Y, "-o", self.folder / f"y.{extension}", "--iterations", "0")
+        plain = (self.folder / "y.ply").read_bytes()
+        self.run_ok("extract", Y, "-o", "labelled.ply", "-o", "y.json", cwd=self.folder)
+        for content, options, loses in ((Y.read_bytes(), (), False), (plain, (), False),
+                                        ((self.folder / "y.stl").read_bytes(), (), False),
+                                        ((self.folder / "labelled.ply").read_bytes(), (), True),
+                                        ((self.folder / "y.obj").read_bytes(), (), True),
+                                        ((self.folder / "y.obj").read_bytes(), ("--bare",), False)):
+            result = self.piped(content, "rig", "-", "-o", "r.glb", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(b"materials" in result.stderr, loses, (content[:40], options))
+
     def test_that_is_no_surface_is_refused(self):
         for content, words in ((b"", b"0 bytes"), (b"once upon a time", b"the extension of its")):
             result = self.piped(content, "extract", "-", "-o", "x.obj")

@@ -105,7 +105,9 @@ class Fair(CommandLineTest):
                  "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
         (self.folder / "pyramid.off").write_text(square)
         result = self.run_ok("fair", "pyramid.off", "-o", "x.ply", cwd=self.folder)
-        self.assertIn("boundaries held", result.err)
+        self.assertIn("not closed (4 edges with one face, 0 with three or more): faired as it is, "
+                      "its boundaries held", result.err)
+        self.assertNotIn("needed", result.err)
         positions = ply(self.folder / "x.ply")[1]
         self.assertEqual(positions[:4], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
         self.assertLess(positions[4][2], 1)
@@ -271,10 +273,22 @@ class Evaluate(CommandLineTest):
         self.assertIn("times 0.01", result.err)
 
     def test_rigs_that_are_not_read_are_refused_by_name(self):
-        for name in ("y.npz", "y.usda", "y.bvh"):
+        for name in ("y.npz", "y.usda", "y.usdz", "y.bvh"):
             self.run_ok("rig", Y, "-o", name, cwd=self.folder)
             self.refused(INPUT, "evaluate", name, "--rig-truth", name, cwd=self.folder,
                          says=[name[1:] + " file", "--rig-truth", ".glb"])
+
+
+    def test_a_surface_for_a_skeleton_is_called_one(self):
+        self.run_ok("rig", Y, "-o", "y.glb", cwd=self.folder)
+        self.refused(INPUT, "evaluate", Y, "y.glb", cwd=self.folder,
+                     says=["a surface file (glb)", "give the skeleton"])
+        self.refused(INPUT, "evaluate", Y, Y, cwd=self.folder, says=["a surface file (off)"])
+
+    def test_standard_input_gives_no_rig_and_no_skeleton(self):
+        self.refused(2, "evaluate", "-", "--rig-truth", "r.glb", says=["no rig", "name a file"])
+        self.refused(2, "evaluate", "r.glb", "--rig-truth", "-", says=["no rig", "name a file"])
+        self.refused(2, "evaluate", Y, "-", says=["the surface alone", "name a file"])
 
 
 class Rig(CommandLineTest):
@@ -489,6 +503,30 @@ class Rig(CommandLineTest):
                      says=["hips", "--plan", ".glb"])
         self.assertFalse((self.folder / "y.vrm").exists())
 
+    def test_advice_goes_with_the_options_that_were_given(self):
+        """They excluded the --plan that they were told to give."""
+        vrm = ("--vrm-name", "Y", "--vrm-author", "a person", "--vrm-licence",
+               "https://vrm.dev/licenses/1.0/")
+        self.run_ok("rig", Y, "-o", "y.glb", "-o", "y.json", cwd=self.folder)
+        for mesh, given, option in ((Y, ("--joints", "y.json"), "--joints"),
+                                    ("y.glb", ("--keep-rig",), "--keep-rig")):
+            result = self.refused(3, "rig", mesh, *given, "-o", "x.vrm", *vrm, cwd=self.folder,
+                                  says=["the role hips", "leave out " + option])
+            self.assertNotIn("--plan", result.err)
+        # Here or before anything is read.
+        result = run("rig", Y, "--joints", "y.json", "--pose", "t", "-o", "x.glb", cwd=self.folder)
+        self.assertIn(result.code, (2, 3), result.err)
+        self.assertNotIn("--plan", result.err)
+
+    def test_a_skeleton_or_a_rig_for_a_surface_is_called_one(self):
+        self.run_ok("extract", Y, *(word for name in ("s.json", "s.ply", "s.obj", "s.vtp")
+                                    for word in ("-o", name)), cwd=self.folder)
+        self.run_ok("rig", Y, "-o", "r.json", "-o", "r.usdz", cwd=self.folder)
+        for name, words in (("s.json", "a skeleton of curveskel"), ("s.ply", "a skeleton or a drawing"),
+                            ("s.obj", "a skeleton or a drawing"), ("s.vtp", "a skeleton or a drawing"),
+                            ("r.json", "a rig of curveskel"), ("r.usdz", "a USD scene")):
+            self.refused(3, "extract", name, "-o", "x.obj", says=[name, words], cwd=self.folder)
+
     def test_what_is_no_surface_is_refused(self):
         self.refused(3, "rig", "nowhere.off", "-o", "x.glb", says=["nowhere.off"],
                      cwd=self.folder)
@@ -558,6 +596,16 @@ class Rig(CommandLineTest):
             scene["extensions"] = {name: {"specVersion": "0.0"}}
             (self.folder / "y.vrm").write_text(json.dumps(scene))
             self.assertEqual(sides("y.vrm"), expected)
+
+
+class Match(CommandLineTest):
+    def test_says_of_how_many_branches_each_has_it_makes_pairs(self):
+        result = self.run_ok("match", Y, TORUS, "-o", "m.json", cwd=self.folder)
+        self.assertRegex(result.out.decode(),
+                         r"^y\.off: 3 branches; torus\.off: 1 branch; \d pairs?, \d ambiguous\n")
+        result = self.run_ok("match", Y, Y, "-o", "m.json", cwd=self.folder)
+        self.assertIn("3 branches; y.off: 3 branches; 3 pairs, ", result.out.decode())
+        self.assertIn("\n1 pair of junctions, ", result.out.decode())
 
 
 class Devices(CommandLineTest):

@@ -24,6 +24,13 @@ class Help(CommandLineTest):
                      "--detail N=0.5", "--fair N=0", "--threads N=0", "graphml", "cholesky"):
             self.assertIn(word, text)
 
+    def test_of_strict_names_all_that_it_makes_an_error(self):
+        for verb in ("extract", "evaluate"):
+            text = " ".join(self.run_ok(verb, "--help").out.decode().split())
+            for word in ("leaves the surface", "half-way through a limb", "not made of tubes",
+                         "another shape"):
+                self.assertIn(word, text)
+
     def test_version(self):
         self.assertRegex(self.run_ok("--version").out.decode(), r"^curveskel \d+\.\d+\.\d+\n$")
 

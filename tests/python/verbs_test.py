@@ -95,6 +95,25 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(curveskel.UsageError):
             rig.save(self.folder / "h.vrm")
 
+    def test_a_rig_for_a_skeleton_is_told_where_it_goes(self):
+        rig = curveskel.rig(Y)
+        rig.save(self.folder / "rig.json")
+        with self.assertRaisesRegex(curveskel.InputError, r"curveskel\.rig\(joints=\.\.\.\) takes rigs"):
+            curveskel.read(self.folder / "rig.json")
+        given = curveskel.rig(Y, joints=self.folder / "rig.json")
+        with self.assertRaisesRegex(curveskel.InputError, "leave out joints") as caught:
+            given.save(self.folder / "y.vrm", vrm_name="Y", vrm_author="a",
+                       vrm_licence="https://vrm.dev/licenses/1.0/")
+        self.assertNotIn("plan", str(caught.exception))
+
+    def test_counts_of_one_have_a_singular(self):
+        one = curveskel.read(self.saved("1.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"))
+        self.assertIn("2 nodes, 1 edge, 1 branch", repr(one))
+
+    def saved(self, name, text):
+        (self.folder / name).write_text(text)
+        return self.folder / name
+
     def test_pictures_of_usd_go_where_the_program_puts_them(self):
         """A pyramid with a picture on it, a TGA of one pixel."""
         corners = ["0 0 0", "1 0 0", "1 0 1", "0 0 1", "0.5 4 0.5"]

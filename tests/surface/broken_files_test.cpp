@@ -10,6 +10,7 @@
 #include "tests/own_folder.hpp"
 #include "tests/surface/encodings.hpp"
 #include "tests/surface/reading.hpp"
+#include "tests/surface/zip_encodings.hpp"
 
 namespace curveskel::broken_files_laws {
 namespace {
@@ -241,6 +242,32 @@ std::vector<Broken> broken_files() {
       {"bvh_motion", "a.bvh", "HIERARCHY\nROOT hips\n{\n", {"a BVH motion"}},
       {"step_file", "a.step", "ISO-10303-21;\nHEADER;\n", {"a STEP file"}},
       {"x3d_scene", "a.x3d", "<?xml version=\"1.0\"?>\n<X3D version=\"3.3\"/>", {"an X3D scene"}},
+      {"own_skeleton",
+       "a.json",
+       "{\n\"format\": \"curveskel skeleton\", \"version\": 1",
+       {"a skeleton of curveskel", "give the surface"}},
+      {"own_rig",
+       "a.json",
+       "{\"format\": \"curveskel-rig\", \"version\": 1",
+       {"a rig of curveskel", "give the surface"}},
+      {"ply_skeleton",
+       "a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+       "property float z\nelement edge 1\nproperty int vertex1\nproperty int vertex2\n"
+       "end_header\n0 0 0\n1 0 0\n0 1\n",
+       {"a skeleton or a drawing of lines: 1 edge and no faces", "give the surface"}},
+      {"vtp_skeleton",
+       "a.vtp",
+       "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"2\" NumberOfLines=\"1\">"
+       "<Points><DataArray type=\"Float64\" format=\"ascii\">0 0 0 1 0 0</DataArray></Points>"
+       "</Piece></PolyData></VTKFile>",
+       {"a skeleton or a drawing of lines", "give the surface"}},
+      {"one_point", "a.off", "OFF\n1 0 0\n0 0 0\n", {"1 vertex and no faces"}},
+      {"usd", "a.usda", "#usda 1.0\n(\n", {"a USD scene", "does not read it"}},
+      {"usd_archive",
+       "a.usdz",
+       encodings::zip({{"rig.usda", "#usda 1.0\n"}}),
+       {"a USD scene (USDZ)", "does not read it"}},
       {"web_page", "a.stl", "<!DOCTYPE html>\n<html></html>", {"a web page"}},
       {"git_lfs_pointer",
        "a.ply",

@@ -67,6 +67,14 @@ class Options(ViewTest):
                       ["--colour", "part"]):
             with self.subTest(words):
                 self.refused(USAGE, "view", Y, *words, *out, says=[words[0], "--stage rig"])
+        self.refused(USAGE, "view", Y, "--turn", "a:1,2,3", *out, says=["--turn needs a rig"])
+        self.refused(USAGE, "view", "-", *out, says=["no standard input", "name a file"])
+        self.refused(USAGE, "view", Y, "--no-run", "--stage", "skeleton", *out, says=["--no-run"])
+        rig = self.folder / "y.glb"
+        self.run_ok("rig", Y, "-o", rig)
+        for colour in ("role", "part"):
+            self.refused(USAGE, "view", rig, "--colour", colour, *out,
+                         says=[f"--colour {colour} needs a rig that is made", "--stage rig"])
         self.refused(USAGE, "view", Y, "--frame-times", self.folder / "times.csv", *out,
                      says=["--frame-times is for the window"])
         self.refused(USAGE, "view", Y, "--vrm-name", "a", *out, says=["--vrm-name", "the window"])
@@ -98,6 +106,14 @@ class Screenshot(ViewTest):
             self.assert_differ(found[name], found["extracted"])
         self.assert_differ(found["surface"], found["skeleton"])
         numpy.testing.assert_array_equal(found["both"], found["extracted"])
+
+    def test_of_the_skeleton_of_a_rig_has_no_bones_unless_they_are_asked_for(self):
+        rig = self.folder / "y.glb"
+        self.run_ok("rig", Y, "-o", rig, "--bare")
+        options = ("--stage", "skeleton", "--colour", "plain", "--surface", "hidden")
+        curve = self.picture(rig, *options)
+        numpy.testing.assert_array_equal(curve, self.picture(rig, *options, "--no-bones"))
+        self.assert_differ(curve, self.picture(rig, *options, "--joint", "root"))
 
     def test_needs_no_display(self):
         without = {name: value for name, value in os.environ.items()

@@ -129,19 +129,39 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
 /// Drawn so many times as wide and high, for smooth edges.
 int factor_of(int width, int height) { return 2 * std::max(width, height) <= largest_side ? 2 : 1; }
 
-/// Of options that would have no effect without a rig.
-void require_rig_for(const ViewOptions& options, bool has_rig) {
-  const bool makes_one = options.stage.stage == "rig";
+/// The option that would have no effect without a rig; empty if there is none.
+std::string option_of_rig(const ViewOptions& options) {
   const ColourBy colour = options.look.surface_colour;
-  const bool of_rig = colour == ColourBy::weight || colour == ColourBy::role;
-  if (!has_rig && !makes_one && (!options.joint.empty() || of_rig)) {
-    throw UsageError(
-        (of_rig ? "--colour " + std::string(name_of(colourings, colour)) : std::string("--joint")) +
-        " needs a rig: add --stage rig, or name a file that has one");
+  if (colour == ColourBy::weight || colour == ColourBy::role) {
+    return "--colour " + std::string(name_of(colourings, colour));
   }
-  if (!makes_one && colour == ColourBy::part) {
-    throw UsageError("--colour part needs a rig that is made: add --stage rig");
+  return !options.joint.empty() ? "--joint" : !options.turns.empty() ? "--turn" : "";
+}
+
+void require_rig_for(const ViewOptions& options, const Rig* rig) {
+  if (options.stage.stage == "rig") return;
+  const std::string option = option_of_rig(options);
+  if (rig == nullptr && !option.empty()) {
+    throw UsageError(option + " needs a rig: add --stage rig, or name a file that has one");
   }
+  const ColourBy colour = options.look.surface_colour;
+  const bool has_roles =
+      rig != nullptr && std::any_of(rig->roles.begin(), rig->roles.end(),
+                                    [](const std::string& role) { return !role.empty(); });
+  if (colour == ColourBy::part || (colour == ColourBy::role && !has_roles)) {
+    throw UsageError("--colour " + std::string(name_of(colourings, colour)) +
+                     " needs a rig that is made: add --stage rig");
+  }
+}
+
+/// The rig of the file is in the way of a curve that is asked for, unless it is asked for, too.
+Document opened(const ViewOptions& options, const Monitor& monitor) {
+  Document document = open_document(options.files, monitor);
+  require_rig_for(options, document.rig.get());
+  const std::string& stage = options.stage.stage;
+  const bool shows_curve = options.stage_given && stage != "input" && stage != "rig";
+  if (shows_curve && option_of_rig(options).empty()) document.rig = nullptr;
+  return document;
 }
 
 PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height, const Part& part) {
@@ -302,8 +322,7 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
   const HeadlessContext context;
   Renderer renderer;
   require_picture_of(options.width, options.height, options.look, renderer);
-  Scene scene(open_document(options.files, monitor));
-  require_rig_for(options, scene.document.rig != nullptr);
+  Scene scene(opened(options, monitor));
   scene.look = options.look;
   if (scene.look.surface_colour == ColourBy::file) {
     scene.materials =
@@ -325,6 +344,10 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
     go_to(scene, options.stage);
     look_at_rig(scene, options.joint);
   } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {
+    if (!options.run) {
+      throw UsageError("--no-run makes no stage " + name_of(options.stage) +
+                       "; leave out --no-run, or --stage");
+    }
     go_to(scene, options.stage);  // says that it never came
   }
   turn_joints(scene, options.turns);

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/counted.hpp"
 #include "viewer/window/panel_keys.hpp"
 #include "viewer/window/panel_parts.hpp"
 #include "viewer/window/reading_order.hpp"
@@ -40,12 +41,13 @@ void status_bar(const Workbench& bench, const Panels& panels, const Area& area) 
   std::vector<std::string> facts;
   if (document.has_surface()) {
     facts.push_back(in_reading_order(document.mesh_file.filename().string()));
-    facts.push_back(fmt::format("{} vertices, {} triangles", document.surface.positions.rows(),
-                                document.surface.triangles.rows()));
+    facts.push_back(fmt::format("{}, {}",
+                                count_of(document.surface.positions.rows(), "vertex", "vertices"),
+                                count_of(document.surface.triangles.rows(), "triangle")));
   }
   if (const auto skeleton = bench.scene->skeleton()) {
-    facts.push_back(
-        fmt::format("{} nodes, {} edges", skeleton->nodes.rows(), skeleton->edges.rows()));
+    facts.push_back(fmt::format("{}, {}", count_of(skeleton->nodes.rows(), "node"),
+                                count_of(skeleton->edges.rows(), "edge")));
   }
   if (panels.coarse) facts.emplace_back("drawing coarsely while it moves");
   facts.push_back(title_of(bench.scene->recording.moments()[bench.scene->moment]));
@@ -242,9 +244,11 @@ std::string description_of_node(int node, const CurveSkeleton& skeleton) {
                                  skeleton.nodes(node, 1), skeleton.nodes(node, 2));
   if (skeleton.radii.size() > 0) text += fmt::format("\nradius {:.5g}", skeleton.radii[node]);
   const auto degree = (skeleton.edges.array() == node).count();
-  text += fmt::format("\n{} edge{}", degree, degree == 1 ? "" : "s");
+  text += "\n" + count_of(degree, "edge");
   const auto vertices = (skeleton.node_of_vertex.array() == node).count();
-  if (skeleton.node_of_vertex.size() > 0) text += fmt::format("\n{} vertices", vertices);
+  if (skeleton.node_of_vertex.size() > 0) {
+    text += "\n" + count_of(vertices, "vertex", "vertices");
+  }
   return text;
 }
 
@@ -258,7 +262,7 @@ std::string description_of_joint(int joint, const Rig& rig) {
   const int parent = rig.parents[joint];
   text += parent < 0 ? "\na root" : fmt::format("\nbelow {}", name_of(parent));
   const auto moved = (rig.weights.col(joint).toDense().array() > 0).count();
-  return text + fmt::format("\nmoves {} vertices", moved);
+  return text + "\nmoves " + count_of(moved, "vertex", "vertices");
 }
 
 }  // namespace
