@@ -54,7 +54,7 @@ struct ExtractionRecord {
 struct RunRecord {
   std::vector<StageTime> times;
   double seconds = 0;  ///< by the clock, so far
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs;  ///< files, but for the report itself
 };
 
 /// All that was done to the surface on its way, a line each, after `provenance`.

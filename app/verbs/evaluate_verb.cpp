@@ -128,7 +128,7 @@ void require_one_task(const EvaluateArguments& arguments) {
                                 : "- is standard input, which gives the surface alone; name a file "
                                   "for the skeleton");
   }
-  if (arguments.skeleton.empty() == !reads_rigs) return;
+  if (arguments.skeleton.empty() == reads_rigs) return;
   throw UsageError(arguments.skeleton.empty()
                        ? "SKELETON is required, or --rig-truth with another rig"
                        : "--rig-truth compares rigs; leave out SKELETON");

@@ -98,6 +98,13 @@ void refuse_own_json(const FileBytes& file) {
   }
 }
 
+void refuse_skeleton(const FileBytes& file) {
+  const std::string extension = lower_extension(without_gz(file.path));
+  if (extension != "swc" && extension != "cgal" && extension != "graphml") return;
+  file.fail("a skeleton file (" + extension + ")", "a surface file",
+            "give the surface, of which a skeleton can be made");
+}
+
 void refuse_foreign_format(const FileBytes& file) {
   const std::optional<ForeignFormat> format = foreign_format_of(file);
   if (format) file.fail(format->name, "a surface file", format->remedy);

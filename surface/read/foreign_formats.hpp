@@ -20,6 +20,9 @@ struct ForeignFormat {
 /// Throws Error(Fault::input) for a skeleton or a rig that this program wrote as JSON.
 void refuse_own_json(const FileBytes& file);
 
+/// Throws Error(Fault::input) for a name that is a skeleton's alone; the content tells nothing.
+void refuse_skeleton(const FileBytes& file);
+
 /// Throws Error(Fault::input) that says what the file is, if its first bytes tell.
 void refuse_foreign_format(const FileBytes& file);
 

@@ -89,6 +89,7 @@ PolygonSoup read_content(const FileBytes& file, const Monitor& monitor,
   if (!format_by_content(file)) refuse_foreign_format(file);
   const std::optional<SurfaceFormat> format = surface_format_of(file);
   if (!format) {
+    refuse_skeleton(file);
     file.fail("content that begins with " + in_quotes(file.content.substr(0, 41)) +
                   " and no known extension",
               "a surface as one of " + names_in(surface_formats),

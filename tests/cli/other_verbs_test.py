@@ -519,12 +519,12 @@ class Rig(CommandLineTest):
         self.assertNotIn("--plan", result.err)
 
     def test_a_skeleton_or_a_rig_for_a_surface_is_called_one(self):
-        self.run_ok("extract", Y, *(word for name in ("s.json", "s.ply", "s.obj", "s.vtp")
+        self.run_ok("extract", Y, *(word for name in ("s.json", "s.ply", "s.obj", "s.vtp", "s.swc")
                                     for word in ("-o", name)), cwd=self.folder)
         self.run_ok("rig", Y, "-o", "r.json", "-o", "r.usdz", cwd=self.folder)
         for name, words in (("s.json", "a skeleton of curveskel"), ("s.ply", "a skeleton or a drawing"),
                             ("s.obj", "a skeleton or a drawing"), ("s.vtp", "a skeleton or a drawing"),
-                            ("r.json", "a rig of curveskel"), ("r.usdz", "a USD scene")):
+                            ("s.swc", "a skeleton file (swc)"), ("r.json", "a rig of curveskel"), ("r.usdz", "a USD scene")):
             self.refused(3, "extract", name, "-o", "x.obj", says=[name, words], cwd=self.folder)
 
     def test_what_is_no_surface_is_refused(self):

@@ -74,7 +74,7 @@ std::vector<Broken> broken_files() {
        three + "v 0 nan 0\nf 1 2 4\n",
        {"1 of 4 vertices", "vertex 3", "1 of 1 faces"}},
       {"obj_too_large", "a.obj", three + "v 0 1e999 0\nf 1 2 4\n", {"1 of 4 vertices"}},
-      {"obj_lines", "a.obj", three + "l 1 2 3\n", {"1 lines", "no faces"}},
+      {"obj_lines", "a.obj", three + "l 1 2 3\n", {"1 line (", "no faces"}},
       {"obj_free_forms",
        "a.obj",
        three + "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 1\nend\n",
@@ -262,6 +262,7 @@ std::vector<Broken> broken_files() {
        "<Points><DataArray type=\"Float64\" format=\"ascii\">0 0 0 1 0 0</DataArray></Points>"
        "</Piece></PolyData></VTKFile>",
        {"a skeleton or a drawing of lines", "give the surface"}},
+      {"swc_skeleton", "a.swc", "1 0 0 0 0 1 -1\n", {"a skeleton file (swc)", "give the surface"}},
       {"one_point", "a.off", "OFF\n1 0 0\n0 0 0\n", {"1 vertex and no faces"}},
       {"usd", "a.usda", "#usda 1.0\n(\n", {"a USD scene", "does not read it"}},
       {"usd_archive",
