@@ -24,11 +24,13 @@ void refuse_points_and_lines(const FileBytes& file, const tinygltf::Model& model
     }
   }
   if (lines > 0) {
-    file.fail("a drawing of lines: " + std::to_string(lines) + " primitives of them and no faces",
+    file.fail("a drawing of lines: " + std::to_string(lines) +
+                  (lines == 1 ? " primitive" : " primitives") + " of them and no faces",
               "a surface with faces", "give the surface, of which a skeleton can be made");
   }
   if (points > 0) {
-    file.fail("a point cloud: " + std::to_string(points) + " primitives of points and no faces",
+    file.fail("a point cloud: " + std::to_string(points) +
+                  (points == 1 ? " primitive" : " primitives") + " of points and no faces",
               "a surface with faces", "reconstruct a surface from the points first");
   }
 }

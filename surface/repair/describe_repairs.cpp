@@ -84,8 +84,10 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
   said(repairs.vertices_copied, "copy of a vertex", "copies of vertices",
        "made where faces met in no orientable 2-manifold");
   said(repairs.holes_closed, "hole", "holes",
-       "closed with " + std::to_string(repairs.faces_added) + " faces and " +
-           std::to_string(repairs.vertices_added) + " vertices (the longest has " +
+       "closed with " + std::to_string(repairs.faces_added) +
+           (repairs.faces_added == 1 ? " face" : " faces") + " and " +
+           std::to_string(repairs.vertices_added) +
+           (repairs.vertices_added == 1 ? " vertex" : " vertices") + " (the longest has " +
            std::to_string(repairs.longest_hole) + " edges)");
   said(repairs.holes_narrowed, "hole", "holes",
        "of more than " + std::to_string(most_edges_without_rings) +
