@@ -53,7 +53,7 @@ struct ExtractionRecord {
 /// Values that depend on the run and not on input and options.
 struct RunRecord {
   std::vector<StageTime> times;
-  double seconds = 0;  ///< by the clock, so far
+  double seconds = 0;                ///< by the clock, so far
   std::vector<std::string> outputs;  ///< files, but for the report itself
 };
 

@@ -163,7 +163,18 @@ TEST(Fair, ComponentsTooCoarseForTheFlowStayAsTheyWere) {
     monitor.note = [&](std::string_view line) { notes += line; };
     const Surface faired = fair(both.surface, options, monitor);
     EXPECT_EQ(faired.positions.topRows(corners), both.surface.positions.topRows(corners));
-    EXPECT_NE(notes.find("1 of 2 components is too coarse"), std::string::npos) << notes;
+    EXPECT_NE(
+        notes.find("1 of 2 components is too coarse to be faired, which would cost its shape: "
+                   "left as it was"),
+        std::string::npos)
+        << notes;
+    notes.clear();
+    const Shape more = shapes::together("more", {both, shapes::translated(cube, {9, 0, 0})});
+    static_cast<void>(fair(more.surface, options, monitor));
+    EXPECT_NE(notes.find("2 of 3 components are too coarse to be faired, which would cost their "
+                         "shape: left as they were"),
+              std::string::npos)
+        << notes;
     Surface rest = fair(ball.surface, options, {});
     rest.positions.rowwise() += Eigen::RowVector3d(5, 0, 0);
     EXPECT_LT((faired.positions.bottomRows(rest.positions.rows()) - rest.positions).norm(), 1e-12);

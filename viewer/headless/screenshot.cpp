@@ -14,6 +14,7 @@
 #include <curveskel/view.hpp>
 #include "app/output_files.hpp"
 #include "viewer/headless/headless.hpp"
+#include "viewer/headless/open_for_pictures.hpp"
 #include "viewer/headless/png.hpp"
 #include "viewer/model/ground.hpp"
 #include "viewer/model/rigging.hpp"
@@ -128,41 +129,6 @@ void write_turntable(Scene& scene, Renderer& renderer, const ViewOptions& option
 
 /// Drawn so many times as wide and high, for smooth edges.
 int factor_of(int width, int height) { return 2 * std::max(width, height) <= largest_side ? 2 : 1; }
-
-/// The option that would have no effect without a rig; empty if there is none.
-std::string option_of_rig(const ViewOptions& options) {
-  const ColourBy colour = options.look.surface_colour;
-  if (colour == ColourBy::weight || colour == ColourBy::role) {
-    return "--colour " + std::string(name_of(colourings, colour));
-  }
-  return !options.joint.empty() ? "--joint" : !options.turns.empty() ? "--turn" : "";
-}
-
-void require_rig_for(const ViewOptions& options, const Rig* rig) {
-  if (options.stage.stage == "rig") return;
-  const std::string option = option_of_rig(options);
-  if (rig == nullptr && !option.empty()) {
-    throw UsageError(option + " needs a rig: add --stage rig, or name a file that has one");
-  }
-  const ColourBy colour = options.look.surface_colour;
-  const bool has_roles =
-      rig != nullptr && std::any_of(rig->roles.begin(), rig->roles.end(),
-                                    [](const std::string& role) { return !role.empty(); });
-  if (colour == ColourBy::part || (colour == ColourBy::role && !has_roles)) {
-    throw UsageError("--colour " + std::string(name_of(colourings, colour)) +
-                     " needs a rig that is made: add --stage rig");
-  }
-}
-
-/// The rig of the file is in the way of a curve that is asked for, unless it is asked for, too.
-Document opened(const ViewOptions& options, const Monitor& monitor) {
-  Document document = open_document(options.files, monitor);
-  require_rig_for(options, document.rig.get());
-  const std::string& stage = options.stage.stage;
-  const bool shows_curve = options.stage_given && stage != "input" && stage != "rig";
-  if (shows_curve && option_of_rig(options).empty()) document.rig = nullptr;
-  return document;
-}
 
 PixelRows drawn(Scene& scene, Renderer& renderer, int width, int height, const Part& part) {
   const int factor = factor_of(width, height);
@@ -322,7 +288,7 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
   const HeadlessContext context;
   Renderer renderer;
   require_picture_of(options.width, options.height, options.look, renderer);
-  Scene scene(opened(options, monitor));
+  Scene scene(open_for_pictures(options, monitor));
   scene.look = options.look;
   if (scene.look.surface_colour == ColourBy::file) {
     scene.materials =
