@@ -42,7 +42,8 @@ namespace curveskel {
 /// Throws Error(Fault::usage) for a format that has no pose at rest apart from the surface's.
 void require_pose(RigFormat format, RestPose pose, const std::string& output);
 
-/// Throws Error(Fault::usage) for a plan that is named beside a root: the joints are made without.
-void require_root_alone(int root, BodyKind plan);
+/// Throws Error(Fault::usage) for a plan that is named beside a root, as the joints are made
+/// without one, and for a front where no plan is made.
+void require_root_alone(int root, const PlanOptions& options);
 
 }  // namespace curveskel

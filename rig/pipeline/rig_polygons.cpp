@@ -15,6 +15,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/joints/fully_mapped.hpp"
 #include "rig/pipeline/figures.hpp"
+#include "rig/plan/frames.hpp"
 
 namespace curveskel {
 namespace {
@@ -125,11 +126,17 @@ Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated
                              const BodyPlan& plan, Direction asked) {
   if (states_up(format)) return stated;
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
-  const Eigen::RowVector3d up = plan.axes.row(1);
+  Eigen::Matrix3d axes = plan.axes;
+  if (plan.joints.empty() && asked != Direction::automatic) {
+    PlanOptions standing;
+    standing.up = asked;
+    axes = frames_of(standing).front();
+  }
+  const Eigen::RowVector3d up = axes.row(1);
   if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
   if (up != Eigen::RowVector3d::UnitZ()) {
     const bool lies = asked == Direction::automatic;
-    return lies ? Eigen::Matrix3d::Identity() : plan.axes;
+    return lies ? Eigen::Matrix3d::Identity() : axes;
   }
   return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
