@@ -8,11 +8,14 @@
 #include <map>
 #include <string>
 
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::rig_character_laws {
@@ -98,6 +101,20 @@ TEST_F(RigCharacter, IsTheSameFromASkeletonThatIsGiven) {
   }
   given.skeleton = kept;
   EXPECT_TRUE(rig_polygons(soup, given).character.parts.all_body());
+}
+
+/// The mean of two hands in a pose lies beside both.
+TEST(RealCharacters, OfOnePieceHaveTheirJointsWithinThem) {
+  for (const std::string& file : present_among({"humanoid-10k.ply", "spot-3k.obj"})) {
+    const PolygonSoup soup = read_polygons(*real_surface(file), {});
+    const PolygonsRig found = rig_polygons(soup);
+    const SurfaceTree tree(repair(soup).surface);
+    const Rig& rig = found.character.rig;
+    for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+      const auto row = static_cast<Eigen::Index>(joint);
+      EXPECT_TRUE(tree.inside(rig.joints.row(row).transpose())) << file << " " << rig.names[joint];
+    }
+  }
 }
 
 /// Limbs of several lengths on a trunk: a shorter one has a shorter life.
