@@ -25,4 +25,14 @@ inline void require_closed_form(const FairOptions& options, bool is_asked_for) {
                                 "needed is the local solver qr");
 }
 
+/// Throws Error(Fault::usage) where single precision was asked for of a method of the host.
+inline void require_single_on_device(const FairOptions& options, bool is_asked_for) {
+  const FairMethod method = choose_fair_method(options.method);
+  const bool is_of_host = method == FairMethod::cpu || method == FairMethod::host;
+  if (!is_asked_for || options.double_precision || !is_of_host) return;
+  throw Error(Fault::usage, "the precision single beside the method " +
+                                std::string(name_of(fair_methods, options.method)) +
+                                ", which computes in double; needed is a method of OpenCL");
+}
+
 }  // namespace curveskel

@@ -105,11 +105,19 @@ void require_human_roles(const Rig& rig, OldRig old_rig) {
                                 ", needed one for each; " + remedy);
 }
 
-void require_root_alone(int root, BodyKind plan) {
-  if (root < 0 || plan == BodyKind::automatic || plan == BodyKind::none) return;
-  throw Error(Fault::usage, fmt::format("--root {}: a root that is chosen needs joints without a "
-                                        "plan, found --plan {}; leave out one of the two",
-                                        root, name_of(body_kinds, plan)));
+void require_root_alone(int root, const PlanOptions& options) {
+  const bool is_planned = options.plan != BodyKind::automatic && options.plan != BodyKind::none;
+  if (root >= 0 && is_planned) {
+    throw Error(Fault::usage, fmt::format("--root {}: a root that is chosen needs joints without a "
+                                          "plan, found --plan {}; leave out one of the two",
+                                          root, name_of(body_kinds, options.plan)));
+  }
+  if (options.front == Direction::automatic) return;
+  if (root < 0 && options.plan != BodyKind::none) return;
+  throw Error(Fault::usage, fmt::format("--front {} needs a plan, and {} makes none; leave out one "
+                                        "of the two",
+                                        name_of(directions, options.front),
+                                        root >= 0 ? "--root" : "--plan none"));
 }
 
 }  // namespace curveskel

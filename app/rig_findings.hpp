@@ -46,7 +46,8 @@ void require_pose(RigFormat format, RestPose pose, const std::string& output);
 /// has them, lack a role that VRM requires.
 void require_human_roles(const Rig& rig, OldRig old_rig);
 
-/// Throws Error(Fault::usage) for a plan that is named beside a root: the joints are made without.
-void require_root_alone(int root, BodyKind plan);
+/// Throws Error(Fault::usage) for a plan that is named beside a root, as the joints are made
+/// without one, and for a front where no plan is made.
+void require_root_alone(int root, const PlanOptions& options);
 
 }  // namespace curveskel

@@ -1,7 +1,9 @@
 #include "app/rig_report.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include <curveskel/check_weights.hpp>
@@ -14,23 +16,37 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::RowVector3d& point) { return {point.x(), point.y(), point.z()}; }
 
-/// `first` is the rig's joint that is the plan's first.
-Json roles_of(const BodyPlan& plan, const Rig& rig, std::size_t first) {
+struct NumberedRecord {
+  explicit NumberedRecord(const RigRecord& given) : record(given) {
+    for (const std::string& name : given.written.names) number_of.emplace(name, number_of.size());
+  }
+
+  const RigRecord& record;
+  std::map<std::string, std::size_t> number_of;  ///< of the written joints, by their names
+};
+
+/// `first` is the character's joint that is the plan's first.
+Json roles_of(const BodyPlan& plan, const NumberedRecord& numbered, std::size_t first) {
+  const RigRecord& record = numbered.record;
   Json roles = Json::object();
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     const PlannedJoint& joint = plan.joints[k];
-    roles[joint.role] = {{"joint", rig.names[first + k]},
-                         {"number", first + k},
-                         {"position", to_json(joint.position)},
+    const std::string& name = record.character.rig.names[first + k];
+    const auto number = numbered.number_of.find(name);
+    if (number == numbered.number_of.end()) continue;
+    const auto row = static_cast<Eigen::Index>(number->second);
+    roles[joint.role] = {{"joint", name},
+                         {"number", row},
+                         {"position", to_json(record.written.joints.row(row))},
                          {"reason", joint.reason}};
   }
   return roles;
 }
 
-Json plan_of(const BodyPlan& plan, const Rig& rig, std::size_t first) {
+Json plan_of(const BodyPlan& plan, const NumberedRecord& numbered, std::size_t first) {
   return {{"plan", name_of(body_kinds, plan.plan)}, {"plan_reason", plan.reason},
           {"left", to_json(plan.axes.row(0))},      {"up", to_json(plan.axes.row(1))},
-          {"front", to_json(plan.axes.row(2))},     {"roles", roles_of(plan, rig, first)},
+          {"front", to_json(plan.axes.row(2))},     {"roles", roles_of(plan, numbered, first)},
           {"missing_roles", plan.missing}};
 }
 
@@ -46,7 +62,8 @@ Json parts_of(const RigParts& parts) {
   return list;
 }
 
-Json other_figures_of(const CharacterRig& character) {
+Json other_figures_of(const NumberedRecord& numbered) {
+  const CharacterRig& character = numbered.record.character;
   Json list = Json::array();
   for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
     const BodyPlan& plan = character.other_plans[k];
@@ -56,7 +73,7 @@ Json other_figures_of(const CharacterRig& character) {
       return name.starts_with(prefix);
     });
     Json figure = {{"names_begin_with", prefix}};
-    figure.update(plan_of(plan, character.rig, static_cast<std::size_t>(first - names.begin())));
+    figure.update(plan_of(plan, numbered, static_cast<std::size_t>(first - names.begin())));
     list.push_back(std::move(figure));
   }
   return list;
@@ -72,14 +89,17 @@ Json joints_of(const Rig& rig) {
   return list;
 }
 
-Json checks_of(const RigRecord& record) {
+Json checks_of(const NumberedRecord& numbered) {
+  const RigRecord& record = numbered.record;
   const WeightChecks checks =
       check_weights(record.given, record.character.rig, record.character.follows);
   const auto name_of_joint = [&](int joint) {
     return record.character.rig.names[static_cast<std::size_t>(joint)];
   };
   Json idle = Json::array();
-  for (const int joint : checks.idle) idle.push_back(name_of_joint(joint));
+  for (const int joint : checks.idle) {
+    if (numbered.number_of.contains(name_of_joint(joint))) idle.push_back(name_of_joint(joint));
+  }
   Json islands = Json::array();
   for (const auto& island : checks.islands) {
     islands.push_back({{"joint", name_of_joint(island.joint)},
@@ -103,14 +123,15 @@ Json checks_of(const RigRecord& record) {
 }  // namespace
 
 std::string rig_report_json(const RigRecord& record) {
+  const NumberedRecord numbered(record);
   Json json = {{"program", program_and_version()}, {"file", record.file}};
-  json.update(plan_of(record.character.plan, record.character.rig, 0));
-  json.update({{"other_figures", other_figures_of(record.character)},
+  json.update(plan_of(record.character.plan, numbered, 0));
+  json.update({{"other_figures", other_figures_of(numbered)},
                {"parts", parts_of(record.character.parts)},
                {"joints_left_out", record.character.joints_left_out},
                {"joints_over_budget", record.character.joints_over_budget},
-               {"joints", joints_of(record.character.rig)},
-               {"checks", checks_of(record)},
+               {"joints", joints_of(record.written)},
+               {"checks", checks_of(numbered)},
                {"seconds", record.seconds}});
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -84,7 +84,7 @@ RigSettings rig_settings_of(const py::dict& options) {
   require_valid(character.rig);
   require_valid(character.parts);
   require_together(make.repair);
-  require_root_alone(character.rig.joints.root, character.plan.plan);
+  require_root_alone(character.rig.joints.root, character.plan);
   return settings;
 }
 
@@ -206,7 +206,8 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
 }
 
 std::string report(const PythonRig& rig) {
-  return rig_report_json({rig.given, rig.character, rig.soup.file.filename().string(), 0});
+  return rig_report_json(
+      {rig.given, rig.character, rig.exported, rig.soup.file.filename().string(), 0});
 }
 
 /// data, indices, indptr: what scipy.sparse.csr_matrix is made of.

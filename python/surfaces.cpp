@@ -62,6 +62,7 @@ py::tuple fair_soup(const PolygonSoup& soup, const py::dict& options, const py::
                         {"volume", sets(fairing.volume, "volume", volume_rules)}});
   require_valid(fairing);
   require_closed_form(fairing, options.contains("local_solver"));
+  require_single_on_device(fairing, options.contains("precision"));
   Surface result;
   run_beside_interpreter(
       listener, [&](const Monitor& monitor) { result = fair_polygons(soup, fairing, monitor); });

@@ -88,14 +88,16 @@ Verb add_fair(CLI::App& program) {
   const CLI::Option* const solver = add_choice(*parser, "--local-solver", options.local_solver,
                                                local_solvers, "how the centre of a patch is found");
   add_choice(*parser, "--volume", options.volume, volume_rules, "what becomes of the volume");
-  add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
+  const CLI::Option* const precision =
+      add_choice(*parser, "--precision", options.double_precision, precisions, "single or double");
   add_threads(*parser, options.threads);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
   parser->footer(meanings("Methods", fair_methods) + meanings("Local solvers", local_solvers) +
                  meanings("Volume", volume_rules) + meanings("Precision", precisions));
-  return {parser, [arguments, solver](Session& session) {
+  return {parser, [=](Session& session) {
             require_closed_form(arguments->options, solver->count() > 0);
+            require_single_on_device(arguments->options, precision->count() > 0);
             return run_fair(*arguments, session);
           }};
 }

@@ -145,7 +145,7 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   if (has_meta && std::count(formats.begin(), formats.end(), RigFormat::vrm) == 0) {
     throw UsageError("--vrm-name, --vrm-author and --vrm-licence are for a .vrm file");
   }
-  require_root_alone(arguments.rig.joints.root, arguments.plan.plan);
+  require_root_alone(arguments.rig.joints.root, arguments.plan);
   if (is_standard_input(arguments.mesh)) {
     if (arguments.keep_rig) throw UsageError("--keep-rig needs a file, not standard input");
   }
@@ -206,6 +206,7 @@ std::string summary_of(const RigArguments& arguments, const PolygonSoup& soup, c
 
 int run_rig(RigArguments arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
+  if (arguments.report == "-") session.terminal.keep_output_clean();
   const std::vector<RigFormat> formats = checked_formats(arguments);
   session.interruption.limit(arguments.time_limit_seconds);
 
@@ -233,8 +234,8 @@ int run_rig(RigArguments arguments, Session& session) {
   };
   if (!arguments.report.empty()) {
     files.push_back(
-        {arguments.report,
-         rig_report_json({given, found.character, name_of_input(arguments.mesh), seconds()})});
+        {arguments.report, rig_report_json({given, found.character, written,
+                                            name_of_input(arguments.mesh), seconds()})});
   }
   write_outputs(files, session);
   if (arguments.quiet) return ExitCode::done;

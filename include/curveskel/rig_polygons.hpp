@@ -50,9 +50,10 @@ struct PolygonsRig {
 };
 
 /// `repair`, `find_parts`, `extract_repaired` of the body alone, `rig_body` or
-/// `weights_on_joints`. Where a skeleton or joints are given, every part is body, as they may be
-/// for any part. Joints have their names by `character.names`. Errors as of these, and
-/// Error(Fault::input) where a skeleton's vertex map is of another number of vertices.
+/// `weights_on_joints`. Of a skeleton that is given the curves of parts that follow are left out;
+/// where it has no vertex map, and where joints are given or a root is chosen, every part is body,
+/// as these may be for any part. Joints have their names by `character.names`. Errors as of these,
+/// and Error(Fault::input) where a skeleton's vertex map is of another number of vertices.
 [[nodiscard]] PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources = {},
                                        const RigPolygonsOptions& options = {},
                                        const Monitor& monitor = {});

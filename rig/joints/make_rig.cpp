@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/error.hpp>
+#include "rig/joints/drawn_inside.hpp"
 #include "rig/joints/fully_mapped.hpp"
 #include "rig/joints/ground_nodes.hpp"
 #include "rig/joints/idle_joints.hpp"
@@ -42,6 +43,7 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
                       : place_planned_joints(skeleton, plan.joints, options.joints,
                                              ground_nodes(surface, skeleton, plan),
                                              plan.axes.row(1).transpose());
+  if (!plan.by_proportion) draw_inside(joints, surface, skeleton, options.skin.threads);
   Rig rig;
   const auto count = static_cast<int>(joints.parents.size());
   rig.weights = skin_weights(

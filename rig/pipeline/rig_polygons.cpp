@@ -15,6 +15,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/joints/fully_mapped.hpp"
 #include "rig/pipeline/figures.hpp"
+#include "rig/plan/frames.hpp"
 
 namespace curveskel {
 namespace {
@@ -45,18 +46,40 @@ struct Curve {
   std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
 };
 
-/// `body` becomes its wrap where only a wrap would do. Everything is named
-/// first; then what a coarser level does without goes.
-Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
+/// A repaired surface and those of its parts that get joints.
+struct Parted {
+  const RepairedSurface& repaired;
+  RigParts parts;
+  RepairedSurface body;  ///< becomes its wrap where only a wrap would do
+};
+
+/// The curves of the body, or of all parts where the skeleton has none of the body's.
+CurveSkeleton given_curve(const CurveSkeleton& skeleton, const RigPolygonsOptions& options,
+                          Parted& surface, const Monitor& monitor) {
+  CurveSkeleton whole = skeleton_of_repaired(skeleton, surface.repaired.vertex_of_input,
+                                             surface.repaired.surface.positions.rows());
+  // Plans are by the vertices of limbs, too; most formats of skeletons have none.
+  if (whole.node_of_vertex.size() == 0) {
+    return fully_mapped(surface.body.surface, whole, options.threads, monitor);
+  }
+  if (surface.parts.all_body()) return whole;
+  CurveSkeleton of_body = skeleton_of_body(whole, surface.parts);
+  if (of_body.nodes.rows() > 0) return of_body;
+  for (RigPart& part : surface.parts.parts) {
+    part.follows = false;
+    part.host = -1;
+  }
+  surface.body = surface.repaired;
+  return whole;
+}
+
+/// Everything is named first; then what a coarser level does without goes.
+Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Parted& surface,
                 const Monitor& monitor) {
+  RepairedSurface& body = surface.body;
   Curve curve;
   if (sources.skeleton) {
-    curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
-                                          body.surface.positions.rows());
-    // Plans are by the vertices of limbs, too; most formats of skeletons have none.
-    if (curve.skeleton.node_of_vertex.size() == 0) {
-      curve.skeleton = fully_mapped(body.surface, curve.skeleton, options.threads, monitor);
-    }
+    curve.skeleton = given_curve(*sources.skeleton, options, surface, monitor);
     return curve;
   }
   ExtractOptions wanted = options.extract;
@@ -103,11 +126,17 @@ Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated
                              const BodyPlan& plan, Direction asked) {
   if (states_up(format)) return stated;
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
-  const Eigen::RowVector3d up = plan.axes.row(1);
+  Eigen::Matrix3d axes = plan.axes;
+  if (plan.joints.empty() && asked != Direction::automatic) {
+    PlanOptions standing;
+    standing.up = asked;
+    axes = frames_of(standing).front();
+  }
+  const Eigen::RowVector3d up = axes.row(1);
   if (!is_known || up == Eigen::RowVector3d::UnitY()) return Eigen::Matrix3d::Identity();
   if (up != Eigen::RowVector3d::UnitZ()) {
     const bool lies = asked == Direction::automatic;
-    return lies ? Eigen::Matrix3d::Identity() : plan.axes;
+    return lies ? Eigen::Matrix3d::Identity() : axes;
   }
   return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
 }
@@ -122,14 +151,17 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   wanted.rig.skin.threads = wanted.parts.threads = options.threads;
   wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
   wanted.plan.z_is_up = soup.z_is_up;
-  if (sources.joints || sources.skeleton) wanted.parts.follow = 0;
+  const bool is_unmapped = sources.skeleton && sources.skeleton->node_of_vertex.size() == 0;
+  const bool is_root_chosen = wanted.rig.joints.root >= 0;
+  if (sources.joints || is_unmapped || is_root_chosen) wanted.parts.follow = 0;
 
   require_valid(wanted.plan);
   const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
-  RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
-  RepairedSurface body = body_of(repaired, parts);
+  Parted surface{repaired, find_parts(repaired.surface, wanted.parts, monitor), {}};
+  surface.body = body_of(repaired, surface.parts);
   PolygonsRig result;
-  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor);
+  const auto [skeleton, certificate, usual] = curve_for(sources, options, surface, monitor);
+  const RepairedSurface& body = surface.body;
   result.certificate = certificate;
   const Surface given{soup.positions, triangulate(soup)};
   if (sources.joints) {
@@ -149,7 +181,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   }
   result.character.rig.to_y_up =
       axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
-  result.character.parts = std::move(parts);
+  result.character.parts = std::move(surface.parts);
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "rig/joints/end_names.hpp"
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
 #include "rig/joints/sound_rig.hpp"
@@ -160,8 +161,7 @@ Rig without_ends(const Rig& rig) {
   const std::vector<bool> moves = moving_joints(rig);
   std::vector<char> stays(moves.begin(), moves.end());
   for (Eigen::Index joint = 0; joint < count; ++joint) {
-    const bool is_end = rig.names[idx(joint)].find("_end") != std::string::npos;
-    if (!is_end || rig.parents[joint] < 0) stays[idx(joint)] = 1;
+    if (!is_end_name(rig.names[idx(joint)]) || rig.parents[joint] < 0) stays[idx(joint)] = 1;
   }
   return keep_joints(rig, numbers_of_kept(rig, stays));
 }

@@ -7,6 +7,7 @@
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include "rig/joints/end_names.hpp"
 #include "surface/spatial/segment.hpp"
 
 namespace curveskel {
@@ -31,7 +32,8 @@ class GivenBones {
         holds[idx(joint)] = holds[idx(parent)] || is_inside(bone);
         if (holds[idx(joint)]) bones.push_back(bone);
       }
-      if (is_leaf_[idx(joint)] && tree_.inside(place(joint).transpose())) {
+      const bool is_end = parent >= 0 && is_end_name(given_.names[idx(joint)]);
+      if (is_leaf_[idx(joint)] && !is_end && tree_.inside(place(joint).transpose())) {
         bones.push_back(straight_on(joint));
       }
     }

@@ -28,9 +28,10 @@ namespace curveskel {
 /// surface for more than half of its length (from a root on the ground to the hips, to a handle
 /// beside the foot) holds nothing, unless it hangs from one that does, as of a toe that the bones
 /// have left. A joint inside the surface from which nothing hangs has a bone of its own, straight
-/// on from the one that leads to it, up to the surface; a joint without any other has one of no
-/// length. Where all that holds nothing, all do. Precondition: parents before their children; a
-/// closed surface. O(#F log #F + joints log #F).
+/// on from the one that leads to it, up to the surface, unless its name is an end's
+/// (`is_end_name`); a joint without any other has one of no length. Where all that holds nothing,
+/// all do. Precondition: parents before their children; a closed surface. O(#F log #F + joints log
+/// #F).
 [[nodiscard]] std::vector<Bone> bones_of_given(const Surface& surface, const Rig& given,
                                                int threads);
 

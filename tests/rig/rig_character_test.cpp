@@ -4,12 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <string>
 
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract_repaired.hpp>
+#include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
+#include <curveskel/rig_polygons.hpp>
 #include "meshes/shapes.hpp"
+#include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"
 
 namespace curveskel::rig_character_laws {
@@ -52,6 +58,63 @@ TEST_F(RigCharacter, IsTheSameFromTheCurveOfAllAndOfTheBodyAlone) {
   EXPECT_EQ(from_all.rig.parents, from_body.rig.parents);
   EXPECT_LT((from_all.rig.joints - from_body.rig.joints).norm(), 1e-12);
   EXPECT_LT((from_all.rig.weights - from_body.rig.weights).norm(), 1e-5F);
+}
+
+TEST_F(RigCharacter, IsTheSameFromASkeletonThatIsGiven) {
+  RigSources given;
+  given.skeleton = of_all;
+  given.skeleton->node_of_vertex =
+      repaired.vertex_of_input.unaryExpr([&](int v) { return of_all.node_of_vertex[v]; });
+  const PolygonSoup soup = soup_of(shape.surface);
+  const CharacterRig made = rig_polygons(soup).character;
+  const CharacterRig same = rig_polygons(soup, given).character;
+  EXPECT_FALSE(same.parts.all_body());
+  EXPECT_EQ(same.rig.names, made.rig.names);
+  EXPECT_EQ(same.rig.parents, made.rig.parents);
+  EXPECT_LT((same.rig.joints - made.rig.joints).norm(), 1e-9);
+
+  // Whoever draws curves into the buttons alone, or chooses a root, means these nodes.
+  RigPolygonsOptions rooted;
+  rooted.character.rig.joints.root = 0;
+  EXPECT_TRUE(rig_polygons(soup, given, rooted).character.parts.all_body());
+  EXPECT_TRUE(rig_polygons(soup, {}, rooted).character.parts.all_body());
+  const RigParts& parts = same.parts;
+  for (int& node : given.skeleton->node_of_vertex) {
+    const auto v = &node - given.skeleton->node_of_vertex.data();
+    const int part = parts.part_of_vertex[repaired.vertex_of_input[v]];
+    if (!parts.parts[static_cast<std::size_t>(part)].follows) node = -1;
+  }
+  CurveSkeleton& buttons = *given.skeleton;
+  buttons.edges.resize(0, 2);
+  std::map<int, int> number;
+  for (int& node : buttons.node_of_vertex) {
+    if (node >= 0) node = number.emplace(node, static_cast<int>(number.size())).first->second;
+  }
+  CurveSkeleton kept = buttons;
+  kept.nodes.resize(static_cast<Eigen::Index>(number.size()), 3);
+  kept.radii.resize(kept.nodes.rows());
+  kept.lives.resize(0);
+  kept.contacts.clear();
+  for (const auto& [before, now] : number) {
+    kept.nodes.row(now) = of_all.nodes.row(before);
+    kept.radii[now] = of_all.radii[before];
+  }
+  given.skeleton = kept;
+  EXPECT_TRUE(rig_polygons(soup, given).character.parts.all_body());
+}
+
+/// The mean of two hands in a pose lies beside both.
+TEST(RealCharacters, OfOnePieceHaveTheirJointsWithinThem) {
+  for (const std::string& file : present_among({"humanoid-10k.ply", "spot-3k.obj"})) {
+    const PolygonSoup soup = read_polygons(*real_surface(file), {});
+    const PolygonsRig found = rig_polygons(soup);
+    const SurfaceTree tree(repair(soup).surface);
+    const Rig& rig = found.character.rig;
+    for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
+      const auto row = static_cast<Eigen::Index>(joint);
+      EXPECT_TRUE(tree.inside(rig.joints.row(row).transpose())) << file << " " << rig.names[joint];
+    }
+  }
 }
 
 /// Limbs of several lengths on a trunk: a shorter one has a shorter life.
