@@ -94,7 +94,7 @@ CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& pa
   CurveSkeleton body;
   body.nodes = skeleton.nodes(nodes, Eigen::all);
   if (skeleton.radii.size() > 0) body.radii = skeleton.radii(nodes);
-  if (skeleton.lives.size() > 0) body.lives = skeleton.lives(nodes);
+  if (has_lives(skeleton)) body.lives = skeleton.lives(nodes);
   std::vector<Eigen::Index> edges;
   for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
     if (number[idx(skeleton.edges(e, 0))] >= 0) edges.push_back(e);
