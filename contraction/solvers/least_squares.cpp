@@ -35,6 +35,12 @@ std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver, const SolverOpt
   return nullptr;
 }
 
+SolverOptions options_with(Solver solver) {
+  SolverOptions options;
+  options.solver = solver;
+  return options;
+}
+
 double ratio(double part, double whole) { return whole > 0 ? part / whole : part; }
 
 /// The back ends read the arrays of a matrix as they are.
@@ -106,7 +112,7 @@ struct LeastSquares::Implementation {
   }
 };
 
-LeastSquares::LeastSquares(Solver solver) : LeastSquares(SolverOptions{.solver = solver}) {}
+LeastSquares::LeastSquares(Solver solver) : LeastSquares(options_with(solver)) {}
 LeastSquares::LeastSquares(const SolverOptions& options)
     : implementation_(std::make_unique<Implementation>()) {
   require_valid(options);

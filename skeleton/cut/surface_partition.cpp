@@ -30,11 +30,11 @@ bool is_inner(const std::array<int, 3>& groups) {
 /// Throws unless each number is one of 0 .. count - 1.
 template <typename Numbers>
 void require_among(const Numbers& numbers, Eigen::Index count, std::string_view purpose,
-                   const std::string& things) {
+                   std::string_view things) {
   for (const int number : numbers) {
     if (number >= 0 && number < count) continue;
     refuse_partition(purpose, "the number " + std::to_string(number),
-                     "one of " + std::to_string(count) + " " + things);
+                     "one of " + std::to_string(count) + " " + std::string(things));
   }
 }
 

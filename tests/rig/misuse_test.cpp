@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -304,9 +305,11 @@ TEST(Misuse, MiddlesAreOfTheGraphsOwnPositions) {
 
 TEST(Misuse, NamesOfTriesEnd) {
   std::vector<Try> history(3);
-  history[0].name = "faired";
-  history[1] = {std::string(try_gentler), 0, 0};
-  history[2] = {std::string(try_gentler), 0, 1};
+  history[0].name = try_faired;
+  for (const int number : {1, 2}) {
+    history[static_cast<std::size_t>(number)].name = try_gentler;
+    history[static_cast<std::size_t>(number)].part_of = number - 1;
+  }
   EXPECT_EQ(full_name(history, -1), "");
   EXPECT_EQ(full_name(history, 1), "faired, gentler contraction");
   expect_error(Fault::input, "try 3", [&] { (void)full_name(history, 3); });
