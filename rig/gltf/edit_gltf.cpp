@@ -342,6 +342,7 @@ std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, co
   check.number("old_rig", static_cast<int>(options.old_rig), {0, 1});
   if (!keeps_the_file(options.format)) return std::nullopt;
   require_sound(rig, "format_rig_into");
+  require_finite(rig, "format_rig_into");
   if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);

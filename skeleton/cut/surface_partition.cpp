@@ -60,7 +60,7 @@ EdgeIndex index_edges(const Triangles& triangles) {
                      "corners that are vertices");
   }
   // In the order of their smaller ends; little is left to sort.
-  const int vertices = highest + 1;
+  const int vertices = std::max(highest + 1, 0);
   std::vector<std::size_t> begin(static_cast<std::size_t>(vertices) + 2, 0);  // one ahead at first
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(ends_of(t, k).first) + 2];

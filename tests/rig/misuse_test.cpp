@@ -135,7 +135,7 @@ TEST(Misuse, ASolverThatWasMovedFromSaysSo) {
   const Positions right = Positions::Ones(1, 3);
   LeastSquares solver(Solver::cholesky);
   LeastSquares moved_to = std::move(solver);
-  EXPECT_EQ(moved_to.solve_definite(one, right).x(0, 0), 0.5);
+  EXPECT_DOUBLE_EQ(moved_to.solve_definite(one, right).x(0, 0), 0.5);
   expect_error(Fault::usage, "moved from", [&] { (void)solver.solver(); });
   expect_error(Fault::usage, "moved from", [&] { (void)solver.solve(one, right); });
   expect_error(Fault::usage, "moved from", [&] { (void)solver.solve_definite(one, right); });
@@ -414,6 +414,60 @@ TEST(Misuse, SheetsRimsAndMapsAreOfTheBody) {
                [&] { (void)rig_character(torus(), short_of, a_skeleton()); });
 }
 
+TEST(Misuse, ContactsAreOfNodes) {
+  for (const int beyond : {-1, 1000000}) {
+    CurveSkeleton node = a_skeleton();
+    node.contacts.resize(1);
+    node.contacts[0].one.node = 0;
+    node.contacts[0].other.node = beyond;
+    CurveSkeleton tip = node;
+    tip.contacts[0].other = {1, {0, beyond}};
+    for (const CurveSkeleton& spoilt : {node, tip}) {
+      expect_error(Fault::input, "contact",
+                   [&] { (void)skeleton_of_body(spoilt, find_parts(torus())); });
+      expect_error(Fault::input, "contact", [&] { (void)make_rig(torus(), spoilt); });
+      expect_error(Fault::input, "contact", [&] { (void)dense_skeleton(torus(), spoilt); });
+      expect_error(Fault::input, "contact", [&] { (void)place_joints(spoilt); });
+    }
+  }
+}
+
+TEST(Misuse, ComponentsAreOfTheirSurface) {
+  Surface two = torus();
+  two.positions.conservativeResize(2 * vertices(), 3);
+  two.positions.bottomRows(vertices()) = torus().positions.rowwise() + Eigen::RowVector3d(20, 0, 0);
+  two.triangles.resize(2 * torus().triangles.rows(), 3);
+  two.triangles << torus().triangles, torus().triangles.array() + vertices();
+  const Topology counted = topology(two);
+  ASSERT_EQ(split_components(two, counted).size(), 2);
+  std::vector<Topology> all(4, counted);
+  all[0].component_of_vertex[3] = 1;
+  all[1].component_of_vertex[3] = 2;
+  all[2].vertices.pop_back();
+  all[3].faces[0] -= 1;
+  for (const Topology& spoilt : all) {
+    expect_error(Fault::input, "topology", [&] { (void)split_components(two, spoilt); });
+  }
+}
+
+TEST(Misuse, RigsAreWrittenWithFiniteNumbers) {
+  const Rig rig = make_rig(torus(), a_skeleton());
+  for (const double number : {not_a_number, infinity}) {
+    Rig place = rig;
+    place.joints(1, 2) = number;
+    Rig weight = rig;
+    weight.weights.coeffRef(3, 0) = static_cast<float>(number);
+    for (const auto& format : rig_formats) {
+      for (const Rig& spoilt : {place, weight}) {
+        expect_error(Fault::input, "finite",
+                     [&] { (void)format_rig(torus(), spoilt, format.value, "torus", ""); });
+      }
+    }
+    expect_error(Fault::input, "finite",
+                 [&] { (void)weights_on_joints(torus(), a_skeleton(), place); });
+  }
+}
+
 TEST(Misuse, CertificatesNeedASurfaceAndItsSize) {
   const SurfaceTree tree(torus());
   const Surface empty;
@@ -442,7 +496,7 @@ TEST(Misuse, DistancesNeedASpacingAndPlaces) {
   CurveSkeleton nowhere = a_skeleton();
   nowhere.nodes(1, 1) = not_a_number;
   for (const auto& distance : {hausdorff_distance, mean_distance}) {
-    EXPECT_EQ(distance(a_skeleton(), a_skeleton(), 0.1), 0);
+    EXPECT_NEAR(distance(a_skeleton(), a_skeleton(), 0.1), 0, 1e-12);
     for (const double spacing : {0.0, -1.0, infinity, not_a_number}) {
       expect_error(Fault::usage, "spacing",
                    [&] { (void)distance(a_skeleton(), a_skeleton(), spacing); });
