@@ -201,7 +201,7 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
                              const ExtractOptions& options, const Monitor& monitor,
                              ExtractionCache::Implementation* kept) {
   require_valid(as_repaired);
-  require_sound(repaired, "extract_repaired");
+  require_sound(repaired, "extract");
   ExtractOptions with_rims = options;
   with_rims.rims = repaired.rims;
   const ExtractOptions its = admitted(repaired.surface, with_rims);
