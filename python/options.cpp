@@ -19,6 +19,10 @@ void set_options(const py::dict& options, const OptionSetters& setters) {
         known += known.empty() ? "" : ", ";
         known += other;
       }
+      if (name.starts_with("no_") && setters.contains(name.substr(3))) {
+        throw Error(Fault::usage, fmt::format("{} is none of the options, needed {}=False instead",
+                                              name, name.substr(3)));
+      }
       throw Error(Fault::usage, fmt::format("{} is none of the options: {}", name, known));
     }
     try {
@@ -34,10 +38,9 @@ OptionSetters repair_setters(RepairOptions& options) {
   const auto set_components = [&options](const py::handle& value) {
     const bool is_word = py::isinstance<py::str>(value);
     const auto word = is_word ? value.cast<std::string>() : std::string();
-    options.components = word == "all" ? 0
-                         : word == "largest"
-                             ? 1
-                             : option_of<int>(value, "a whole number, \"largest\" or \"all\"");
+    const char* const needed = "a whole number from 1 up, \"largest\" or \"all\"";
+    options.components = word == "all" ? 0 : word == "largest" ? 1 : option_of<int>(value, needed);
+    if (options.components < 1 && word != "all") throw NeededInstead{needed};
   };
   return {{"components", set_components},
           {"least_sheet", sets(options.least_sheet)},

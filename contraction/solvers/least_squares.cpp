@@ -35,6 +35,12 @@ std::unique_ptr<LeastSquaresBackend> make_backend(Solver solver, const SolverOpt
   return nullptr;
 }
 
+SolverOptions options_with(Solver solver) {
+  SolverOptions options;
+  options.solver = solver;
+  return options;
+}
+
 double ratio(double part, double whole) { return whole > 0 ? part / whole : part; }
 
 /// The back ends read the arrays of a matrix as they are.
@@ -106,10 +112,7 @@ struct LeastSquares::Implementation {
   }
 };
 
-LeastSquares::LeastSquares(Solver solver) : implementation_(std::make_unique<Implementation>()) {
-  implementation_->options.solver = solver;
-  implementation_->used = solver;
-}
+LeastSquares::LeastSquares(Solver solver) : LeastSquares(options_with(solver)) {}
 LeastSquares::LeastSquares(const SolverOptions& options)
     : implementation_(std::make_unique<Implementation>()) {
   require_valid(options);
@@ -120,13 +123,20 @@ LeastSquares::~LeastSquares() = default;
 LeastSquares::LeastSquares(LeastSquares&&) noexcept = default;
 LeastSquares& LeastSquares::operator=(LeastSquares&&) noexcept = default;
 
-Solver LeastSquares::solver() const { return implementation_->used; }
+LeastSquares::Implementation& LeastSquares::whole() const {
+  if (implementation_) return *implementation_;
+  throw Error(Fault::usage,
+              "LeastSquares: found one that was moved from, needed one with a solver: ask the one "
+              "that it was moved to");
+}
+
+Solver LeastSquares::solver() const { return whole().used; }
 
 Solution LeastSquares::solve(const SparseMatrix& a, const Positions& b, const Monitor& monitor) {
   require(a.rows() >= a.cols() && a.cols() > 0 && b.rows() == a.rows(), a, b,
           "at least as many rows as columns, and as many right-hand rows");
   SparseMatrix copy;
-  Solution solution = implementation_->chosen_backend().solve(compressed(a, copy), b, monitor);
+  Solution solution = whole().chosen_backend().solve(compressed(a, copy), b, monitor);
   require_finite(solution, solver());
   const Positions difference = a * solution.x - b;
   const Positions gradient = a.transpose() * difference;
@@ -140,8 +150,7 @@ Solution LeastSquares::solve_definite(const SparseMatrix& h, const Positions& r,
   require(h.rows() == h.cols() && h.cols() > 0 && r.rows() == h.rows(), h, r,
           "a square matrix, and as many right-hand rows");
   SparseMatrix copy;
-  Solution solution =
-      implementation_->chosen_backend().solve_definite(compressed(h, copy), r, monitor);
+  Solution solution = whole().chosen_backend().solve_definite(compressed(h, copy), r, monitor);
   require_finite(solution, solver());
   const Positions difference = h * solution.x - r;
   solution.residual = ratio(difference.norm(), r.norm());

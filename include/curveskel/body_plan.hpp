@@ -97,7 +97,8 @@ struct BodyPlan {
                                ///< near them
 };
 
-/// Throws Error(Fault::usage) where up and front are one direction.
+/// Throws Error(Fault::usage) for a plan or a direction that there is not, and where up and front
+/// are one direction.
 void require_valid(const PlanOptions& options);
 
 /// Tips that are each other's mirror images make pairs of limbs; what lies between their crossings
@@ -106,8 +107,8 @@ void require_valid(const PlanOptions& options);
 /// curve: where legs part, where an arm leaves the trunk, the narrowest place of a wrist and of a
 /// neck. docs/rigging.md has the rules. Unless one is asked for, no plan is found of curves with
 /// more than 2,000 ends, as trees and crowds have. O(#V + #N times the number of tips). Throws as
-/// `require_valid`, and Error(Fault::input) for a skeleton whose numbers are none of its nodes, or
-/// whose node_of_vertex is of another surface.
+/// `require_valid` and of a sheet that is no vertex, and Error(Fault::input) for a skeleton whose
+/// numbers are none of its nodes, or whose node_of_vertex is of another surface.
 [[nodiscard]] BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                                  const PlanOptions& options = {});
 

@@ -114,11 +114,15 @@ struct CertifiedSurface {
   int genus;  ///< sum over the components
 };
 
-/// The same for a surface of which all this is known.
+/// The same for a surface of which all this is known; that it is closed is not asked again. Throws
+/// Error(Fault::input) where it has no faces, corners that are no vertices or places that are not
+/// finite, and for a diagonal that is not above 0.
 [[nodiscard]] Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                                    const CertificateOptions& options, const Monitor& monitor);
 
 /// One-sided distances in both directions, sampled every `spacing` (model units); the larger one.
+/// Throws Error(Fault::usage) unless the spacing is above 0, and Error(Fault::input) for nodes that
+/// are not at finite places; so does `mean_distance`.
 [[nodiscard]] double hausdorff_distance(const CurveSkeleton& a, const CurveSkeleton& b,
                                         double spacing);
 

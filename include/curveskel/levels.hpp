@@ -40,7 +40,8 @@ struct BranchLevel {
 
 /// The edges whose life is at least the limit, and their nodes, which stay where they are; nodes
 /// without an edge stay. A vertex whose node goes belongs to the node that its branch hung from.
-/// Components and cycle rank stay. A skeleton without lives stays whole. O(#V + #N + #E).
+/// Components and cycle rank stay, and what lives for ever stays at every limit. A skeleton without
+/// lives stays whole. O(#V + #N + #E).
 [[nodiscard]] CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life);
 
 /// The limit of a level of detail: .5 or more: 0, everything that was extracted; below, from .3 up

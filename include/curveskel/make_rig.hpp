@@ -47,7 +47,8 @@ void require_valid(const RigOptions& options);
 
 /// The same joints with new weights: `skin_weights` of their bones, a node of the
 /// skeleton with the nearest. For joints that somebody has placed; `given.weights` is
-/// not read. Errors as `make_rig`.
+/// not read. Errors as `make_rig`, and Error(Fault::input) for joints at places that are not
+/// finite.
 [[nodiscard]] Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton,
                                     const Rig& given, const SkinOptions& options = {},
                                     const Monitor& monitor = {});

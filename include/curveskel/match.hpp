@@ -50,8 +50,9 @@ struct SkeletonMatch {
 /// other, those on cycles by the latter alone. Small components move with what they sit on. The way
 /// that leaves the least apart is taken. Where another fits as well and gives another branch, the
 /// pair is ambiguous. Sizes are over the square roots of the areas. docs/match.md has the method.
-/// Throws Error(Fault::input) for a skeleton without edges, radii or a vertex map, Cancelled on a
-/// stop. O(#V log #V), for the tips up to the fourth power, of at most 16 candidates for each.
+/// Throws Error(Fault::input) for a skeleton without edges or a vertex map, without radii and
+/// places that are finite, and of which no vertex has a node; Cancelled on a stop. O(#V log #V),
+/// for the tips up to the fourth power, of at most 16 candidates for each.
 [[nodiscard]] SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b,
                                             const MatchOptions& options = {},
                                             const Monitor& monitor = {});

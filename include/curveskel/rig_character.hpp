@@ -44,7 +44,8 @@ struct CharacterRig {
 /// clear of one another and each is built to a plan, for each of them, side by side: the joints of
 /// the first come first, names and roles of the k-th begin with "figure<k>_". `body` is what
 /// `body_of` leaves of a repaired surface, the skeleton the body's, `given` the file's surface in
-/// triangles. The result's `parts` are empty.
+/// triangles. The result's `parts` are empty. Throws what these throw, and Error(Fault::input) for
+/// a body whose map is not of `given`'s vertices, or has rims or sheets that are no vertices of it.
 [[nodiscard]] CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                                     const CurveSkeleton& skeleton,
                                     const CharacterOptions& options = {},
@@ -65,7 +66,8 @@ struct CharacterRig {
 /// trunk and head of others. Mirror images (".L", ".R") have the longer life of the two, the digits
 /// of a hand that of the middle one: they come and go together. A joint that stays has its name and
 /// its place at every limit, and moves what the joints below it moved. `skeleton`, of which the rig
-/// was made, has lives; without them nothing goes. O(weights + joints times #E).
+/// was made, has lives; without them nothing goes, and roots stay at every limit. O(weights +
+/// joints times #E).
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
 

@@ -50,7 +50,8 @@ struct SkeletonContext {
 /// their numbers (from 0; OBJ from 1; SWC in an order of its own). docs/formats.md has the details.
 /// Precondition: finite coordinates and radii, edges as described at Edges.
 /// Throws Error(Fault::output) when the format needs what the context lacks, or the root is no
-/// node. O(#N log #N + #E), for pictures also O(#F + pixels).
+/// node; Error(Fault::input) for territories of another number of branches, and for places in
+/// pictures that are not finite. O(#N log #N + #E), for pictures also O(#F + pixels).
 [[nodiscard]] std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                                           const SkeletonContext& context);
 

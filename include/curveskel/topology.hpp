@@ -27,7 +27,8 @@ struct Component {
   std::vector<int> vertex_in_whole;  ///< local vertex -> vertex of the whole surface
 };
 
-/// The components in the order of `topology`. O(#V + #F).
+/// The components in the order of `topology`. Throws Error(Fault::input) for that of another
+/// surface. O(#V + #F).
 [[nodiscard]] std::vector<Component> split_components(const Surface& surface,
                                                       const Topology& topology);
 

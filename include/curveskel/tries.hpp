@@ -55,7 +55,8 @@ struct Try {
   std::optional<CertificateInBrief> certificate;  ///< none where it failed, or cut a component
 };
 
-/// With the names of the tries that it is part of, as ShownTry has it.
+/// With the names of the tries that it is part of, as ShownTry has it; empty below 0. Throws
+/// Error(Fault::input) for a number beyond the history, and where a try is part of a later one.
 [[nodiscard]] std::string full_name(const std::vector<Try>& history, int number);
 
 /// True if a try of this name is part of the result: of any component, or of this one.

@@ -25,7 +25,8 @@ struct View {
 /// Two views at one scale that fill a picture of width x height pixels: the first along the axis of
 /// least extent, the second from 90 degrees around, beside or below the first, whichever lets both
 /// be larger. A shape that stands straight in its coordinate frame keeps its up; one that does not
-/// is turned to its principal axes. O(#V + #F).
+/// is turned to its principal axes. Throws Error(Fault::usage) for a picture without pixels,
+/// Error(Fault::input) for places that are not finite. O(#V + #F).
 [[nodiscard]] std::array<View, 2> best_views(const Surface& surface, int width, int height);
 /// The same of a skeleton alone, whose principal axes are those of its length. O(#N + #E).
 [[nodiscard]] std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height);

@@ -111,6 +111,13 @@ def index(value, name, least, most):
     return number
 
 
+def flag(value, name):
+    """True or False; raises UsageError for anything else, as "no" would count as True."""
+    if isinstance(value, (bool, numpy.bool_)) or (isinstance(value, int) and value in (0, 1)):
+        return bool(value)
+    raise UsageError(f"{name}: needs True or False, not {value!r}")
+
+
 def is_path(given):
     """True of what names a file."""
     return isinstance(given, (str, bytes, os.PathLike))
@@ -151,6 +158,34 @@ def array_of(values, name, dtype=None):
     return values if dtype is None else numpy.ascontiguousarray(values, dtype=dtype)
 
 
+def _as_numbers(values):
+    """The same array; of integers, if it has objects all of which are whole numbers."""
+    if values.dtype != object or any(isinstance(one, bool) for one in values.flat):
+        return values
+    try:
+        numbers = [operator.index(one) for one in values.flat]
+    except TypeError:
+        return values
+    try:
+        return numpy.array(numbers, dtype=numpy.int64).reshape(values.shape)
+    except OverflowError as error:
+        raise UsageError(f"faces: needs numbers of vertices, not {max(numbers, key=abs)}") from error
+
+
+def _refuse_counts(corners, sizes):
+    """Raises UsageError for rows of VTK, which begin with the number of the corners that follow.
+
+    The one surface of polygons that looks so has a single vertex in every face, and is open.
+    """
+    if len(sizes) < 2 or sizes.min() < 4:
+        return
+    firsts = corners[numpy.cumsum(sizes) - sizes]
+    if (firsts == sizes - 1).all():
+        raise UsageError(f"faces: each begins with the number of the corners after it ({firsts[0]} "
+                         "in the first), as VTK's do; needed the corners alone, faces[:, 1:]. Of "
+                         "polygons round this one vertex, begin one with another corner")
+
+
 def _corners_of(faces):
     """Corners one face after the other, and where each face begins: an array, or a list of faces."""
     try:
@@ -159,21 +194,27 @@ def _corners_of(faces):
         raise
     except ValueError:
         faces = list(faces)  # of several sizes
+    if not isinstance(faces, list) and faces.ndim == 2:
+        faces = _as_numbers(faces)
     if isinstance(faces, list) or faces.dtype == object:
-        faces = [numpy.asarray(face) for face in faces]
+        faces = [_as_numbers(numpy.asarray(face)) for face in faces]
         sizes = numpy.array([len(face) for face in faces], dtype=numpy.int64)
         corners = numpy.concatenate(faces) if faces else numpy.empty(0, dtype=numpy.int64)
     elif faces.ndim == 2:
         sizes = numpy.full(len(faces), faces.shape[1], dtype=numpy.int64)
         corners = faces.reshape(-1)
     else:
-        raise UsageError(f"faces: needs shape (n, k), one row a face, not {faces.shape}")
+        is_flat = faces.ndim == 1 and faces.size > 0 and faces.size % 4 == 0
+        hint = ("; of VTK's flat triangles give faces.reshape(-1, 4)[:, 1:]"
+                if is_flat and (faces[::4] == 3).all() else "")
+        raise UsageError(f"faces: needs shape (n, k), one row a face, not {faces.shape}{hint}")
     if corners.ndim != 1 or not (numpy.issubdtype(corners.dtype, numpy.integer) or not sizes.size):
         raise UsageError(f"faces: needs integers, the vertices of each face, not {corners.dtype}")
     if (sizes < 3).any():
         face = int(numpy.argmax(sizes < 3))
         raise UsageError(f"faces: needs three corners or more in each, not {sizes[face]} as in "
                          f"face {face}")
+    _refuse_counts(corners, sizes)
     return corners.astype(numpy.int64), numpy.concatenate(([0], numpy.cumsum(sizes)))
 
 

@@ -4,7 +4,7 @@ import numpy
 
 from . import _core
 from .errors import UsageError
-from .inputs import MOST_THREADS, counted, index, listening
+from .inputs import MOST_THREADS, counted, flag, index, listening
 from .skeleton import Skeleton, extracted, warn_or_fail
 
 
@@ -54,6 +54,7 @@ def match(a, b, *, by_shape=False, threads=0, time_limit=0, progress=None, **opt
     Raises UsageError for a skeleton that was read from a file or pickled, and what `extract` raises.
     """
     sides = []
+    by_shape = flag(by_shape, "by_shape")
     threads = index(threads, "threads", 0, MOST_THREADS)
     with listening(progress, time_limit) as listener:
         for side in (a, b):

@@ -9,7 +9,7 @@ import numpy
 
 from . import _core
 from .errors import CertificateWarning, UsageError
-from .inputs import counted, is_path, listening, path_of, soup_of, warn_of
+from .inputs import counted, flag, is_path, listening, path_of, soup_of, warn_of
 from .skeleton import Skeleton, read
 
 
@@ -129,6 +129,8 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
     a certificate that does not hold a CertificateWarning. Raises UsageError, InputError,
     DeviceError or SolverError.
     """
+    keep_rig = flag(keep_rig, "keep_rig")
+    as_shown = flag(as_shown, "as_shown")
     if joints is not None and (keep_rig or skeleton is not None):
         raise UsageError(f"joints and {'keep_rig' if keep_rig else 'skeleton'} exclude each other")
     if keep_rig and as_shown:
@@ -144,7 +146,7 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
     with listening(progress, time_limit) as listener:
         as_bound = not (as_shown or keep_rig)
         soup = soup_of(mesh, listener, as_bound=as_bound)
-        made = _core.rig(soup, as_bound, bool(keep_rig), None if skeleton is None else skeleton._graph,
+        made = _core.rig(soup, as_bound, keep_rig, None if skeleton is None else skeleton._graph,
                          joints, dict(options, threads=threads), listener)
     if made.shortcomings:
         warnings.warn("the certificate failed: " + made.shortcomings, CertificateWarning,

@@ -7,7 +7,7 @@ import numpy
 
 from . import _core, graphs
 from .errors import CertificateWarning, SolverError, UsageError
-from .inputs import MOST_THREADS, counted, index, listening, path_of, soup_of, warn_of
+from .inputs import MOST_THREADS, counted, flag, index, listening, path_of, soup_of, warn_of
 
 
 class _Kept:
@@ -372,6 +372,7 @@ def extract(mesh, *, detail=0.5, threads=0, time_limit=0, progress=None, strict=
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
     meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.
     """
+    strict = flag(strict, "strict")
     with listening(progress, time_limit) as listener:
         skeleton = extracted(mesh, listener, dict(options, detail=detail, threads=threads))
     warn_or_fail(skeleton, strict, 2)

@@ -19,6 +19,7 @@
 #include <curveskel/clean.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/option_ranges.hpp"
 #include "base/utf8.hpp"
 #include "rig/animations/add_animations.hpp"
 #include "rig/animations/read_joint_animations.hpp"
@@ -336,8 +337,12 @@ void require_editable(const std::filesystem::path& input, OldRig old_rig, const 
 
 std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, const Rig& rig,
                                           const EditOptions& options, const Monitor& monitor) {
+  const OptionCheck check("EditOptions");
+  check.choice("format", options.format, rig_formats);
+  check.number("old_rig", static_cast<int>(options.old_rig), {0, 1});
   if (!keeps_the_file(options.format)) return std::nullopt;
   require_sound(rig, "format_rig_into");
+  require_finite(rig, "format_rig_into");
   if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);

@@ -2,6 +2,7 @@
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/rig_files.hpp>
+#include "base/option_ranges.hpp"
 #include "rig/fbx/fbx_of_glb.hpp"
 #include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_writers.hpp"
@@ -23,8 +24,10 @@ UsdLayer usd_layer(const Surface& surface, const Rig& rig, const std::string& na
 
 std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                        const std::string& name, const std::string& provenance, const VrmMeta& vrm) {
+  OptionCheck("format_rig").choice("format", format, rig_formats);
   require_sound(surface, "format_rig");
   require_sound(rig, "format_rig");
+  require_finite(rig, "format_rig");
   require_weights_of(rig, surface.positions.rows(), "format_rig");
   const bool has_y_up = keeps_the_file(format);
   if (has_y_up && !rig.to_y_up.isIdentity(0)) {

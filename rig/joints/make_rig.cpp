@@ -73,6 +73,11 @@ Rig weights_on_joints(const Surface& surface, const CurveSkeleton& skeleton, con
   if (given.joints.rows() == 0) {
     throw Error(Fault::input, "weights_on_joints: the rig has no joints, needed at least one");
   }
+  if (!given.joints.allFinite()) {
+    throw Error(Fault::input,
+                "weights_on_joints: the rig has a joint at a place that is no finite "
+                "number, needed finite ones");
+  }
   monitor.report("joints", 0);
   Rig rig{given.joints, given.parents,  given.names,  {}, given.roles,
           {},           given.readable, given.to_y_up};

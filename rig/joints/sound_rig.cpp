@@ -1,5 +1,6 @@
 #include "rig/joints/sound_rig.hpp"
 
+#include <cmath>
 #include <string>
 
 #include <curveskel/error.hpp>
@@ -48,6 +49,17 @@ void require_sound(const Rig& rig, std::string_view purpose) {
   if (rig.weights.rows() == 0 || rig.weights.cols() == rig.joints.rows()) return;
   refuse_rig(purpose, "weights of " + std::to_string(rig.weights.cols()) + " joints",
              "weights of " + of_its_joints);
+}
+
+void require_finite(const Rig& rig, std::string_view purpose) {
+  bool is_finite = rig.joints.allFinite();
+  for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
+    for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
+      is_finite = is_finite && std::isfinite(it.value());
+    }
+  }
+  if (is_finite) return;
+  refuse_rig(purpose, "a place or a weight that is no finite number", "finite ones");
 }
 
 void require_weights_of(const Rig& rig, Eigen::Index vertices, std::string_view purpose) {

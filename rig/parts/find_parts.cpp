@@ -19,6 +19,7 @@
 #include "surface/mesh/triangle_area.hpp"
 #include "surface/repair/renumber.hpp"
 #include "surface/repair/select_components.hpp"
+#include "surface/repair/sound_repaired.hpp"
 
 namespace curveskel {
 namespace {
@@ -165,6 +166,7 @@ RigParts find_parts(const Surface& surface, const PartOptions& options, const Mo
 }
 
 RepairedSurface body_of(const RepairedSurface& repaired, const RigParts& parts) {
+  require_sound(repaired, "body_of");
   RepairedSurface body = repaired;
   if (parts.all_body()) return body;
   require_parts_of(parts, repaired.surface.positions.rows(), "body_of");

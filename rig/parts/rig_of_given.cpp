@@ -153,6 +153,9 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
                  const Eigen::VectorXi& vertex_of_input, const Surface& given) {
   require_sound(rig, "rig_of_given");
   require_weights_of(rig, surface.positions.rows(), "rig_of_given");
+  require_corners(surface, "rig_of_given");
+  require_sound(skeleton, "rig_of_given");
+  require_vertices_of(skeleton, surface, "rig_of_given");
   require_corners(given, "rig_of_given");
   require_below(vertex_of_input, surface.positions.rows(), "rig_of_given");
   const Eigen::Index count = given.positions.rows();

@@ -150,6 +150,7 @@ CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& ske
   if (skeleton.lives.size() == 0 || skeleton.edges.rows() == 0 || !(least_life > 0)) {
     return character;
   }
+  least_life = std::min(least_life, lives_for_ever);
   const std::vector<double> lives = lives_of_joints(rig, skeleton);
   std::vector<char> stays(rig.names.size(), 0);
   for (std::size_t joint = 0; joint < stays.size(); ++joint) {

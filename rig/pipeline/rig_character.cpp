@@ -1,18 +1,25 @@
 #include <curveskel/rig_character.hpp>
 
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
+#include <curveskel/levels.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
+#include "base/option_ranges.hpp"
 #include "rig/joints/contacts.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/parts/sound_parts.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/repair/sound_repaired.hpp"
 
 namespace curveskel {
 std::vector<int> nodes_of_body(const CurveSkeleton& skeleton, const RigParts& parts) {
@@ -94,7 +101,7 @@ CurveSkeleton skeleton_of_body(const CurveSkeleton& skeleton, const RigParts& pa
   CurveSkeleton body;
   body.nodes = skeleton.nodes(nodes, Eigen::all);
   if (skeleton.radii.size() > 0) body.radii = skeleton.radii(nodes);
-  if (skeleton.lives.size() > 0) body.lives = skeleton.lives(nodes);
+  if (has_lives(skeleton)) body.lives = skeleton.lives(nodes);
   std::vector<Eigen::Index> edges;
   for (Eigen::Index e = 0; e < skeleton.edges.rows(); ++e) {
     if (number[idx(skeleton.edges(e, 0))] >= 0) edges.push_back(e);
@@ -131,11 +138,26 @@ struct Body {
   CurveSkeleton skeleton;
 };
 
+void require_sound_body(const Surface& given, const RepairedSurface& body,
+                        const CharacterOptions& options, std::string_view purpose) {
+  require_valid(options.rig);
+  require_valid(options.plan);
+  OptionCheck("CharacterOptions").choice("names", options.names, name_styles);
+  require_corners(given, purpose);
+  require_sound(body, purpose);
+  if (body.vertex_of_input.size() == given.positions.rows()) return;
+  throw Error(Fault::input, std::string(purpose) + ": found a map of " +
+                                std::to_string(body.vertex_of_input.size()) +
+                                " vertices, needed one of the file's " +
+                                std::to_string(given.positions.rows()));
+}
+
 }  // namespace
 
 CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
                       const CurveSkeleton& skeleton, const CharacterOptions& options,
                       const Monitor& monitor) {
+  require_sound_body(given, body, options, "rig_body");
   CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
   const bool is_root_chosen = options.rig.joints.root >= 0;  // it stays in its place
   if (!is_root_chosen) turn_to_contacts(dense, body.surface);
@@ -161,6 +183,7 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
 CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,
                            const CurveSkeleton& skeleton, const CharacterOptions& options,
                            const Monitor& monitor, const Certificate* certificate) {
+  require_sound_body(given, repaired, options, "rig_character");
   PartOptions wanted = options.parts;
   if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0) wanted.follow = 0;
   RigParts parts = find_parts(repaired.surface, wanted, monitor);

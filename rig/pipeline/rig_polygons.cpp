@@ -16,6 +16,7 @@
 #include "rig/joints/fully_mapped.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "rig/plan/frames.hpp"
+#include "surface/repair/sound_repaired.hpp"
 
 namespace curveskel {
 namespace {
@@ -142,6 +143,7 @@ Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated
 }
 
 bool made_of_tubes_but_for_sheets(double tube_share, const RepairedSurface& body) {
+  require_sound(body, "made_of_tubes_but_for_sheets");
   return tube_share >= tube_share_needed * (1 - share_of_sheets(body));
 }
 

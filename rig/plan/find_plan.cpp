@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string>
 #include <utility>
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
 #include "rig/plan/things.hpp"
@@ -205,16 +208,32 @@ int ends_of(const CurveSkeleton& skeleton) {
   return static_cast<int>(std::count(degree.begin(), degree.end(), 1));
 }
 
+void require_sheets_of(const Surface& surface, const PlanOptions& options) {
+  for (const std::int32_t vertex : options.sheets) {
+    if (vertex >= 0 && vertex < surface.positions.rows()) continue;
+    throw Error(Fault::usage, "PlanOptions::sheets has vertex " + std::to_string(vertex) +
+                                  ", needed 0.." + std::to_string(surface.positions.rows() - 1));
+  }
+}
+
 constexpr const char* not_made_of_tubes =
     "the surface is not made of tubes, as bodies are; a plan can be asked for";
 
 }  // namespace
 
-void require_valid(const PlanOptions& options) { (void)frames_of(options); }
+void require_valid(const PlanOptions& options) {
+  const OptionCheck check("PlanOptions");
+  check.choice("plan", options.plan, body_kinds);
+  check.choice("up", options.up, directions);
+  check.choice("front", options.front, directions);
+  (void)frames_of(options);
+}
 
 BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
                    const PlanOptions& options) {
+  require_valid(options);
   require_corners(surface, "find_plan");
+  require_sheets_of(surface, options);
   require_sound_places(skeleton, "find_plan");
   require_vertices_of(skeleton, surface, "find_plan");
   BodyPlan result;

@@ -11,6 +11,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "rig/joints/end_names.hpp"
 #include "rig/joints/figure_name.hpp"
 #include "rig/joints/keep_joints.hpp"
@@ -168,6 +169,7 @@ Rig without_ends(const Rig& rig) {
 
 Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,
                    const ExportOptions& options, const std::vector<BodyPlan>& other_plans) {
+  OptionCheck("ExportOptions").choice("pose", options.pose, rest_poses);
   if (options.pose == RestPose::t && options.as_given) {
     throw Error(Fault::input,
                 "the T pose is made by a plan of the body, which joints that are "

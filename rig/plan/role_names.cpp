@@ -12,6 +12,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
+#include "base/option_ranges.hpp"
 #include "rig/joints/sound_rig.hpp"
 #include "rig/plan/limb_names.hpp"
 
@@ -243,6 +244,7 @@ void rename(std::vector<std::string>& names, std::size_t at, const std::string& 
 }  // namespace
 
 void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style) {
+  OptionCheck("name_roles").choice("style", style, name_styles);
   require_sound(rig, "name_roles");
   if (plan.joints.size() > rig.names.size()) {
     throw Error(Fault::input, "name_roles: the plan has " + std::to_string(plan.joints.size()) +
@@ -297,6 +299,7 @@ std::vector<std::string> roles_of(BodyKind kind) {
 }
 
 void assign_role(Rig& rig, BodyPlan& plan, int joint, const std::string& role, NameStyle style) {
+  OptionCheck("assign_role").choice("style", style, name_styles);
   require_sound(rig, "assign_role");
   if (joint < 0 || joint >= rig.joints.rows()) {
     throw Error(Fault::usage, "assign_role: found joint " + std::to_string(joint) +

@@ -191,6 +191,7 @@ Certificate evaluate(const Surface& surface, const CurveSkeleton& skeleton,
 
 Certificate evaluate(const CertifiedSurface& surface, const CurveSkeleton& skeleton,
                      const CertificateOptions& options, const Monitor& monitor) {
+  require_sound(surface.surface, "evaluate");
   require_sound(skeleton, "evaluate");
   monitor.report("certify", 0);
   const MeasuredCurve subject =

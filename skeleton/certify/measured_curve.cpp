@@ -1,6 +1,8 @@
 #include "skeleton/certify/measured_curve.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include <curveskel/advanced/graph.hpp>
@@ -59,6 +61,11 @@ MeasuredCurve measured_curve(const SurfaceTree& tree, double diagonal,
     throw Error(Fault::input,
                 "the skeleton has a coordinate that is no finite number; the certificate "
                 "needs finite ones: repair or write the skeleton again");
+  }
+  if (!(diagonal > 0) || !std::isfinite(diagonal)) {
+    throw Error(Fault::input,
+                "the certificate found the diagonal " + std::to_string(diagonal) +
+                    ", needed that of the surface's bounding box, above 0 and finite");
   }
   MeasuredCurve curve{tree, skeleton, branches(skeleton), {}, {}, {}, {}, {}, {}};
   curve.diagonal = diagonal;

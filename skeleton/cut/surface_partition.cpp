@@ -1,11 +1,18 @@
 #include <curveskel/advanced/surface_partition.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 
 namespace curveskel {
 
@@ -13,6 +20,27 @@ namespace {
 
 bool is_inner(const std::array<int, 3>& groups) {
   return groups[0] == groups[1] && groups[1] == groups[2];
+}
+
+[[noreturn]] void refuse_partition(std::string_view purpose, const std::string& found,
+                                   const std::string& needed) {
+  throw Error(Fault::input, std::string(purpose) + ": found " + found + ", needed " + needed);
+}
+
+/// Throws unless each number is one of 0 .. count - 1.
+template <typename Numbers>
+void require_among(const Numbers& numbers, Eigen::Index count, std::string_view purpose,
+                   std::string_view things) {
+  for (const int number : numbers) {
+    if (number >= 0 && number < count) continue;
+    refuse_partition(purpose, "the number " + std::to_string(number),
+                     "one of " + std::to_string(count) + " " + std::string(things));
+  }
+}
+
+const Surface& with_corners(const Surface& surface) {
+  require_corners(surface, "SurfacePartition");
+  return surface;
 }
 
 }  // namespace
@@ -25,8 +53,14 @@ EdgeIndex index_edges(const Triangles& triangles) {
   const auto ends_of = [&](Eigen::Index t, int k) {
     return std::minmax(triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3));
   };
+  const int lowest = triangles.rows() > 0 ? triangles.minCoeff() : 0;
+  const int highest = triangles.rows() > 0 ? triangles.maxCoeff() : -1;
+  if (lowest < 0 || highest == std::numeric_limits<int>::max()) {
+    refuse_partition("index_edges", "a corner " + std::to_string(lowest < 0 ? lowest : highest),
+                     "corners that are vertices");
+  }
   // In the order of their smaller ends; little is left to sort.
-  const int vertices = triangles.rows() > 0 ? triangles.maxCoeff() + 1 : 0;
+  const int vertices = std::max(highest + 1, 0);
   std::vector<std::size_t> begin(static_cast<std::size_t>(vertices) + 2, 0);  // one ahead at first
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(ends_of(t, k).first) + 2];
@@ -61,7 +95,7 @@ EdgeIndex index_edges(const Triangles& triangles) {
 }
 
 SurfacePartition::SurfacePartition(const Surface& surface)
-    : triangles_(surface.triangles), index_(index_edges(surface.triangles)) {
+    : triangles_(with_corners(surface).triangles), index_(index_edges(surface.triangles)) {
   const auto vertices = static_cast<std::size_t>(surface.positions.rows());
   group_of_vertex_.resize(vertices);
   std::iota(group_of_vertex_.begin(), group_of_vertex_.end(), 0);
@@ -77,12 +111,21 @@ SurfacePartition::SurfacePartition(const Surface& surface)
   linked_ = UnionFind(static_cast<std::int64_t>(index_.edges.size()));
 }
 
+void SurfacePartition::require_groups(std::initializer_list<int> groups) const {
+  for (const int group : groups) {
+    if (group >= 0 && group < static_cast<int>(members_.size())) continue;
+    throw std::out_of_range("SurfacePartition: found group " + std::to_string(group) +
+                            ", needed one of " + std::to_string(members_.size()));
+  }
+}
+
 std::array<int, 3> SurfacePartition::groups_at(int triangle) const {
   return {group_of_vertex_[triangles_(triangle, 0)], group_of_vertex_[triangles_(triangle, 1)],
           group_of_vertex_[triangles_(triangle, 2)]};
 }
 
 std::vector<int> SurfacePartition::triple_neighbours(int group) const {
+  require_groups({group});
   std::vector<int> around;
   around.reserve(16);  // of two triangles each, most groups have eight or fewer
   for (const int t : boundary_[group]) {
@@ -98,6 +141,7 @@ std::vector<int> SurfacePartition::triple_neighbours(int group) const {
 }
 
 bool SurfacePartition::share_triple(int a, int b) const {
+  require_groups({a, b});
   const auto& shorter = shorter_boundary(a, b);
   return std::any_of(shorter.begin(), shorter.end(), [&](int t) {
     const auto g = groups_at(t);
@@ -175,6 +219,8 @@ int SurfacePartition::curves_through(const std::vector<int>& triangles, const Cr
 }
 
 int SurfacePartition::genus_of_union(int a, int b) {
+  require_groups({a, b});
+  if (a == b) return genus_[a];
   // Pieces that meet along one curve, open or closed: genera add up.
   const int contacts = curves_through(shorter_boundary(a, b), [&](int p, int q) {
     return (p == a && q == b) || (p == b && q == a);
@@ -187,6 +233,8 @@ int SurfacePartition::genus_of_union(int a, int b) {
 }
 
 void SurfacePartition::merge(int from, int into) {
+  require_groups({from, into});
+  if (from == into) return;
   genus_[into] = genus_of_union(from, into);
   euler_[into] = euler_of_union(from, into);
   const bool from_is_longer = boundary_[from].size() > boundary_[into].size();
@@ -217,6 +265,31 @@ void SurfacePartition::merge(int from, int into) {
 
 namespace {
 
+void require_indexed(const Surface& surface, const EdgeIndex& index) {
+  require_corners(surface, "partition_graph");
+  if (index.edge_of_corner.rows() != surface.triangles.rows()) {
+    refuse_partition("partition_graph",
+                     "edges of " + std::to_string(index.edge_of_corner.rows()) + " triangles",
+                     "those of the surface's " + std::to_string(surface.triangles.rows()));
+  }
+  require_among(std::span(index.edge_of_corner.data(), idx(index.edge_of_corner.size())),
+                std::ssize(index.edges), "partition_graph", "edges");
+  for (const auto& ends : index.edges) {
+    require_among(ends, surface.positions.rows(), "partition_graph", "vertices");
+  }
+}
+
+/// Groups are named by numbers of vertices, or lower ones.
+void require_groups_of(const Surface& surface, const Eigen::VectorXi& group_of_vertex) {
+  const Eigen::Index vertices = surface.positions.rows();
+  if (group_of_vertex.size() != vertices) {
+    refuse_partition("partition_graph",
+                     "groups of " + std::to_string(group_of_vertex.size()) + " vertices",
+                     "those of the surface's " + std::to_string(vertices));
+  }
+  require_among(group_of_vertex, vertices, "partition_graph", "groups, as many as vertices");
+}
+
 /// The triangles' crossing edges linked into cut curves: for each crossing edge its neighbours
 /// across its two triangles.
 struct LinkedCrossings {
@@ -239,9 +312,18 @@ LinkedCrossings link_crossings(const Triangles& triangles, const EdgeIndex& inde
       const int q = group[triangles(t, (k + 2) % 3)];
       if (p != q) crossing[static_cast<std::size_t>(count++)] = index.edge_of_corner(t, k);
     }
+    if (count == 3) {
+      refuse_partition("partition_graph", "triangle " + std::to_string(t) + " in three groups",
+                       "groups that meet along cut curves");
+    }
     if (count != 2) continue;
     attach(crossing[0], crossing[1]);
     attach(crossing[1], crossing[0]);
+  }
+  for (std::size_t e = 0; e < crossings.next.size(); ++e) {
+    if (crossings.next[e][0] < 0 || crossings.next[e][1] >= 0) continue;
+    refuse_partition("partition_graph", "a cut curve that ends at edge " + std::to_string(e),
+                     "a closed surface, on which each goes round");
   }
   return crossings;
 }
@@ -254,9 +336,11 @@ PartitionGraph partition_graph(const Surface& surface, const Eigen::VectorXi& gr
 
 PartitionGraph partition_graph(const Surface& surface, const EdgeIndex& index,
                                const Eigen::VectorXi& group_of_vertex) {
+  require_indexed(surface, index);
+  require_groups_of(surface, group_of_vertex);
   PartitionGraph graph;
   graph.group_of_vertex.resize(group_of_vertex.size());
-  std::vector<int> number(static_cast<std::size_t>(group_of_vertex.maxCoeff()) + 1, -1);
+  std::vector<int> number(idx(group_of_vertex.size()), -1);
   for (Eigen::Index v = 0; v < group_of_vertex.size(); ++v) {
     int& n = number[static_cast<std::size_t>(group_of_vertex[v])];
     if (n < 0) n = graph.groups++;
@@ -288,6 +372,16 @@ PartitionGraph partition_graph(const Surface& surface, const EdgeIndex& index,
 }
 
 Positions middles_of_groups(const PartitionGraph& graph, const Positions& positions) {
+  const std::string_view purpose = "middles_of_groups";
+  if (graph.group_of_vertex.size() != positions.rows()) {
+    refuse_partition(purpose,
+                     "groups of " + std::to_string(graph.group_of_vertex.size()) + " vertices",
+                     "those of " + std::to_string(positions.rows()) + " positions");
+  }
+  require_among(graph.group_of_vertex, graph.groups, purpose, "groups");
+  for (const auto& cut_curve : graph.cut_curves) {
+    for (const auto& ends : cut_curve) require_among(ends, positions.rows(), purpose, "vertices");
+  }
   Positions middles = Positions::Zero(graph.nodes(), 3);
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(graph.nodes());
   const auto count_in = [&](int node, int vertex) {
@@ -302,6 +396,9 @@ Positions middles_of_groups(const PartitionGraph& graph, const Positions& positi
       count_in(graph.groups + static_cast<int>(c), a);
       count_in(graph.groups + static_cast<int>(c), b);
     }
+  }
+  if (!(counts.array() > 0).all()) {
+    refuse_partition(purpose, "a group or a cut curve without vertices", "some in each");
   }
   return middles.array().colwise() / counts.array();
 }

@@ -219,6 +219,7 @@ void require_its_own(const Contraction& contraction, const Surface& surface) {
 void require_valid(const SurgeryOptions& options) {
   constexpr OptionRange weight{0, 1e6};
   const OptionCheck check("SurgeryOptions");
+  check.choice("method", options.method, surgery_methods);
   check.number("shape_weight", options.shape_weight, weight);
   check.number("sampling_weight", options.sampling_weight, weight);
 }

@@ -46,6 +46,7 @@ void require_same_vertices(const EmbedInput& input) {
 void require_valid(const EmbedOptions& options) {
   constexpr OptionRange radii{0, 1e3};
   const OptionCheck check("EmbedOptions");
+  check.choice("method", options.method, embed_methods);
   check.number("detail", options.detail, share_range);
   check.number("merge", options.merge, radii);
   check.number("straight", options.straight, radii);

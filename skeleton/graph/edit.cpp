@@ -6,6 +6,7 @@
 
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
+#include "base/option_ranges.hpp"
 #include "skeleton/graph/draft.hpp"
 
 namespace curveskel {
@@ -117,6 +118,7 @@ CurveSkeleton remove_node(const CurveSkeleton& skeleton, int node) {
 
 CurveSkeleton merge_nodes(const CurveSkeleton& skeleton, int a, int b, MergePlace place,
                           const SurfaceTree* tree) {
+  OptionCheck("merge_nodes").number("place", static_cast<int>(place), {0, 1});
   require_two_nodes(skeleton, a, b, "merge_nodes");
   Draft draft(skeleton);
   const bool at_first = place == MergePlace::first;

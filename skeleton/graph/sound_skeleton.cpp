@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <curveskel/error.hpp>
 
@@ -25,22 +26,22 @@ void require_sound(const CurveSkeleton& skeleton, std::string_view purpose) {
     if (node < nodes) continue;
     refuse("node " + std::to_string(node) + " for vertex " + std::to_string(v));
   }
+  const auto is_node = [nodes](int node) { return node >= 0 && node < nodes; };
+  for (const Contact& contact : skeleton.contacts) {
+    for (const ContactSide* const side : {&contact.one, &contact.other}) {
+      const std::vector<int>& tips = side->tips;
+      if (is_node(side->node) && std::all_of(tips.begin(), tips.end(), is_node)) continue;
+      refuse("a contact of node " + std::to_string(side->node));
+    }
+  }
 }
 
 void require_sound_places(const CurveSkeleton& skeleton, std::string_view purpose) {
   require_sound(skeleton, purpose);
-  const auto nodes = static_cast<int>(skeleton.nodes.rows());
-  const auto is_node = [nodes](const ContactSide& side) {
-    return side.node >= 0 && side.node < nodes;
-  };
-  const bool are_nodes =
-      std::all_of(skeleton.contacts.begin(), skeleton.contacts.end(),
-                  [&](const Contact& one) { return is_node(one.one) && is_node(one.other); });
-  if (are_nodes && skeleton.nodes.allFinite()) return;
-  throw Error(Fault::input,
-              std::string(purpose) + ": the skeleton has a " +
-                  (are_nodes ? "coordinate that is no finite number" : "contact of no node") +
-                  ", needed finite ones and nodes");
+  if (skeleton.nodes.allFinite()) return;
+  throw Error(Fault::input, std::string(purpose) +
+                                ": the skeleton has a coordinate that is no finite number, needed "
+                                "finite ones");
 }
 
 int require_edge(const CurveSkeleton& skeleton, int a, int b, std::string_view purpose) {

@@ -8,11 +8,11 @@
 
 namespace curveskel {
 
-/// Throws Error(Fault::input) that begins with `purpose` unless every edge runs between two nodes,
+/// Throws Error(Fault::input) that begins with `purpose` unless edges and contacts are of nodes,
 /// radii are as many as nodes or none, and no vertex has a node that there is not. O(#N + #E + #V).
 void require_sound(const CurveSkeleton& skeleton, std::string_view purpose);
 
-/// The same, and places are finite, contacts have nodes. O(#N + #E + #V).
+/// The same, and places are finite. O(#N + #E + #V).
 void require_sound_places(const CurveSkeleton& skeleton, std::string_view purpose);
 
 /// `edge_between` of neighbours on a branch. Throws Error(Fault::input) that begins with `purpose`

@@ -12,6 +12,7 @@
 #include <curveskel/error.hpp>
 #include "base/decimal.hpp"
 #include "base/one_line.hpp"
+#include "base/option_ranges.hpp"
 #include "base/utf8.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "skeleton/io/xml_lines.hpp"
@@ -251,6 +252,7 @@ BranchLabels labels_of_input(const PolygonSoup& soup, const RepairedSurface& rep
 
 std::string format_labelled_surface(const PolygonSoup& soup, const BranchLabels& labels,
                                     LabelledFormat format, std::string_view provenance) {
+  OptionCheck("format_labelled_surface").choice("format", format, labelled_formats);
   const auto polygons =
       static_cast<Eigen::Index>(std::max(soup.offsets.size(), std::size_t{1}) - 1);
   require_sound(soup);

@@ -131,6 +131,8 @@ std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format
                                    ", needed one of its " + std::to_string(skeleton.nodes.rows()) +
                                    " nodes, or -1 for none");
   }
+  const bool is_picture = format == SkeletonFormat::svg || format == SkeletonFormat::png;
+  if (is_picture) require_sound_places(skeleton, "format_skeleton");
   switch (format) {
     case SkeletonFormat::obj:
       return obj_from(skeleton, context);

@@ -2,9 +2,11 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
 #include "base/decimal.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -50,6 +52,15 @@ void append_measures(std::string& text, const BranchMeasures& measures) {
   append_field(text, measures.strahler_order, measures.strahler_order > 0);
 }
 
+void require_parts_of(const std::vector<Branch>& all, const BranchTerritories& parts) {
+  const std::size_t found = parts.areas.size();
+  if (found == all.size() && parts.volumes.size() == found) return;
+  throw Error(Fault::input, "format_skeleton: found territories with areas of " +
+                                std::to_string(found) + " branches and volumes of " +
+                                std::to_string(parts.volumes.size()) +
+                                ", needed those of the skeleton's " + std::to_string(all.size()));
+}
+
 }  // namespace
 
 std::string csv_from(const CurveSkeleton& skeleton, const SkeletonContext& context) {
@@ -60,9 +71,11 @@ std::string csv_from(const CurveSkeleton& skeleton, const SkeletonContext& conte
   const std::vector<BranchLevel> levels = branch_levels(skeleton);
   const std::vector<BranchMeasures> measures = branch_measures(skeleton, context.root);
   const std::vector<int> components = component_of_node(skeleton);
+  const std::vector<Branch> all = branches(skeleton);
   const BranchTerritories* parts = context.territories;
+  if (parts != nullptr) require_parts_of(all, *parts);
   std::size_t id = 0;
-  for (const Branch& branch : branches(skeleton)) {
+  for (const Branch& branch : all) {
     const BranchLevel& level = levels[id];
     const int start = branch.nodes.front();
     const int end = branch.nodes.back();

@@ -264,6 +264,7 @@ std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton) {
 CurveSkeleton level_of(const CurveSkeleton& skeleton, double least_life) {
   require_sound(skeleton, "level_of");
   if (!has_lives(skeleton)) return skeleton;
+  least_life = std::min(least_life, lives_for_ever);
   const Eigen::VectorXd lives = edge_lives(skeleton);
   const std::vector<int> degree = degrees(skeleton.nodes.rows(), skeleton.edges);
   std::vector<int> number(degree.size(), -1);  // in the level

@@ -14,6 +14,7 @@
 #include "skeleton/match/motions.hpp"
 #include "skeleton/match/tip_pairs.hpp"
 #include "skeleton/match/tips.hpp"
+#include "surface/repair/sound_soup.hpp"
 
 namespace curveskel {
 namespace {
@@ -133,6 +134,7 @@ SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
 InputMatch match_inputs(const MatchInput& a, const MatchInput& b, const MatchOptions& options,
                         const Monitor& monitor) {
   for (const MatchInput& side : {a, b}) {
+    require_sound(side.soup);
     require_below(side.repaired.vertex_of_input, side.repaired.surface.positions.rows(), "match");
     if (side.repaired.vertex_of_input.size() == side.soup.positions.rows()) continue;
     throw Error(Fault::input, "match: found a map of " +

@@ -29,7 +29,8 @@ void require_whole(const MatchSide& side, const std::string& name) {
     refuse("a map of " + std::to_string(skeleton.node_of_vertex.size()) + " vertices",
            "one of its surface's " + std::to_string(side.surface.positions.rows()));
   }
-  require_sound(skeleton, "match");
+  require_sound_places(skeleton, "match");
+  if (!skeleton.radii.allFinite()) refuse("a radius that is no finite number", "finite ones");
   require_closed_manifold(side.surface, "match");
   if (area(side.surface) > 0) return;
   throw Error(Fault::input, "match: the surface of " + name + " has no area, needed some");
@@ -54,6 +55,11 @@ class FeatureFinder {
   }
 
   TipFeatures find() {
+    if (!(found_.unit > 0)) {
+      throw Error(
+          Fault::input,
+          "match: no vertex of a surface has a node of its skeleton, needed some that have");
+    }
     find_centres();
     measure_tips();
     find_core();

@@ -121,7 +121,7 @@ std::string escaped(const std::string& text) {
 std::string html_page(const Surface& surface, const CurveSkeleton& skeleton,
                       const PageContent& content, int threads) {
   require_sound(surface, "html_page");
-  require_sound(skeleton, "html_page");
+  require_sound_places(skeleton, "html_page");
   require_map_of(skeleton, surface, "html_page");
   const BranchTerritories territories = branch_territories(surface, skeleton);
   SkeletonContext context;

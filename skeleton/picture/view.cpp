@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/error.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/resample/principal_frame.hpp"
 
@@ -202,15 +204,29 @@ std::array<View, 2> best_views_of(const Positions& positions, const Eigen::Matri
   return {first, second};
 }
 
+void require_viewable(const Positions& positions, int width, int height) {
+  if (width < 1 || height < 1) {
+    throw Error(Fault::usage, "best_views: found a picture of " + std::to_string(width) + " x " +
+                                  std::to_string(height) + " pixels, needed one at least");
+  }
+  constexpr double most = 1e150;
+  if (positions.allFinite() && bounding_box_diagonal(positions) <= most) return;
+  throw Error(Fault::input,
+              "best_views: found a coordinate that is no finite number, or a bounding box with a "
+              "diagonal above 1e150, needed finite ones and a smaller box");
+}
+
 }  // namespace
 
 std::array<View, 2> best_views(const Surface& surface, int width, int height) {
   require_corners(surface, "best_views");
+  require_viewable(surface.positions, width, height);
   return best_views_of(surface.positions, principal_axes(surface), width, height);
 }
 
 std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height) {
   require_sound(skeleton, "best_views");
+  require_viewable(skeleton.nodes, width, height);
   return best_views_of(skeleton.nodes, principal_axes(skeleton), width, height);
 }
 

@@ -10,6 +10,7 @@
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
 #include "surface/mesh/crosses_itself.hpp"
+#include "surface/repair/sound_repaired.hpp"
 #include "surface/repair/wrap_components.hpp"
 
 namespace curveskel {
@@ -44,6 +45,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
                                      const CertificateOptions& options, const Monitor& monitor) {
   require_valid(as_repaired);
   require_valid(options);
+  require_sound(repaired, "evaluate_repaired");
   const Surface& surface = repaired.surface;
   require_closed_manifold(surface, "evaluate_repaired", options.threads);
   const Topology counted = topology(surface);

@@ -17,6 +17,7 @@
 #include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
 #include "surface/mesh/crosses_itself.hpp"
+#include "surface/repair/sound_repaired.hpp"
 #include "surface/repair/wrap_components.hpp"
 #include "surface/repair/wrap_solid.hpp"
 
@@ -200,6 +201,7 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
                              const ExtractOptions& options, const Monitor& monitor,
                              ExtractionCache::Implementation* kept) {
   require_valid(as_repaired);
+  require_sound(repaired, "extract");
   ExtractOptions with_rims = options;
   with_rims.rims = repaired.rims;
   const ExtractOptions its = admitted(repaired.surface, with_rims);

@@ -1,5 +1,7 @@
 #include <curveskel/preset.hpp>
 
+#include "base/option_ranges.hpp"
+
 namespace curveskel {
 namespace {
 
@@ -22,6 +24,7 @@ void use_paper(RepairOptions& repair, ExtractOptions& options) {
 }  // namespace
 
 void use_preset(Preset preset, RepairOptions& repair, ExtractOptions& options) {
+  OptionCheck("use_preset").choice("preset", preset, presets);
   switch (preset) {
     case Preset::standard:
       break;

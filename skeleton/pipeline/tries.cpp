@@ -4,6 +4,7 @@
 #include <new>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/error.hpp>
 #include "skeleton/pipeline/try_loop.hpp"
 
 namespace curveskel {
@@ -35,8 +36,16 @@ CertificateInBrief in_brief(const Certificate& certificate) {
 
 std::string full_name(const std::vector<Try>& history, int number) {
   std::string name;
-  for (int n = number; n >= 0; n = history[idx(n)].part_of)
+  int end = static_cast<int>(history.size());  // a try is made in an earlier one
+  for (int n = number; n >= 0; n = history[idx(n)].part_of) {
+    if (n >= end) {
+      throw Error(Fault::input, "full_name: found the try " + std::to_string(n) +
+                                    ", needed one of the first " + std::to_string(end) +
+                                    ", or -1 for none");
+    }
+    end = n;
     name = joined(history[idx(n)].name, name);
+  }
   return name;
 }
 

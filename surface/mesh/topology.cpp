@@ -44,12 +44,36 @@ Topology topology(const Surface& surface) {
   return result;
 }
 
+namespace {
+
+/// True if the topology's numbers and counts are those of this surface.
+bool counts_fit(const Surface& surface, const Topology& topology) {
+  const int components = topology.components();
+  if (topology.component_of_vertex.size() != surface.positions.rows()) return false;
+  if (std::ssize(topology.vertices) != components || std::ssize(topology.faces) != components) {
+    return false;
+  }
+  std::vector<int> vertices(topology.vertices.size(), 0);
+  for (const int component : topology.component_of_vertex) {
+    if (component < 0 || component >= components) return false;
+    ++vertices[static_cast<std::size_t>(component)];
+  }
+  std::vector<int> faces(topology.faces.size(), 0);
+  for (Eigen::Index face = 0; face < surface.triangles.rows(); ++face) {
+    const int component = topology.component_of_vertex(surface.triangles(face, 0));
+    ++faces[static_cast<std::size_t>(component)];
+  }
+  return vertices == topology.vertices && faces == topology.faces;
+}
+
+}  // namespace
+
 std::vector<Component> split_components(const Surface& surface, const Topology& topology) {
   require_corners(surface, "split_components");
-  if (topology.component_of_vertex.size() != surface.positions.rows()) {
+  if (!counts_fit(surface, topology)) {
     throw Error(Fault::input, "split_components: found the topology of " +
                                   std::to_string(topology.component_of_vertex.size()) +
-                                  " vertices, needed that of the surface's " +
+                                  " vertices of another surface, needed that of the surface's " +
                                   std::to_string(surface.positions.rows()));
   }
   std::vector<Component> components(static_cast<std::size_t>(topology.components()));

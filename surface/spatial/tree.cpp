@@ -1,8 +1,11 @@
 #include <curveskel/advanced/tree.hpp>
 
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include <curveskel/advanced/closed_manifold.hpp>
+#include <curveskel/error.hpp>
 #include "surface/spatial/tree_queries.hpp"
 #include "surface/spatial/wide_tree.hpp"
 
@@ -40,17 +43,30 @@ SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
+const SurfaceTree::Implementation& SurfaceTree::whole() const {
+  if (implementation_) return *implementation_;
+  throw Error(Fault::usage,
+              "SurfaceTree: found one that was moved from, needed one with a surface: ask the one "
+              "that it was moved to");
+}
+
 SurfaceTree SurfaceTree::in_frame(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin,
                                   double scale) const {
-  auto moved = std::make_unique<Implementation>(*implementation_);
-  moved->centre = origin + scale * rotation * implementation_->centre;
-  moved->rotation = rotation * implementation_->rotation;
-  moved->scale = implementation_->scale / scale;
+  const Implementation& here = whole();
+  if (!(scale > 0) || !std::isfinite(scale) || !rotation.allFinite() || !origin.allFinite()) {
+    throw Error(Fault::usage, "SurfaceTree::in_frame: found the scale " + std::to_string(scale) +
+                                  ", or a number that is not finite, needed a scale above 0 and "
+                                  "finite numbers");
+  }
+  auto moved = std::make_unique<Implementation>(here);
+  moved->centre = origin + scale * rotation * here.centre;
+  moved->rotation = rotation * here.rotation;
+  moved->scale = here.scale / scale;
   return SurfaceTree(std::move(moved));
 }
 
 SurfaceTree::Nearest SurfaceTree::nearest(const Eigen::Vector3d& point, double limit) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
   const Eigen::Vector3d p = here.to_local(point);
   const LocalNearest nearest = find_nearest(*here.tree, p, limit * here.scale);
   if (nearest.triangle < 0) return {point};
@@ -60,7 +76,7 @@ SurfaceTree::Nearest SurfaceTree::nearest(const Eigen::Vector3d& point, double l
 
 SurfaceTree::Hit SurfaceTree::ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                   double limit) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
   const LocalHit hit = find_hit(*here.tree, here.to_local(origin),
                                 here.direction_to_local(direction), limit * here.scale);
   if (hit.triangle < 0) return {};
@@ -70,7 +86,12 @@ SurfaceTree::Hit SurfaceTree::ray(const Eigen::Vector3d& origin, const Eigen::Ve
 void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                                 std::span<const Eigen::Vector3d> directions, double limit,
                                 std::span<double> distances) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
+  if (directions.size() != distances.size()) {
+    throw Error(Fault::usage, "SurfaceTree::rays_in_plane: found places for " +
+                                  std::to_string(distances.size()) + " distances, needed one for " +
+                                  "each of " + std::to_string(directions.size()) + " directions");
+  }
   find_distances_in_plane(*here.tree, here.to_local(origin), here.direction_to_local(normal),
                           directions, here.rotation, limit * here.scale, distances);
   for (double& distance : distances) distance /= here.scale;
@@ -78,19 +99,20 @@ void SurfaceTree::rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vect
 
 std::vector<int> SurfaceTree::near_plane(const Eigen::Vector3d& point,
                                          const Eigen::Vector3d& normal) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
   return find_near_plane(*here.tree, here.to_local(point), here.direction_to_local(normal));
 }
 
 bool SurfaceTree::comes_near(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                              double distance) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
   return curveskel::comes_near(*here.tree, here.to_local(from), here.to_local(to),
                                distance * here.scale);
 }
 
 bool SurfaceTree::inside(const Eigen::Vector3d& point) const {
-  return winds_around(*implementation_->tree, implementation_->to_local(point));
+  const Implementation& here = whole();
+  return winds_around(*here.tree, here.to_local(point));
 }
 
 double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point) const {
@@ -110,7 +132,7 @@ double SurfaceTree::inscribed_radius(const Eigen::Vector3d& point, const Ball& i
 SurfaceTree::Ball SurfaceTree::inscribed_ball(const Eigen::Vector3d& point,
                                               const Eigen::Vector3d& inward_normal,
                                               double min_sine) const {
-  const Implementation& here = *implementation_;
+  const Implementation& here = whole();
   const double radius = find_ball_radius(*here.tree, here.to_local(point),
                                          here.direction_to_local(inward_normal), min_sine) /
                         here.scale;

@@ -160,6 +160,43 @@ class Arrays(Folder):
         with self.assertRaisesRegex(curveskel.UsageError, "list of faces"):
             curveskel.extract((vertices, [3, *faces]))
 
+    def test_faces_of_whole_numbers_may_be_objects(self):
+        places, faces = map(numpy.array, curveskel.extract(Y).mesh)
+        expected = curveskel.extract((places, faces)).vertices
+        objects = faces.astype(object)
+        rows = numpy.empty(len(faces), dtype=object)
+        for k, face in enumerate(faces.tolist()):
+            rows[k] = numpy.array(face, dtype=object)
+        for given in (objects, list(objects), rows, faces.astype(numpy.uint16).astype(object)):
+            numpy.testing.assert_array_equal(curveskel.extract((places, given)).vertices, expected)
+        for one in (0.0, True, None, "0", 2**70):
+            spoilt = objects.copy()
+            spoilt[7, 1] = one
+            for given in (spoilt, list(spoilt)):
+                with self.assertRaisesRegex(curveskel.UsageError, "faces: ", msg=repr(one)):
+                    curveskel.extract((places, given))
+
+    def test_rows_that_begin_with_their_counts_are_no_polygons(self):
+        places, faces = map(numpy.array, curveskel.extract(Y).mesh)
+        with_counts = numpy.column_stack((numpy.full(len(faces), 3), faces))
+        for given in (with_counts, with_counts.tolist(), with_counts.astype(object)):
+            with self.assertRaisesRegex(curveskel.UsageError, r"VTK.*faces\[:, 1:\]"):
+                curveskel.extract((places, given))
+        with self.assertRaisesRegex(curveskel.UsageError, r"reshape\(-1, 4\)"):
+            curveskel.extract((places, with_counts.reshape(-1)))
+        corners = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+        cube = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+        pentagons = [[4, *face] for face in cube]
+        for given in (pentagons, [*pentagons[:3], *with_counts[:3].tolist()]):
+            with self.assertRaisesRegex(curveskel.UsageError, "VTK"):
+                curveskel.fair((corners, given))
+        from_three = [face[face.index(3):] + face[:face.index(3)] if 3 in face else face
+                      for face in cube]
+        self.assertEqual(len(curveskel.fair((corners, from_three), iterations=0)[1]), 12)
+        fan = [[3, 1, 5, 7], [3, 7, 6, 2], [2, 0, 1, 3]]  # of three quads, one begun elsewhere
+        self.assertEqual(len(curveskel.fair((corners, fan), iterations=0)[1]), 6)
+        self.assertEqual(len(curveskel.fair((corners, fan[:1]), iterations=0)[1]), 2)
+
     def test_vertices_without_a_place_lose_their_faces_as_in_a_file(self):
         places, faces = map(numpy.array, curveskel.extract(TORUS).mesh)
         unused = numpy.concatenate((places, [[numpy.nan, 0, 0]]))
@@ -405,9 +442,21 @@ class Errors(Folder):
                 ({"merge_overlapping": "no"}, "merge_overlapping: needs True or False, not 'no'"),
                 ({"wrap": True}, "wrap: needs one of: never, needed, all, not True"),
                 ({"components": 1.5}, "components: needs .*largest.*, not 1.5"),
+                ({"components": 0}, "components: needs .* from 1 up.*, not 0"),
+                ({"components": -3}, "components: needs .* from 1 up.*, not -3"),
+                ({"strict": "no"}, "strict: needs True or False, not 'no'"),
+                ({"strict": None}, "strict: needs True or False, not None"),
+                ({"no_merge_overlapping": True}, "needed merge_overlapping=False"),
                 ({"resolution": None}, "resolution: needs .*full.*, not None")):
             with self.assertRaisesRegex(curveskel.UsageError, needed):
                 curveskel.extract(Y, **options)
+        for name in ("keep_rig", "as_shown"):
+            with self.assertRaisesRegex(curveskel.UsageError, f"{name}: needs True or False"):
+                curveskel.rig(Y, **{name: "no"})
+        with self.assertRaisesRegex(curveskel.UsageError, "needed ends=False"):
+            curveskel.rig(Y, no_ends=True)
+        with self.assertRaisesRegex(curveskel.UsageError, "by_shape: needs True or False"):
+            curveskel.match(Y, Y, by_shape="no")
 
     def test_a_certificate_that_fails_warns_or_is_an_error(self):
         plate = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 0.01)], float)

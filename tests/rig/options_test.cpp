@@ -159,7 +159,8 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
     [[maybe_unused]] const auto& [method, a, b] = O{};
     expect_ranges<O>(
         "SurgeryOptions",
-        {option("shape_weight", &O::shape_weight, "0..1000000", {0, 1e6}, {-1e-9, 2e6}),
+        {option("method", &O::method, "one of own, cgal", {0, 1}, {-1, 2}),
+         option("shape_weight", &O::shape_weight, "0..1000000", {0, 1e6}, {-1e-9, 2e6}),
          option("sampling_weight", &O::sampling_weight, "0..1000000", {0, 1e6}, {-1e-9, 2e6})});
   }
   {
@@ -169,7 +170,8 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
     const std::string rounds = "0..1000000";
     expect_ranges<O>(
         "EmbedOptions",
-        {option("detail", &O::detail, "0..1", {0, 1}, {-1e-9, over_one}),
+        {option("method", &O::method, "one of own, none", {0, 1}, {-1, 2}),
+         option("detail", &O::detail, "0..1", {0, 1}, {-1e-9, over_one}),
          option("merge", &O::merge, radii, {0, 1000}, {-1e-9, 1001}),
          option("straight", &O::straight, radii, {0, 1000}, {-1e-9, 1001}),
          option("straight_at_last", &O::straight_at_last, radii, {0, 1000}, {-1e-9, 1001}),

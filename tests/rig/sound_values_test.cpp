@@ -151,7 +151,10 @@ std::vector<Entrance<CurveSkeleton>> entrances_of_skeletons() {
                                  as_if_repaired().vertex_of_input);
        }},
       {"level_of_character",
-       [](Skeleton s) { (void)level_of_character(character_of(a_rig()), s, 1); }}};
+       [](Skeleton s) { (void)level_of_character(character_of(a_rig()), s, 1); }},
+      {"rig_of_given", [](Skeleton s) {
+         (void)rig_of_given(a_rig(), torus(), s, as_if_repaired().vertex_of_input, torus());
+       }}};
   for (const auto& format : skeleton_formats) {
     all.push_back({"format_skeleton " + std::string(format.name), [&format](Skeleton s) {
                      SkeletonContext context;

@@ -67,9 +67,11 @@ struct Solution {
   double residual = 0;  ///< ||A^T (A X - B)|| / ||A^T B||, computed on the host, Frobenius norms
 };
 
-/// Keeps the symbolic factorisation between solves whose A has the same pattern.
+/// Keeps the symbolic factorisation between solves whose A has the same pattern. One that was moved
+/// from answers each call by Error(Fault::usage) until another is assigned to it.
 class LeastSquares {
  public:
+  /// Both throw what `require_valid` does.
   explicit LeastSquares(Solver solver);
   explicit LeastSquares(const SolverOptions& options);
   ~LeastSquares();
@@ -92,6 +94,7 @@ class LeastSquares {
 
  private:
   struct Implementation;
+  [[nodiscard]] Implementation& whole() const;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <initializer_list>
 #include <vector>
 
 #include <curveskel/advanced/union_find.hpp>
@@ -21,17 +22,21 @@ struct EdgeIndex {
   std::vector<std::array<int, 2>> edges;  ///< ends, the smaller vertex first; sorted
 };
 
-/// O(#F log #F).
+/// O(#F log #F), and the highest corner. Throws Error(Fault::input) for a corner below 0.
 [[nodiscard]] EdgeIndex index_edges(const Triangles& triangles);
 
 /// A partition of the vertices into connected groups, at first one group per vertex. A group's
 /// piece of surface is the union of its vertices' dual cells; a piece's boundary runs through the
 /// triangles that have corners inside and outside of it. Precondition: closed oriented 2-manifold.
+/// Throws Error(Fault::input) for corners that are no vertices; its functions throw
+/// std::out_of_range for what is no vertex, or no group: these have the numbers of vertices.
 class SurfacePartition {
  public:
   explicit SurfacePartition(const Surface& surface);
 
-  [[nodiscard]] int group_of(int vertex) const { return group_of_vertex_[vertex]; }
+  [[nodiscard]] int group_of(int vertex) const {
+    return group_of_vertex_.at(static_cast<std::size_t>(vertex));
+  }
 
   /// True if some triangle has corners in both groups and in a third one.
   [[nodiscard]] bool share_triple(int a, int b) const;
@@ -44,13 +49,15 @@ class SurfacePartition {
 
   /// Genus (2 - chi - cut curves) / 2 of the piece that merging would make; 0 = a sphere with
   /// holes. Once positive it stays so for every larger piece. O(size of the shorter boundary) where
-  /// the two meet along one curve, else of both.
+  /// the two meet along one curve, else of both. Of one group and itself that of the group.
   [[nodiscard]] int genus_of_union(int a, int b);
 
-  /// Moves the vertices of `from` to `into`. As `genus_of_union`, and the size of `from`.
+  /// Moves the vertices of `from` to `into`; nothing where these are one. As `genus_of_union`, and
+  /// the size of `from`.
   void merge(int from, int into);
 
  private:
+  void require_groups(std::initializer_list<int> groups) const;
   [[nodiscard]] std::array<int, 3> groups_at(int triangle) const;
   [[nodiscard]] const std::vector<int>& shorter_boundary(int a, int b) const;
   [[nodiscard]] std::vector<int> touching(int a, int b) const;
@@ -85,15 +92,18 @@ struct PartitionGraph {
 };
 
 /// Places of the graph's nodes (#N by 3): each in the middle of the positions (#V by 3) of its
-/// group, or of the vertices of the edges that cross its cut curve.
+/// group, or of the vertices of the edges that cross its cut curve. Throws Error(Fault::input) for
+/// positions of other vertices, numbers that are none, and groups without vertices.
 [[nodiscard]] Positions middles_of_groups(const PartitionGraph& graph, const Positions& positions);
 
 /// Groups are renumbered by their smallest vertex, cut curves by their smallest crossing edge.
-/// Precondition: no triangle of the surface has corners in three groups. O(#F log #F).
+/// Throws Error(Fault::input) where a triangle has corners in three groups, a cut curve does not
+/// close, or groups are not of the surface's vertices, in 0 .. #V - 1. O(#F log #F).
 [[nodiscard]] PartitionGraph partition_graph(const Surface& surface,
                                              const Eigen::VectorXi& group_of_vertex);
 
-/// The same where the edges are known: `index` must be that of the surface's triangles. O(#F).
+/// The same where the edges are known: `index` must be that of the surface's triangles, and is
+/// refused as well where its numbers are none of them. O(#F).
 [[nodiscard]] PartitionGraph partition_graph(const Surface& surface, const EdgeIndex& index,
                                              const Eigen::VectorXi& group_of_vertex);
 

@@ -13,7 +13,8 @@ namespace curveskel {
 
 /// A bounding volume hierarchy over the triangles of a closed surface. Immutable after
 /// construction; queries are const and may run from several threads at once. Keeps its own copy of
-/// the triangles. Results do not depend on the number of threads.
+/// the triangles. Results do not depend on the number of threads. One that was moved from answers
+/// each query by Error(Fault::usage) until another is assigned to it.
 class SurfaceTree {
  public:
   /// O(#F log #F), on at most `threads` threads, 0 = one per core. Precondition: at least one face.
@@ -25,7 +26,8 @@ class SurfaceTree {
   SurfaceTree& operator=(const SurfaceTree&) = delete;
 
   /// The same tree for the surface's copy at origin + scale * rotation * position (a similarity;
-  /// scale > 0). Shares the hierarchy with this one: no time, no memory.
+  /// scale > 0). Shares the hierarchy with this one: no time, no memory. Throws Error(Fault::usage)
+  /// for numbers that are not finite, and for another scale.
   [[nodiscard]] SurfaceTree in_frame(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& origin,
                                      double scale) const;
 
@@ -49,7 +51,8 @@ class SurfaceTree {
                         double limit = std::numeric_limits<double>::infinity()) const;
 
   /// The distances of `ray` in several directions that are all normal to `normal`, up to rounding:
-  /// at half the cost or less for a dozen of them. `distances` has one place for each direction.
+  /// at half the cost or less for a dozen of them. `distances` has one place for each direction, or
+  /// Error(Fault::usage) is thrown.
   void rays_in_plane(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                      std::span<const Eigen::Vector3d> directions, double limit,
                      std::span<double> distances) const;
@@ -93,6 +96,7 @@ class SurfaceTree {
  private:
   struct Implementation;
   explicit SurfaceTree(std::unique_ptr<Implementation> implementation);
+  [[nodiscard]] const Implementation& whole() const;
   std::unique_ptr<Implementation> implementation_;
 };
 
