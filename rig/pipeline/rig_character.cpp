@@ -8,8 +8,8 @@
 #include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/union_find.hpp>
-#include <curveskel/levels.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/levels.hpp>
 #include <curveskel/rig_polygons.hpp>
 #include <curveskel/topology.hpp>
 #include "base/option_ranges.hpp"

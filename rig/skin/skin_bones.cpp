@@ -32,8 +32,8 @@ class GivenBones {
         holds[idx(joint)] = holds[idx(parent)] || is_inside(bone);
         if (holds[idx(joint)]) bones.push_back(bone);
       }
-      const bool is_end = parent >= 0 && idx(joint) < given_.names.size() &&
-                          is_end_name(given_.names[idx(joint)]);
+      const bool is_end =
+          parent >= 0 && idx(joint) < given_.names.size() && is_end_name(given_.names[idx(joint)]);
       if (is_leaf_[idx(joint)] && !is_end && tree_.inside(place(joint).transpose())) {
         bones.push_back(straight_on(joint));
       }
