@@ -134,6 +134,17 @@ void require_one_task(const EvaluateArguments& arguments) {
                        : "--rig-truth compares rigs; leave out SKELETON");
 }
 
+/// Two rigs are compared as they are.
+void require_effect_on_rigs(const CLI::App& parser) {
+  if (parser.count("--rig-truth") == 0) return;
+  for (const char* name : {"--against", "--components", "--min-size", "--wrap", "--wrap-gap",
+                           "--least-sheet", "--merge-overlapping", "--strict"}) {
+    if (parser.count(name) == 0) continue;
+    throw UsageError(std::string(name) +
+                     " has no effect beside --rig-truth; leave out one of the two");
+  }
+}
+
 int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
   require_one_task(arguments);
@@ -198,28 +209,24 @@ Verb add_evaluate(CLI::App& program) {
                    "another skeleton file: distances to it, and which of both is more central "
                    "where both run")
       ->type_name("SKELETON");
-  CLI::Option* const truth = parser->add_option(
-      "--rig-truth", arguments->rig_truth,
-      "the rig that somebody has made of the same surface: how near the joints of "
-      "MESH come to it, and of two glTF files its weights and how it bends; both are "
-      "glTF, FBX, DAE, .json of this program or RigNet's .txt");
-  truth->type_name("RIG");
+  parser
+      ->add_option("--rig-truth", arguments->rig_truth,
+                   "the rig that somebody has made of the same surface: how near the joints of "
+                   "MESH come to it, and of two glTF files its weights and how it bends; both are "
+                   "glTF, FBX, DAE, .json of this program or RigNet's .txt")
+      ->type_name("RIG");
   add_repair(*parser, arguments->repair);
   add_time_limit(*parser, arguments->time_limit_seconds);
   parser->add_flag("--strict", arguments->strict,
                    "a skeleton that leaves the surface or stops half-way through a limb, a surface "
                    "not made of tubes, or a wrap of another shape is an error, too (exit 5), as a "
                    "wrong topology always is");
-  // Two rigs are compared as they are.
-  for (CLI::Option* const option : parser->get_options()) {
-    const std::string name = option->get_name();
-    const bool is_for_rigs = name == "MESH" || name == "SKELETON" || name == "--json" ||
-                             name == "--rig-truth" || name == "--time-limit" || name == "--help";
-    if (!is_for_rigs) option->excludes(truth);
-  }
   add_threads(*parser, arguments->options.threads);
   parser->add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  return {parser, [arguments](Session& session) { return run_evaluate(*arguments, session); }};
+  return {parser, [arguments, parser](Session& session) {
+            require_effect_on_rigs(*parser);
+            return run_evaluate(*arguments, session);
+          }};
 }
 
 }  // namespace curveskel

@@ -73,6 +73,9 @@ class Options(CommandLineTest):
                 ((SPOT, "--plan", "none", "--front", "x"), ["--front x", "--plan none"]),
                 ((SPOT, "--root", "3", "--front", "x"), ["--front x", "--root"])):
             self.refused(USAGE, "rig", *arguments, "-o", "y.glb", says=says, cwd=self.folder)
+        for option in (("--strict",), ("--wrap", "all"), ("--against", "x.json")):
+            self.refused(USAGE, "evaluate", "x.glb", "--rig-truth", "x.glb", *option,
+                         says=[option[0], "--rig-truth"], cwd=self.folder)
         self.refused(USAGE, "fair", SPOT, "--method", "host", "--precision", "single", "-o",
                      "y.ply", says=["single", "host", "double"], cwd=self.folder)
 
