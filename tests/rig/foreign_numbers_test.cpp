@@ -161,7 +161,7 @@ TEST(ForeignNumbers, ContactsAreOfNodes) {
 
 TEST(ForeignNumbers, ComponentsAreOfTheirSurface) {
   Surface two = torus();
-  two.positions.conservativeResize(2 * vertices(), 3);
+  two.positions.conservativeResize(2 * torus().positions.rows(), 3);
   two.positions.bottomRows(vertices()) = torus().positions.rowwise() + Eigen::RowVector3d(20, 0, 0);
   two.triangles.resize(2 * torus().triangles.rows(), 3);
   two.triangles << torus().triangles, torus().triangles.array() + vertices();

@@ -15,11 +15,17 @@
 namespace curveskel::misuse_laws {
 namespace {
 
+/// Whoever calls it goes on with what is left.
+template <typename T>
+T taken_from(T& value) {
+  return std::move(value);
+}
+
 using namespace misuse;
 
 TEST(Misuse, ATreeThatWasMovedFromSaysSo) {
   SurfaceTree tree(torus());
-  const SurfaceTree moved_to = std::move(tree);
+  const SurfaceTree moved_to = taken_from(tree);
   const Eigen::Vector3d at(3, 0, 0);
   const Eigen::Vector3d up(0, 0, 1);
   const std::vector<std::function<void(const SurfaceTree&)>> queries{
@@ -75,7 +81,7 @@ TEST(Misuse, ASolverThatWasMovedFromSaysSo) {
   one.insert(0, 0) = 2;
   const Positions right = Positions::Ones(1, 3);
   LeastSquares solver(Solver::cholesky);
-  LeastSquares moved_to = std::move(solver);
+  LeastSquares moved_to = taken_from(solver);
   EXPECT_DOUBLE_EQ(moved_to.solve_definite(one, right).x(0, 0), 0.5);
   expect_error(Fault::usage, "moved from", [&] { (void)solver.solver(); });
   expect_error(Fault::usage, "moved from", [&] { (void)solver.solve(one, right); });
