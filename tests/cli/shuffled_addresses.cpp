@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <utility>
 
@@ -46,8 +47,9 @@ std::uint64_t chance() {
 }
 
 void* from_system(std::size_t size) {
-  void* const wish = reinterpret_cast<void*>(0x100000000000U + (chance() % (1U << 28)) * 4096);
-  void* const found = mmap(wish, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const std::uintptr_t wish = 0x100000000000U + (chance() % (1U << 28)) * 4096;
+  void* const found = mmap(std::bit_cast<void*>(wish), size, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return found == MAP_FAILED ? nullptr : found;
 }
 
@@ -86,8 +88,9 @@ void* allocated(std::size_t size, std::size_t alignment) {
   const std::lock_guard lock(mutex);
   void* const start = taken(needed);
   if (start == nullptr) return nullptr;
-  const auto after_head = reinterpret_cast<std::uintptr_t>(start) + sizeof(Head);
-  void* const block = reinterpret_cast<void*>((after_head + alignment - 1) / alignment * alignment);
+  void* block = static_cast<char*>(start) + sizeof(Head);
+  std::size_t room = needed - sizeof(Head);
+  (void)std::align(alignment, size, block, room);
   head_of(block) = {start, needed};
   return block;
 }
@@ -103,9 +106,9 @@ extern "C" {
 
 void* malloc(std::size_t size) { return or_error(allocated(size, sizeof(Head))); }
 
-void free(void* block) {
-  if (block == nullptr) return;
-  const Head head = head_of(block);
+void free(void* ptr) {
+  if (ptr == nullptr) return;
+  const Head head = head_of(ptr);
   const std::lock_guard lock(mutex);
   if (head.size >= of_the_system) {
     munmap(head.start, head.size);
@@ -114,24 +117,24 @@ void free(void* block) {
   }
 }
 
-void* calloc(std::size_t count, std::size_t size) {
+void* calloc(std::size_t nmemb, std::size_t size) {
   std::size_t all = 0;
-  if (__builtin_mul_overflow(count, size, &all)) return or_error(nullptr);
+  if (__builtin_mul_overflow(nmemb, size, &all)) return or_error(nullptr);
   void* const block = malloc(all);
   if (block != nullptr) std::memset(block, 0, all);
   return block;
 }
 
-void* realloc(void* block, std::size_t size) {
-  if (block == nullptr) return malloc(size);
+void* realloc(void* ptr, std::size_t size) {
+  if (ptr == nullptr) return malloc(size);
   if (size == 0) {
-    free(block);
+    free(ptr);
     return nullptr;
   }
   void* const larger = malloc(size);
   if (larger == nullptr) return nullptr;
-  std::memcpy(larger, block, std::min(size, room_in(block)));
-  free(block);
+  std::memcpy(larger, ptr, std::min(size, room_in(ptr)));
+  free(ptr);
   return larger;
 }
 
@@ -141,10 +144,10 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 
 void* memalign(std::size_t alignment, std::size_t size) { return aligned_alloc(alignment, size); }
 
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
-  *block = allocated(size, std::max(alignment, sizeof(Head)));
-  return *block == nullptr ? ENOMEM : 0;
+int posix_memalign(void** memptr, std::size_t alignment, std::size_t size) {
+  *memptr = allocated(size, std::max(alignment, sizeof(Head)));
+  return *memptr == nullptr ? ENOMEM : 0;
 }
 
-std::size_t malloc_usable_size(void* block) { return block == nullptr ? 0 : room_in(block); }
+std::size_t malloc_usable_size(void* ptr) { return ptr == nullptr ? 0 : room_in(ptr); }
 }
