@@ -228,11 +228,13 @@ class Stages(ViewTest):
         skeleton = self.skeleton()
         out = self.folder / "out.png"
         for files, stage in (((Y,), "fairing"), ((Y,), "contraction:999"),
-                             ((skeleton,), "contraction:1"), ((Y, "--no-run"), "contraction:1"),
-                             ((Y, "--no-run"), "skeleton")):
+                             ((skeleton,), "contraction:1")):
             with self.subTest(stage, files=files):
                 self.refused(INPUT, "view", *files, "--stage", stage, "--screenshot", out,
                              says=[stage.split(":")[0]])
+        for stage in ("contraction:1", "skeleton"):
+            self.refused(USAGE, "view", Y, "--no-run", "--stage", stage, "--screenshot", out,
+                         says=["--no-run", stage.split(":")[0]])
 
     def test_of_fairing_show_every_component(self):
         def reach(*words):
