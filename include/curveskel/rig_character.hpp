@@ -52,7 +52,8 @@ struct CharacterRig {
                                     const Monitor& monitor = {});
 
 /// The same from the skeleton of the whole repaired surface, after `find_parts`, within the budget.
-/// A skeleton without node_of_vertex does not say what its curves are of: then no part follows.
+/// A skeleton without node_of_vertex does not say what its curves are of: then no part follows, as
+/// where it has none of the body's; its vertices go to the nearest balls.
 /// `certificate` is that of the skeleton, if there is one: then `plan.made_of_tubes` is judged as
 /// `rig_polygons` does, by the body without the parts that follow.
 [[nodiscard]] CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired,

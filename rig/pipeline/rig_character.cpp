@@ -14,6 +14,7 @@
 #include <curveskel/topology.hpp>
 #include "base/option_ranges.hpp"
 #include "rig/joints/contacts.hpp"
+#include "rig/joints/fully_mapped.hpp"
 #include "rig/joints/idle_joints.hpp"
 #include "rig/parts/sound_parts.hpp"
 #include "rig/pipeline/figures.hpp"
@@ -132,6 +133,13 @@ RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor&
   return made;
 }
 
+void make_all_body(RigParts& parts) {
+  for (RigPart& part : parts.parts) {
+    part.follows = false;
+    part.host = -1;
+  }
+}
+
 /// All that gets joints.
 struct Body {
   RepairedSurface surface;
@@ -185,11 +193,21 @@ CharacterRig rig_character(const Surface& given, const RepairedSurface& repaired
                            const Monitor& monitor, const Certificate* certificate) {
   require_sound_body(given, repaired, options, "rig_character");
   PartOptions wanted = options.parts;
-  if (options.rig.joints.root >= 0 || skeleton.node_of_vertex.size() == 0) wanted.follow = 0;
+  const bool is_mapped = skeleton.node_of_vertex.size() > 0;
+  if (options.rig.joints.root >= 0 || !is_mapped) wanted.follow = 0;
   RigParts parts = find_parts(repaired.surface, wanted, monitor);
-  const Body body = parts.all_body()
-                        ? Body{repaired, skeleton}
-                        : Body{body_of(repaired, parts), skeleton_of_body(skeleton, parts)};
+  // Plans are by the vertices of limbs, too; most formats of skeletons have none.
+  Body body{repaired, is_mapped
+                          ? skeleton
+                          : fully_mapped(repaired.surface, skeleton, wanted.threads, monitor)};
+  if (!parts.all_body()) {
+    CurveSkeleton of_body = skeleton_of_body(skeleton, parts);
+    if (of_body.nodes.rows() > 0) {
+      body = {body_of(repaired, parts), std::move(of_body)};
+    } else {  // its curves are of other parts alone
+      make_all_body(parts);
+    }
+  }
   CharacterOptions judged = options;
   if (certificate != nullptr) {
     const double share = parts.all_body() ? certificate->tube_share

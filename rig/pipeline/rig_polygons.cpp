@@ -13,7 +13,6 @@
 #include <curveskel/make_rig.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/topology.hpp>
-#include "rig/joints/fully_mapped.hpp"
 #include "rig/pipeline/figures.hpp"
 #include "rig/plan/frames.hpp"
 #include "surface/repair/sound_repaired.hpp"
@@ -47,40 +46,14 @@ struct Curve {
   std::optional<CurveSkeleton> usual;  ///< the default level, where that is coarser
 };
 
-/// A repaired surface and those of its parts that get joints.
-struct Parted {
-  const RepairedSurface& repaired;
-  RigParts parts;
-  RepairedSurface body;  ///< becomes its wrap where only a wrap would do
-};
-
-/// The curves of the body, or of all parts where the skeleton has none of the body's.
-CurveSkeleton given_curve(const CurveSkeleton& skeleton, const RigPolygonsOptions& options,
-                          Parted& surface, const Monitor& monitor) {
-  CurveSkeleton whole = skeleton_of_repaired(skeleton, surface.repaired.vertex_of_input,
-                                             surface.repaired.surface.positions.rows());
-  // Plans are by the vertices of limbs, too; most formats of skeletons have none.
-  if (whole.node_of_vertex.size() == 0) {
-    return fully_mapped(surface.body.surface, whole, options.threads, monitor);
-  }
-  if (surface.parts.all_body()) return whole;
-  CurveSkeleton of_body = skeleton_of_body(whole, surface.parts);
-  if (of_body.nodes.rows() > 0) return of_body;
-  for (RigPart& part : surface.parts.parts) {
-    part.follows = false;
-    part.host = -1;
-  }
-  surface.body = surface.repaired;
-  return whole;
-}
-
-/// Everything is named first; then what a coarser level does without goes.
-Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Parted& surface,
+/// `body` becomes its wrap where only a wrap would do. Everything is named first; then what a
+/// coarser level does without goes.
+Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
                 const Monitor& monitor) {
-  RepairedSurface& body = surface.body;
   Curve curve;
-  if (sources.skeleton) {
-    curve.skeleton = given_curve(*sources.skeleton, options, surface, monitor);
+  if (sources.skeleton) {  // beside joints that are given
+    curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
+                                          body.surface.positions.rows());
     return curve;
   }
   ExtractOptions wanted = options.extract;
@@ -153,19 +126,24 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   wanted.rig.skin.threads = wanted.parts.threads = options.threads;
   wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
   wanted.plan.z_is_up = soup.z_is_up;
-  const bool is_unmapped = sources.skeleton && sources.skeleton->node_of_vertex.size() == 0;
-  const bool is_root_chosen = wanted.rig.joints.root >= 0;
-  if (sources.joints || is_unmapped || is_root_chosen) wanted.parts.follow = 0;
+  if (sources.joints || wanted.rig.joints.root >= 0) wanted.parts.follow = 0;
 
   require_valid(wanted.plan);
   const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
-  Parted surface{repaired, find_parts(repaired.surface, wanted.parts, monitor), {}};
-  surface.body = body_of(repaired, surface.parts);
-  PolygonsRig result;
-  const auto [skeleton, certificate, usual] = curve_for(sources, options, surface, monitor);
-  const RepairedSurface& body = surface.body;
-  result.certificate = certificate;
   const Surface given{soup.positions, triangulate(soup)};
+  PolygonsRig result;
+  if (sources.skeleton && !sources.joints) {
+    const CurveSkeleton whole = skeleton_of_repaired(*sources.skeleton, repaired.vertex_of_input,
+                                                     repaired.surface.positions.rows());
+    result.character = rig_character(given, repaired, whole, wanted, monitor);
+    result.character.rig.to_y_up =
+        axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
+    return result;
+  }
+  RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
+  RepairedSurface body = body_of(repaired, parts);
+  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor);
+  result.certificate = certificate;
   if (sources.joints) {
     const CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
     const Rig made =
@@ -183,7 +161,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   }
   result.character.rig.to_y_up =
       axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
-  result.character.parts = std::move(surface.parts);
+  result.character.parts = std::move(parts);
   return result;
 }
 
