@@ -289,6 +289,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   });
   if (!arguments.report.empty()) {
     std::vector<std::string> names;
+    names.reserve(files.size());
     for (const OutputFile& file : files) names.push_back(file.name);
     files.push_back({arguments.report, report_json(record, {times, seconds_since(begin), names})});
   }

@@ -129,7 +129,7 @@ BodyMesh numbered_by_place(const BodyMesh& mesh) {
   faces.reserve(idx(given.triangles.rows()));
   for (const auto& t : given.triangles.rowwise()) {
     std::array<std::int32_t, 3> face{number[idx(t[0])], number[idx(t[1])], number[idx(t[2])]};
-    std::ranges::rotate(face, std::ranges::min_element(face));
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
     faces.push_back(face);
   }
   std::ranges::sort(faces);
