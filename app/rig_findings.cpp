@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/names.hpp>
@@ -11,6 +12,47 @@
 #include "app/certificate_table.hpp"
 
 namespace curveskel {
+namespace {
+
+constexpr double held_out = 0.94;  // cos of 20 degrees, of what VRM wants to lie along x
+
+std::optional<std::string> posture_of_planned(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
+                                              RestPose pose) {
+  if (plan.plan != BodyKind::humanoid || pose != RestPose::input) return {};
+  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
+  const auto place = [&](const char* role) -> Eigen::RowVector3d {
+    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
+                                    [&](const PlannedJoint& joint) { return joint.role == role; });
+    return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
+  };
+  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
+  constexpr double along = 0.99;  // up to rounding: plans have the file's axes
+  if (ahead < along) return "VRM's figures look along z, this one does not: turn it first";
+  if (arm.x() >= held_out * arm.norm()) return {};
+  return "VRM's figures rest with their arms held out level, this one does not: give --pose t";
+}
+
+/// Nothing where they have not a human's roles.
+std::optional<std::string> posture_of_given(const Rig& given) {
+  const auto way = [&](const char* from, const char* to) -> Eigen::Vector3d {
+    const auto place = [&](const char* role) -> Eigen::RowVector3d {
+      const auto found = std::find(given.roles.begin(), given.roles.end(), role);
+      if (found == given.roles.end()) return Eigen::RowVector3d::Zero();
+      return given.joints.row(found - given.roles.begin());
+    };
+    return given.to_y_up * (place(to) - place(from)).transpose();
+  };
+  const Eigen::Vector3d left = way("rightUpperLeg", "leftUpperLeg");
+  const Eigen::Vector3d arm = way("leftUpperArm", "leftHand");
+  if (left.x() < held_out * left.norm()) {
+    return "VRM's figures look along z, with y up, this one does not: turn it first";
+  }
+  if (arm.x() >= held_out * arm.norm()) return {};
+  return "VRM's figures rest with their arms held out level, these joints do not: turn them so "
+         "first, in the program that placed them";
+}
+
+}  // namespace
 
 std::string skeleton_findings(const PolygonsRig& found, const RigPolygonsOptions& options) {
   return found.certificate ? all_failures(*found.certificate, options.extract.certificate) : "";
@@ -38,21 +80,12 @@ std::vector<std::string> rig_findings(const CharacterRig& character,
   return findings;
 }
 
-std::optional<std::string> posture_finding(const BodyPlan& plan, const Eigen::Matrix3d& to_y_up,
-                                           RestPose pose) {
-  if (plan.plan != BodyKind::humanoid || pose != RestPose::input) return {};
-  const double ahead = (to_y_up * plan.axes.row(2).transpose()).normalized().z();
-  const auto place = [&](const char* role) -> Eigen::RowVector3d {
-    const auto found = std::find_if(plan.joints.begin(), plan.joints.end(),
-                                    [&](const PlannedJoint& joint) { return joint.role == role; });
-    return found == plan.joints.end() ? Eigen::RowVector3d::Zero() : found->position;
-  };
-  const Eigen::Vector3d arm = to_y_up * (place("leftHand") - place("leftUpperArm")).transpose();
-  constexpr double held_out = 0.94;  // cos of 20 degrees
-  constexpr double along = 0.99;     // up to rounding: plans have the file's axes
-  if (ahead < along) return "VRM's figures look along z, this one does not: turn it first";
-  if (arm.x() >= held_out * arm.norm()) return {};
-  return "VRM's figures rest with their arms held out level, this one does not: give --pose t";
+std::optional<std::string> posture_finding(const CharacterRig& character, const RigOrigin& origin) {
+  if (origin.joints_are_given) {
+    const bool is_vrm = origin.old_rig == OldRig::kept && read_vrm(origin.mesh);
+    return is_vrm ? std::nullopt : posture_of_given(character.rig);
+  }
+  return posture_of_planned(character.plan, character.rig.to_y_up, origin.pose);
 }
 
 std::optional<std::string> look_finding(const std::filesystem::path& mesh) {
@@ -89,7 +122,28 @@ void require_pose(RigFormat format, RestPose pose, const std::string& output) {
                   "fbx, usda and usdz");
 }
 
-void require_human_roles(const Rig& rig, OldRig old_rig) {
+VrmMeta vrm_meta_for(const std::filesystem::path& mesh, OldRig old_rig, const VrmMeta& given) {
+  const auto old = old_rig == OldRig::kept ? read_vrm(mesh) : std::nullopt;
+  const bool has_some = !(given.name + given.author + given.licence_url).empty();
+  if (old && old->is_version_0 && has_some) {
+    throw Error(Fault::usage, mesh.string() +
+                                  ": is VRM 0.x and stays so beside --keep-rig, with its own name, "
+                                  "author and licence; leave out --vrm-name, --vrm-author and "
+                                  "--vrm-licence");
+  }
+  if (old && old->is_version_0) return {};
+  VrmMeta meta = given;
+  if (old) {
+    if (meta.name.empty()) meta.name = old->meta.name;
+    if (meta.author.empty()) meta.author = old->meta.author;
+    if (meta.licence_url.empty()) meta.licence_url = old->meta.licence_url;
+  }
+  require_whole(meta);
+  return meta;
+}
+
+void require_human_roles(const std::filesystem::path& mesh, const Rig& rig, OldRig old_rig) {
+  if (old_rig == OldRig::kept && read_vrm(mesh)) return;
   std::string missing;
   for (const char* const role : required_human_roles) {
     if (std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end()) continue;
@@ -98,9 +152,10 @@ void require_human_roles(const Rig& rig, OldRig old_rig) {
   if (missing.empty()) return;
   const std::string remedy =
       old_rig == OldRig::kept
-          ? "leave out --keep-rig to have joints made, or write .glb"
-          : "give the joints of the .json file these roles, leave out --joints to have joints "
-            "made, or write .glb";
+          ? "call the joints as VRM, Mixamo, Unreal, Unity or Rigify do, leave out --keep-rig to "
+            "have joints made, or write .glb"
+          : "call the joints as VRM, Mixamo, Unreal, Unity or Rigify do, give the joints of the "
+            ".json file these roles, leave out --joints to have joints made, or write .glb";
   throw Error(Fault::input, "a .vrm file is of a human, found no joint with the role " + missing +
                                 ", needed one for each; " + remedy);
 }

@@ -24,11 +24,18 @@ namespace curveskel {
 [[nodiscard]] std::vector<std::string> rig_findings(const CharacterRig& character,
                                                     const CharacterOptions& options);
 
-/// VRM's figures look along z, their arms held out; this one does not. In a pose that is made,
-/// nothing.
-[[nodiscard]] std::optional<std::string> posture_finding(const BodyPlan& plan,
-                                                         const Eigen::Matrix3d& to_y_up,
-                                                         RestPose pose);
+/// How the joints of a rig came to be.
+struct RigOrigin {
+  std::filesystem::path mesh;
+  OldRig old_rig = OldRig::replaced;
+  bool joints_are_given = false;  ///< or kept
+  RestPose pose = RestPose::input;
+};
+
+/// VRM's figures look along z, their arms held out; this one does not. In a pose that is made, and
+/// of a VRM that keeps its joints, nothing.
+[[nodiscard]] std::optional<std::string> posture_finding(const CharacterRig& character,
+                                                         const RigOrigin& origin);
 
 /// Of formats whose look is not read.
 [[nodiscard]] std::optional<std::string> look_finding(const std::filesystem::path& mesh);
@@ -42,9 +49,15 @@ namespace curveskel {
 /// Throws Error(Fault::usage) for a format that has no pose at rest apart from the surface's.
 void require_pose(RigFormat format, RestPose pose, const std::string& output);
 
-/// Throws Error(Fault::input) where joints that are not made here, but given or kept as the file
-/// has them, lack a role that VRM requires.
-void require_human_roles(const Rig& rig, OldRig old_rig);
+/// The texts of a .vrm file: where the rig of a VRM 1.0 file is kept, those that are not given are
+/// the file's. Throws Error(Fault::usage) where one is missing, or is given for a VRM 0.x file that
+/// keeps its rig, and so what it says.
+[[nodiscard]] VrmMeta vrm_meta_for(const std::filesystem::path& mesh, OldRig old_rig,
+                                   const VrmMeta& given);
+
+/// Throws Error(Fault::input) where joints that are not made here, but given or kept as `mesh` has
+/// them, lack a role that VRM requires; what is a VRM already and keeps its joints has them.
+void require_human_roles(const std::filesystem::path& mesh, const Rig& rig, OldRig old_rig);
 
 /// Throws Error(Fault::usage) for a plan that is named beside a root, as the joints are made
 /// without one, and for a front where no plan is made.

@@ -43,6 +43,20 @@ Json roles_of(const BodyPlan& plan, const NumberedRecord& numbered, std::size_t 
   return roles;
 }
 
+/// Of joints that were given or kept, which have no plan.
+Json roles_of(const Rig& given) {
+  Json roles = Json::object();
+  for (std::size_t joint = 0; joint < given.roles.size(); ++joint) {
+    const auto row = static_cast<Eigen::Index>(joint);
+    if (given.roles[joint].empty()) continue;
+    roles[given.roles[joint]] = {{"joint", given.names[joint]},
+                                 {"number", row},
+                                 {"position", to_json(given.joints.row(row))},
+                                 {"reason", "given with the joint, or said by its name"}};
+  }
+  return roles;
+}
+
 Json plan_of(const BodyPlan& plan, const NumberedRecord& numbered, std::size_t first) {
   return {{"plan", name_of(body_kinds, plan.plan)}, {"plan_reason", plan.reason},
           {"left", to_json(plan.axes.row(0))},      {"up", to_json(plan.axes.row(1))},
@@ -126,6 +140,7 @@ std::string rig_report_json(const RigRecord& record) {
   const NumberedRecord numbered(record);
   Json json = {{"program", program_and_version()}, {"file", record.file}};
   json.update(plan_of(record.character.plan, numbered, 0));
+  if (record.character.plan.joints.empty()) json["roles"] = roles_of(record.written);
   json.update({{"other_figures", other_figures_of(numbered)},
                {"parts", parts_of(record.character.parts)},
                {"joints_left_out", record.character.joints_left_out},

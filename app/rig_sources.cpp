@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/read_rig.hpp>
+#include <curveskel/role_names.hpp>
 
 namespace curveskel {
 namespace {
@@ -41,6 +43,13 @@ Eigen::Index joints_within(const Rig& rig, const Positions& positions, double fa
   return within;
 }
 
+/// The file's own, else those that the joints' names say.
+Rig with_roles(Rig rig) {
+  const auto is_none = [](const std::string& role) { return role.empty(); };
+  if (std::all_of(rig.roles.begin(), rig.roles.end(), is_none)) rig.roles = roles_by_name(rig);
+  return rig;
+}
+
 }  // namespace
 
 void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
@@ -55,9 +64,9 @@ void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
 }
 
 Rig rig_in(const std::filesystem::path& mesh, SurfaceFormat format, const Monitor& monitor) {
-  if (keeps_joints_alone(format)) return read_joints(mesh, monitor);
+  if (keeps_joints_alone(format)) return with_roles(read_joints(mesh, monitor));
   std::optional<Rig> rig = read_rig(mesh, monitor);
-  if (rig) return std::move(*rig);
+  if (rig) return with_roles(std::move(*rig));
   throw Error(Fault::input, mesh.string() +
                                 ": found no rig, needed one for --keep-rig, in a glTF, FBX or "
                                 "COLLADA file; leave out --keep-rig to have joints made");
@@ -96,7 +105,7 @@ JointPlaces places_of(const Rig& rig, const Positions& positions,
 
 GivenJoints joints_for(const std::filesystem::path& file, const PolygonSoup& soup,
                        const Monitor& monitor) {
-  Rig rig = read_joints(file, monitor);
+  Rig rig = with_roles(read_joints(file, monitor));
   JointPlaces places = places_of(rig, soup.positions, file);
   if (!places.any_within) throw Error(Fault::input, places.finding);
   return {std::move(rig), std::move(places.finding)};

@@ -163,19 +163,19 @@ PythonRig rig_in_background(PolygonSoup soup, bool as_bound, bool keep_rig,
 /// The file itself with the rig in it, where it is one that keeps more than the surface. Returns
 /// what the program warns of.
 std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::path& output,
-                                  const std::string& format, const VrmMeta& vrm) {
+                                  const std::string& format, VrmMeta vrm) {
   const py::gil_scoped_release others_may_run;
   const auto chosen = choice_of(rig_formats, format);
   if (!chosen) {
     throw Error(Fault::usage,
                 output.string() + ": the extension is none of: " + names_in(rig_formats));
   }
+  const std::filesystem::path& file = rig.soup.file;
   if (*chosen == RigFormat::vrm) {
-    require_whole(vrm);
-    if (rig.joints_are_given) require_human_roles(rig.exported, rig.old_rig);
+    vrm = vrm_meta_for(file, rig.old_rig, vrm);
+    if (rig.joints_are_given) require_human_roles(file, rig.exported, rig.old_rig);
   }
   require_pose(*chosen, rig.pose, output.string());
-  const std::filesystem::path& file = rig.soup.file;
   std::filesystem::path name = file.empty() ? "surface" : file.stem();
   if (file.extension() == ".gz") name = name.stem();
   std::vector<std::string> findings;
@@ -187,8 +187,8 @@ std::vector<std::string> save_rig(const PythonRig& rig, const std::filesystem::p
     if (const auto finding = look_finding(file)) findings.push_back(*finding);
   }
   if (*chosen == RigFormat::vrm) {
-    const BodyPlan& plan = rig.character.plan;
-    const auto finding = posture_finding(plan, rig.character.rig.to_y_up, rig.pose);
+    const auto finding =
+        posture_finding(rig.character, {file, rig.old_rig, rig.joints_are_given, rig.pose});
     if (finding) findings.push_back(*finding);
   }
   if (edited) {

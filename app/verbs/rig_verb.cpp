@@ -137,7 +137,6 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   std::vector<RigFormat> formats;
   for (const std::string& name : arguments.outputs) {
     formats.push_back(format_of(name, rig_formats));
-    if (formats.back() == RigFormat::vrm) require_whole(arguments.vrm);
     require_pose(formats.back(), arguments.pose, name);
   }
   const VrmMeta& vrm = arguments.vrm;
@@ -153,6 +152,9 @@ std::vector<RigFormat> checked_formats(RigArguments& arguments) {
   require_extension(arguments.report, "--report", "json");
   if (!arguments.report.empty()) names.push_back(arguments.report);
   check_outputs(names, {arguments.mesh, arguments.joints, arguments.skeleton});
+  if (std::count(formats.begin(), formats.end(), RigFormat::vrm) > 0) {
+    arguments.vrm = vrm_meta_for(arguments.mesh, old_rig_in(arguments), arguments.vrm);
+  }
   return formats;
 }
 
@@ -176,14 +178,14 @@ void warn_of(const PolygonsRig& found, const RigPolygonsOptions& options, bool j
              bool as_vrm, const RigArguments& arguments, Session& session) {
   const std::string failed = skeleton_findings(found, options);
   if (!failed.empty()) session.terminal.warn(failed);
-  const BodyPlan& plan = found.character.plan;
   if (!joints_are_given) {
     for (const std::string& finding : rig_findings(found.character, options.character)) {
       session.terminal.warn(finding);
     }
   }
   if (!as_vrm) return;
-  const auto finding = posture_finding(plan, found.character.rig.to_y_up, arguments.pose);
+  const auto finding = posture_finding(
+      found.character, {arguments.mesh, old_rig_in(arguments), joints_are_given, arguments.pose});
   if (finding) session.terminal.warn(*finding);
 }
 
@@ -225,7 +227,8 @@ int run_rig(RigArguments arguments, Session& session) {
       rig_for_export(found.character.rig, found.character.plan, given,
                      {arguments.pose, arguments.ground_root, !arguments.no_ends, joints_are_given},
                      found.character.other_plans);
-  if (as_vrm && joints_are_given) require_human_roles(written, old_rig_in(arguments));
+  if (as_vrm && joints_are_given)
+    require_human_roles(arguments.mesh, written, old_rig_in(arguments));
   std::string old_rig_in_words;
   std::vector<OutputFile> files =
       rig_files(arguments, soup, written, formats, session, old_rig_in_words);

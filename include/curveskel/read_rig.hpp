@@ -12,9 +12,9 @@ namespace curveskel {
 /// The joints of all skins in the scene, with weights by the vertices that `read_polygons` gives;
 /// nothing where the file has no skin or is of another format. A joint rests where the scene has
 /// its node, as the vertices that `read_polygons` gives do. Its parent is the nearest node above it
-/// that is a joint. Joints without a name are called joint_1 and so on. Weights are divided by
-/// their sum. Throws Error(Fault::input) where indices, matrices or weights are wrong. Linear in
-/// the file.
+/// that is a joint. Joints without a name are called joint_1 and so on. Joints of a VRM, 1.0 or
+/// 0.x, have its roles, in VRM 1.0's words. Weights are divided by their sum. Throws
+/// Error(Fault::input) where indices, matrices or weights are wrong. Linear in the file.
 [[nodiscard]] std::optional<Rig> read_rig(const std::filesystem::path& path,
                                           const Monitor& monitor = {});
 

@@ -39,6 +39,17 @@ struct VrmMeta {
 /// Throws Error(Fault::usage) that says what is missing.
 void require_whole(const VrmMeta& meta);
 
+/// What a file says of its figure as a VRM.
+struct VrmOfFile {
+  bool is_version_0 = false;  ///< VRM 0.x, of which no texts are read
+  VrmMeta meta;               ///< the first author; "" where there is none
+};
+
+/// Nothing of a file that is no VRM. Throws Error(Fault::input) where it can't be read. Linear in
+/// the file.
+[[nodiscard]] std::optional<VrmOfFile> read_vrm(const std::filesystem::path& path,
+                                                const Monitor& monitor = {});
+
 /// True for USD.
 [[nodiscard]] constexpr bool is_usd(RigFormat format) {
   return format == RigFormat::usda || format == RigFormat::usdz;
@@ -72,7 +83,7 @@ struct EditOptions {
   OldRig old_rig = OldRig::replaced;
   std::string name;        ///< of the node that holds all joints
   std::string provenance;  ///< `asset.extras.rigged_by`; the generator of what was no glTF
-  VrmMeta vrm = {};
+  VrmMeta vrm = {};        ///< where the rig of a VRM 1.0 file is kept, "" = as the file says
   /// glTF, FBX and COLLADA whose old joints rest in another pose than they were bound in: the new
   /// rig rests as the old one was bound, where the file's numbers stay as they are; false = as the
   /// file is shown, for which positions, normals and tangents are written anew.

@@ -40,6 +40,12 @@ inline constexpr NameTable<NameStyle, 8> name_styles{{
 /// but in the neutral style. No two joints are called the same.
 void name_roles(Rig& rig, const BodyPlan& plan, NameStyle style);
 
+/// A human's role of each joint, or "", that somebody else's names say in the words of one of these
+/// styles, whatever their case, separators and namespace (mixamorig:LeftArm, UpperArm.L); the spine
+/// may have any name. Nothing where a bone that VRM requires is not found, or hangs from another
+/// than VRM wants. O(joints).
+[[nodiscard]] std::vector<std::string> roles_by_name(const Rig& rig);
+
 /// The roles that a joint of such a body may have; none where there is no plan.
 [[nodiscard]] std::vector<std::string> roles_of(BodyKind kind);
 

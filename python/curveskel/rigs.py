@@ -86,8 +86,9 @@ class Rig:
         """Writes the rig in the format of the extension, any of `curveskel rig`.
 
         GLB of a surface that is from a glTF file or an OBJ with materials is that file itself with
-        the rig in it. Pictures of `.usda` go to a folder beside it. VRM needs the three texts. Warns of what is lost. Raises UsageError,
-        InputError or OutputError.
+        the rig in it. Pictures of `.usda` go to a folder beside it. VRM needs the three texts, but
+        for those that a VRM 1.0 file says whose rig is kept. Warns of what is lost. Raises
+        UsageError, InputError or OutputError.
         """
         path = pathlib.Path(path_of(path, "path"))
         if isinstance(self._made, _KeptRig):

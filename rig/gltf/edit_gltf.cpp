@@ -97,10 +97,11 @@ GltfSkinJoints joints_in_skin(const GltfRig& own, const std::vector<int>& skin_n
   return found;
 }
 
-/// New weights for the skins that are there.
-void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf::Model& model,
-                   const GltfScene& scene, const GltfWeights& weights) {
-  const GltfRig own = rig_of_scene(file, model, scene);
+/// New weights for the skins that are there. Returns the node of each of the rig's joints.
+std::vector<int> keep_gltf_rig(GltfDocument& document, const FileBytes& file,
+                               const tinygltf::Model& model, const GltfScene& scene,
+                               const GltfWeights& weights) {
+  GltfRig own = rig_of_scene(file, model, scene);
   if (own.nodes.size() != idx(weights.of_soup.cols())) {
     file.fail(std::to_string(own.nodes.size()) + " joints in the file",
               "the " + std::to_string(weights.of_soup.cols()) + " of the rig",
@@ -115,6 +116,7 @@ void keep_gltf_rig(GltfDocument& document, const FileBytes& file, const tinygltf
     joints.push_back(joints_in_skin(own, model.skins[idx(skin)].joints, skin));
   }
   write_gltf_weights(document, parts, weights, joints);
+  return std::move(own.nodes);
 }
 
 /// Joints that rest apart from their bind pose bend the surface at rest, and new weights bend it in
@@ -184,9 +186,8 @@ void sign(GltfDocument& document, const std::string& provenance) {
   }
 }
 
-void finish(EditedFile& edited, GltfDocument document, const Rig& rig, const EditOptions& options,
+void finish(EditedFile& edited, GltfDocument document, const EditOptions& options,
             const Monitor& monitor, const std::vector<MeshPolygons>& polygons = {}) {
-  if (options.format == RigFormat::vrm) add_vrm(document.json, rig, options.vrm);
   const bool is_fbx = options.format == RigFormat::fbx;
   const bool is_plain = !is_fbx && !is_usd(options.format);
   edited.bytes = format_gltf(std::move(document), is_plain ? options.format : RigFormat::glb);
@@ -237,6 +238,7 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
   GltfDocument document = read_gltf_document(file, model, edited.notes, monitor);
   refuse_instancing(document, file);
   const GltfWeights weights{rig.weights, loose_weights(scene, rig, file)};
+  std::vector<int> kept_nodes;
   try {
     decode_gltf(document, model);
     if (replaces) {
@@ -246,14 +248,21 @@ EditedFile edit_gltf(const FileBytes& file, const Rig& rig, const EditOptions& o
       edited.channels_removed = removed.channels;
       note_shared_names(document.json, edited.notes);
     } else {
-      keep_gltf_rig(document, file, model, scene, weights);
+      kept_nodes = keep_gltf_rig(document, file, model, scene, weights);
       if (scene.soup.posed) note_changed_rest(document, file, scene, edited.notes, monitor);
     }
     sign(document, options.provenance);
   } catch (const std::exception&) {
     refuse_broken(file, std::current_exception());
   }
-  finish(edited, std::move(document), rig, options, monitor);
+  if (options.format == RigFormat::vrm) {
+    if (replaces) {
+      add_vrm(document.json, rig, options.vrm);
+    } else {
+      keep_vrm(document.json, rig, kept_nodes, options.vrm);
+    }
+  }
+  finish(edited, std::move(document), options, monitor);
   return edited;
 }
 
@@ -311,7 +320,8 @@ std::optional<EditedFile> dress(const FileBytes& file, const Rig& rig, const Edi
     edited.channels_removed = old.channels;
   }
   made.document.json["asset"]["generator"] = as_utf8(options.provenance);
-  finish(edited, std::move(made.document), rig, options, monitor, made.polygons);
+  if (options.format == RigFormat::vrm) add_vrm(made.document.json, rig, options.vrm);
+  finish(edited, std::move(made.document), options, monitor, made.polygons);
   return edited;
 }
 
@@ -343,10 +353,12 @@ std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, co
   if (!keeps_the_file(options.format)) return std::nullopt;
   require_sound(rig, "format_rig_into");
   require_finite(rig, "format_rig_into");
-  if (options.format == RigFormat::vrm) require_vrm(rig, options.vrm);
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);
-  if (format == SurfaceFormat::glb || format == SurfaceFormat::gltf) {
+  const bool is_gltf = format == SurfaceFormat::glb || format == SurfaceFormat::gltf;
+  const bool may_be_vrm = is_gltf && options.old_rig == OldRig::kept;
+  if (options.format == RigFormat::vrm && !may_be_vrm) require_vrm(rig, options.vrm);
+  if (is_gltf) {
     return edit_gltf(file, rig, options, monitor);
   }
   return dress(file, rig, options, monitor);

@@ -3,23 +3,40 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_files.hpp>
 
+namespace tinygltf {
+class Model;
+}
+
 namespace curveskel {
+
+/// The role of each node that the file names as a human's bone, in VRM 1.0's words.
+[[nodiscard]] std::map<int, std::string> vrm_roles(const tinygltf::Model& model);
 
 /// Throws Error(Fault::usage) where name, author or licence are missing or the licence is no
 /// address of the web, Error(Fault::input) where the rig has not the fifteen bones that VRM
 /// requires.
 void require_vrm(const Rig& rig, const VrmMeta& meta);
 
-/// Adds the extension VRMC_vrm to a glTF's JSON whose last skin has the rig's joints, in their
-/// order.
+/// Adds the extension VRMC_vrm to a glTF's JSON. `nodes`: of the rig's joints.
+void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const std::vector<int>& nodes,
+             const VrmMeta& meta);
+
+/// Where the last skin has the rig's joints, in their order.
 void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const VrmMeta& meta);
 
-/// The same in a binary file.
+/// Of a file that keeps its joints. One that is a VRM stays the VRM that it is, in VRM 1.0 with the
+/// texts of `meta`, where there are any; else as `require_vrm` and `add_vrm`.
+void keep_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const std::vector<int>& nodes,
+              const VrmMeta& meta);
+
+/// `add_vrm` in a binary file.
 [[nodiscard]] std::string with_vrm(const std::string& glb, const Rig& rig, const VrmMeta& meta);
 
 }  // namespace curveskel

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rig/gltf/vrm.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"
@@ -50,6 +51,13 @@ class JointReader {
       rig.names.push_back(model_.nodes[static_cast<std::size_t>(node)].name);
     }
     name_nameless(rig.names);
+    const std::map<int, std::string> roles = vrm_roles(model_);
+    if (roles.empty()) return;
+    rig.roles.resize(nodes_.size());
+    for (std::size_t joint = 0; joint < nodes_.size(); ++joint) {
+      const auto role = roles.find(nodes_[joint]);
+      if (role != roles.end()) rig.roles[joint] = role->second;
+    }
   }
 
  private:

@@ -15,6 +15,7 @@
 #include "base/option_ranges.hpp"
 #include "rig/joints/sound_rig.hpp"
 #include "rig/plan/limb_names.hpp"
+#include "rig/plan/role_words.hpp"
 
 namespace curveskel {
 namespace {
@@ -199,10 +200,14 @@ std::string beast_name(const std::string& role, NameStyle style) {
   return role;
 }
 
+}  // namespace
+
 std::string name_of_role(const std::string& role, BodyKind kind, NameStyle style) {
   if (kind == BodyKind::fish && role == "spine" && style != NameStyle::rigify) return "body";
   return kind == BodyKind::humanoid ? human_name(role, style) : beast_name(role, style);
 }
+
+namespace {
 
 std::string numbered(std::size_t number) {
   std::array<char, 24> text{};

@@ -244,7 +244,7 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
   if (format != RigFormat::vrm) return;
-  const auto finding = posture_finding(character.plan, character.rig.to_y_up, RestPose::input);
+  const auto finding = posture_finding(character, {});
   if (finding) say(*finding);
 }
 

@@ -1,0 +1,14 @@
+// A role in the words of a style.
+#pragma once
+
+#include <string>
+
+#include <curveskel/body_plan.hpp>
+#include <curveskel/role_names.hpp>
+
+namespace curveskel {
+
+/// The role itself where the style has no word for it. Precondition: `style` has words for `kind`.
+[[nodiscard]] std::string name_of_role(const std::string& role, BodyKind kind, NameStyle style);
+
+}  // namespace curveskel
