@@ -1,6 +1,5 @@
 #include "rig/gltf/vrm.hpp"
 
-#include <tiny_gltf.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -9,60 +8,20 @@
 #include <cstring>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
 #include "base/utf8.hpp"
 #include "rig/gltf/gltf_document.hpp"
+#include "rig/gltf/read_vrm.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/joints/figure_name.hpp"
-#include "surface/read/file_bytes.hpp"
-#include "surface/read/formats.hpp"
-#include "surface/read/gltf_file.hpp"
 
 namespace curveskel {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::string_view extension = "VRMC_vrm";
-constexpr std::string_view extension_0 = "VRM";  // of VRM 0.x
-
-using Value = tinygltf::Value;
-
-/// Null where there is none.
-const Value& member(const Value& object, const std::string& name) {
-  static const Value none;
-  return object.Has(name) ? object.Get(name) : none;
-}
-
-const Value& member(const tinygltf::Model& model, std::string_view name) {
-  static const Value none;
-  const auto found = model.extensions.find(std::string(name));
-  return found == model.extensions.end() ? none : found->second;
-}
-
-std::string text_of(const Value& value) {
-  return value.IsString() ? value.Get<std::string>() : std::string();
-}
-
-/// VRM 0.x counts the joints of a thumb as those of the other fingers.
-std::string role_of_version_0(std::string bone) {
-  for (const char* const side : {"left", "right"}) {
-    for (const auto& [old, now] : {std::pair{"ThumbProximal", "ThumbMetacarpal"},
-                                   std::pair{"ThumbIntermediate", "ThumbProximal"}}) {
-      if (bone == std::string(side) + old) return std::string(side) + now;
-    }
-  }
-  return bone;
-}
-
-void add_role(std::map<int, std::string>& roles, const Value& bone, const std::string& role) {
-  const Value& node = member(bone, "node");
-  if (node.IsInt() && !role.empty()) roles.try_emplace(node.GetNumberAsInt(), role);
-}
 
 bool has_role(const Rig& rig, std::string_view role) {
   return std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end();
@@ -126,38 +85,6 @@ void replace_texts(Json& meta, const VrmMeta& given) {
 
 }  // namespace
 
-std::map<int, std::string> vrm_roles(const tinygltf::Model& model) {
-  std::map<int, std::string> roles;
-  const Value& bones = member(member(member(model, extension), "humanoid"), "humanBones");
-  if (bones.IsObject()) {
-    for (const std::string& role : bones.Keys()) add_role(roles, bones.Get(role), role);
-    return roles;
-  }
-  const Value& old = member(member(member(model, extension_0), "humanoid"), "humanBones");
-  for (std::size_t k = 0; old.IsArray() && k < old.ArrayLen(); ++k) {
-    const Value& bone = old.Get(k);
-    add_role(roles, bone, role_of_version_0(text_of(member(bone, "bone"))));
-  }
-  return roles;
-}
-
-std::optional<VrmOfFile> read_vrm(const std::filesystem::path& path, const Monitor& monitor) {
-  const FileBytes file = read_file(path, monitor);
-  if (!looks_like_glb(file) && !looks_like_gltf(file)) return std::nullopt;
-  const tinygltf::Model model = parse_gltf(file, monitor);
-  const Value& said = member(model, extension);
-  if (!said.IsObject()) {
-    if (!member(model, extension_0).IsObject()) return std::nullopt;
-    return VrmOfFile{true, {}};
-  }
-  const Value& meta = member(said, "meta");
-  const Value& authors = member(meta, "authors");
-  const bool has_author = authors.IsArray() && authors.ArrayLen() > 0;
-  return VrmOfFile{false,
-                   {text_of(member(meta, "name")), has_author ? text_of(authors.Get(0)) : "",
-                    text_of(member(meta, "licenseUrl"))}};
-}
-
 void require_whole(const VrmMeta& meta) {
   if (meta.name.empty() || meta.author.empty() || meta.licence_url.empty()) {
     throw Error(Fault::usage,
@@ -182,10 +109,10 @@ void require_vrm(const Rig& rig, const VrmMeta& meta) {
 
 void add_vrm(Json& gltf, const Rig& rig, const std::vector<int>& nodes, const VrmMeta& meta) {
   Json& used = gltf["extensionsUsed"];
-  if (std::find(used.begin(), used.end(), std::string(extension)) == used.end()) {
-    used.push_back(std::string(extension));
+  if (std::find(used.begin(), used.end(), std::string(vrm_extension)) == used.end()) {
+    used.push_back(std::string(vrm_extension));
   }
-  gltf["extensions"][std::string(extension)] = {
+  gltf["extensions"][std::string(vrm_extension)] = {
       {"specVersion", "1.0"},
       {"humanoid", {{"humanBones", bones_of(rig, nodes)}}},
       {"meta", texts_of(meta)}};
@@ -201,9 +128,9 @@ void keep_vrm(Json& gltf, const Rig& rig, const std::vector<int>& nodes, const V
     const auto found = extensions.find(std::string(name));
     return found != extensions.end() && found->is_object();
   };
-  if (has(extension)) {
-    replace_texts(extensions[std::string(extension)]["meta"], meta);
-  } else if (!has(extension_0)) {
+  if (has(vrm_extension)) {
+    replace_texts(extensions[std::string(vrm_extension)]["meta"], meta);
+  } else if (!has(vrm_0_extension)) {
     require_vrm(rig, meta);
     add_vrm(gltf, rig, nodes, meta);
   }

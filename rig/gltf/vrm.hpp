@@ -3,21 +3,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_files.hpp>
 
-namespace tinygltf {
-class Model;
-}
-
 namespace curveskel {
-
-/// The role of each node that the file names as a human's bone, in VRM 1.0's words.
-[[nodiscard]] std::map<int, std::string> vrm_roles(const tinygltf::Model& model);
 
 /// Throws Error(Fault::usage) where name, author or licence are missing or the licence is no
 /// address of the web, Error(Fault::input) where the rig has not the fifteen bones that VRM

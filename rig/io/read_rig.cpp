@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "rig/gltf/vrm.hpp"
+#include "rig/gltf/read_vrm.hpp"
 #include "rig/io/rig_formats.hpp"
 #include "surface/read/formats.hpp"
 #include "surface/read/gltf_file.hpp"

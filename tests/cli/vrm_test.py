@@ -89,5 +89,53 @@ class Vrm(unittest.TestCase):
                         self.assertTrue(is_below(side + below, above), (side + below, above))
 
 
+class KeptRig(unittest.TestCase):
+    """Joints of somebody else's make a VRM, and a VRM stays itself."""
+
+    def setUp(self):
+        self.mesh = COLLECTION / "characters" / "human-male.glb"
+        if not self.mesh.exists():
+            self.skipTest(f"{self.mesh} is not there")
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def kept(self, mesh, output, *options):
+        result = run("rig", mesh, "--keep-rig", "-o", self.folder / output, *options)
+        self.assertEqual(result.code, 0, result.err)
+        return json_of((self.folder / output).read_bytes())
+
+    def test_names_of_joints_say_their_roles(self):
+        figure = self.kept(self.mesh, "a.vrm", *META, "--report", self.folder / "a.json")
+        self.assertEqual(faults_of(figure), [])
+        bones = figure["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]
+        names = {role: figure["nodes"][bone["node"]]["name"] for role, bone in bones.items()}
+        self.assertEqual((names["hips"], names["leftLowerArm"], names["rightToes"]),
+                         ("pelvis", "lowerarm_l", "ball_r"))
+        roles = json.loads((self.folder / "a.json").read_text())["roles"]
+        self.assertEqual({role: entry["joint"] for role, entry in roles.items()}, names)
+
+    def test_what_a_vrm_says_need_not_be_said_again(self):
+        before = self.kept(self.mesh, "a.vrm", *META)["extensions"]
+        self.assertEqual(self.kept(self.folder / "a.vrm", "b.vrm")["extensions"], before)
+        before["VRMC_vrm"]["meta"]["name"] = "B"
+        named = self.kept(self.folder / "a.vrm", "c.vrm", "--vrm-name", "B")
+        self.assertEqual(named["extensions"], before)
+
+    def test_a_vrm_0_file_keeps_its_own_texts(self):
+        result = run("rig", self.mesh, "--keep-rig", "-o", self.folder / "a.gltf")
+        self.assertEqual(result.code, 0, result.err)
+        figure = json.loads((self.folder / "a.gltf").read_text())
+        number = {node.get("name"): k for k, node in enumerate(figure["nodes"])}
+        old = {"VRM": {"humanoid": {"humanBones": [{"bone": "hips", "node": number["pelvis"]}]},
+                       "meta": {"title": "A"}}}
+        (self.folder / "old.vrm").write_text(json.dumps({**figure, "extensions": old}))
+        self.assertEqual(self.kept(self.folder / "old.vrm", "new.vrm")["extensions"], old)
+        result = run("rig", self.folder / "old.vrm", "--keep-rig", "-o", self.folder / "x.vrm",
+                     "--vrm-name", "B")
+        self.assertEqual(result.code, 2)
+        self.assertIn("VRM 0.x", result.err)
+
+
 if __name__ == "__main__":
     unittest.main()
