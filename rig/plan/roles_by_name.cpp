@@ -67,7 +67,9 @@ void add_spine(JointOfRole& joints, const Eigen::VectorXi& parents) {
   if (!hangs_from(head->second, hips->second, parents) || head->second == hips->second) return;
   int joint = head->second;
   while (parents[joint] != hips->second) joint = parents[joint];
-  if (joint != head->second) joints["spine"] = joint;
+  if (joint == head->second) return;
+  std::erase_if(joints, [joint](const auto& named) { return named.second == joint; });
+  joints["spine"] = joint;
 }
 
 /// Each required bone is there and hangs from the one that VRM wants above it.

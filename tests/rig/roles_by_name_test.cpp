@@ -72,6 +72,16 @@ TEST(RolesByName, LeaveTheSpineToBeCalledAnything) {
   EXPECT_EQ(roles_by_name(rig), rig.roles);
 }
 
+/// The first joint above the hips was both, so the upper chest hung from no chest.
+TEST(RolesByName, HaveNoJointTwice) {
+  Rig rig = named_human(NameStyle::unity);
+  rig.names[place_of(rig, "chest")] = "Torso";
+  rig.names[place_of(rig, "spine")] = "Chest";
+  rig.roles[place_of(rig, "chest")] = "";
+  rig.roles[place_of(rig, "upperChest")] = "";
+  EXPECT_EQ(roles_by_name(rig), rig.roles);
+}
+
 TEST(RolesByName, AreNoneWhereARequiredBoneIsCalledOtherwise) {
   for (const char* const role : required_human_roles) {
     if (std::string(role) == "spine") continue;
