@@ -39,7 +39,7 @@ struct VrmMeta {
 /// Throws Error(Fault::usage) that says what is missing.
 void require_whole(const VrmMeta& meta);
 
-/// What a file says of its figure as a VRM.
+/// A VRM file, as it says of itself.
 struct VrmOfFile {
   bool is_version_0 = false;  ///< VRM 0.x, of which no texts are read
   VrmMeta meta;               ///< the first author; "" where there is none

@@ -70,7 +70,7 @@ Json texts_of(const VrmMeta& meta) {
           {"licenseUrl", as_utf8(meta.licence_url)}};
 }
 
-/// What is not given stays, and so do the authors after the first.
+/// Texts that are not given stay, and so do the authors after the first.
 void replace_texts(Json& meta, const VrmMeta& given) {
   if (!given.licence_url.empty()) require_web_address(given.licence_url);
   if (!meta.is_object()) meta = Json::object();

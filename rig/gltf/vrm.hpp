@@ -20,7 +20,7 @@ void require_vrm(const Rig& rig, const VrmMeta& meta);
 void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const std::vector<int>& nodes,
              const VrmMeta& meta);
 
-/// Where the last skin has the rig's joints, in their order.
+/// The same in a file whose last skin has the rig's joints, in their order.
 void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const VrmMeta& meta);
 
 /// Of a file that keeps its joints. One that is a VRM stays the VRM that it is, in VRM 1.0 with the

@@ -150,7 +150,7 @@ TEST_F(VrmFiles, AreMadeOfJointsWhoseRolesAreKnown) {
   EXPECT_THROW((void)kept(file, rig, {}), Error);
 }
 
-/// What is no VRM in spite of the extension's name, is as without it.
+/// An extension that is called so and is no VRM counts for nothing.
 TEST_F(VrmFiles, ThatAreBrokenAreNone) {
   for (const Json& broken : {Json(3), Json("x"), Json::array(), Json(nullptr)}) {
     const fs::path file = human_file([&](Json& json) {
