@@ -120,13 +120,25 @@ int nearest_of(const CurveSkeleton& skeleton, const std::vector<int>& nodes, con
   });
 }
 
+/// True for a chain whose balls all reach the line through its tips: what bends farther has a
+/// course of its own, as trousers and coils have.
+bool is_straight(const CurveSkeleton& skeleton, const Eigen::VectorXd& radii,
+                 const ComponentCurve& curve, const Vector3d& axis) {
+  const Vector3d tip = skeleton.nodes.row(curve.tips[0]).transpose();
+  return std::all_of(curve.nodes.begin(), curve.nodes.end(), [&](int node) {
+    const Vector3d off = skeleton.nodes.row(node).transpose() - tip;
+    return (off - off.dot(axis) * axis).norm() <= radii[node];
+  });
+}
+
 /// True if the curve was turned.
-bool turn(CurveSkeleton& skeleton, const ComponentCurve& curve, const std::vector<Vector3d>& hinges,
-          const Eigen::Matrix3d& spread) {
+bool turn(CurveSkeleton& skeleton, const Eigen::VectorXd& radii, const ComponentCurve& curve,
+          const std::vector<Vector3d>& hinges, const Eigen::Matrix3d& spread) {
   if (curve.tips.size() != 2) return false;
   const Vector3d along =
       (skeleton.nodes.row(curve.tips[1]) - skeleton.nodes.row(curve.tips[0])).transpose();
   const Vector3d axis = along.stableNormalized();
+  if (!is_straight(skeleton, radii, curve, axis)) return false;
   const Vector3d wanted = wanted_axis(hinges, curve.middle);
   if (wanted.isZero() || !is_without_axis(spread, axis)) return false;
   for (const int node : curve.nodes) {
@@ -144,9 +156,10 @@ void turn_to_contacts(CurveSkeleton& skeleton, const Surface& surface) {
   const std::vector<std::vector<Vector3d>> hinges = hinges_by_curve(skeleton, curve_of_node);
   const std::vector<Eigen::Matrix3d> spreads = spreads_by_curve(skeleton, surface, curve_of_node);
   const std::vector<ComponentCurve> curves = curves_of(skeleton, curve_of_node, hinges.size());
+  const Eigen::VectorXd radii = usable_radii(skeleton);
   std::vector<char> is_turned(curves.size(), 0);
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    is_turned[k] = turn(skeleton, curves[k], hinges[k], spreads[k]) ? 1 : 0;
+    is_turned[k] = turn(skeleton, radii, curves[k], hinges[k], spreads[k]) ? 1 : 0;
   }
   for (Contact& contact : skeleton.contacts) {
     for (ContactSide* const side : {&contact.one, &contact.other}) {

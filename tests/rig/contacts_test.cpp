@@ -14,8 +14,10 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
 #include <curveskel/repair.hpp>
 #include <curveskel/rig_polygons.hpp>
+#include "meshes/shapes.hpp"
 
 namespace curveskel::contact_laws {
 namespace {
@@ -152,6 +154,49 @@ TEST(Contacts, TurnACubeToWhatItHangsFrom) {
       EXPECT_LT(std::abs(rig.joints(joint, 0)), 0.4) << rig.names[idx(static_cast<int>(joint))];
       EXPECT_LT(std::abs(rig.joints(joint, 2)), 0.4) << rig.names[idx(static_cast<int>(joint))];
     }
+  }
+}
+
+/// Both, each a component.
+PolygonSoup soup_of_two(const Surface& one, const Surface& other) {
+  Surface both;
+  both.positions.resize(one.positions.rows() + other.positions.rows(), 3);
+  both.positions << one.positions, other.positions;
+  both.triangles.resize(one.triangles.rows() + other.triangles.rows(), 3);
+  both.triangles << one.triangles,
+      other.triangles.array() + static_cast<std::int32_t>(one.positions.rows());
+  return soup_of(both);
+}
+
+/// The farthest that a joint lies from both curves.
+double farthest_from(const Rig& rig, const Positions& one, const Positions& other) {
+  double farthest = 0;
+  for (const auto& joint : rig.joints.rowwise()) {
+    const double off = std::min((one.rowwise() - joint).rowwise().norm().minCoeff(),
+                                (other.rowwise() - joint).rowwise().norm().minCoeff());
+    farthest = std::max(farthest, off);
+  }
+  return farthest;
+}
+
+/// As trousers below a shirt, or a snake's coil behind its head: such a part spreads across the
+/// line through its tips as far as along it, like a cube, but its curve says where it goes.
+TEST(Contacts, LeaveABentPartOnItsCourse) {
+  constexpr double radius = 0.3;
+  for (const double degrees : {120.0, 180.0, 240.0, 300.0}) {
+    SCOPED_TRACE(degrees);
+    const auto bend = shapes::arc(1.5, degrees * std::numbers::pi / 180);
+    const shapes::Shape part = shapes::tube("bend", bend, shapes::constant(radius), 16);
+    const Eigen::Vector3d middle = bend(0.5);
+    const Eigen::Vector3d away = (2 * middle - bend(0) - bend(1)).normalized();
+    const auto trunk = [&](double t) {
+      return Eigen::Vector3d(middle + (1.9 * radius + 3 * t) * away);
+    };
+    const shapes::Shape above = shapes::tube("trunk", trunk, shapes::constant(radius), 16);
+    const PolygonsRig found = rig_polygons(soup_of_two(part.surface, above.surface));
+    const Rig& rig = found.character.rig;
+    EXPECT_GT(rig.joints.rows(), 6);
+    EXPECT_LT(farthest_from(rig, part.axis.nodes, above.axis.nodes), radius);
   }
 }
 
