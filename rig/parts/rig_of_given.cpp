@@ -58,11 +58,39 @@ std::vector<Follower> find_followers(const Surface& given, const Eigen::VectorXi
   return followers;
 }
 
+/// By joint the only one with a role that hangs from it, if no vertex moves mostly with that one:
+/// the head of a body that ends at the neck. Else -1.
+std::vector<int> idle_ends(const Rig& rig) {
+  const Eigen::Index count = rig.joints.rows();
+  std::vector<char> leads(idx(count), 0);
+  for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
+    for (SkinWeights::InnerIterator it(rig.weights, v); it; ++it) {
+      if (it.value() > 0.5F) leads[idx(it.col())] = 1;
+    }
+  }
+  constexpr int several = -2;
+  std::vector<int> next(idx(count), -1);
+  for (int joint = 0; joint < static_cast<int>(rig.roles.size()); ++joint) {
+    const int parent = rig.parents[joint];
+    if (parent < 0 || rig.roles[idx(joint)].empty()) continue;
+    next[idx(parent)] = next[idx(parent)] == -1 ? joint : several;
+  }
+  for (int& joint : next) {
+    if (joint < 0 || leads[idx(joint)] != 0) joint = -1;
+  }
+  return next;
+}
+
 class Following {
  public:
   Following(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
             const Surface& given)
-      : rig_(rig), surface_(surface), skeleton_(skeleton), given_(given), tree_(surface) {}
+      : rig_(rig),
+        surface_(surface),
+        skeleton_(skeleton),
+        given_(given),
+        tree_(surface),
+        idle_end_(idle_ends(rig)) {}
 
   /// Calls set(vertex, row).
   template <typename Set>
@@ -72,17 +100,34 @@ class Following {
     for (const int v : follower.vertices) {
       contacts.push_back(tree_.nearest(given_.positions.row(v).transpose()));
     }
+    const Vector3d middle = given_.positions(follower.vertices, Eigen::all).colwise().mean();
     if (moves_as_one(follower, contacts)) {
-      const WeightRow row = mean_row(nearest_of(contacts));
+      const WeightRow row = handed_on(mean_row(nearest_of(contacts)), middle);
       for (const int v : follower.vertices) set(v, row);
       return;
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      set(follower.vertices[k], mean_row({contacts[k]}));
+      set(follower.vertices[k], handed_on(mean_row({contacts[k]}), middle));
     }
   }
 
  private:
+  /// What lies beyond a joint that moves nothing of the body moves with that joint, as a head does
+  /// that is a part of its own.
+  [[nodiscard]] WeightRow handed_on(const WeightRow& row, const Vector3d& middle) const {
+    std::map<int, double> shares;
+    for (const auto& [joint, share] : row) {
+      int last = joint;
+      for (int next = idle_end_[idx(last)]; next >= 0; next = idle_end_[idx(next)]) {
+        const Vector3d at = rig_.joints.row(next).transpose();
+        if ((middle - at).dot(at - rig_.joints.row(last).transpose()) <= 0) break;
+        last = next;
+      }
+      shares[last] += share;
+    }
+    return {shares.begin(), shares.end()};
+  }
+
   [[nodiscard]] bool moves_as_one(const Follower& follower,
                                   const std::vector<SurfaceTree::Nearest>& contacts) const {
     constexpr double longest = 5;  // radii
@@ -145,6 +190,7 @@ class Following {
   const CurveSkeleton& skeleton_;
   const Surface& given_;
   SurfaceTree tree_;
+  std::vector<int> idle_end_;  // by joint
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <curveskel/rig_character.hpp>
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "rig/pipeline/figures.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
+#include "surface/mesh/component_areas.hpp"
 #include "surface/repair/sound_repaired.hpp"
 
 namespace curveskel {
@@ -57,22 +60,59 @@ RigParts sheets_follow(const RepairedSurface& body) {
 
 }  // namespace
 
+namespace {
+
+/// Of all components the largest is left, if it is most of the body; else all are.
+RigParts all_but_largest_follow(const RepairedSurface& body) {
+  const Topology counted = topology(body.surface);
+  const std::vector<double> areas = component_areas(body.surface, counted);
+  RigParts parts;
+  parts.part_of_vertex = counted.component_of_vertex;
+  parts.parts.resize(areas.size());
+  const auto largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
+  if (2 * areas[idx(largest)] < std::accumulate(areas.begin(), areas.end(), 0.0)) return parts;
+  for (std::size_t c = 0; c < areas.size(); ++c) {
+    parts.parts[c].follows = static_cast<std::ptrdiff_t>(c) != largest;
+  }
+  return parts;
+}
+
+bool is_clear_and_whole(const BodyPlan& plan) {
+  return (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) &&
+         plan.missing.empty();
+}
+
+/// Of the parts that do not follow, by nodes of the whole skeleton.
+BodyPlan plan_without_followers(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                                const RigParts& parts, const PlanOptions& options) {
+  BodyPlan plan =
+      find_plan(body_of(body, parts).surface, skeleton_of_body(skeleton, parts), options);
+  const std::vector<int> nodes = nodes_of_body(skeleton, parts);
+  for (PlannedJoint& joint : plan.joints) {
+    if (joint.node >= 0) joint.node = nodes[idx(joint.node)];
+  }
+  return plan;
+}
+
+}  // namespace
+
 BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
                           PlanOptions options) {
-  if (!body.sheets.empty() && skeleton.node_of_vertex.size() > 0) {
-    const RigParts parts = sheets_follow(body);
-    BodyPlan plan =
-        find_plan(body_of(body, parts).surface, skeleton_of_body(skeleton, parts), options);
-    if (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) {
-      const std::vector<int> nodes = nodes_of_body(skeleton, parts);
-      for (PlannedJoint& joint : plan.joints) {
-        if (joint.node >= 0) joint.node = nodes[idx(joint.node)];
-      }
-      return plan;
-    }
+  const bool is_mapped = skeleton.node_of_vertex.size() > 0;
+  if (!body.sheets.empty() && is_mapped) {
+    BodyPlan plan = plan_without_followers(body, skeleton, sheets_follow(body), options);
+    if (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) return plan;
   }
-  options.sheets = body.sheets;
-  return find_plan(body.surface, skeleton, options);
+  PlanOptions with_sheets = options;
+  with_sheets.sheets = body.sheets;
+  BodyPlan plan = find_plan(body.surface, skeleton, with_sheets);
+  if (options.plan != BodyKind::automatic || is_clear_and_whole(plan) || !is_mapped) return plan;
+  const RigParts parts = all_but_largest_follow(body);
+  if (parts.all_body()) return plan;
+  BodyPlan alone = plan_without_followers(body, skeleton, parts, options);
+  if (!is_clear_and_whole(alone)) return plan;
+  alone.reason.insert(0, "without the parts that hang from it: ");
+  return alone;
 }
 
 namespace {
