@@ -78,8 +78,8 @@ RigParts all_but_largest_follow(const RepairedSurface& body) {
 }
 
 bool is_clear_and_whole(const BodyPlan& plan) {
-  return (plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped) &&
-         plan.missing.empty();
+  const bool is_clear = plan.plan == BodyKind::humanoid || plan.plan == BodyKind::quadruped;
+  return is_clear && !plan.is_forced && plan.missing.empty();
 }
 
 /// Of the parts that do not follow, by nodes of the whole skeleton.
@@ -106,7 +106,7 @@ BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skel
   PlanOptions with_sheets = options;
   with_sheets.sheets = body.sheets;
   BodyPlan plan = find_plan(body.surface, skeleton, with_sheets);
-  if (options.plan != BodyKind::automatic || is_clear_and_whole(plan) || !is_mapped) return plan;
+  if (is_clear_and_whole(plan) || !is_mapped) return plan;
   const RigParts parts = all_but_largest_follow(body);
   if (parts.all_body()) return plan;
   BodyPlan alone = plan_without_followers(body, skeleton, parts, options);

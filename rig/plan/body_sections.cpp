@@ -116,7 +116,7 @@ double BodySections::mirror_plane() const {
   std::vector<double> middles;
   for (int k = 0; k <= steps; ++k) {
     const double share = lowest + (chin_of_height - lowest) * k / steps;
-    middles.push_back(at(tree_.ground + share * tree_.height).middle().x());
+    middles.push_back(middle_of_most(tree_.ground + share * tree_.height).x());
   }
   return median_of(std::move(middles));
 }
