@@ -92,6 +92,7 @@ struct BodyPlan {
   std::vector<PlannedJoint> joints;                    ///< the root first; empty for other and none
   std::vector<std::string> missing;                    ///< required roles that have no joint
   bool is_forced = false;      ///< as asked: the curve shows another plan, or none
+  bool is_in_pose = false;     ///< left and right are no images: limbs are told by their shape
   bool by_proportion = false;  ///< a human's who was asked for: some of its limbs are not seen. The
                                ///< rig has these joints alone, and their bones hold all that is
                                ///< near them

@@ -112,20 +112,19 @@ class Following {
   }
 
  private:
-  /// What lies beyond a joint that moves nothing of the body moves with that joint, as a head does
-  /// that is a part of its own.
+  /// What lies beyond a joint that moves nothing of the body, and would mostly move with the joint
+  /// before it, moves with that joint alone, as a head does that is a part of its own.
   [[nodiscard]] WeightRow handed_on(const WeightRow& row, const Vector3d& middle) const {
-    std::map<int, double> shares;
-    for (const auto& [joint, share] : row) {
-      int last = joint;
-      for (int next = idle_end_[idx(last)]; next >= 0; next = idle_end_[idx(next)]) {
-        const Vector3d at = rig_.joints.row(next).transpose();
-        if ((middle - at).dot(at - rig_.joints.row(last).transpose()) <= 0) break;
-        last = next;
-      }
-      shares[last] += share;
+    if (row.empty()) return row;
+    const auto is_less = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const int first = std::max_element(row.begin(), row.end(), is_less)->first;
+    int last = first;
+    for (int next = idle_end_[idx(last)]; next >= 0; next = idle_end_[idx(next)]) {
+      const Vector3d at = rig_.joints.row(next).transpose();
+      if ((middle - at).dot(at - rig_.joints.row(last).transpose()) <= 0) break;
+      last = next;
     }
-    return {shares.begin(), shares.end()};
+    return last == first ? row : WeightRow{{last, 1}};
   }
 
   [[nodiscard]] bool moves_as_one(const Follower& follower,

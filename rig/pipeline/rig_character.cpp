@@ -1,6 +1,8 @@
 #include <curveskel/rig_character.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -20,6 +22,8 @@
 #include "rig/joints/idle_joints.hpp"
 #include "rig/parts/sound_parts.hpp"
 #include "rig/pipeline/figures.hpp"
+#include "rig/plan/curve_tree.hpp"
+#include "rig/plan/role_words.hpp"
 #include "skeleton/certify/tube_share.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 #include "surface/mesh/component_areas.hpp"
@@ -82,6 +86,25 @@ bool is_clear_and_whole(const BodyPlan& plan) {
   return is_clear && !plan.is_forced && plan.missing.empty();
 }
 
+/// By how much a bone and that of the other side differ, over the sum of both, at most.
+double unlikeness_of_sides(const BodyPlan& plan) {
+  std::map<std::string, double> lengths;
+  for (const PlannedJoint& joint : plan.joints) {
+    if (joint.parent < 0) continue;
+    lengths[joint.role] = (joint.position - plan.joints[idx(joint.parent)].position).norm();
+  }
+  double most = 0;
+  for (const auto& [role, left] : lengths) {
+    const auto right = lengths.find(right_role(role));
+    if (right == lengths.end()) continue;
+    const double both = left + right->second;
+    if (right->first != role && both > 0) {
+      most = std::max(most, std::abs(left - right->second) / both);
+    }
+  }
+  return most;
+}
+
 /// Of the parts that do not follow, by nodes of the whole skeleton.
 BodyPlan plan_without_followers(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                 const RigParts& parts, const PlanOptions& options) {
@@ -106,11 +129,16 @@ BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skel
   PlanOptions with_sheets = options;
   with_sheets.sheets = body.sheets;
   BodyPlan plan = find_plan(body.surface, skeleton, with_sheets);
-  if (is_clear_and_whole(plan) || !is_mapped) return plan;
+  const bool is_sure = is_clear_and_whole(plan);
+  if ((is_sure && !plan.is_in_pose) || !is_mapped) return plan;
   const RigParts parts = all_but_largest_follow(body);
   if (parts.all_body()) return plan;
   BodyPlan alone = plan_without_followers(body, skeleton, parts, options);
   if (!is_clear_and_whole(alone)) return plan;
+  if (is_sure && alone.plan == plan.plan &&
+      unlikeness_of_sides(plan) <= std::max(most_unlike, unlikeness_of_sides(alone))) {
+    return plan;
+  }
   alone.reason.insert(0, "without the parts that hang from it: ");
   return alone;
 }

@@ -104,6 +104,10 @@ enum class Images { tips, within_limbs };
 
 /// Of a body that stands alike on both sides: tips that are mirror images of each other.
 [[nodiscard]] TipPairs pairs_by_place(const CurveTree& tree, Images images = Images::tips);
+
+/// Halves of which one has three parts of a length where the other has five are no images.
+constexpr double most_unlike = 0.25;
+
 /// Of a body in any pose: tips from which the curve is alike on its way to the other one.
 [[nodiscard]] TipPairs pairs_by_shape(const CurveTree& tree);
 

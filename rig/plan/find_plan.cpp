@@ -13,6 +13,7 @@
 #include "base/option_ranges.hpp"
 #include "rig/plan/frames.hpp"
 #include "rig/plan/outlook.hpp"
+#include "rig/plan/role_words.hpp"
 #include "rig/plan/things.hpp"
 #include "skeleton/graph/sound_skeleton.hpp"
 
@@ -20,13 +21,6 @@ namespace curveskel {
 namespace {
 
 using Eigen::Vector3d;
-
-/// "left.." and "..L" of the right.
-std::string mirrored(const std::string& role) {
-  if (role.starts_with("left")) return "right" + role.substr(4);
-  if (role.ends_with(".L")) return role.substr(0, role.size() - 1) + "R";
-  return role;
-}
 
 class Planner {
  public:
@@ -44,8 +38,8 @@ class Planner {
         done[k] = 1;
         grew = true;
         add(places[k], places[k].role, false);
-        if (mirrored(places[k].role) != places[k].role) {
-          add(places[k], mirrored(places[k].role), true);
+        if (right_role(places[k].role) != places[k].role) {
+          add(places[k], right_role(places[k].role), true);
         }
       }
     }
@@ -90,9 +84,9 @@ class Planner {
     joint.reason = place.reason;
     joint.is_last = place.is_last;
     if (!place.parent.empty()) {
-      joint.parent =
-          number_.at(is_right && number_.count(mirrored(place.parent)) > 0 ? mirrored(place.parent)
-                                                                           : place.parent);
+      joint.parent = number_.at(is_right && number_.count(right_role(place.parent)) > 0
+                                    ? right_role(place.parent)
+                                    : place.parent);
     }
     Vector3d at = place.at;
     const bool is_by_sides = outlook_.sides == Sides::own || outlook_.sides == Sides::completed;
@@ -267,6 +261,7 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
   }
   result.joints = Planner(outlook).joints(places);
   result.is_forced = outlook.found.is_forced;
+  result.is_in_pose = outlook.sides == Sides::posed;
   result.by_proportion = outlook.found.hidden.has_value();
   if (result.plan == BodyKind::humanoid) {
     for (const char* role : required_human_roles) {

@@ -12,9 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Halves of which one has three parts of a length where the other has five are no images.
-constexpr double most_unlike = 0.25;
-
 /// The way from a tip to another one.
 struct Between {
   std::vector<int> path;

@@ -202,6 +202,12 @@ std::string beast_name(const std::string& role, NameStyle style) {
 
 }  // namespace
 
+std::string right_role(const std::string& role) {
+  if (role.starts_with("left")) return "right" + role.substr(4);
+  if (role.ends_with(".L")) return role.substr(0, role.size() - 1) + "R";
+  return role;
+}
+
 std::string name_of_role(const std::string& role, BodyKind kind, NameStyle style) {
   if (kind == BodyKind::fish && role == "spine" && style != NameStyle::rigify) return "body";
   return kind == BodyKind::humanoid ? human_name(role, style) : beast_name(role, style);
@@ -283,21 +289,18 @@ std::vector<std::string> roles_of(BodyKind kind) {
   if (kind == BodyKind::none || kind == BodyKind::automatic) return roles;
   if (kind != BodyKind::humanoid) {
     for (const BeastWords& words : beast_words) roles.emplace_back(words.role);
-    for (const std::string role : beast_limbs) add(role, right_of(role));
+    for (const std::string role : beast_limbs) add(role, right_role(role));
     return roles;
   }
-  const auto other_side = [](const std::string& role) {
-    return role.starts_with("left") ? "right" + role.substr(4) : role;
-  };
   for (const HumanWords& words : human_words) {
-    add(std::string(words.role), other_side(std::string(words.role)));
+    add(std::string(words.role), right_role(std::string(words.role)));
   }
   for (const FingerWords& words : finger_words) {
     const bool is_thumb = words.role == "Thumb";
     for (const char* joint :
          {is_thumb ? "Metacarpal" : "Proximal", is_thumb ? "Proximal" : "Intermediate", "Distal"}) {
       const std::string role = "left" + std::string(words.role) + joint;
-      add(role, other_side(role));
+      add(role, right_role(role));
     }
   }
   return roles;

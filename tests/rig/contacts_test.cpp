@@ -157,17 +157,6 @@ TEST(Contacts, TurnACubeToWhatItHangsFrom) {
   }
 }
 
-/// Both, each a component.
-PolygonSoup soup_of_two(const Surface& one, const Surface& other) {
-  Surface both;
-  both.positions.resize(one.positions.rows() + other.positions.rows(), 3);
-  both.positions << one.positions, other.positions;
-  both.triangles.resize(one.triangles.rows() + other.triangles.rows(), 3);
-  both.triangles << one.triangles,
-      other.triangles.array() + static_cast<std::int32_t>(one.positions.rows());
-  return soup_of(both);
-}
-
 /// The farthest that a joint lies from both curves.
 double farthest_from(const Rig& rig, const Positions& one, const Positions& other) {
   double farthest = 0;
@@ -193,7 +182,7 @@ TEST(Contacts, LeaveABentPartOnItsCourse) {
       return Eigen::Vector3d(middle + (1.9 * radius + 3 * t) * away);
     };
     const shapes::Shape above = shapes::tube("trunk", trunk, shapes::constant(radius), 16);
-    const PolygonsRig found = rig_polygons(soup_of_two(part.surface, above.surface));
+    const PolygonsRig found = rig_polygons(soup_of(shapes::together("", {part, above}).surface));
     const Rig& rig = found.character.rig;
     EXPECT_GT(rig.joints.rows(), 6);
     EXPECT_LT(farthest_from(rig, part.axis.nodes, above.axis.nodes), radius);
