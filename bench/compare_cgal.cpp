@@ -101,7 +101,7 @@ Run timed(const std::string& program, const fs::path& file, const Surface& surfa
   }
   if (!options.pictures.empty() && program == "curveskel") {
     fs::create_directories(options.pictures);
-    constexpr PictureOptions small{640, 480, 0};
+    const PictureOptions small{640, 480};
     std::ofstream out(options.pictures / (file.stem().stem().string() + ".png"), std::ios::binary);
     out << png_picture(skeleton, surface, small);
   }

@@ -1,6 +1,7 @@
 // One self-contained page of a skeleton in its surface: to turn, with tables, plots, certificate.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct PageContent {
   std::string provenance;   ///< program, file, what was changed; lines
   /// As in ProfileOptions.
   std::vector<std::vector<std::int32_t>> rims = {};
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< as of `best_views`
 };
 
 /// HTML, without anything from elsewhere: browsers with WebGL 2 show the shape, all others the

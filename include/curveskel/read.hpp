@@ -48,6 +48,10 @@ struct PolygonSoup {
   Eigen::Matrix3d to_gltf = Eigen::Matrix3d::Identity();
 };
 
+/// Which way is up in a file of this format, whose `to_gltf` it is, of length 1; zero where neither
+/// the format nor the file says so (all but glTF, FBX and COLLADA).
+[[nodiscard]] Eigen::Vector3d stated_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf);
+
 /// The triangles as polygons, of no file.
 [[nodiscard]] PolygonSoup soup_of(const Surface& surface);
 

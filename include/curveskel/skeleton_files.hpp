@@ -43,6 +43,7 @@ struct SkeletonContext {
   /// component, which comes first; JSON has it as "root".
   int root = -1;
   const BranchTerritories* territories = nullptr;  ///< for areas and volumes in CSV
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();    ///< for pictures: as of `best_views`
 };
 
 /// The text or bytes of the file; give them to `write_file`. Numbers are written so that reading

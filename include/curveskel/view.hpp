@@ -24,10 +24,12 @@ struct View {
 
 /// Two views at one scale that fill a picture of width x height pixels: the first along the axis of
 /// least extent, the second from 90 degrees around, beside or below the first, whichever lets both
-/// be larger. A shape that stands straight in its coordinate frame keeps its up; one that does not
-/// is turned to its principal axes. Throws Error(Fault::usage) for a picture without pixels,
+/// be larger. `up`, of length 1, is what the file says; where it is y or z, it points up. Else a
+/// shape that stands straight in its coordinate frame keeps its up, which is y or z, the one on
+/// which it stands more broadly; one that does not is turned to its principal axes. Throws Error(Fault::usage) for a picture without pixels,
 /// Error(Fault::input) for places that are not finite. O(#V + #F).
-[[nodiscard]] std::array<View, 2> best_views(const Surface& surface, int width, int height);
+[[nodiscard]] std::array<View, 2> best_views(const Surface& surface, int width, int height,
+                                             const Eigen::Vector3d& up = Eigen::Vector3d::Zero());
 /// The same of a skeleton alone, whose principal axes are those of its length. O(#N + #E).
 [[nodiscard]] std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height);
 

@@ -83,11 +83,6 @@ BodyKind kind_of(const RepairedSurface& body, const CurveSkeleton& skeleton,
   return figures.size() > 1 || kind == BodyKind::other ? options.plan.plan : kind;
 }
 
-bool states_up(SurfaceFormat format) {
-  return format == SurfaceFormat::gltf || format == SurfaceFormat::glb ||
-         format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
-}
-
 }  // namespace
 
 RepairOptions repair_for_rigs() {
@@ -98,7 +93,7 @@ RepairOptions repair_for_rigs() {
 
 Eigen::Matrix3d axes_to_gltf(SurfaceFormat format, const Eigen::Matrix3d& stated,
                              const BodyPlan& plan, Direction asked) {
-  if (states_up(format)) return stated;
+  if (!stated_up(format, stated).isZero()) return stated;
   const bool is_known = !plan.joints.empty() || asked != Direction::automatic;
   Eigen::Matrix3d axes = plan.axes;
   if (plan.joints.empty() && asked != Direction::automatic) {

@@ -24,6 +24,12 @@ const Surface& surface_in(const SkeletonContext& context, SkeletonFormat format)
   return *context.surface;
 }
 
+PictureOptions pictured(const SkeletonContext& context) {
+  PictureOptions options;
+  options.up = context.up;
+  return options;
+}
+
 void append_points(std::string& text, const CurveSkeleton& skeleton, const Branch& branch) {
   append_decimal(text, branch.nodes.size());
   for (const int node : branch.nodes) {
@@ -151,9 +157,9 @@ std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format
     case SkeletonFormat::json:
       return json_from(skeleton, context);
     case SkeletonFormat::svg:
-      return svg_picture(skeleton, surface_in(context, format), PictureOptions{});
+      return svg_picture(skeleton, surface_in(context, format), pictured(context));
     case SkeletonFormat::png:
-      return png_picture(skeleton, surface_in(context, format), PictureOptions{});
+      return png_picture(skeleton, surface_in(context, format), pictured(context));
   }
   throw Error(Fault::output, "found an unknown skeleton format, needed one of " +
                                  names_in(skeleton_formats) + "; choose one of these");

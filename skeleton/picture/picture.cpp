@@ -72,7 +72,7 @@ void append_mark(std::string& text, const Mark& mark) {
 
 std::string png_picture(const CurveSkeleton& skeleton, const Surface& surface,
                         const PictureOptions& options) {
-  const std::array<View, 2> views = best_views(surface, options.width, options.height);
+  const std::array<View, 2> views = best_views(surface, options.width, options.height, options.up);
   Image image = picture_of(surface, views, options);
   for (const View& view : views) {
     draw_marks(marks_of(skeleton, view, width_unit(options)), image);
@@ -82,7 +82,7 @@ std::string png_picture(const CurveSkeleton& skeleton, const Surface& surface,
 
 std::string svg_picture(const CurveSkeleton& skeleton, const Surface& surface,
                         const PictureOptions& options) {
-  const std::array<View, 2> views = best_views(surface, options.width, options.height);
+  const std::array<View, 2> views = best_views(surface, options.width, options.height, options.up);
   const std::string width = std::to_string(options.width);
   const std::string height = std::to_string(options.height);
   std::string text =

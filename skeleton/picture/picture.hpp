@@ -1,6 +1,7 @@
 // Pictures of a skeleton inside its surface, drawn by a small software renderer.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -12,6 +13,7 @@ struct PictureOptions {
   int width = 1600;   ///< pixels
   int height = 1200;  ///< pixels
   int threads = 0;    ///< 0 = one per core; the picture does not depend on it
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< as of `best_views`
 };
 
 /// The bytes of a PNG file: the surface half transparent, the skeleton in it, seen so that most of

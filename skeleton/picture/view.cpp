@@ -92,13 +92,12 @@ struct Upright {
 
 /// Rows right, up, towards the viewer for a shape that is aligned with its coordinate frame, where
 /// either y or z is up.
-Upright upright_axes(const Positions& positions, const ViewExtent& extent) {
+Upright upright_axes(const ViewExtent& extent, bool z_is_up) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   Eigen::Index look = 0;
   extent.size().minCoeff(&look);
-  const bool z_is_up = footing(positions, extent, 2) > footing(positions, extent, 1);
   Eigen::Matrix3d axes;  // filled column by column
   if (look == 2) {
     axes << x, y, z;
@@ -158,8 +157,17 @@ Layout best_layout(const Positions& positions, const Upright& first, double widt
   return {first.axes, first.seen_from_above, is_beside, is_beside ? beside : below};
 }
 
+/// The axis that a file says is up, 1 or 2; -1 for any other direction and where it says nothing.
+int stated_axis(const Eigen::Vector3d& up) {
+  constexpr double nearly = 1 - 1e-6;
+  for (const int axis : {1, 2}) {
+    if (up(axis) > nearly) return axis;
+  }
+  return -1;
+}
+
 std::array<View, 2> best_views_of(const Positions& positions, const Eigen::Matrix3d& principal,
-                                  int width, int height) {
+                                  int width, int height, const Eigen::Vector3d& up) {
   // A box that is this much smaller along the principal axes shows that the frame is arbitrary.
   constexpr double worth_turning = 0.75;
   const double margin = margin_share * std::min(width, height);
@@ -170,32 +178,35 @@ std::array<View, 2> best_views_of(const Positions& positions, const Eigen::Matri
   const ViewExtent box = extent_along(positions, Eigen::Matrix3d::Identity());
   const double smaller = extent_along(positions, principal).size().prod();
   Layout layout;
-  if (smaller < worth_turning * box.size().prod()) {
+  const int stated = stated_axis(up);
+  if (stated > 0) {
+    layout = layout_of(upright_axes(box, stated == 2));
+  } else if (smaller < worth_turning * box.size().prod()) {
     const Layout lying = layout_of({principal_view(positions, principal, false), false});
     const Layout standing = layout_of({principal_view(positions, principal, true), false});
     layout = lying.scale >= standing.scale ? lying : standing;
   } else {
-    layout = layout_of(upright_axes(positions, box));
+    layout = layout_of(upright_axes(box, footing(positions, box, 2) > footing(positions, box, 1)));
   }
 
   const ViewExtent extent = extent_along(positions, layout.axes);
   const Eigen::Vector3d pixels = extent.size() * layout.scale;
   const Eigen::Vector3d target = layout.axes.transpose() * extent.middle();
   const Eigen::Vector3d right = layout.axes.row(0);
-  const Eigen::Vector3d up = layout.axes.row(1);
+  const Eigen::Vector3d upwards = layout.axes.row(1);
   const Eigen::Vector3d towards = layout.axes.row(2);
   View first{layout.axes, target, {width / 2.0, height / 2.0}, layout.scale};
   View second = first;
   if (layout.beside) {
-    second.axes << -towards.transpose(), up.transpose(), right.transpose();
+    second.axes << -towards.transpose(), upwards.transpose(), right.transpose();
     const double gap = (width - pixels.x() - pixels.z()) / 3;
     first.centre.x() = gap + pixels.x() / 2;
     second.centre.x() = width - gap - pixels.z() / 2;
   } else {
     if (layout.seen_from_above) {
-      second.axes << right.transpose(), towards.transpose(), -up.transpose();
+      second.axes << right.transpose(), towards.transpose(), -upwards.transpose();
     } else {
-      second.axes << right.transpose(), -towards.transpose(), up.transpose();
+      second.axes << right.transpose(), -towards.transpose(), upwards.transpose();
     }
     const double gap = (height - pixels.y() - pixels.z()) / 3;
     first.centre.y() = gap + pixels.y() / 2;
@@ -218,16 +229,18 @@ void require_viewable(const Positions& positions, int width, int height) {
 
 }  // namespace
 
-std::array<View, 2> best_views(const Surface& surface, int width, int height) {
+std::array<View, 2> best_views(const Surface& surface, int width, int height,
+                               const Eigen::Vector3d& up) {
   require_corners(surface, "best_views");
   require_viewable(surface.positions, width, height);
-  return best_views_of(surface.positions, principal_axes(surface), width, height);
+  return best_views_of(surface.positions, principal_axes(surface), width, height, up);
 }
 
 std::array<View, 2> best_views(const CurveSkeleton& skeleton, int width, int height) {
   require_sound(skeleton, "best_views");
   require_viewable(skeleton.nodes, width, height);
-  return best_views_of(skeleton.nodes, principal_axes(skeleton), width, height);
+  return best_views_of(skeleton.nodes, principal_axes(skeleton), width, height,
+                       Eigen::Vector3d::Zero());
 }
 
 }  // namespace curveskel

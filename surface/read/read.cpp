@@ -66,6 +66,13 @@ PolygonSoup read_as(SurfaceFormat format, const FileBytes& file, const Monitor& 
 
 }  // namespace
 
+Eigen::Vector3d stated_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf) {
+  const bool is_stated = format == SurfaceFormat::gltf || format == SurfaceFormat::glb ||
+                         format == SurfaceFormat::dae || format == SurfaceFormat::fbx;
+  if (!is_stated) return Eigen::Vector3d::Zero();
+  return to_gltf.row(1).transpose().stableNormalized();
+}
+
 std::optional<SurfaceFormat> surface_format_of(const FileBytes& file) {
   const std::optional<SurfaceFormat> format = format_by_content(file);
   return format ? format : format_by_extension(file.path);

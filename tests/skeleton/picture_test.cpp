@@ -148,6 +148,20 @@ TEST(Views, AreRightHandedRotationsAtOneScaleThatShowEverything) {
   }
 }
 
+/// Whatever the shape would stand on more broadly.
+TEST(Views, KeepUpWhatTheFileSaysIsUp) {
+  for (const shapes::Shape& shape : families()) {
+    for (const int axis : {1, 2}) {
+      const Eigen::Vector3d up = Eigen::Vector3d::Unit(axis);
+      for (const View& view : best_views(shape.surface, width, height, up)) {
+        const bool is_upright = (view.axes.row(1).transpose() - up).norm() < 1e-12;
+        const bool is_seen_from_above = (view.axes.row(2).transpose() - up).norm() < 1e-12;
+        EXPECT_TRUE(is_upright || is_seen_from_above) << shape.name << axis << '\n' << view.axes;
+      }
+    }
+  }
+}
+
 TEST(Views, LookAlongTheLeastExtent) {
   for (const Eigen::Vector3d& size :
        {Eigen::Vector3d(3, 2, 1), Eigen::Vector3d(1, 3, 2), Eigen::Vector3d(2, 1, 3)}) {
