@@ -160,12 +160,12 @@ void format_tables(const ExtractArguments& arguments, const ExtractionRecord& re
 std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& record) {
   const Certificate& certificate = record.extraction.certificate;
   const CertificateOptions& options = arguments.options.certificate;
-  return html_page(record.repaired.surface, record.extraction.skeleton,
-                   {name_of_input(arguments.mesh), certificate_table(certificate, options),
-                    all_failures(certificate, options),
-                    history_in_lines(record, provenance_of(arguments)), record.repaired.rims,
-                    stated_up(record.soup.format, record.soup.to_gltf)},
-                   arguments.options.threads);
+  return html_page(
+      record.repaired.surface, record.extraction.skeleton,
+      {name_of_input(arguments.mesh), certificate_table(certificate, options),
+       all_failures(certificate, options), history_in_lines(record, provenance_of(arguments)),
+       record.repaired.rims, stated_up(record.soup.format, record.soup.to_gltf)},
+      arguments.options.threads);
 }
 
 /// One file in each of the formats.

@@ -26,8 +26,9 @@ struct View {
 /// least extent, the second from 90 degrees around, beside or below the first, whichever lets both
 /// be larger. `up`, of length 1, is what the file says; where it is y or z, it points up. Else a
 /// shape that stands straight in its coordinate frame keeps its up, which is y or z, the one on
-/// which it stands more broadly; one that does not is turned to its principal axes. Throws Error(Fault::usage) for a picture without pixels,
-/// Error(Fault::input) for places that are not finite. O(#V + #F).
+/// which it stands more broadly; one that does not is turned to its principal axes. Throws
+/// Error(Fault::usage) for a picture without pixels, Error(Fault::input) for places that are not
+/// finite. O(#V + #F).
 [[nodiscard]] std::array<View, 2> best_views(const Surface& surface, int width, int height,
                                              const Eigen::Vector3d& up = Eigen::Vector3d::Zero());
 /// The same of a skeleton alone, whose principal axes are those of its length. O(#N + #E).
