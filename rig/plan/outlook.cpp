@@ -117,6 +117,8 @@ Outlook best_by_place(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames
     Outlook other = look(Sides::images, body, frames[k], options.plan);
     refusal.consider(other);
     const double other_off = asymmetry(other.tree, 0, other.tree.middle);
+    const bool is_bird = best.found.plan == BodyKind::bird && off < symmetric;
+    if (is_bird && other.found.plan == BodyKind::humanoid) continue;  // that stands on its tail
     const bool is_better =
         is_clear(other.found.plan)
             ? !is_clear(best.found.plan) || other_off < off

@@ -352,5 +352,23 @@ TEST(FindPlan, AHumanHasAThousandHairsAtMost) {
   }
 }
 
+/// From below it would be a human who stands on the tail's end with raised arms.
+TEST(FindPlan, ABirdInFlightWhoseWingsBendIsNoHuman) {
+  for (const double lift : {0.5, 2.0, 3.5}) {
+    SCOPED_TRACE(lift);
+    BodyCurve figure;
+    const int rump = figure.add({0, 8, -2}, 1);
+    const int chest = figure.add({0, 8.4, 2}, 1.1, rump);
+    figure.add({0, 9.4, 7.5}, 0.5, figure.add({0, 9, 5}, 0.5, chest));
+    figure.add({0, 7.8, -5.5}, 0.6, rump);
+    figure.add_pair(chest, {{2, 8.6, 2.2}, {6, 8.4 + lift, 2.6}, {10, 8.4 + 0.5 * lift, 1}}, 0.45);
+    figure.add_pair(rump, {{0.9, 6.6, -2.6}, {1, 5.4, -4.2}, {1, 5, -6}}, 0.35);
+    const RigSubject subject = subject_of("bird in flight", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::bird) << plan.reason;
+    EXPECT_GT(plan.axes(1, 1), 0.99) << plan.axes;
+  }
+}
+
 }  // namespace
 }  // namespace curveskel::plan_kind_laws
