@@ -207,6 +207,16 @@ class Stages(ViewTest):
         rooted = self.picture(Y, extracted, "--stage", "rig", "--joint", "root")
         self.assert_differ(rooted, usual)
 
+    def test_a_second_rig_beside_the_files_own_is_said(self):
+        own = self.folder / "y.glb"
+        self.run_ok("rig", Y, "-o", own)
+        says = "the file has a rig, which is shown without --stage rig"
+        out = self.folder / "picture.png"
+        for file, is_said in ((own, True), (Y, False)):
+            done = self.run_ok("view", file, "--stage", "rig", "--screenshot", out)
+            self.assertEqual(says in done.err, is_said, file)
+        self.assertNotIn(says, self.run_ok("view", own, "--screenshot", out).err)
+
     def test_a_rig_has_joints_in_sheets_unless_told_otherwise(self):
         head, counts, *lines = pathlib.Path(Y).read_text().splitlines()
         vertices, faces = map(int, counts.split()[:2])

@@ -297,11 +297,15 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
         materials_of(scene.document.mesh_file,
                      static_cast<std::size_t>(scene.document.surface.positions.rows()), monitor);
   }
-  if (options.stage.stage != "rig") look_at_rig(scene, options.joint);
+  const bool makes_rig = options.stage.stage == "rig";
+  if (!makes_rig) look_at_rig(scene, options.joint);
+  if (makes_rig && scene.document.rig) {
+    monitor.say("the file has a rig, which is shown without --stage rig; another one is made");
+  }
   const bool wants_run = options.run && (!scene.document.rig || options.stage_given);
   if (options.stage.stage == "input") {
     if (scene.document.has_surface()) scene.own_skeleton = nullptr;
-  } else if (options.stage.stage == "rig" && scene.own_skeleton && scene.document.has_surface()) {
+  } else if (makes_rig && scene.own_skeleton && scene.document.has_surface()) {
     add_rig_of_file(scene, options.pipeline, monitor);
     go_to(scene, options.stage);
     look_at_rig(scene, options.joint);
