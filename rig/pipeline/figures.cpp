@@ -194,7 +194,7 @@ class Groups {
       const double share = tube_share(body.surface, skeleton, {.threads = options_.threads});
       options.made_of_tubes = made_of_tubes_but_for_sheets(share, body);
     }
-    return plan_with_sheets(body, skeleton, options);
+    return plan_of_figure(body, skeleton, options);
   }
 
   /// Of each group the number of the figure whose box is nearest.
@@ -267,7 +267,7 @@ bool is_doubtful(const BodyPlan& plan, const Surface& body) {
 std::vector<Figure> seen_figures(const RepairedSurface& body, const CurveSkeleton& skeleton,
                                  const FigureOptions& options, const std::stop_token& stop) {
   std::vector<Figure> whole;
-  whole.push_back({body, skeleton, plan_with_sheets(body, skeleton, options.plan)});
+  whole.push_back({body, skeleton, plan_of_figure(body, skeleton, options.plan)});
   const BodyKind wanted = options.plan.plan;
   const bool says_of = skeleton.node_of_vertex.size() == body.surface.positions.rows();
   if (!says_of || wanted == BodyKind::none || wanted == BodyKind::other) return whole;

@@ -21,11 +21,12 @@ struct Figure {
   BodyPlan plan;
 };
 
-/// `find_plan` of the body without the components that were made of sheets, if
-/// that is a humanoid's or a quadruped's: capes and manes are no limbs. Else of
-/// all, as a bird's wings may be sheets.
-[[nodiscard]] BodyPlan plan_with_sheets(const RepairedSurface& body, const CurveSkeleton& skeleton,
-                                        PlanOptions options);
+/// `find_plan` of the body without the components that were made of sheets, if that is a humanoid's
+/// or a quadruped's: capes and manes are no limbs. Else of all, as a bird's wings may be sheets. Of
+/// the largest component alone where nothing clear is seen of all, or only in a pose and less alike
+/// on both sides: swords and shields are no limbs. Joints have nodes of the whole skeleton.
+[[nodiscard]] BodyPlan plan_of_figure(const RepairedSurface& body, const CurveSkeleton& skeleton,
+                                      const PlanOptions& options);
 
 struct FigureOptions {
   PlanOptions plan;
