@@ -495,7 +495,12 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   using namespace curveskel;
   py::register_exception_translator(&translate);
-  const py::class_<PolygonSoup> opaque(module, "PolygonSoup");
+  py::class_<PolygonSoup>(module, "PolygonSoup")
+      .def_property_readonly("positions", view_of([](const PolygonSoup& one) -> const auto& {
+                               return one.positions;
+                             }))
+      .def_property_readonly(
+          "polygons", [](const PolygonSoup& one) { return std::pair(one.corners, one.offsets); });
   bind_skeleton(module);
   bind_extraction(module);
   module.attr("most_threads") = most_threads;

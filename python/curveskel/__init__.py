@@ -16,9 +16,9 @@ from .evaluation import evaluate
 from .matching import Match, match
 from .rigs import Rig, rig
 from .skeleton import Skeleton, extract, read
-from .surfaces import contract, fair
+from .surfaces import contract, fair, read_surface
 
 __version__ = _core.program_and_version().split()[-1]
 __all__ = ["CertificateWarning", "DeviceError", "Error", "InputError", "Match", "OutputError", "Rig",
            "Skeleton", "SolverError", "UsageError", "contract", "evaluate", "extract", "fair",
-           "match", "read", "rig"]
+           "match", "read", "read_surface", "rig"]

@@ -8,6 +8,7 @@ import numpy
 from . import _core, graphs
 from .errors import CertificateWarning, SolverError, UsageError
 from .inputs import MOST_THREADS, counted, flag, index, listening, path_of, soup_of, warn_of
+from .surfaces import faces_of
 
 
 class _Kept:
@@ -98,11 +99,7 @@ class Skeleton:
         """
         if self._extraction is None:
             return None
-        corners, offsets = (numpy.array(part) for part in self._extraction.given_polygons)
-        sizes = numpy.diff(offsets)
-        if len(sizes) and (sizes == sizes[0]).all():
-            return self._extraction.given_positions, corners.reshape(-1, sizes[0])
-        return self._extraction.given_positions, numpy.split(corners, offsets[1:-1])
+        return self._extraction.given_positions, faces_of(self._extraction.given_polygons)
 
     @property
     def vertex_map(self):

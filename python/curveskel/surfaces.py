@@ -1,7 +1,33 @@
-"""Surfaces that fairing and contraction move."""
+"""Surfaces of files, and those that fairing and contraction move."""
+
+import numpy
 
 from . import _core
-from .inputs import listening, soup_of
+from .inputs import listening, path_of, soup_of
+
+
+def faces_of(polygons):
+    """An array (f, k), or a list of arrays where the numbers of corners differ."""
+    corners, offsets = (numpy.array(part) for part in polygons)
+    sizes = numpy.diff(offsets)
+    if len(sizes) and (sizes == sizes[0]).all():
+        return corners.reshape(-1, sizes[0])
+    return numpy.split(corners, offsets[1:-1])
+
+
+def read_surface(path, *, as_bound=False, progress=None):
+    """The surface in a file, as it is there: what `extract` and the others read of a path.
+
+    path: OBJ, OFF, PLY, STL, OM, glTF, GLB, VRM, VTP, VTK, 3MF, COLLADA or FBX, with `.gz` or not.
+    as_bound: of skinned meshes the places in which they were bound, not those in which they rest.
+    progress: as of `extract`.
+
+    Returns the vertices (v, 3), in the order of the file, and faces: an array (f, k), or a list of
+    arrays where their numbers of corners differ. Nothing is repaired. Raises InputError.
+    """
+    with listening(progress) as listener:
+        soup = _core.read_surface(path_of(path, "path"), as_bound, listener)
+    return soup.positions, faces_of(soup.polygons)
 
 
 def fair(mesh, *, iterations=3, threads=0, time_limit=0, progress=None, **options):

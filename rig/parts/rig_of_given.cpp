@@ -58,14 +58,17 @@ std::vector<Follower> find_followers(const Surface& given, const Eigen::VectorXi
   return followers;
 }
 
-/// By joint the only one with a role that hangs from it, if no vertex moves mostly with that one:
-/// the head of a body that ends at the neck. Else -1.
+/// By joint the only one with a role that hangs from it, if no vertex moves mostly with that one or
+/// with one below: the head of a body that ends at the neck. Else -1.
 std::vector<int> idle_ends(const Rig& rig) {
   const Eigen::Index count = rig.joints.rows();
-  std::vector<char> leads(idx(count), 0);
+  std::vector<char> leads(idx(count), 0);  // or one below does
   for (Eigen::Index v = 0; v < rig.weights.rows(); ++v) {
     for (SkinWeights::InnerIterator it(rig.weights, v); it; ++it) {
-      if (it.value() > 0.5F) leads[idx(it.col())] = 1;
+      if (it.value() <= 0.5F) continue;
+      for (int j = static_cast<int>(it.col()); j >= 0 && leads[idx(j)] == 0; j = rig.parents[j]) {
+        leads[idx(j)] = 1;
+      }
     }
   }
   constexpr int several = -2;

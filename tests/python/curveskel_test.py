@@ -52,6 +52,25 @@ class Files(Folder):
                     self.assertEqual(output.read_bytes(),
                                      self.by_program(mesh, extension).read_bytes())
 
+    def test_a_surface_that_is_read_is_the_one_of_which_a_skeleton_was_given(self):
+        mixed = self.folder / "mixed.off"
+        mixed.write_text("OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1\n4 3 2 1 0\n"
+                         "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n")
+        for file in (Y, TORUS, mixed):
+            vertices, faces = curveskel.read_surface(file)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                given, given_faces = curveskel.extract(file).given
+            numpy.testing.assert_array_equal(vertices, given)
+            self.assertEqual(len(faces), len(given_faces))
+            for face, other in zip(faces, given_faces):
+                numpy.testing.assert_array_equal(face, other)
+        self.assertEqual(sorted(map(len, faces)), [3, 3, 3, 3, 4])
+        with self.assertRaises(curveskel.InputError):
+            curveskel.read_surface(self.folder / "none.ply")
+        with self.assertRaises(curveskel.UsageError):
+            curveskel.read_surface((vertices, faces))
+
     def test_what_is_read_is_what_was_saved(self):
         skeleton = curveskel.extract(Y)
         for extension in ("ply", "json", "vtp"):
