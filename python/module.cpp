@@ -496,9 +496,8 @@ PYBIND11_MODULE(_core, module) {
   using namespace curveskel;
   py::register_exception_translator(&translate);
   py::class_<PolygonSoup>(module, "PolygonSoup")
-      .def_property_readonly("positions", view_of([](const PolygonSoup& one) -> const auto& {
-                               return one.positions;
-                             }))
+      .def_property_readonly(
+          "positions", view_of([](const PolygonSoup& one) -> const auto& { return one.positions; }))
       .def_property_readonly(
           "polygons", [](const PolygonSoup& one) { return std::pair(one.corners, one.offsets); });
   bind_skeleton(module);
