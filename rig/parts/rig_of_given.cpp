@@ -115,8 +115,8 @@ class Following {
   }
 
  private:
-  /// What lies beyond a joint that moves nothing of the body, and would mostly move with the joint
-  /// before it, moves with that joint alone, as a head does that is a part of its own.
+  /// A follower beyond a joint that moves nothing of the body, where it would mostly move with the
+  /// joint before, moves with that joint alone, as a head does that is a part of its own.
   [[nodiscard]] WeightRow handed_on(const WeightRow& row, const Vector3d& middle) const {
     if (row.empty()) return row;
     const auto is_less = [](const auto& a, const auto& b) { return a.second < b.second; };
