@@ -66,8 +66,9 @@ void require_valid(const RigOptions& options);
 /// vertex of the surface follows the body: with all that hangs together with it (by faces, or in
 /// one place) rigidly, with the mean weights of the body where the two are nearest (over a tenth),
 /// as an eye or a button does; or each for itself as the nearest place of the body, where what
-/// hangs together is more than five radii of the body long, or sewn to it, as clothes are.
-/// O((#V + #F) log #F).
+/// hangs together is more than five radii of the body long, or sewn to it, as clothes are. A
+/// follower beyond a joint with a role that moves nothing of the body itself moves with it alone,
+/// in place of the joint before: a head, where the body ends at the neck. O((#V + #F) log #F).
 [[nodiscard]] Rig rig_of_given(const Rig& rig, const Surface& surface,
                                const CurveSkeleton& skeleton,
                                const Eigen::VectorXi& vertex_of_input, const Surface& given);
