@@ -70,7 +70,7 @@ std::string provenance_of(const PythonExtraction& extraction) {
 std::string format_extraction(const PythonExtraction& extraction, SkeletonFormat format) {
   SkeletonContext context;
   context.surface = &extraction.repaired.surface;
-  context.up = stated_up(extraction.soup.format, extraction.soup.to_gltf);
+  context.up = customary_up(extraction.soup.format, extraction.soup.to_gltf);
   context.provenance = provenance_of(extraction);
   context.report_json = result_json(record_of(extraction));
   std::optional<BranchTerritories> territories;
@@ -93,7 +93,7 @@ std::string page_of(const PythonExtraction& extraction) {
       {file.empty() ? "arrays" : file.filename().string(),
        certificate_table(certificate, extraction.settings.extract.certificate),
        shortcomings(extraction), history_in_lines(record_of(extraction), provenance_of(extraction)),
-       extraction.repaired.rims, stated_up(extraction.soup.format, extraction.soup.to_gltf)},
+       extraction.repaired.rims, customary_up(extraction.soup.format, extraction.soup.to_gltf)},
       extraction.settings.extract.threads);
 }
 

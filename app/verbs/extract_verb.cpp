@@ -164,7 +164,7 @@ std::string page_of(const ExtractArguments& arguments, const ExtractionRecord& r
       record.repaired.surface, record.extraction.skeleton,
       {name_of_input(arguments.mesh), certificate_table(certificate, options),
        all_failures(certificate, options), history_in_lines(record, provenance_of(arguments)),
-       record.repaired.rims, stated_up(record.soup.format, record.soup.to_gltf)},
+       record.repaired.rims, customary_up(record.soup.format, record.soup.to_gltf)},
       arguments.options.threads);
 }
 
@@ -176,7 +176,7 @@ void format_one(const ExtractionRecord& record, const std::vector<SkeletonFormat
   const CurveSkeleton& skeleton = record.extraction.skeleton;
   SkeletonContext context;
   context.surface = &surface;
-  context.up = stated_up(record.soup.format, record.soup.to_gltf);
+  context.up = customary_up(record.soup.format, record.soup.to_gltf);
   context.provenance = provenance_of(arguments);
   context.report_json = result_json(record);
   const CurveSkeleton of_input = on_input_vertices(record.repaired, skeleton);

@@ -29,9 +29,10 @@ void set_lives(CurveSkeleton& skeleton, const std::vector<TipLife>& lives);
 
 /// Of each of `branches(skeleton)`.
 struct BranchLevel {
-  double life = 0;    ///< of its edges
-  int parent = -1;    ///< the branch that it hangs from: of those at its inner end the one with the
-                      ///< largest life; -1 = of none, it stays at every level
+  double life = 0;  ///< of its edges
+  int parent = -1;  ///< the branch that it hangs from at its inner end: the one from which that end
+                    ///< is reached, outwards from what stays at every level; -1 = of none, it is
+                    ///< such a branch. Hence a forest, along which lives never rise
   double merge = -1;  ///< between two junctions: their distance over the sum of their radii. Under
                       ///< 1 they may be drawn as one. -1 for other branches, and without radii
 };

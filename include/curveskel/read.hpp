@@ -52,6 +52,9 @@ struct PolygonSoup {
 /// the format nor the file says so (all but glTF, FBX and COLLADA).
 [[nodiscard]] Eigen::Vector3d stated_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf);
 
+/// The same for pictures, as other programs show the file: OBJ, which says nothing, has y up.
+[[nodiscard]] Eigen::Vector3d customary_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf);
+
 /// The triangles as polygons, of no file.
 [[nodiscard]] PolygonSoup soup_of(const Surface& surface);
 

@@ -181,6 +181,33 @@ class LifeTree {
   std::vector<int> way_;   // edges from its start
 };
 
+/// Outwards from the branches that live for ever: all others hang in trees from them, so that each
+/// is reached from its inner end. `at`: per node the branches that end there.
+void set_parents(const std::vector<Branch>& all, const std::vector<std::vector<int>>& at,
+                 std::vector<BranchLevel>& levels) {
+  std::vector<int> holder(at.size(), -1);  // per node, of those it is reached from the eldest
+  std::vector<int> reached;                // nodes
+  const auto reach = [&](int node, int from) {
+    if (holder[idx(node)] >= 0) return;
+    holder[idx(node)] = from;
+    reached.push_back(node);
+  };
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (levels[b].life < lives_for_ever) continue;
+    reach(all[b].nodes.front(), static_cast<int>(b));
+    reach(all[b].nodes.back(), static_cast<int>(b));
+  }
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const int node = reached[k];
+    for (const int b : at[idx(node)]) {
+      const Branch& branch = all[idx(b)];
+      if (levels[idx(b)].life >= lives_for_ever || b == holder[idx(node)]) continue;
+      levels[idx(b)].parent = holder[idx(node)];
+      reach(branch.nodes.front() == node ? branch.nodes.back() : branch.nodes.front(), b);
+    }
+  }
+}
+
 }  // namespace
 
 bool has_lives(const CurveSkeleton& skeleton) {
@@ -248,16 +275,7 @@ std::vector<BranchLevel> branch_levels(const CurveSkeleton& skeleton) {
     const double apart = (skeleton.nodes.row(first) - skeleton.nodes.row(last)).norm();
     levels[b].merge = radii > 0 ? apart / radii : lives_for_ever;
   }
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    if (levels[b].life >= lives_for_ever) continue;
-    for (const int end : {all[b].nodes.front(), all[b].nodes.back()}) {
-      for (const int other : at[idx(end)]) {
-        const auto life = [&](int branch) { return levels[idx(branch)].life; };
-        if (other == static_cast<int>(b) || life(other) < levels[b].life) continue;
-        if (levels[b].parent < 0 || life(other) > life(levels[b].parent)) levels[b].parent = other;
-      }
-    }
-  }
+  set_parents(all, at, levels);
   return levels;
 }
 

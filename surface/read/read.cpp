@@ -73,6 +73,11 @@ Eigen::Vector3d stated_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf) 
   return to_gltf.row(1).transpose().stableNormalized();
 }
 
+Eigen::Vector3d customary_up(SurfaceFormat format, const Eigen::Matrix3d& to_gltf) {
+  if (format == SurfaceFormat::obj) return Eigen::Vector3d::UnitY();
+  return stated_up(format, to_gltf);
+}
+
 std::optional<SurfaceFormat> surface_format_of(const FileBytes& file) {
   const std::optional<SurfaceFormat> format = format_by_content(file);
   return format ? format : format_by_extension(file.path);

@@ -24,6 +24,7 @@
 
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/read.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include <curveskel/view.hpp>
 #include "meshes/shapes.hpp"
@@ -160,6 +161,16 @@ TEST(Views, KeepUpWhatTheFileSaysIsUp) {
       }
     }
   }
+}
+
+TEST(Views, HaveUpWhatOtherProgramsShowUp) {
+  const Eigen::Matrix3d z_up = (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
+  EXPECT_EQ(customary_up(SurfaceFormat::fbx, 0.01 * z_up), Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(customary_up(SurfaceFormat::glb, Eigen::Matrix3d::Identity()),
+            Eigen::Vector3d::UnitY());
+  EXPECT_EQ(customary_up(SurfaceFormat::obj, Eigen::Matrix3d::Identity()),
+            Eigen::Vector3d::UnitY());
+  EXPECT_EQ(customary_up(SurfaceFormat::stl, Eigen::Matrix3d::Identity()), Eigen::Vector3d::Zero());
 }
 
 TEST(Views, LookAlongTheLeastExtent) {

@@ -252,7 +252,7 @@ std::string screenshot_of_two_sides(Scene& scene, Renderer& renderer, int width,
   const Document& document = scene.document;
   const Surface& surface = document.surface;
   const std::array<View, 2> views =
-      best_views(surface, width, height, stated_up(document.format, document.to_gltf));
+      best_views(surface, width, height, customary_up(document.format, document.to_gltf));
   const std::array<Part, 2> parts = parts_of(parting_of(views, surface.positions), width, height);
   PixelRows both{width, height, {}};
   both.bytes.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

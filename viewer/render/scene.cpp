@@ -79,7 +79,7 @@ glm::mat3 first_axes(const Document& document, const ShownSurface& simpler) {
   if (!has_triangles && !document.skeleton) return glm::mat3(1);
   constexpr int wide = 1600;
   constexpr int high = 1000;
-  const Eigen::Vector3d up = stated_up(document.format, document.to_gltf);
+  const Eigen::Vector3d up = customary_up(document.format, document.to_gltf);
   const auto views = simpler.triangles.size() > 0 ? best_views(as_surface(simpler), wide, high, up)
                      : has_triangles              ? best_views(document.surface, wide, high, up)
                                                   : best_views(*document.skeleton, wide, high);

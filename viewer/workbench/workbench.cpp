@@ -276,7 +276,7 @@ void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
   context.provenance = program_and_version() + ", " + names_of(files_) +
                        (now.corrected ? ", corrected by hand" : "");
   if (scene->document.has_surface()) context.surface = &scene->document.surface;
-  context.up = stated_up(scene->document.format, scene->document.to_gltf);
+  context.up = customary_up(scene->document.format, scene->document.to_gltf);
   write_file(file, format_skeleton(*now.skeleton, format, context));
   if (format != SkeletonFormat::png && format != SkeletonFormat::svg) history_.note_saved();
   note_saved(file);
