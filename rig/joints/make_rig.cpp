@@ -54,8 +54,9 @@ Rig make_planned_rig(const Surface& surface, const CurveSkeleton& skeleton, cons
   rig.joints = std::move(joints.positions);
   rig.parents = std::move(joints.parents);
   rig.names = std::move(joints.names);
-  const bool front_is_back = plan.joints.empty() ? options.faces_minus_z : plan.axes(0, 0) < 0;
-  name_sides(rig, front_is_back);
+  const Eigen::Vector3d usual =
+      options.faces_minus_z ? -Eigen::Vector3d::UnitX().eval() : Eigen::Vector3d::UnitX().eval();
+  name_sides(rig, plan.joints.empty() ? usual : plan.axes.row(0).transpose().eval());
   rig.roles.resize(rig.names.size());
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     rig.names[k] = rig.roles[k] = plan.joints[k].role;

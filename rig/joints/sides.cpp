@@ -1,6 +1,7 @@
 #include "rig/joints/sides.hpp"
 
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -34,7 +35,7 @@ void name_pair(Rig& rig, const Chain& first, const Chain& second, bool first_is_
 
 }  // namespace
 
-void name_sides(Rig& rig, bool faces_minus_z) {
+void name_sides(Rig& rig, const Eigen::Vector3d& to_left) {
   constexpr std::size_t most = 1000;  // chains
   constexpr double near = 0.06;       // of the diagonal
   constexpr double least = 0.125;     // of all length: by chance two fingers of a hand have 0.08
@@ -53,10 +54,10 @@ void name_sides(Rig& rig, bool faces_minus_z) {
     best = std::move(images);
     axis = candidate;
   }
+  const double left = to_left(axis) < -std::numbers::sqrt2 / 2 ? -1 : 1;
   for (std::size_t chain = 0; chain < best.of.size(); ++chain) {
     const int other = best.of[chain];
     if (other <= static_cast<int>(chain)) continue;
-    const double left = faces_minus_z && axis == 0 ? -1 : 1;
     const auto aside = [&](const Chain& of) { return left * of.path.col(axis).mean(); };
     name_pair(rig, chains[chain], chains[idx(other)],
               aside(chains[chain]) > aside(chains[idx(other)]));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <curveskel/error.hpp>
+#include <curveskel/make_rig.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/read_rig.hpp>
 #include <curveskel/rig_files.hpp>
@@ -61,8 +62,8 @@ TEST(FindPlan, FollowsUpAndFront) {
   EXPECT_THROW((void)find_plan(turned.surface, turned.skeleton, options), Error);
 }
 
-/// With y or z up, looking along any other axis. A tail's biped stands with its toes to no side.
-TEST(FindPlan, UpAndFrontAreFound) {
+/// With y or z up, looking along any other axis.
+std::vector<Eigen::Matrix3d> standing_frames() {
   using Eigen::Vector3d;
   std::vector<Eigen::Matrix3d> frames;
   for (const double side : {1.0, -1.0}) {
@@ -71,6 +72,11 @@ TEST(FindPlan, UpAndFrontAreFound) {
     frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitY()));
     frames.push_back(frame(Vector3d::UnitZ(), side * Vector3d::UnitX()));
   }
+  return frames;
+}
+
+TEST(FindPlan, UpAndFrontAreFound) {
+  const std::vector<Eigen::Matrix3d> frames = standing_frames();
   for (const RigSubject& subject : {human(), beast(1)}) {
     const BodyPlan usual = find_plan(subject.surface, subject.skeleton);
     ASSERT_NE(usual.plan, BodyKind::other);
@@ -83,6 +89,28 @@ TEST(FindPlan, UpAndFrontAreFound) {
       z_is_up = !z_is_up;
       const BodyPlan found = find_plan(stands.surface, stands.skeleton, options);
       expect_turned(found, usual, axes);
+    }
+  }
+}
+
+/// Ends of limbs, ears and heels, which have no role, are the body's own left and right, too.
+TEST(PlannedRigs, JointsBeyondThePlanLieOnTheSideOfTheirName) {
+  for (const RigSubject& subject : {human(), beast(1)}) {
+    for (const Eigen::Matrix3d& axes : standing_frames()) {
+      SCOPED_TRACE(testing::Message() << subject.name << "\n" << axes);
+      const RigSubject stands = standing_in(subject, axes);
+      BodyPlan plan = find_plan(stands.surface, stands.skeleton);
+      ASSERT_LT((plan.axes - axes).norm(), 1e-12);
+      const Rig rig = make_planned_rig(stands.surface, stands.skeleton, plan);
+      int named = 0;
+      for (std::size_t joint = plan.joints.size(); joint < rig.names.size(); ++joint) {
+        const RowVector3d out = rig.joints.row(Eigen::Index(joint)) - rig.joints.row(0);
+        const std::string& name = rig.names[joint];
+        const int side = name.ends_with(".L") ? 1 : name.ends_with(".R") ? -1 : 0;
+        EXPECT_GE(side * out.dot(axes.row(0)), 0) << name;
+        named += side > 0 ? 1 : 0;
+      }
+      EXPECT_GT(named, 0);
     }
   }
 }

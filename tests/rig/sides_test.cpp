@@ -83,7 +83,7 @@ TEST(Sides, OfAFigureThatLooksAlongMinusZChangePlacesInXAlone) {
     Rig rig = two_sided(axis, 3, true);
     Rig turned = rig;
     name_sides(rig);
-    name_sides(turned, true);
+    name_sides(turned, -Eigen::Vector3d::UnitX());
     for (std::size_t joint = 0; joint < rig.names.size(); ++joint) {
       std::string expected = rig.names[joint];
       if (axis == 0 && expected.ends_with(".L")) {
