@@ -72,13 +72,14 @@ struct CharacterRig {
 [[nodiscard]] CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& skeleton,
                                               double least_life);
 
-/// The character with at most so many joints in each of its figures: from the tips inward those go
-/// first that move the least of the surface `given`, of equals the one with the shorter bone;
-/// joints without a role before those with one, mirror images (".L", ".R") together, of the digits
-/// of a human's hands all last joints together, then all middle ones, then all first ones. All that
-/// VRM requires of a human stays, and so do roots and the trunk, neck and head of others. Joints
-/// that stay move all that the joints below them moved. 0 = all stay. Throws Error(Fault::usage)
-/// below 0. O(weights + joints log joints).
+/// The character with at most so many joints in each of its figures: from the tips inward, and of
+/// two bones in a row that have no role the lower one's joint, those go first that move the least
+/// of the surface `given` (with what those that went moved), of equals the one with the shorter
+/// bone; joints without a role before those with one, mirror images (".L", ".R") together, of the
+/// digits of a human's hands all last joints together, then all middle ones, then all first ones.
+/// All that VRM requires of a human stays, and so do roots and the trunk, neck and head of others.
+/// The nearest ancestor that stays moves what a joint that went has moved. 0 = all stay. Throws
+/// Error(Fault::usage) below 0. O(weights + joints log joints).
 [[nodiscard]] CharacterRig within_budget(CharacterRig character, const Surface& given, int joints);
 
 }  // namespace curveskel

@@ -13,11 +13,10 @@ std::vector<int> numbers_of(const std::vector<char>& stays) {
   return number;
 }
 
-std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays) {
+void mark_ancestors(const Rig& rig, std::vector<char>& stays) {
   for (Eigen::Index joint = rig.parents.size(); joint-- > 0;) {
     if (stays[idx(joint)] != 0 && rig.parents[joint] >= 0) stays[idx(rig.parents[joint])] = 1;
   }
-  return numbers_of(stays);
 }
 
 Rig keep_joints(const Rig& rig, const std::vector<int>& number) {

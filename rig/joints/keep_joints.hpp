@@ -10,8 +10,8 @@ namespace curveskel {
 /// Of each joint its number among those that stay, -1 = it goes.
 [[nodiscard]] std::vector<int> numbers_of(const std::vector<char>& stays);
 
-/// The same, with the ancestors of what stays marked as staying, too.
-[[nodiscard]] std::vector<int> numbers_of_kept(const Rig& rig, std::vector<char>& stays);
+/// The ancestors of what stays, stay.
+void mark_ancestors(const Rig& rig, std::vector<char>& stays);
 
 /// The nearest ancestor that stays moves what a joint that goes has moved. Precondition: roots
 /// stay. O(weights + joints).

@@ -158,7 +158,8 @@ CharacterRig level_of_character(CharacterRig character, const CurveSkeleton& ske
     const bool hangs = parent < 0 || stays[idx(parent)] != 0;
     stays[joint] = (hangs && lives[joint] >= least_life) || is_required(character, joint) ? 1 : 0;
   }
-  return with_joints(std::move(character), std::move(stays));
+  mark_ancestors(character.rig, stays);
+  return with_joints(std::move(character), stays);
 }
 
 }  // namespace curveskel

@@ -23,8 +23,9 @@ namespace {
 /// How much would be missed, and which joint it is.
 struct Worth {
   bool has_role;
-  double moved_area;   ///< by the joint and by those below it that went
-  double bone_length;  ///< to the parent
+  double
+      moved_area;  ///< by it and by those that left it theirs; of joints that go together the most
+  double bone_length;  ///< to the parent that stays
   int joint;
 
   [[nodiscard]] auto rank() const { return std::tuple(has_role, moved_area, bone_length, -joint); }
@@ -78,10 +79,11 @@ std::vector<std::vector<int>> joints_that_go_together(const Rig& rig) {
   return by_joint;
 }
 
-/// Takes joints from the tips of a rig.
-class TipTaker {
+/// Takes joints from a rig: from its tips, and from within its limbs, where two bones become one. A
+/// long limb of many joints so becomes one of few, and is not cut off.
+class JointTaker {
  public:
-  TipTaker(const CharacterRig& character, const Surface& given)
+  JointTaker(const CharacterRig& character, const Surface& given)
       : character_(character),
         rig_(character.rig),
         moved_(areas_moved(rig_, given)),
@@ -95,16 +97,22 @@ class TipTaker {
 
   /// Of one figure; the number that stays.
   std::size_t leave(std::size_t figure, std::size_t most) {
-    tips_ = {};
+    offered_ = {};
     std::size_t left = 0;
     for (int joint = 0; joint < static_cast<int>(stays_.size()); ++joint) {
       if (of_figure(rig_.names[idx(joint)]).figure != figure) continue;
       ++left;
       offer(joint);
     }
-    while (left > most && !tips_.empty()) {
-      const int joint = tips_.top().joint;
-      tips_.pop();
+    while (left > most && !offered_.empty()) {
+      const Worth then = offered_.top();
+      const int joint = then.joint;
+      offered_.pop();
+      if (stays_[idx(joint)] == 0) continue;
+      if (worth_of(joint).rank() > then.rank()) {  // it moves more by now
+        offer(joint);
+        continue;
+      }
       for (const int one : together_[idx(joint)]) {
         if (stays_[idx(one)] == 0) continue;
         take(one);
@@ -114,34 +122,49 @@ class TipTaker {
     return left;
   }
 
-  std::vector<char> stays() { return std::move(stays_); }
+  [[nodiscard]] const std::vector<char>& stays() const { return stays_; }
 
  private:
-  [[nodiscard]] bool is_tip(int joint) const {
-    return children_[idx(joint)] == 0 && rig_.parents[joint] >= 0 &&
+  [[nodiscard]] bool has_role(int joint) const {
+    return idx(joint) < rig_.roles.size() && !rig_.roles[idx(joint)].empty();
+  }
+
+  /// A knee without which thigh and foot are one bone would be missed, so joints with roles go from
+  /// the tips alone.
+  [[nodiscard]] bool may_go(int joint) const {
+    const int most_children = has_role(joint) ? 0 : 1;
+    return children_[idx(joint)] <= most_children && rig_.parents[joint] >= 0 &&
            !is_required(character_, idx(joint));
   }
 
+  [[nodiscard]] int parent_that_stays(int joint) const {
+    int parent = rig_.parents[joint];
+    while (stays_[idx(parent)] == 0) parent = rig_.parents[parent];
+    return parent;
+  }
+
   [[nodiscard]] Worth worth_of(int joint) const {
-    const bool has_role = idx(joint) < rig_.roles.size() && !rig_.roles[idx(joint)].empty();
-    const double length = (rig_.joints.row(joint) - rig_.joints.row(rig_.parents[joint])).norm();
-    return {has_role, moved_[joint], length, joint};
+    const double length =
+        (rig_.joints.row(joint) - rig_.joints.row(parent_that_stays(joint))).norm();
+    Worth worth{has_role(joint), 0, length, joint};
+    for (const int one : together_[idx(joint)]) {
+      worth.moved_area = std::max(worth.moved_area, moved_[one]);
+    }
+    return worth;
   }
 
   void offer(int joint) {
     if (stays_[idx(joint)] == 0) return;
     const std::vector<int>& all = together_[idx(joint)];
-    if (!std::all_of(all.begin(), all.end(), [this](int one) { return is_tip(one); })) return;
-    Worth worth = worth_of(joint);
-    for (const int one : all) worth.moved_area = std::max(worth.moved_area, moved_[one]);
-    tips_.push(worth);
+    if (!std::all_of(all.begin(), all.end(), [this](int one) { return may_go(one); })) return;
+    offered_.push(worth_of(joint));
   }
 
   void take(int joint) {
+    const int parent = parent_that_stays(joint);
     stays_[idx(joint)] = 0;
-    const int parent = rig_.parents[joint];
     moved_[parent] += moved_[joint];
-    if (--children_[idx(parent)] > 0) return;
+    if (children_[idx(joint)] == 0) --children_[idx(parent)];
     offer(parent);
   }
 
@@ -155,7 +178,7 @@ class TipTaker {
   std::vector<int> children_;               // that stay
   std::vector<std::vector<int>> together_;  // by joint, itself among them
   std::vector<char> stays_;
-  std::priority_queue<Worth, std::vector<Worth>, IsWorthMore> tips_;
+  std::priority_queue<Worth, std::vector<Worth>, IsWorthMore> offered_;
 };
 
 }  // namespace
@@ -170,7 +193,7 @@ CharacterRig within_budget(CharacterRig character, const Surface& given, int joi
   if (joints == 0 || count <= static_cast<std::size_t>(joints)) return character;
   const auto most = static_cast<std::size_t>(joints);
   std::size_t left = most;
-  TipTaker taker(character, given);
+  JointTaker taker(character, given);
   for (std::size_t figure = 0; figure <= character.other_plans.size(); ++figure) {
     left = std::max(left, taker.leave(figure, most));
   }

@@ -62,8 +62,8 @@ void require_planned_joints(const CharacterRig& character, std::string_view purp
   }
 }
 
-CharacterRig with_joints(CharacterRig character, std::vector<char> stays) {
-  const std::vector<int> number = numbers_of_kept(character.rig, stays);
+CharacterRig with_joints(CharacterRig character, const std::vector<char>& stays) {
+  const std::vector<int> number = numbers_of(stays);
   std::vector<std::size_t> firsts;
   for (std::size_t k = 0; k < character.other_plans.size(); ++k) {
     firsts.push_back(first_joint_of(character.rig, k + 1));

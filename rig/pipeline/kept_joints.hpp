@@ -17,8 +17,8 @@ namespace curveskel {
 /// the rig's, the first ones of their figure, with parents among them.
 void require_planned_joints(const CharacterRig& character, std::string_view purpose);
 
-/// Those that stay and their ancestors, in the plan, too. Precondition: the planned joints are the
-/// first of the rig; roots stay.
-[[nodiscard]] CharacterRig with_joints(CharacterRig character, std::vector<char> stays);
+/// Those that stay, in the plan, too. Precondition: the planned joints are the first of the rig;
+/// roots stay, and so do the ancestors of planned joints that stay.
+[[nodiscard]] CharacterRig with_joints(CharacterRig character, const std::vector<char>& stays);
 
 }  // namespace curveskel

@@ -164,7 +164,8 @@ Rig without_ends(const Rig& rig) {
   for (Eigen::Index joint = 0; joint < count; ++joint) {
     if (!is_end_name(rig.names[idx(joint)]) || rig.parents[joint] < 0) stays[idx(joint)] = 1;
   }
-  return keep_joints(rig, numbers_of_kept(rig, stays));
+  mark_ancestors(rig, stays);
+  return keep_joints(rig, numbers_of(stays));
 }
 
 Rig rig_for_export(Rig rig, const BodyPlan& plan, const Surface& surface,

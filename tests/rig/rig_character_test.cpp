@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract_repaired.hpp>
@@ -129,7 +130,8 @@ Shape limbs() {
   return shapes::tube_union("limbs", graph);
 }
 
-/// All that stays has its name, its place and a parent that stays; every vertex moves.
+/// All that stays has its name, its place and the nearest ancestor that stays as its parent; every
+/// vertex moves.
 void expect_same_but_fewer(const Rig& few, const Rig& all) {
   const auto place_of = [](const std::string& name, const Rig& rig) {
     return std::find(rig.names.begin(), rig.names.end(), name) - rig.names.begin();
@@ -144,7 +146,12 @@ void expect_same_but_fewer(const Rig& few, const Rig& all) {
     ASSERT_LT(same, all.joints.rows());
     EXPECT_EQ(few.joints.row(row), all.joints.row(same));
     ASSERT_LT(few.parents[row], row);
-    EXPECT_EQ(parent_of(row, few), parent_of(same, all));
+    int ancestor = all.parents[same];
+    const auto stays = [&](int at) {
+      return std::find(few.names.begin(), few.names.end(), all.names[idx(at)]) != few.names.end();
+    };
+    while (ancestor >= 0 && !stays(ancestor)) ancestor = all.parents[ancestor];
+    EXPECT_EQ(parent_of(row, few), ancestor < 0 ? std::string() : all.names[idx(ancestor)]);
   }
   for (Eigen::Index vertex = 0; vertex < few.weights.rows(); ++vertex) {
     ASSERT_NEAR(few.weights.row(vertex).sum(), 1, 1e-5);
@@ -279,6 +286,38 @@ TEST(JointBudget, DigitsOfBothHandsGoByTheirPlaces) {
   EXPECT_EQ(left(6), (Names{"hand.L", "thumb.L", "index.L", "index_2.L", "index.R", "index_2.R"}));
   EXPECT_EQ(left(5), (Names{"hand.L", "thumb.L", "index.L", "index.R"}));
   EXPECT_EQ(left(3), Names{"hand.L"});
+}
+
+/// A snake is no stump for having many joints.
+TEST(JointBudget, LongLimbsKeepTheirReachAndTheirShares) {
+  constexpr int count = 65;
+  CharacterRig snake;
+  snake.rig.joints.setZero(count, 3);
+  snake.rig.joints.col(0) = Eigen::VectorXd::LinSpaced(count, 0, count - 1);
+  snake.rig.parents = Eigen::VectorXi::LinSpaced(count, -1, count - 2);
+  snake.rig.roles.assign(count, "");
+  Surface given;
+  given.positions.resize(3 * count, 3);
+  given.triangles.resize(count, 3);
+  snake.rig.weights.resize(3 * count, count);
+  for (int joint = 0; joint < count; ++joint) {
+    snake.rig.names.push_back("spine" + std::to_string(joint));
+    given.triangles.row(joint) << 3 * joint, 3 * joint + 1, 3 * joint + 2;
+    for (int k = 0; k < 3; ++k) {
+      given.positions.row(3 * joint + k) << joint, k == 1 ? 1 : 0, k == 2 ? 1 : 0;
+      snake.rig.weights.insert(3 * joint + k, joint) = 1;
+    }
+  }
+  for (const int budget : {2, 5, 8, 16, 33, 50}) {
+    const Rig few = within_budget(snake, given, budget).rig;
+    ASSERT_EQ(few.joints.rows(), budget);
+    const double fair_share = double(count) / budget;
+    EXPECT_GT(few.joints.col(0).maxCoeff(), count - 1 - 2 * fair_share) << budget;
+    const Eigen::RowVectorXf moved =
+        Eigen::RowVectorXf::Ones(3 * count) * Eigen::MatrixXf(few.weights);
+    EXPECT_LE(moved.maxCoeff() / 3, 2 * fair_share + 1) << budget;
+    expect_same_but_fewer(few, snake.rig);
+  }
 }
 
 TEST(JointBudget, NoFewerThanNone) { EXPECT_THROW((void)within_budget({}, {}, -1), Error); }
