@@ -47,12 +47,13 @@ Eigen::RowVector3d place_of(const BranchCurve& curve, std::ptrdiff_t node) {
   return curve.points.row(curve.closed ? (node % count + count) % count : node);
 }
 
-/// All within two radii, and three on either side at least, whatever the radius, as far as there
-/// are: the polyline has no other knowledge of bends.
-Stretch stretch_around(const BranchCurve& curve, double s) {
+/// All within two radii or `least_half`, and three on either side at least, whatever the radius, as
+/// far as there are: the polyline has no other knowledge of bends.
+Stretch stretch_around(const BranchCurve& curve, double s, double least_half) {
   const auto count = static_cast<std::ptrdiff_t>(curve.lengths.size());
   const double radius = radius_at(curve, s);
-  const double half = std::min(std::isnan(radius) ? 0 : 2 * radius, curve.length() / 2);
+  const double wanted = std::max(std::isnan(radius) ? 0 : 2 * radius, least_half);
+  const double half = std::min(wanted, curve.length() / 2);
   const std::ptrdiff_t before = locate(curve, s).before;
   constexpr std::ptrdiff_t least = 3;
   Stretch stretch{before, before + 1};
@@ -65,6 +66,20 @@ Stretch stretch_around(const BranchCurve& curve, double s) {
   while (lies_in(stretch.first - 1)) --stretch.first;
   while (lies_in(stretch.last + 1)) ++stretch.last;
   return stretch;
+}
+
+/// The length after which the curve's own inscribed ball has left that of its end; 0 where it does
+/// not, and without radii.
+double clear_length(const BranchCurve& curve, bool at_start) {
+  const Eigen::Index last = curve.points.rows() - 1;
+  const Eigen::Index end = at_start ? 0 : last;
+  for (Eigen::Index k = 1; k <= last && curve.radii.size() > 0; ++k) {
+    const Eigen::Index at = at_start ? k : last - k;
+    const double apart = (curve.points.row(at) - curve.points.row(end)).norm();
+    if (apart <= curve.radii[end] + curve.radii[at]) continue;
+    return std::abs(curve.lengths[idx(at)] - curve.lengths[idx(end)]);
+  }
+  return 0;
 }
 
 }  // namespace
@@ -96,9 +111,9 @@ double radius_at(const BranchCurve& curve, double s) {
   return (1 - share) * curve.radii[before] + share * curve.radii[before + 1];
 }
 
-CurveDerivatives derivatives_at(const BranchCurve& curve, double s) {
+CurveDerivatives derivatives_at(const BranchCurve& curve, double s, double least_half) {
   if (curve.closed && curve.length() > 0) s -= std::floor(s / curve.length()) * curve.length();
-  const Stretch stretch = stretch_around(curve, s);
+  const Stretch stretch = stretch_around(curve, s, least_half);
   // Of a dense polyline some nodes say as much as all.
   constexpr std::ptrdiff_t most = 32;
   const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, (stretch.last - stretch.first) / most);
@@ -128,16 +143,17 @@ CurveDerivatives derivatives_at(const BranchCurve& curve, double s) {
 
 Eigen::Vector3d departure(const BranchCurve& curve, bool at_start) {
   const double length = curve.length();
-  const double radius = curve.radii.size() == 0 ? 0
-                        : at_start              ? curve.radii[0]
-                                                : curve.radii[curve.radii.size() - 1];
-  const double first_edge =
-      at_start ? curve.lengths[1] : length - curve.lengths[curve.lengths.size() - 2];
-  // A branch that hardly leaves the ball has its whole course as its direction.
-  double from = radius;
-  double to = std::max(2 * radius, first_edge);
-  if (length < 1.5 * radius || radius == 0) from = 0;
-  to = std::min(to, length);
+  const std::size_t last = curve.lengths.size() - 1;
+  const double clear = clear_length(curve, at_start);
+  // A branch that does not leave the ball has its whole course as its direction.
+  double from = 0;
+  double to = length;
+  if (clear > 0) {
+    to = std::min(3 * clear, length);
+    from = std::min(1.5 * clear, to / 2);
+  } else if (curve.closed || curve.radii.size() == 0) {
+    to = at_start ? curve.lengths[1] : length - curve.lengths[last - 1];
+  }
   const Eigen::Vector3d a = point_at(curve, at_start ? from : length - from);
   const Eigen::Vector3d b = point_at(curve, at_start ? to : length - to);
   return (b - a).normalized();

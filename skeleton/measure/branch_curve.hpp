@@ -31,13 +31,17 @@ struct CurveDerivatives {
   Eigen::Vector3d second;
   Eigen::Vector3d third;
 };
-/// Of the cubic that is nearest (least squares) to the nodes within two inscribed radii on either
-/// side, or to the next three if these are fewer: what is shorter is no bend of the curve.
-[[nodiscard]] CurveDerivatives derivatives_at(const BranchCurve& curve, double s);
+/// Of the cubic that is nearest (least squares) to the nodes within two inscribed radii, or the
+/// length `least_half`, on either side, or to the next three if these are fewer: what is shorter is
+/// no bend of the curve.
+[[nodiscard]] CurveDerivatives derivatives_at(const BranchCurve& curve, double s,
+                                              double least_half = 0);
 
-/// The unit direction in which the branch leaves its start, or its end: from where it leaves the
-/// inscribed ball of the node there to a radius further, as far as it goes. The curve within the
-/// ball is a matter of the junction. Zero where the branch has no length.
+/// The unit direction in which the branch leaves its start, or its end: with s the length after
+/// which its own inscribed ball has left that of the node there, from 1.5 s to 3 s, as far as it
+/// goes. Nearer, the body is still one with its siblings', and the curve a matter of the junction.
+/// Of a branch that stays in the ball its whole chord, of a closed one and without radii the first
+/// edge. Zero where the branch has no length.
 [[nodiscard]] Eigen::Vector3d departure(const BranchCurve& curve, bool at_start);
 
 }  // namespace curveskel

@@ -54,18 +54,27 @@ void measure_radii(const BranchCurve& curve, BranchMeasures& measures) {
   }
 }
 
+double curvature_of(const CurveDerivatives& by_length) {
+  const double speed = by_length.first.norm();
+  if (!(speed > 0)) return 0;
+  return by_length.first.cross(by_length.second).norm() / (speed * speed * speed);
+}
+
+/// A third derivative of a thin tube's curve, over two of its radii, is the noise of its nodes: the
+/// twist is that over a stretch on which the bend itself shows.
 void measure_bends(const BranchCurve& curve, BranchMeasures& measures) {
+  constexpr double share_of_bend = 0.3;  // of the radius of curvature, on either side
   const std::vector<double> shares = shares_of_nodes(curve);
   double twist = 0;
   double weights = 0;
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const CurveDerivatives by_length = derivatives_at(curve, curve.lengths[k]);
-    const Eigen::Vector3d binormal = by_length.first.cross(by_length.second);
-    const double speed = by_length.first.norm();
-    if (speed > 0) {
-      measures.curvature += shares[k] * binormal.norm() / (speed * speed * speed);
-    }
-    twist += shares[k] * binormal.dot(by_length.third);
+    const double curvature = curvature_of(derivatives_at(curve, curve.lengths[k]));
+    measures.curvature += shares[k] * curvature;
+    if (!(curvature > 0)) continue;
+    const CurveDerivatives wide =
+        derivatives_at(curve, curve.lengths[k], share_of_bend / curvature);
+    const Eigen::Vector3d binormal = wide.first.cross(wide.second);
+    twist += shares[k] * binormal.dot(wide.third);
     weights += shares[k] * binormal.squaredNorm();
   }
   // Rounding alone bends a straight branch by about 1e-16 over its nodes' distance.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace curveskel {
@@ -82,6 +83,19 @@ TEST(BranchMeasures, OfAHelixHaveItsCurvatureAndTorsion) {
   EXPECT_TRUE(std::isnan(straight.at(0).torsion));
 }
 
+/// Nodes off their place by a share of a radius are no twist, however thin the tube.
+TEST(BranchMeasures, OfAThinTubesHelixHaveItsTorsion) {
+  for (const double share : {0.1, 0.03, 0.01}) {
+    CurveSkeleton helix = thin_helix(1, 3, 1500);
+    helix.radii.setConstant(share);
+    std::mt19937 generator(5);
+    std::normal_distribution<double> off(0, 0.03 * share);
+    for (double& coordinate : helix.nodes.reshaped()) coordinate += off(generator);
+    const double rise = 3 / (2 * std::numbers::pi);
+    EXPECT_NEAR(branch_measures(helix).at(0).torsion * (1 + rise * rise) / rise, 1, 0.05) << share;
+  }
+}
+
 /// Rays of length 4 from one point, in steps of 1/2; balls of radius 1.
 CurveSkeleton star(const std::vector<Place>& directions) {
   CurveSkeleton skeleton;
@@ -118,6 +132,18 @@ TEST(JunctionMeasures, HaveTheAnglesAndThePlanarityOfTheirRays) {
   const auto four = junction_measures(star({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}));
   EXPECT_EQ(four.at(0).angles.size(), 6U);
   EXPECT_NEAR(four.at(0).planarity, 0, 1e-9);
+}
+
+/// Near the junction its body is one, and the curve bends to the junction's middle.
+TEST(JunctionMeasures, HaveTheAnglesOfTheBranchesBeyondTheJunctionsBody) {
+  const std::vector<Place> rays{{1, 0.2, 0}, {1, -0.2, 0}, {-1, 0, 0}};
+  const CurveSkeleton even = star(rays);
+  CurveSkeleton bent = even;
+  for (Eigen::Index node = 1; node < 1 + 2 * 3; ++node) bent.nodes(node, 1) *= 3;
+  EXPECT_NEAR(junction_measures(even).at(0).angles[0], 2 * std::atan(0.2) * 180 / std::numbers::pi,
+              1e-9);
+  EXPECT_NEAR(junction_measures(bent).at(0).angles[0], junction_measures(even).at(0).angles[0],
+              1e-9);
 }
 
 TEST(BranchMeasures, HaveTheAngleToTheirParent) {
