@@ -29,6 +29,7 @@ struct Tip {
   const TipLife* life = nullptr;
   double rim_radius = 0;
   double beyond = std::numeric_limits<double>::infinity();  ///< the curve's balls
+  bool has_leaf = false;
 
   [[nodiscard]] double deficit() const { return std::min(life->life, beyond / rim_radius); }
 };
@@ -36,10 +37,16 @@ struct Tip {
 /// A tip, or two that are each other's images.
 using Twins = std::vector<Tip>;
 
+/// Of those that have no leaf yet; 0 if both have.
 double mean_deficit(const Twins& twins) {
   double sum = 0;
-  for (const Tip& tip : twins) sum += tip.deficit();
-  return sum / static_cast<double>(twins.size());
+  int count = 0;
+  for (const Tip& tip : twins) {
+    if (tip.has_leaf) continue;
+    sum += tip.deficit();
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 class FinerBranches {
@@ -62,6 +69,7 @@ class FinerBranches {
   int run(const std::vector<TipLife>& lives, const std::vector<int>& mirror_axes, double least) {
     std::vector<Twins> open = with_images(lives, mirror_axes);
     look_at_nodes_from(0, open);
+    look_for_leaves(open);
     int drawn = 0;
     while (!open.empty()) {
       const auto most = std::max_element(
@@ -69,7 +77,7 @@ class FinerBranches {
           [](const Twins& a, const Twins& b) { return mean_deficit(a) < mean_deficit(b); });
       if (mean_deficit(*most) < least) break;
       const int before = curve_.nodes();
-      for (const Tip& tip : *most) drawn += draw(*tip.life) ? 1 : 0;
+      for (const Tip& tip : *most) drawn += !tip.has_leaf && draw(*tip.life) ? 1 : 0;
       open.erase(most);
       look_at_nodes_from(before, open);
     }
@@ -122,6 +130,34 @@ class FinerBranches {
           const double off = (curve_.position(node) - end).norm() - curve_.radius(node);
           tip.beyond = std::min(tip.beyond, off);
         }
+      }
+    }
+  }
+
+  /// A leaf that ends in the tip's part of the surface, between its rim and its vertex, is its own,
+  /// however far it keeps from the vertex: another one would run beside it in the same limb. One
+  /// that the tip's end does not see is a neighbour's.
+  void look_for_leaves(std::vector<Twins>& open) const {
+    std::vector<int> degree(idx(curve_.nodes()), 0);
+    for (const auto& [a, b] : curve_.edges()) {
+      ++degree[idx(a)];
+      ++degree[idx(b)];
+    }
+    std::vector<int> leaves;
+    for (int node = 0; node < curve_.nodes(); ++node) {
+      if (degree[idx(node)] == 1) leaves.push_back(node);
+    }
+    for (Twins& twins : open) {
+      for (Tip& tip : twins) {
+        const Vector3d& rim = tip.life->rim;
+        const Vector3d ahead = vertex(tip.life->vertex) - rim;
+        tip.has_leaf = std::any_of(leaves.begin(), leaves.end(), [&](int leaf) {
+          const Vector3d at = curve_.position(leaf);
+          if ((at - vertex(tip.life->vertex)).norm() > ahead.norm()) return false;
+          if (!((at - rim).dot(ahead) > 0)) return false;
+          const std::optional<Vector3d> end = end_of(*tip.life);
+          return end.has_value() && sees(at, *end);
+        });
       }
     }
   }

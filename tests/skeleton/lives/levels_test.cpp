@@ -158,6 +158,12 @@ TEST(Levels, BranchesHangFromElderOnes) {
       if (level.parent >= 0) {
         EXPECT_GE(levels[idx(level.parent)].life, level.life);
       }
+      // All end in what stays at every level.
+      std::size_t steps = 0;
+      for (int at = level.parent; at >= 0 && steps <= levels.size(); ++steps) {
+        at = levels[idx(at)].parent;
+      }
+      EXPECT_LE(steps, levels.size());
     }
   }
 }
