@@ -121,25 +121,36 @@ std::vector<std::int32_t> nearby_vertices(const Positions& positions,
   std::iota(first.begin(), first.end(), 0);
   if (positions.rows() == 0) return first;
   const Eigen::RowVector3d origin = positions.colwise().minCoeff();
-  const auto cell_key = [](const Eigen::RowVector3d& cell) {
+  // Few vertices are near a side of cells this wide, beyond which another cell has to be looked at.
+  const double width = 32 * distance;
+  const double margin = distance / width * (1 + 1e-6);      // of a cell
+  std::unordered_map<std::uint64_t, std::int32_t> last_in;  // cell -> the last that stands there
+  std::vector<std::int32_t> before(first.size(), -1);       // in the same cell
+  const auto key_of = [](const Eigen::RowVector3d& cell) {
     return scattered({{cell.x(), cell.y(), cell.z()}, 0});
   };
-  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> standing;  // cell -> vertices
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(positions.rows()); ++v) {
     if (!among[idx(v)]) continue;
-    const Eigen::RowVector3d cell = ((positions.row(v) - origin) / distance).array().floor();
+    const Eigen::RowVector3d place = (positions.row(v) - origin) / width;
+    const Eigen::RowVector3d lowest = (place.array() - margin).floor();
+    const Eigen::RowVector3d highest = (place.array() + margin).floor();
+    const Eigen::RowVector3i wide = (highest - lowest).cast<int>();  // 0 or 1 along each axis
     std::int32_t nearest = v;
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const Eigen::RowVector3i step(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
-      const auto found = standing.find(cell_key(cell + step.cast<double>()));
-      if (found == standing.end()) continue;
-      for (const std::int32_t other : found->second) {
-        if ((positions.row(other) - positions.row(v)).norm() <= distance) {
-          nearest = std::min(nearest, other);
-        }
+    for (int neighbour = 0; neighbour < 8; ++neighbour) {
+      const Eigen::RowVector3i step(neighbour % 2, neighbour / 2 % 2, neighbour / 4);
+      if ((step.array() > wide.array()).any()) continue;
+      const auto found = last_in.find(key_of(lowest + step.cast<double>()));
+      std::int32_t other = found == last_in.end() ? -1 : found->second;
+      for (; other >= 0; other = before[idx(other)]) {
+        const bool is_near = (positions.row(other) - positions.row(v)).norm() <= distance;
+        if (is_near) nearest = std::min(nearest, other);
       }
     }
-    if (nearest == v) standing[cell_key(cell)].push_back(v);
+    if (nearest == v) {
+      std::int32_t& last = last_in.try_emplace(key_of(place.array().floor()), -1).first->second;
+      before[idx(v)] = last;
+      last = v;
+    }
     first[idx(v)] = nearest;
   }
   return first;
