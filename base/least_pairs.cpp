@@ -68,7 +68,8 @@ class LeastPairing {
     }
   }
 
-  const Eigen::MatrixXd& costs_;
+  // The columns of a row are asked for one after the other.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> costs_;
   Eigen::VectorXd row_price_;
   Eigen::VectorXd column_price_;
   std::vector<int> row_of_;  // of each column, -1 = free
