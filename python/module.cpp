@@ -103,17 +103,27 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+using Integers = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>;
+
+/// The corners of all polygons and where each begins, as arrays: lists would box each number.
+std::pair<Eigen::VectorXi, Integers> polygons_of(const PolygonSoup& soup) {
+  const auto corners = static_cast<Eigen::Index>(soup.corners.size());
+  const auto offsets = static_cast<Eigen::Index>(soup.offsets.size());
+  return {Eigen::Map<const Eigen::VectorXi>(soup.corners.data(), corners),
+          Eigen::Map<const Integers>(soup.offsets.data(), offsets)};
+}
+
 /// Face f has the corners corners[offsets[f]] .. corners[offsets[f + 1] - 1]. As of a file,
 /// vertices with NaN or infinity lose their faces.
-PolygonSoup soup_of_arrays(const Positions& positions, const std::vector<std::int64_t>& corners,
-                           const std::vector<std::int64_t>& offsets) {
+PolygonSoup soup_of_arrays(const Positions& positions, const Eigen::Ref<const Integers>& corners,
+                           const Eigen::Ref<const Integers>& offsets) {
   PolygonSoup soup;
   soup.positions = positions;
-  soup.offsets = offsets;
-  soup.corners.reserve(corners.size());
-  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
-    for (std::int64_t k = offsets[f]; k < offsets[f + 1]; ++k) {
-      const std::int64_t vertex = corners[static_cast<std::size_t>(k)];
+  soup.offsets.assign(offsets.begin(), offsets.end());
+  soup.corners.reserve(static_cast<std::size_t>(corners.size()));
+  for (std::size_t f = 0; f + 1 < soup.offsets.size(); ++f) {
+    for (std::int64_t k = soup.offsets[f]; k < soup.offsets[f + 1]; ++k) {
+      const std::int64_t vertex = corners[k];
       if (vertex < 0 || vertex >= positions.rows()) {
         throw Error(Fault::input, "face " + std::to_string(f) + ": found vertex " +
                                       std::to_string(vertex) + ", needed 0 to " +
@@ -382,9 +392,8 @@ void bind_shapes(py::class_<PythonExtraction>& bound) {
       .def_property_readonly("given_positions", view_of([](const Owner& one) -> const auto& {
                                return one.soup.positions;
                              }))
-      .def_property_readonly(
-          "given_polygons",
-          [](const Owner& one) { return std::pair(one.soup.corners, one.soup.offsets); })
+      .def_property_readonly("given_polygons",
+                             [](const Owner& one) { return polygons_of(one.soup); })
       .def_property_readonly("vertex_of_input", view_of([](const Owner& one) -> const auto& {
                                return one.repaired.vertex_of_input;
                              }));
@@ -498,8 +507,7 @@ PYBIND11_MODULE(_core, module) {
   py::class_<PolygonSoup>(module, "PolygonSoup")
       .def_property_readonly(
           "positions", view_of([](const PolygonSoup& one) -> const auto& { return one.positions; }))
-      .def_property_readonly(
-          "polygons", [](const PolygonSoup& one) { return std::pair(one.corners, one.offsets); });
+      .def_property_readonly("polygons", &polygons_of);
   bind_skeleton(module);
   bind_extraction(module);
   module.attr("most_threads") = most_threads;

@@ -215,6 +215,8 @@ def _corners_of(faces):
         raise UsageError(f"faces: needs three corners or more in each, not {sizes[face]} as in "
                          f"face {face}")
     _refuse_counts(corners, sizes)
+    if corners.dtype == numpy.uint64 and corners.size and corners.max() > numpy.iinfo(int).max:
+        raise UsageError(f"faces: needs numbers of vertices, not {corners.max()}")
     return corners.astype(numpy.int64), numpy.concatenate(([0], numpy.cumsum(sizes)))
 
 

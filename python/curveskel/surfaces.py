@@ -8,7 +8,7 @@ from .inputs import listening, path_of, soup_of
 
 def faces_of(polygons):
     """An array (f, k), or a list of arrays where the numbers of corners differ."""
-    corners, offsets = (numpy.array(part) for part in polygons)
+    corners, offsets = polygons
     sizes = numpy.diff(offsets)
     if len(sizes) and (sizes == sizes[0]).all():
         return corners.reshape(-1, sizes[0])

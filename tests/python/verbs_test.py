@@ -333,12 +333,16 @@ class Verbs(unittest.TestCase):
         stubs = ast.parse((SOURCE / "python" / "curveskel" / "__init__.pyi").read_text())
         known = {node.name: node for node in stubs.body
                  if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        aliases = {target.id for node in stubs.body if isinstance(node, ast.Assign)
+                   for target in node.targets}
+        self.assertTrue(all(name[0] == "_" for name in aliases), "what can't be imported is private")
         for name in curveskel.__all__:
             self.assertIn(name, known)
             if not isinstance(known[name], ast.ClassDef) or name.endswith(("Error", "Warning")):
                 continue
             there = {member for member in vars(getattr(curveskel, name)) if member[0] != "_"}
-            stubbed = {node.name for node in known[name].body if isinstance(node, ast.FunctionDef)}
+            stubbed = {node.name for node in known[name].body
+                       if isinstance(node, ast.FunctionDef) and node.name[0] != "_"}
             self.assertEqual(there, stubbed, name)
             source = pathlib.Path(inspect.getsourcefile(getattr(curveskel, name))).read_text()
             of_class = next(node for node in ast.walk(ast.parse(source))
