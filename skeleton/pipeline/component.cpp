@@ -354,7 +354,8 @@ Monitor in_model(const Monitor& monitor, const Canonical& canonical, int number)
   }
   if (!monitor.frame) return within;
   within.frame = [&monitor, &canonical, number](const Frame& frame) {
-    const Surface moved{canonical.to_model(frame.surface.positions), frame.surface.triangles};
+    const Surface moved{canonical.to_model(frame.surface.positions),
+                        canonical.to_model(frame.surface.triangles)};
     monitor.frame({frame.stage, number, frame.iteration, frame.area_ratio, frame.volume_ratio,
                    frame.residual, moved, frame.made_in});
   };

@@ -80,14 +80,22 @@ class Order {
 
 using Face = std::array<std::int32_t, 3>;
 
+// A left-handed pose mirrors the surface, whose faces then turn the other way.
+struct Faces {
+  const Triangles& triangles;
+  bool are_mirrored;
+
+  [[nodiscard]] std::int32_t corner(std::size_t face, Eigen::Index k) const {
+    return triangles(static_cast<Eigen::Index>(face), are_mirrored ? (3 - k) % 3 : k);
+  }
+};
+
 // Renumbered, smallest vertex first.
-std::vector<Face> renumbered(const Triangles& triangles, const Eigen::VectorXi& place,
-                             int threads) {
-  std::vector<Face> faces(static_cast<std::size_t>(triangles.rows()));
+std::vector<Face> renumbered(const Faces& given, const Eigen::VectorXi& place, int threads) {
+  std::vector<Face> faces(static_cast<std::size_t>(given.triangles.rows()));
   parallel_for(faces.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const auto row = triangles.row(static_cast<Eigen::Index>(f));
-      faces[f] = {place(row(0)), place(row(1)), place(row(2))};
+      faces[f] = {place(given.corner(f, 0)), place(given.corner(f, 1)), place(given.corner(f, 2))};
       std::rotate(faces[f].begin(), std::min_element(faces[f].begin(), faces[f].end()),
                   faces[f].end());
     }
@@ -96,15 +104,14 @@ std::vector<Face> renumbered(const Triangles& triangles, const Eigen::VectorXi& 
 }
 
 // Renumbered, smallest vertex first, rows in lexicographic order.
-Triangles canonical_triangles(const Triangles& triangles, const Eigen::VectorXi& place,
-                              int threads) {
-  const std::vector<Face> faces = renumbered(triangles, place, threads);
+Triangles canonical_triangles(const Faces& given, const Eigen::VectorXi& place, int threads) {
+  const std::vector<Face> faces = renumbered(given, place, threads);
   const auto vertices = static_cast<std::size_t>(place.size());
   std::vector<std::uint32_t> begin(vertices + 2, 0);  // shifted by one while filled
   for (const Face& face : faces) ++begin[static_cast<std::size_t>(face[0]) + 2];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<Face> sorted(faces.size());
-  Triangles result(triangles.rows(), 3);
+  Triangles result(given.triangles.rows(), 3);
   // Each range reads all faces, so there are no more of them than cores.
   const std::size_t ranges = thread_count(threads);
   const std::size_t grain = (vertices + ranges - 1) / ranges;
@@ -141,7 +148,7 @@ Posed posed(const Surface& surface, const PrincipalFrame& frame, std::size_t can
 
 // A number that tells poses of one surface apart, for any numbering: a sum over the sides of
 // the triangles.
-std::uint64_t fingerprint(const Steps& steps, const Triangles& triangles) {
+std::uint64_t fingerprint(const Steps& steps, const Faces& faces) {
   const auto mix = [](std::uint64_t x) {
     x *= 0x9e3779b97f4a7c15U;
     x ^= x >> 29U;
@@ -157,16 +164,23 @@ std::uint64_t fingerprint(const Steps& steps, const Triangles& triangles) {
     places[static_cast<std::size_t>(v)] = place;
   }
   std::uint64_t print = 0;
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+  for (std::size_t f = 0; f < static_cast<std::size_t>(faces.triangles.rows()); ++f) {
     for (Eigen::Index k = 0; k < 3; ++k) {
-      print += mix(places[static_cast<std::size_t>(triangles(f, k))] +
-                   3 * places[static_cast<std::size_t>(triangles(f, (k + 1) % 3))]);
+      print += mix(places[static_cast<std::size_t>(faces.corner(f, k))] +
+                   3 * places[static_cast<std::size_t>(faces.corner(f, (k + 1) % 3))]);
     }
   }
   return print;
 }
 
+bool is_mirror_image(const Eigen::Matrix3d& axes) { return axes.determinant() < 0; }
+
 }  // namespace
+
+Triangles Canonical::to_model(Triangles triangles) const {
+  if (is_mirror_image(rotation)) triangles.col(1).swap(triangles.col(2));
+  return triangles;
+}
 
 Positions Canonical::to_model(const Positions& positions) const {
   return (scale * (positions * rotation.transpose())).rowwise() + origin.transpose();
@@ -182,10 +196,13 @@ Canonical canonical_form(const Surface& surface, int threads) {
   Posed best = posed(surface, frame, 0);
   result.rotation = frame.axes[0];
   if (frame.axes.size() > 1) {
-    std::uint64_t least = fingerprint(best.steps, surface.triangles);
+    const auto faces = [&](const Eigen::Matrix3d& axes) {
+      return Faces{surface.triangles, is_mirror_image(axes)};
+    };
+    std::uint64_t least = fingerprint(best.steps, faces(frame.axes[0]));
     for (std::size_t i = 1; i < frame.axes.size(); ++i) {
       Posed other = posed(surface, frame, i);
-      const std::uint64_t print = fingerprint(other.steps, surface.triangles);
+      const std::uint64_t print = fingerprint(other.steps, faces(frame.axes[i]));
       if (print < least) {
         least = print;
         best = std::move(other);
@@ -204,8 +221,8 @@ Canonical canonical_form(const Surface& surface, int threads) {
     result.vertex_of_input(input) = static_cast<int>(v);
     result.surface.positions.row(v) = canonical_step * best.steps.row(input).cast<double>();
   }
-  result.surface.triangles =
-      canonical_triangles(surface.triangles, result.vertex_of_input, threads);
+  result.surface.triangles = canonical_triangles(
+      {surface.triangles, is_mirror_image(result.rotation)}, result.vertex_of_input, threads);
   return result;
 }
 

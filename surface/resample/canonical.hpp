@@ -12,12 +12,16 @@ struct Canonical {
   Surface surface;                  ///< D = 1 up to rounding, centroid near the origin
   Eigen::VectorXi input_of_vertex;  ///< #V: canonical vertex -> vertex of the input
   Eigen::VectorXi vertex_of_input;  ///< #V: the other way round
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< columns: the principal axes
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();        ///< the area's centroid, model units
-  double scale = 1;                                        ///< D in that pose, model units
+  /// Columns: the principal axes. Of two mirror images one has a left-handed frame, in which it is
+  /// the other one.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< the area's centroid, model units
+  double scale = 1;                                  ///< D in that pose, model units
 
   /// Canonical positions (#P by 3) in the model's frame and units.
   [[nodiscard]] Positions to_model(const Positions& positions) const;
+  /// Faces whose normals point out there as here.
+  [[nodiscard]] Triangles to_model(Triangles triangles) const;
 };
 
 /// Coordinates of a canonical surface are multiples of this: coarse enough to swallow the noise
@@ -25,10 +29,10 @@ struct Canonical {
 inline constexpr double canonical_step = 0x1p-22;
 
 /// Moves the area's centroid to the origin, the principal axes of the area's covariance to x, y, z
-/// (largest extent first, right-handed), divides by D and rounds to `canonical_step`; vertices
-/// follow a Morton curve, triangles start with their smallest vertex and are sorted. So a copy of
-/// the surface that was scaled, translated, rotated or renumbered has the same canonical surface,
-/// but for a coordinate here and there that lies within the noise of a rounding border.
+/// (largest extent first), divides by D and rounds to `canonical_step`; vertices follow a Morton
+/// curve, triangles start with their smallest vertex and are sorted. So a copy of the surface that
+/// was scaled, translated, rotated, mirrored or renumbered has the same canonical surface, but for
+/// a coordinate here and there that lies within the noise of a rounding border.
 ///
 /// Signs of the axes come from third moments. Where a shape's symmetry leaves its axes open
 /// (eigenvalues within 1e-6 of their sum, third moments near zero, see principal_frame), each of

@@ -54,13 +54,17 @@ class Pose {
     const bool first_open = values(0) - values(1) < bound;
     const bool last_open = values(1) - values(2) < bound;
     std::vector<Eigen::Matrix3d> candidates;
-    // Right-handed from two neighbouring columns, the one at `column` and the next.
+    // From two neighbouring columns, the one at `column` and the next, with either third one.
     const auto add = [&](Eigen::Index column, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       Eigen::Matrix3d frame;
       frame.col(column) = a;
       frame.col((column + 1) % 3) = b;
-      frame.col((column + 2) % 3) = a.cross(b);
-      if (candidates.size() < most_candidates) candidates.push_back(frame);
+      const Eigen::Index last = (column + 2) % 3;
+      frame.col(last) = a.cross(b);
+      for (int hand = 0; hand < 2; ++hand) {
+        if (candidates.size() < most_candidates) candidates.push_back(frame);
+        frame.col(last) = -frame.col(last);
+      }
     };
     if (first_open && last_open) {
       for (const auto& a : directions_in_space()) {
@@ -74,14 +78,14 @@ class Pose {
         for (const auto& b : directions_across(a)) add(settled, a, b);
       }
     } else {
-      // The least skew axis follows from the other two.
       const Eigen::Vector3d skew = skewness(axes);
-      Eigen::Index weakest = 0;
-      skew.cwiseAbs().minCoeff(&weakest);
-      const Eigen::Index i = (weakest + 1) % 3;
-      const Eigen::Index j = (weakest + 2) % 3;
-      for (const double sign : signs(skew(i))) {
-        for (const double other : signs(skew(j))) add(i, sign * axes.col(i), other * axes.col(j));
+      for (const double x : signs(skew.x())) {
+        for (const double y : signs(skew.y())) {
+          for (const double z : signs(skew.z())) {
+            const Eigen::Matrix3d frame = axes * Eigen::Vector3d(x, y, z).asDiagonal();
+            if (candidates.size() < most_candidates) candidates.push_back(frame);
+          }
+        }
       }
     }
     return {middle_ + mean_ / unit_, candidates};

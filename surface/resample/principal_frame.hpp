@@ -10,8 +10,8 @@ namespace curveskel {
 
 struct PrincipalFrame {
   Eigen::Vector3d origin;  ///< the area's centroid, in model units
-  /// Columns unit, right-handed, largest extent first. More than one where the shape is symmetric:
-  /// its candidates, all with the same right.
+  /// Columns unit, largest extent first; of two mirror images one is left-handed, so that both have
+  /// one pose. More than one where the shape is symmetric: its candidates, all with the same right.
   std::vector<Eigen::Matrix3d> axes;
 };
 

@@ -51,6 +51,13 @@ const std::vector<NamedChange>& motions() {
        }},
       {"rotated", [](Surface s) { return turned(std::move(s), 1); }},
       {"rotated otherwise", [](Surface s) { return turned(std::move(s), 2); }},
+      {"mirrored",
+       [](Surface s) {
+         s = turned(std::move(s), 3);
+         s.positions.col(0) *= -1;
+         s.triangles.col(1).swap(s.triangles.col(2));
+         return s;
+       }},
   };
   return all;
 }
@@ -124,7 +131,8 @@ TEST(Canonical, TheWayBackLeadsToTheModel) {
                     .norm(),
                 1e-14)
           << name;
-      EXPECT_NEAR(canonical.rotation.determinant(), 1, 1e-14) << name;
+      const Surface there{back, canonical.to_model(canonical.surface.triangles)};
+      EXPECT_NEAR(volume(there), volume(moved), 1e-5 * std::pow(canonical.scale, 3)) << name;
     }
   }
 }
@@ -134,9 +142,10 @@ TEST(Canonical, FacesAreThoseOfTheInputSortedSmallestVertexFirst) {
     const Canonical canonical = canonical_form(surface);
     std::vector<std::array<int, 3>> expected;
     for (const auto& row : surface.triangles.rowwise()) {
+      const bool is_mirrored = canonical.rotation.determinant() < 0;
       std::array<int, 3> face = {canonical.vertex_of_input(row(0)),
-                                 canonical.vertex_of_input(row(1)),
-                                 canonical.vertex_of_input(row(2))};
+                                 canonical.vertex_of_input(row(is_mirrored ? 2 : 1)),
+                                 canonical.vertex_of_input(row(is_mirrored ? 1 : 2))};
       std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
       expected.push_back(face);
     }
