@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 
 #include <curveskel/advanced/graph.hpp>
@@ -19,7 +20,23 @@ struct Rim {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double mean_radius = 0;
   double least_radius = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of length 1, or zero: it has no plane
 };
+
+/// Of the rim's vector area; zero where the rim is so folded that it encloses little.
+Eigen::Vector3d normal_of(const Positions& positions, const std::vector<std::int32_t>& vertices,
+                          const Rim& rim) {
+  constexpr double least_share = 0.3;  // of a circle's area
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3d a = positions.row(vertices[i]);
+    const Eigen::Vector3d b = positions.row(vertices[(i + 1) % vertices.size()]);
+    area += (a - rim.middle).cross(b - rim.middle) / 2;
+  }
+  const double circle = std::numbers::pi * rim.mean_radius * rim.mean_radius;
+  if (!(area.norm() > least_share * circle)) return Eigen::Vector3d::Zero();
+  return area.normalized();
+}
 
 /// The middle of the rim's length, however its vertices are spaced.
 Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& vertices) {
@@ -37,6 +54,7 @@ Rim rim_of(const Positions& positions, const std::vector<std::int32_t>& vertices
     rim.mean_radius += radius / double(vertices.size());
     rim.least_radius = std::min(rim.least_radius, radius);
   }
+  rim.normal = normal_of(positions, vertices, rim);
   return rim;
 }
 
@@ -142,8 +160,11 @@ class Reaching {
   [[nodiscard]] bool faces(const Limb& limb, std::size_t k, const Rim& rim) const {
     constexpr double cosine = 0.5;
     const Eigen::Vector3d arrives = direction(limb, k);
+    if (arrives.isZero()) return true;
     const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
-    return arrives.isZero() || arrives.dot((rim.middle - p).normalized()) >= cosine;
+    // A hole in the limb's side is none that the limb ends in.
+    if (!rim.normal.isZero() && std::abs(arrives.dot(rim.normal)) < cosine) return false;
+    return arrives.dot((rim.middle - p).normalized()) >= cosine;
   }
 
   /// The nodes lie evenly between two places from now on.
@@ -255,16 +276,24 @@ class Reaching {
     }
   }
 
+  /// A hole in the side of a limb touches the ball there: nothing leads away to it.
+  [[nodiscard]] bool is_beside_the_curve(const Rim& rim) const {
+    for (Eigen::Index node = 0; node < skeleton_.nodes.rows(); ++node) {
+      const double distance = (rim.middle - skeleton_.nodes.row(node).transpose()).norm();
+      if (distance < least_length * skeleton_.radii[node]) return true;
+    }
+    return false;
+  }
+
   /// A wide rim that no tip leads to, the waist of trousers, gets a branch from the nearest
   /// place that makes it no spur.
   void reach_from_the_side() {
     constexpr double least_width_of_side = 0.7;
     constexpr double least_width_of_slit = 0.5;  // at its narrowest; rims are jagged
-    constexpr double least_length = 1.1;
-    constexpr double junction_cost = 0.7;  // a rim near a junction hangs from it
+    constexpr double junction_cost = 0.7;        // a rim near a junction hangs from it
     const std::vector<int> degree = degrees(skeleton_.nodes.rows(), skeleton_.edges);
     for (std::size_t o = 0; o < rims_.size(); ++o) {
-      if (reached_[o]) continue;
+      if (reached_[o] || is_beside_the_curve(rims_[o])) continue;
       int best = -1;
       double nearest = std::numeric_limits<double>::infinity();
       for (int node = 0; node < static_cast<int>(degree.size()); ++node) {
@@ -283,7 +312,8 @@ class Reaching {
     }
   }
 
-  static constexpr double usual_width = 0.5;  // of a rim, in radii of the ball before it
+  static constexpr double usual_width = 0.5;   // of a rim, in radii of the ball before it
+  static constexpr double least_length = 1.1;  // of a branch from the side, in radii
 
   CurveSkeleton& skeleton_;
   const SurfaceTree& tree_;
