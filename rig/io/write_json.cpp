@@ -8,6 +8,7 @@
 #include "base/utf8.hpp"
 #include "rig/io/rig_writers.hpp"
 #include "rig/joints/bone_axes.hpp"
+#include "rig/skin/four_weights.hpp"
 
 namespace curveskel {
 namespace {

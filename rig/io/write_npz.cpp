@@ -13,6 +13,7 @@
 #include "base/utf8.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"
+#include "rig/skin/four_weights.hpp"
 
 namespace curveskel {
 namespace {
