@@ -55,7 +55,7 @@ class JointLines {
                  {"axis", direction(axes_[idx(joint)] * Eigen::Vector3d::UnitY())}};
     if (is_end_[idx(joint)]) line["end"] = true;
     if (!rig_.roles.empty() && !rig_.roles[idx(joint)].empty()) {
-      line["role"] = rig_.roles[idx(joint)];
+      line["role"] = as_utf8(rig_.roles[idx(joint)]);
     }
     return line.dump();
   }
