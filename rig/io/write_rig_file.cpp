@@ -42,7 +42,7 @@ class NewPlaces {
   NewPlaces& operator=(const NewPlaces&) = delete;
   ~NewPlaces() {
     std::error_code none;
-    for (auto place = made_.rbegin(); place != made_.rend(); ++place) fs::remove(*place, none);
+    for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), none);
   }
 
   /// Before it is made, with the folders that it lies in.
