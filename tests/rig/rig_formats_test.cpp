@@ -118,7 +118,7 @@ TEST_F(RigFormats, WrongJointsAreRefusedByName) {
 /// None of these is a number of a joint, though it may become one when it is rounded or cut.
 TEST_F(RigFormats, ParentsThatAreNoNumbersOfJointsAreRefused) {
   for (const char* const parent :
-       {"1.9", "0.0", "1e300", "-2", "2", "4294967295", "18446744073709551615", "true", "\"a\""}) {
+       {"1.9", "0.0", "1e+300", "-2", "2", "4294967295", "18446744073709551615", "true", "\"a\""}) {
     const std::string found =
         refusal("a.json", std::string(R"({"joints": [{"name": "a", "parent": -1, "position":)") +
                               R"([0, 0, 0]}, {"name": "b", "parent": )" + parent +
