@@ -56,6 +56,11 @@ void check_outputs(const std::vector<std::string>& names, const std::vector<fs::
       throw UsageError(name + (inputs.size() == 1 ? " is the input" : " is an input") +
                        "; name another output");
     }
+    if (fs::is_directory(name, none)) {
+      throw Error(Fault::output, name +
+                                     ": is a folder, needed the name of a file; name another "
+                                     "output, or a file in it");
+    }
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, none)) {
       throw Error(Fault::output,

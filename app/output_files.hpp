@@ -45,7 +45,8 @@ void require_extension(const std::string& name, std::string_view option,
                        std::string_view extension);
 
 /// Before hours of work: throws UsageError where an output is named twice or is one of the inputs,
-/// of which those not named are empty, and Error(Fault::output) where its folder does not exist.
+/// of which those not named are empty, and Error(Fault::output) where it is a folder itself, or its
+/// folder does not exist.
 void check_outputs(const std::vector<std::string>& names,
                    const std::vector<std::filesystem::path>& inputs);
 

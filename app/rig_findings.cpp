@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/names.hpp>
 #include <curveskel/error.hpp>
@@ -89,10 +90,9 @@ std::optional<std::string> posture_finding(const CharacterRig& character, const 
 }
 
 std::optional<std::string> look_finding(const std::filesystem::path& mesh) {
-  std::filesystem::path name = mesh;
-  if (name.extension() == ".gz") name = name.stem();
-  for (const char* extension : {".3mf", ".vtp", ".vtk"}) {
-    if (name.extension() != extension) continue;
+  const std::string own = lower_extension(without_gz(mesh));
+  for (const char* extension : {"3mf", "vtp", "vtk"}) {
+    if (own != extension) continue;
     return mesh.filename().string() +
            ": materials and texture coordinates are not taken from such a file; to keep them "
            "export it as glTF";

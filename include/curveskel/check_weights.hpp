@@ -41,7 +41,8 @@ struct WeightChecks {
 };
 
 /// `follows` is as in CharacterRig; empty: no vertex does. Precondition: weights have a row for
-/// each vertex. O(#V log #V + weights times the depth of the hierarchy).
+/// each vertex. O(#V log #V + weights times the depth of the hierarchy), in the memory of #V + #F +
+/// weights.
 [[nodiscard]] WeightChecks check_weights(const Surface& surface, const Rig& rig,
                                          const std::vector<bool>& follows = {});
 

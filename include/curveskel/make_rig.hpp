@@ -68,10 +68,12 @@ void require_valid(const RigOptions& options);
 /// as an eye or a button does; or each for itself as the nearest place of the body, where what
 /// hangs together is more than five radii of the body long, or sewn to it, as clothes are. A
 /// follower beyond a joint with a role that moves nothing of the body itself moves with it alone,
-/// in place of the joint before: a head, where the body ends at the neck. O((#V + #F) log #F).
+/// in place of the joint before: a head, where the body ends at the neck. Of `options` most_joints
+/// holds for followers. Throws as `require_valid` does. O((#V + #F) log #F).
 [[nodiscard]] Rig rig_of_given(const Rig& rig, const Surface& surface,
                                const CurveSkeleton& skeleton,
-                               const Eigen::VectorXi& vertex_of_input, const Surface& given);
+                               const Eigen::VectorXi& vertex_of_input, const Surface& given,
+                               const SkinOptions& options = {});
 
 /// Of each vertex of the file, true if it follows in `rig_of_given`.
 [[nodiscard]] std::vector<bool> followers_of(const Eigen::VectorXi& vertex_of_input);

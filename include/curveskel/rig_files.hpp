@@ -69,8 +69,8 @@ struct VrmOfFile {
 /// along its bone. All hang from one node named `name`. `provenance` goes to the file's generator.
 /// Precondition: weights have a row for each vertex, of sum 1 and at most four joints. Throws
 /// Error(Fault::output) where there are more than 65,536 joints or where single precision does not
-/// suffice for the coordinates, Error(Fault::input) for numbers that are not finite; of vrm,
-/// Error(Fault::usage) where `vrm` is not whole and
+/// suffice for the coordinates, Error(Fault::input) for a rig without joints, numbers that are not
+/// finite and weights below 0; of vrm, Error(Fault::usage) where `vrm` is not whole and
 /// Error(Fault::input) where the roles that VRM requires are not there. O(#V + #F + joints).
 [[nodiscard]] std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                                      const std::string& name, const std::string& provenance,

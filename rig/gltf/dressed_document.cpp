@@ -1,6 +1,7 @@
 #include "rig/gltf/dressed_document.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <curveskel/advanced/indices.hpp>
@@ -66,8 +67,9 @@ std::size_t add_shape(GltfDocument& document, const DressedShape& shape, const S
   std::string rows;
   std::string moves;
   std::size_t count = 0;
-  Eigen::Vector3f low = Eigen::Vector3f::Zero();
-  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(infinity);
+  Eigen::Vector3f high = Eigen::Vector3f::Constant(-infinity);
   for (std::size_t v = 0; v < split.vertices.size(); ++v) {
     const auto found = shape.moves.find(split.vertices[v].place);
     if (found == shape.moves.end()) continue;
@@ -77,6 +79,10 @@ std::size_t add_shape(GltfDocument& document, const DressedShape& shape, const S
     low = low.cwiseMin(move);
     high = high.cwiseMax(move);
     ++count;
+  }
+  if (count == 0 || count < split.vertices.size()) {  // those that stay move by nothing
+    low = low.cwiseMin(0.0F);
+    high = high.cwiseMax(0.0F);
   }
   OrderedJson accessor{{"componentType", gltf_float},
                        {"count", split.vertices.size()},

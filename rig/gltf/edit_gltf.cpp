@@ -351,8 +351,7 @@ std::optional<EditedFile> format_rig_into(const std::filesystem::path& input, co
   check.choice("format", options.format, rig_formats);
   check.number("old_rig", static_cast<int>(options.old_rig), {0, 1});
   if (!keeps_the_file(options.format)) return std::nullopt;
-  require_sound(rig, "format_rig_into");
-  require_finite(rig, "format_rig_into");
+  require_writable(rig, "format_rig_into");
   const FileBytes file = read_file(input, monitor);
   const auto format = surface_format_of(file);
   const bool is_gltf = format == SurfaceFormat::glb || format == SurfaceFormat::gltf;

@@ -3,40 +3,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/error.hpp>
 #include "rig/gltf/number_bytes.hpp"
+#include "rig/skin/four_weights.hpp"
 #include "surface/mesh/single_precision.hpp"
 
 namespace curveskel {
-namespace {
-
-/// Largest first, of equal ones the first joint; always four.
-std::vector<std::pair<float, int>> four_largest(const SkinWeights& weights, Eigen::Index vertex,
-                                                const std::vector<int>& joints) {
-  constexpr std::size_t most = 4;
-  std::vector<std::pair<float, int>> row;
-  for (SkinWeights::InnerIterator it(weights, vertex); it; ++it) {
-    const int joint = joints.empty() ? static_cast<int>(it.col()) : joints[idx(it.col())];
-    const auto same =
-        std::find_if(row.begin(), row.end(), [&](const auto& one) { return one.second == joint; });
-    if (same != row.end()) {
-      same->first += it.value();
-    } else if (joint >= 0) {
-      row.emplace_back(it.value(), joint);
-    }
-  }
-  std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first > b.first : a.second < b.second;
-  });
-  row.resize(most, {0.0F, 0});
-  if (!(row.front().first > 0)) row.front().first = 1;
-  return row;
-}
-
-}  // namespace
 
 SkinRows skin_rows(const SkinWeights& weights, Eigen::Index first, Eigen::Index count,
                    const std::vector<int>& joints) {
@@ -46,15 +20,13 @@ SkinRows skin_rows(const SkinWeights& weights, Eigen::Index first, Eigen::Index 
                                   : *std::max_element(joints.begin(), joints.end());
   rows.in_words = last >= most_in_bytes;
   for (Eigen::Index vertex = first; vertex < first + count; ++vertex) {
-    const auto row = four_largest(weights, vertex, joints);
-    float sum = 0;
-    for (const auto& [share, joint] : row) sum += share;
-    for (const auto& [share, joint] : row) {
-      put_number(rows.weights, share / sum);
+    const FourWeights four = four_weights(weights, vertex, joints);
+    for (const float weight : four.weights) put_number(rows.weights, weight);
+    for (const int joint : four.joints) {
       if (rows.in_words) {
-        put_number(rows.joints, static_cast<std::uint16_t>(share > 0 ? joint : 0));
+        put_number(rows.joints, static_cast<std::uint16_t>(joint));
       } else {
-        put_number(rows.joints, static_cast<std::uint8_t>(share > 0 ? joint : 0));
+        put_number(rows.joints, static_cast<std::uint8_t>(joint));
       }
     }
   }

@@ -16,9 +16,7 @@ struct SkinRows {
   bool in_words = false;
 };
 
-/// The four largest weights of each row from `first` on; they sum to 1 in single precision, and
-/// those of zero name joint 0. A row without weights goes with joint 0. `joints`: the number of
-/// each of the rig's joints in the skin, several may have one, -1 = none; empty = the same.
+/// `four_weights` of each row from `first` on.
 [[nodiscard]] SkinRows skin_rows(const SkinWeights& weights, Eigen::Index first, Eigen::Index count,
                                  const std::vector<int>& joints = {});
 

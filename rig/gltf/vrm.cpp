@@ -16,7 +16,6 @@
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/read_vrm.hpp"
 #include "rig/gltf/skin_numbers.hpp"
-#include "rig/joints/figure_name.hpp"
 
 namespace curveskel {
 namespace {
@@ -27,13 +26,33 @@ bool has_role(const Rig& rig, std::string_view role) {
   return std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end();
 }
 
-/// A human's roles are VRM's words; joints without one, and those of a scene's other figures, have
-/// none there either.
+/// On both sides.
+constexpr std::array human_limbs{
+    "Eye",           "UpperLeg",           "LowerLeg",      "Foot",
+    "Toes",          "Shoulder",           "UpperArm",      "LowerArm",
+    "Hand",          "ThumbMetacarpal",    "ThumbProximal", "ThumbDistal",
+    "IndexProximal", "IndexIntermediate",  "IndexDistal",   "MiddleProximal",
+    "MiddleDistal",  "MiddleIntermediate", "RingProximal",  "RingIntermediate",
+    "RingDistal",    "LittleProximal",     "LittleDistal",  "LittleIntermediate"};
+constexpr std::array human_middle{"hips", "spine", "chest", "upperChest", "neck", "head", "jaw"};
+
+/// VRM 1.0 has these names alone, and programs refuse a file with others.
+bool is_human_bone(std::string_view role) {
+  for (const std::string_view side : {"left", "right"}) {
+    if (!role.starts_with(side)) continue;
+    return std::find(human_limbs.begin(), human_limbs.end(), role.substr(side.size())) !=
+           human_limbs.end();
+  }
+  return std::find(human_middle.begin(), human_middle.end(), role) != human_middle.end();
+}
+
+/// A human's roles are VRM's words; joints of other roles, and those of a scene's other figures,
+/// have none there. Of several joints with one role the first is the bone, as where VRM is read.
 Json bones_of(const Rig& rig, const std::vector<int>& nodes) {
   Json bones = Json::object();
   for (std::size_t joint = 0; joint < rig.roles.size(); ++joint) {
     const std::string& role = rig.roles[joint];
-    if (role.empty() || of_figure(role).figure > 0) continue;
+    if (!is_human_bone(role) || bones.contains(role)) continue;
     bones[role] = {{"node", nodes.at(joint)}};
   }
   return bones;

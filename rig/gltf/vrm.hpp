@@ -16,7 +16,8 @@ namespace curveskel {
 /// requires.
 void require_vrm(const Rig& rig, const VrmMeta& meta);
 
-/// Adds the extension VRMC_vrm to a glTF's JSON. `nodes`: of the rig's joints.
+/// Adds the extension VRMC_vrm to a glTF's JSON. `nodes`: of the rig's joints. Roles that are no
+/// bones of VRM have no entry; of several joints with one role the first is the bone.
 void add_vrm(nlohmann::ordered_json& gltf, const Rig& rig, const std::vector<int>& nodes,
              const VrmMeta& meta);
 

@@ -26,8 +26,7 @@ std::string format_rig(const Surface& surface, const Rig& rig, RigFormat format,
                        const std::string& name, const std::string& provenance, const VrmMeta& vrm) {
   OptionCheck("format_rig").choice("format", format, rig_formats);
   require_sound(surface, "format_rig");
-  require_sound(rig, "format_rig");
-  require_finite(rig, "format_rig");
+  require_writable(rig, "format_rig");
   require_weights_of(rig, surface.positions.rows(), "format_rig");
   const bool has_y_up = keeps_the_file(format);
   if (has_y_up && !rig.to_y_up.isIdentity(0)) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -82,14 +83,30 @@ bool says_gltf(const std::string& content) {
   return parsed.is_object() && parsed.contains("asset");
 }
 
+/// The parent that the entry of the joint `name` gives, one of so many joints; -1 = none.
+int parent_in(const Json& entry, const std::string& name, std::size_t joints,
+              const FileBytes& file) {
+  const Json& parent = entry.at("parent");
+  if (parent.is_null()) return -1;
+  if (parent.is_number_unsigned()) {
+    if (parent.get<std::uint64_t>() < joints) return parent.get<int>();
+  } else if (parent.is_number_integer() && parent.get<std::int64_t>() == -1) {
+    return -1;
+  }
+  file.fail("joint " + in_quotes(name) + " with parent " + parent.dump(),
+            "the number of one of the " + std::to_string(joints) + " joints, counted from 0, or -1",
+            "mend it");
+}
+
 Rig joints_of_json(const FileBytes& file) {
   std::vector<GivenJoint> joints;
   try {
     const Json parsed = Json::parse(file.content);
-    for (const Json& entry : parsed.at("joints")) {
+    const Json& entries = parsed.at("joints");
+    for (const Json& entry : entries) {
       GivenJoint joint;
       joint.name = entry.at("name").get<std::string>();
-      joint.parent = entry.at("parent").is_null() ? -1 : entry.at("parent").get<int>();
+      joint.parent = parent_in(entry, joint.name, entries.size(), file);
       for (int axis = 0; axis < 3; ++axis) {
         joint.position[axis] = entry.at("position").at(idx(axis)).get<double>();
       }
@@ -100,13 +117,6 @@ Rig joints_of_json(const FileBytes& file) {
     file.fail(std::string("JSON that has no such joints: ") + error.what(),
               "{\"joints\": [{\"name\": ..., \"parent\": number or -1, \"position\": [x, y, z]}]}",
               joints_remedy);
-  }
-  for (const GivenJoint& joint : joints) {
-    if (joint.parent < static_cast<int>(joints.size()) && joint.parent >= -1) continue;
-    file.fail("joint " + in_quotes(joint.name) + " with parent " + std::to_string(joint.parent),
-              "the number of one of the " + std::to_string(joints.size()) +
-                  " joints, counted from 0, or -1",
-              "mend it");
   }
   return rig_of(joints, file);
 }
@@ -146,7 +156,13 @@ Rig joints_of_text(const FileBytes& file) {
         file.fail("a link with " + in_quotes(name), "joints of the file", "add the joint");
       }
     }
-    joints[idx(number.at(child))].parent = number.at(parent);
+    GivenJoint& joint = joints[idx(number.at(child))];
+    if (joint.parent >= 0) {
+      file.fail("joint " + in_quotes(child) + " with the parents " +
+                    in_quotes(joints[idx(joint.parent)].name) + " and " + in_quotes(parent),
+                "one line hier for each joint", "leave out one of the two lines");
+    }
+    joint.parent = number.at(parent);
   }
   return rig_of(joints, file);
 }
@@ -181,7 +197,9 @@ Rig joints_of_dae(const FileBytes& file, const Monitor& monitor) {
 }  // namespace
 
 Rig read_joints(const std::filesystem::path& path, const Monitor& monitor) {
-  const FileBytes file = read_file(path, monitor, "joints");
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  FileBytes file = read_file(path, monitor, "joints");
+  if (file.content.starts_with(byte_order_mark)) file.content.erase(0, byte_order_mark.size());
   const std::size_t first = file.content.find_first_not_of(" \t\r\n");
   const bool is_text = first != std::string::npos && file.content[first] == '{';
   if (is_text && !says_gltf(file.content)) return joints_of_json(file);

@@ -1,7 +1,6 @@
 // One writer for each format of rigs, behind `format_rig`.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -31,12 +30,5 @@ template <typename Number>
 /// Each joint's name without blanks, for formats that part words by these; empty ones become
 /// joint_1 and so on, of several alike the later ones get a number.
 [[nodiscard]] std::vector<std::string> names_as_words(const Rig& rig);
-
-/// The four largest weights of a vertex, which sum to 1; joint 0 has all of a vertex without any.
-struct FourWeights {
-  std::array<int, 4> joints{};
-  std::array<float, 4> weights{};
-};
-[[nodiscard]] FourWeights four_weights(const SkinWeights& weights, Eigen::Index vertex);
 
 }  // namespace curveskel

@@ -8,6 +8,7 @@
 #include "base/utf8.hpp"
 #include "rig/io/rig_writers.hpp"
 #include "rig/joints/bone_axes.hpp"
+#include "rig/skin/four_weights.hpp"
 
 namespace curveskel {
 namespace {
@@ -54,7 +55,7 @@ class JointLines {
                  {"axis", direction(axes_[idx(joint)] * Eigen::Vector3d::UnitY())}};
     if (is_end_[idx(joint)]) line["end"] = true;
     if (!rig_.roles.empty() && !rig_.roles[idx(joint)].empty()) {
-      line["role"] = rig_.roles[idx(joint)];
+      line["role"] = as_utf8(rig_.roles[idx(joint)]);
     }
     return line.dump();
   }

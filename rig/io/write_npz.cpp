@@ -13,6 +13,7 @@
 #include "base/utf8.hpp"
 #include "rig/gltf/skin_numbers.hpp"
 #include "rig/io/rig_writers.hpp"
+#include "rig/skin/four_weights.hpp"
 
 namespace curveskel {
 namespace {
@@ -100,7 +101,8 @@ class ZipWriter {
   }
 
   [[nodiscard]] std::string bytes() {
-    require(zip_close(std::exchange(archive_, nullptr)) == 0);
+    require(zip_close(archive_) == 0);  // a failed one is left to the destructor
+    archive_ = nullptr;
     require(zip_source_open(buffer_) == 0);
     zip_source_seek(buffer_, 0, SEEK_END);
     std::string result(static_cast<std::size_t>(zip_source_tell(buffer_)), '\0');

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
@@ -32,6 +33,31 @@ bool is_written(const fs::path& place, const SideFile& side) {
   return fs::is_regular_file(place, none) && fs::file_size(place, none) == side.bytes.size() &&
          bytes_in_file(place) == side.bytes;
 }
+
+/// Files and folders that were not there before go again, unless they are kept.
+class NewPlaces {
+ public:
+  NewPlaces() = default;
+  NewPlaces(const NewPlaces&) = delete;
+  NewPlaces& operator=(const NewPlaces&) = delete;
+  ~NewPlaces() {
+    std::error_code none;
+    for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), none);
+  }
+
+  /// Before it is made, with the folders that it lies in.
+  void add(const fs::path& place) {
+    std::error_code none;
+    if (place.empty() || fs::exists(fs::symlink_status(place, none))) return;
+    add(place.parent_path());
+    made_.push_back(place);
+  }
+
+  void keep() { made_.clear(); }
+
+ private:
+  std::vector<fs::path> made_;  // folders before what lies in them
+};
 
 }  // namespace
 
@@ -64,9 +90,11 @@ void require_free_places(const fs::path& file, const std::vector<SideFile>& side
 void write_rig_file(const fs::path& file, std::string_view bytes,
                     const std::vector<SideFile>& side_files) {
   require_free_places(file, side_files);
+  NewPlaces made;
   for (const SideFile& side : side_files) {
     const fs::path place = place_of_side(file, side);
     if (is_written(place, side)) continue;
+    made.add(place);
     std::error_code error;
     fs::create_directories(place.parent_path(), error);
     if (error) {
@@ -76,6 +104,7 @@ void write_rig_file(const fs::path& file, std::string_view bytes,
     write_file(place, side.bytes);
   }
   write_file(file, bytes);
+  made.keep();
 }
 
 }  // namespace curveskel

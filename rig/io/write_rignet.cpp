@@ -3,6 +3,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/io/rig_writers.hpp"
+#include "rig/skin/four_weights.hpp"
 
 namespace curveskel {
 

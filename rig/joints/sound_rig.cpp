@@ -51,15 +51,21 @@ void require_sound(const Rig& rig, std::string_view purpose) {
              "weights of " + of_its_joints);
 }
 
-void require_finite(const Rig& rig, std::string_view purpose) {
+void require_writable(const Rig& rig, std::string_view purpose) {
+  require_sound(rig, purpose);
+  if (rig.joints.rows() == 0) refuse_rig(purpose, "no joint", "one at least");
   bool is_finite = rig.joints.allFinite();
+  bool is_negative = false;
   for (Eigen::Index vertex = 0; vertex < rig.weights.rows(); ++vertex) {
     for (SkinWeights::InnerIterator it(rig.weights, vertex); it; ++it) {
       is_finite = is_finite && std::isfinite(it.value());
+      is_negative = is_negative || it.value() < 0;
     }
   }
-  if (is_finite) return;
-  refuse_rig(purpose, "a place or a weight that is no finite number", "finite ones");
+  if (!is_finite) {
+    refuse_rig(purpose, "a place or a weight that is no finite number", "finite ones");
+  }
+  if (is_negative) refuse_rig(purpose, "a weight below 0", "weights of 0 or more");
 }
 
 void require_weights_of(const Rig& rig, Eigen::Index vertices, std::string_view purpose) {

@@ -15,9 +15,9 @@ void require_hierarchy(const Rig& rig, std::string_view purpose);
 /// none, and weights of as many joints or without rows. O(joints).
 void require_sound(const Rig& rig, std::string_view purpose);
 
-/// Throws Error(Fault::input) that begins with `purpose` unless joints and weights are finite.
-/// O(joints + weights).
-void require_finite(const Rig& rig, std::string_view purpose);
+/// For files: as `require_sound`, and there must be a joint, joints and weights must be finite, and
+/// no weight below 0. O(joints + weights).
+void require_writable(const Rig& rig, std::string_view purpose);
 
 /// Throws Error(Fault::input) that begins with `purpose` unless the weights have a row for each of
 /// so many vertices. O(1).

@@ -115,17 +115,17 @@ class WeightChecker {
   }
 
   void pose_all() {
-    const Eigen::SparseMatrix<double> shares = turning_shares(rig_);
+    TurningShares shares(rig_);
     share_.assign(welded_.place.size(), 0);
     moved_ = surface_.positions;
-    for (int joint = 0; joint < static_cast<int>(shares.cols()); ++joint) {
+    for (int joint = 0; joint < static_cast<int>(rig_.weights.cols()); ++joint) {
+      if (rig_.parents[joint] < 0) continue;
       std::vector<int> turning;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(shares, joint); it; ++it) {
-        turning.push_back(static_cast<int>(it.row()));
-        share_[idx(it.row())] = it.value();
+      for (const auto& [vertex, share] : shares.of(joint)) {
+        turning.push_back(vertex);
+        share_[idx(vertex)] = share;
       }
-      if (rig_.parents[joint] >= 0 && !turning.empty())
-        checks_.poses.push_back(pose(joint, turning));
+      if (!turning.empty()) checks_.poses.push_back(pose(joint, turning));
       for (const int v : turning) {
         share_[idx(v)] = 0;
         moved_.row(v) = surface_.positions.row(v);

@@ -60,12 +60,13 @@ class PosedLimbs {
         our_sums_(ours_.transpose() * Eigen::VectorXd::Ones(ours_.rows())),
         their_sums_(theirs_.transpose() * Eigen::VectorXd::Ones(theirs_.rows())) {}
 
-  /// A joint whose turn is a pose of a limb: neither of some single vertices nor of the body.
+  /// A joint whose turn is a pose of a limb: neither of some single vertices nor of the body, nor
+  /// of a little of each vertex, of which `distance` would count none.
   [[nodiscard]] bool is_limb(int joint) const {
     constexpr double least = 0.005;
     constexpr double most = 0.5;
     const double share = their_sums_[joint] / static_cast<double>(theirs_.rows());
-    return share > least && share < most;
+    return share > least && share < most && turns_some(joint);
   }
 
   struct Partner {
@@ -105,6 +106,13 @@ class PosedLimbs {
 
  private:
   static constexpr double least_share = 0.01;
+
+  [[nodiscard]] bool turns_some(int joint) const {
+    for (MovedShares::InnerIterator it(theirs_, joint); it; ++it) {
+      if (it.value() > least_share) return true;
+    }
+    return false;
+  }
 
   const Rig& rig_;
   const RiggedSurface& truth_;

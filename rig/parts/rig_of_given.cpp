@@ -23,8 +23,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_joints = 4;
-
 /// All that moves with the body without being of it, and hangs together.
 struct Follower {
   std::vector<int> vertices;
@@ -87,11 +85,12 @@ std::vector<int> idle_ends(const Rig& rig) {
 class Following {
  public:
   Following(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
-            const Surface& given)
+            const Surface& given, const SkinOptions& options)
       : rig_(rig),
         surface_(surface),
         skeleton_(skeleton),
         given_(given),
+        most_joints_(idx(options.most_joints)),
         tree_(surface),
         idle_end_(idle_ends(rig)) {}
 
@@ -172,7 +171,7 @@ class Following {
         }
       }
     }
-    return largest_shares({shares.begin(), shares.end()}, most_joints);
+    return largest_shares({shares.begin(), shares.end()}, most_joints_);
   }
 
   [[nodiscard]] std::array<double, 3> barycentric(const SurfaceTree::Nearest& contact) const {
@@ -191,6 +190,7 @@ class Following {
   const Surface& surface_;
   const CurveSkeleton& skeleton_;
   const Surface& given_;
+  const std::size_t most_joints_;
   SurfaceTree tree_;
   std::vector<int> idle_end_;  // by joint
 };
@@ -198,7 +198,9 @@ class Following {
 }  // namespace
 
 Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& skeleton,
-                 const Eigen::VectorXi& vertex_of_input, const Surface& given) {
+                 const Eigen::VectorXi& vertex_of_input, const Surface& given,
+                 const SkinOptions& options) {
+  require_valid(options);
   require_sound(rig, "rig_of_given");
   require_weights_of(rig, surface.positions.rows(), "rig_of_given");
   require_corners(surface, "rig_of_given");
@@ -221,14 +223,14 @@ Rig rig_of_given(const Rig& rig, const Surface& surface, const CurveSkeleton& sk
   }
   const std::vector<Follower> followers = find_followers(given, vertex_of_input);
   if (!followers.empty()) {
-    const Following following(rig, surface, skeleton, given);
+    const Following following(rig, surface, skeleton, given, options);
     for (const Follower& follower : followers) {
       following.follow(follower, [&](int v, const WeightRow& row) { rows[idx(v)] = row; });
     }
   }
   Rig result{rig.joints, rig.parents, rig.names,    SkinWeights(count, rig.weights.cols()),
              rig.roles,  rig.turns,   rig.readable, rig.to_y_up};
-  result.weights.reserve(Eigen::VectorXi::Constant(count, static_cast<int>(most_joints)));
+  result.weights.reserve(Eigen::VectorXi::Constant(count, options.most_joints));
   for (Eigen::Index v = 0; v < count; ++v) {
     for (const auto& [joint, share] : rows[idx(v)]) {
       result.weights.insert(v, joint) = static_cast<float>(share);

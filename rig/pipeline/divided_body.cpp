@@ -127,12 +127,10 @@ std::vector<int> DividedBody::curves(const std::vector<int>& components) const {
 
 /// A rim with a vertex that is not in the part is none.
 void DividedBody::add_inputs(PartOfBody& part, const std::vector<int>& components) const {
-  part.body.vertex_of_input = Eigen::VectorXi::Constant(body_.vertex_of_input.size(), -1);
-  for (const int c : components) {
-    for (const int input : inputs_[idx(c)]) {
-      part.body.vertex_of_input[input] = number_of_vertex_[idx(body_.vertex_of_input[input])];
-    }
-  }
+  part.inputs = members_of(inputs_, components);
+  part.body.vertex_of_input = body_.vertex_of_input(*part.inputs).unaryExpr([&](int v) {
+    return number_of_vertex_[idx(v)];
+  });
   for (const int k : members_of(rims_, components)) {
     std::vector<std::int32_t> rim = body_.rims[idx(k)];
     for (std::int32_t& v : rim) v = number_of_vertex_[idx(v)];

@@ -1,6 +1,7 @@
 // A body and its curve, divided into components once. Internal to rig/.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <curveskel/curve_skeleton.hpp>
@@ -9,10 +10,15 @@
 
 namespace curveskel {
 
+/// The vertices of the file that have one of the body, ascending: `vertex_of_input` is then by
+/// these, as the figures of a crowd would else have the whole file each. None: it is by all.
+using OwnInputs = std::optional<std::vector<int>>;
+
 /// Some components of a body alone.
 struct PartOfBody {
   RepairedSurface body;  ///< without `vertex_of_input` and rims
   CurveSkeleton skeleton;
+  OwnInputs inputs = {};
 };
 
 /// `body` and `skeleton`, which has node_of_vertex by its vertices, must outlive this.
@@ -25,8 +31,7 @@ class DividedBody {
   /// that its own size takes. Precondition: ascending numbers.
   [[nodiscard]] PartOfBody part(const std::vector<int>& components);
 
-  /// With `vertex_of_input`, rims and all else that `body_of` keeps: in time that the file's number
-  /// of vertices takes to be written, too.
+  /// With `inputs`, `vertex_of_input` by these, rims and all else that `body_of` keeps.
   [[nodiscard]] PartOfBody part_of_file(const std::vector<int>& components);
 
   /// Ascending, those of `part`.

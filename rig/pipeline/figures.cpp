@@ -188,7 +188,7 @@ class Groups {
   /// As if there were nothing else. A scene that is not made of tubes may have a figure that is.
   [[nodiscard]] BodyPlan plan_alone(const std::vector<int>& components) {
     throw_if_stopped(stop_);
-    const auto [body, skeleton] = divided_.part(components);
+    const auto [body, skeleton, inputs] = divided_.part(components);
     PlanOptions options = options_.plan;
     if (!options.made_of_tubes) {
       const double share = tube_share(body.surface, skeleton, {.threads = options_.threads});
@@ -227,8 +227,9 @@ class Groups {
       const auto found = std::lower_bound(all.begin(), all.end(), alone[idx(joint.node)]);
       joint.node = static_cast<int>(found - all.begin());
     }
-    auto [body, skeleton] = divided_.part_of_file(components);
-    return {std::move(body), std::move(skeleton), std::move(plan)};
+    PartOfBody part = divided_.part_of_file(components);
+    return {std::move(part.body), std::move(part.skeleton), std::move(plan),
+            std::move(part.inputs)};
   }
 
   const RepairedSurface& body_;

@@ -11,6 +11,7 @@
 #include <curveskel/rig.hpp>
 #include <curveskel/rig_parts.hpp>
 #include <curveskel/role_names.hpp>
+#include "rig/pipeline/divided_body.hpp"
 
 namespace curveskel {
 
@@ -19,6 +20,7 @@ struct Figure {
   RepairedSurface body;
   CurveSkeleton skeleton;
   BodyPlan plan;
+  OwnInputs inputs = {};
 };
 
 /// `find_plan` of the body without the components that were made of sheets, if that is a humanoid's
@@ -57,10 +59,12 @@ struct RiggedBody {
   RepairedSurface body;
   CurveSkeleton skeleton;
   Rig rig;
+  OwnInputs inputs = {};
 };
 
 /// All figures side by side: the joints of the first keep names and roles,
 /// those of the k-th begin with "figure<k>_", as programs expect one of each.
-[[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures);
+/// `inputs` is the file's number of vertices, by all of which the result is.
+[[nodiscard]] RiggedBody side_by_side(std::vector<RiggedBody> figures, Eigen::Index inputs);
 
 }  // namespace curveskel

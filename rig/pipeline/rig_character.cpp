@@ -93,7 +93,7 @@ namespace {
 
 /// With names; the joints of the plan first.
 RiggedBody rigged(Figure figure, const CharacterOptions& options, const Monitor& monitor) {
-  RiggedBody made{std::move(figure.body), std::move(figure.skeleton), {}};
+  RiggedBody made{std::move(figure.body), std::move(figure.skeleton), {}, std::move(figure.inputs)};
   made.rig = without_idle_joints(
       make_planned_rig(made.body.surface, made.skeleton, figure.plan, options.rig, monitor),
       figure.plan.joints.size(), made.body.vertex_of_input);
@@ -149,9 +149,9 @@ CharacterRig rig_body(const Surface& given, const RepairedSurface& body,
     if (!made.empty()) result.other_plans.push_back(figure.plan);
     made.push_back(rigged(std::move(figure), options, monitor));
   }
-  const RiggedBody all = side_by_side(std::move(made));
-  result.rig =
-      rig_of_given(all.rig, all.body.surface, all.skeleton, all.body.vertex_of_input, given);
+  const RiggedBody all = side_by_side(std::move(made), given.positions.rows());
+  result.rig = rig_of_given(all.rig, all.body.surface, all.skeleton, all.body.vertex_of_input,
+                            given, options.rig.skin);
   result.follows = followers_of(all.body.vertex_of_input);
   return result;
 }

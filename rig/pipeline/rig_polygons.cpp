@@ -143,7 +143,8 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     const CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);
     const Rig made =
         weights_on_joints(body.surface, dense, *sources.joints, wanted.rig.skin, monitor);
-    result.character.rig = rig_of_given(made, body.surface, dense, body.vertex_of_input, given);
+    result.character.rig =
+        rig_of_given(made, body.surface, dense, body.vertex_of_input, given, wanted.rig.skin);
     result.character.follows = followers_of(body.vertex_of_input);
   } else {
     wanted.plan.made_of_tubes = !certificate || certificate->curve_like;

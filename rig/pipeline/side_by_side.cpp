@@ -83,9 +83,21 @@ SkinWeights stacked_weights(const std::vector<RiggedBody>& figures) {
   return all;
 }
 
+/// Of each of the file's vertices the one that some figure has of it.
+Eigen::VectorXi merged_inputs(const std::vector<RiggedBody>& figures, Eigen::Index count) {
+  Eigen::VectorXi merged = Eigen::VectorXi::Constant(count, -1);
+  for (const RiggedBody& figure : figures) {
+    for (Eigen::Index k = 0; k < figure.body.vertex_of_input.size(); ++k) {
+      const int own = figure.body.vertex_of_input[k];
+      if (own >= 0) merged[figure.inputs ? (*figure.inputs)[idx(k)] : k] = own;
+    }
+  }
+  return merged;
+}
+
 }  // namespace
 
-RiggedBody side_by_side(std::vector<RiggedBody> figures) {
+RiggedBody side_by_side(std::vector<RiggedBody> figures, Eigen::Index inputs) {
   const bool is_readable = std::any_of(figures.begin(), figures.end(), [](const RiggedBody& one) {
     return !one.rig.readable.empty();
   });
@@ -102,6 +114,8 @@ RiggedBody side_by_side(std::vector<RiggedBody> figures) {
   number_through(figures);
   using One = const RiggedBody&;
   RiggedBody all = figures.front();
+  all.body.vertex_of_input = merged_inputs(figures, inputs);
+  all.inputs.reset();
   all.body.surface.positions = stacked(
       figures, [](One one) -> auto& { return one.body.surface.positions; });
   all.body.surface.triangles = stacked(
@@ -122,10 +136,6 @@ RiggedBody side_by_side(std::vector<RiggedBody> figures) {
   if (is_readable) all.rig.readable = readable_names(all.rig);
   for (std::size_t k = 1; k < figures.size(); ++k) {
     const RiggedBody& more = figures[k];
-    for (Eigen::Index v = 0; v < more.body.vertex_of_input.size(); ++v) {
-      const int own = more.body.vertex_of_input[v];
-      if (own >= 0) all.body.vertex_of_input[v] = own;
-    }
     if (is_readable) append(all.rig.readable, readable_names(more.rig));
     append(all.rig.names, more.rig.names);
     append(all.rig.roles, more.rig.roles);

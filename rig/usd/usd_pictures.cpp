@@ -20,15 +20,24 @@
 namespace curveskel {
 namespace {
 
-/// Of a picture that stands in the JSON; the parser gives it to nobody.
-std::string picture_in_json(const FileBytes& file, int image) {
+/// By image, empty where none is given; the parser gives those that stand in the JSON to nobody.
+std::vector<std::string> addresses_in_json(const FileBytes& file) {
+  std::vector<std::string> addresses;
   const auto gltf = nlohmann::json::parse(gltf_json(file), nullptr, false);
   const auto images = gltf.find("images");
-  if (images == gltf.end() || idx(image) >= images->size()) return "";
-  const std::string uri = (*images)[idx(image)].value("uri", "");
-  const std::size_t comma = uri.find(";base64,");
-  if (!uri.starts_with("data:") || comma == std::string::npos) return "";
-  std::string_view text = std::string_view(uri).substr(comma + 8);
+  if (images == gltf.end()) return addresses;
+  for (const auto& image : *images) {
+    const auto uri = image.find("uri");
+    const bool is_given = uri != image.end() && uri->is_string();
+    addresses.push_back(is_given ? uri->get<std::string>() : "");
+  }
+  return addresses;
+}
+
+std::string picture_in_address(std::string_view address) {
+  const std::size_t comma = address.find(";base64,");
+  if (!address.starts_with("data:") || comma == std::string_view::npos) return "";
+  std::string_view text = address.substr(comma + 8);
   std::string bytes;
   append_from_base64(bytes, text, text.size());
   return bytes;
@@ -53,9 +62,14 @@ std::string UsdPictures::path_of(int image) {
 
 std::vector<SideFile> UsdPictures::taken() && { return std::move(taken_); }
 
-std::string UsdPictures::bytes_of(int image) const {
+std::string UsdPictures::bytes_in_json(int image) {
+  if (!addresses_) addresses_ = addresses_in_json(file_);
+  return idx(image) < addresses_->size() ? picture_in_address((*addresses_)[idx(image)]) : "";
+}
+
+std::string UsdPictures::bytes_of(int image) {
   const tinygltf::Image& given = model_.images[idx(image)];
-  if (given.bufferView < 0) return given.uri.empty() ? picture_in_json(file_, image) : "";
+  if (given.bufferView < 0) return given.uri.empty() ? bytes_in_json(image) : "";
   if (idx(given.bufferView) >= model_.bufferViews.size()) return "";
   const tinygltf::BufferView& view = model_.bufferViews[idx(given.bufferView)];
   if (view.buffer < 0 || idx(view.buffer) >= model_.buffers.size()) return "";

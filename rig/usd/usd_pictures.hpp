@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ class UsdPictures {
   [[nodiscard]] std::vector<SideFile> taken() &&;
 
  private:
-  [[nodiscard]] std::string bytes_of(int image) const;
+  [[nodiscard]] std::string bytes_in_json(int image);
+  [[nodiscard]] std::string bytes_of(int image);
   [[nodiscard]] std::string add(int image);
 
   const FileBytes& file_;
@@ -37,8 +39,9 @@ class UsdPictures {
   std::string folder_;
   bool packed_;
   std::vector<std::string>& notes_;
-  std::map<int, std::string> paths_;  // by image
-  std::set<std::string> names_;       // of files, in lower case
+  std::optional<std::vector<std::string>> addresses_;  // parsed once, for the first that needs it
+  std::map<int, std::string> paths_;                   // by image
+  std::set<std::string> names_;                        // of files, in lower case
   std::vector<SideFile> taken_;
 };
 

@@ -116,7 +116,9 @@ class Rig(CommandLineTest):
         (self.folder / "y.vtk").write_text(
             "# vtk DataFile Version 3.0\ny\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
             f"{numbers(corners)}\nPOLYGONS 4 16\n{numbers((3, *face) for face in faces)}\n")
-        self.assertIn(words, self.run_ok("rig", "y.vtk", "-o", "z.glb", cwd=self.folder).err)
+        (self.folder / "y2.VTK").write_text((self.folder / "y.vtk").read_text())
+        for name in ("y.vtk", "y2.VTK"):
+            self.assertIn(words, self.run_ok("rig", name, "-o", "z.glb", cwd=self.folder).err)
         quiet = self.run_ok("rig", "y.vtk", "-o", "z.glb", "--bare", cwd=self.folder).err
         self.assertNotIn(words, quiet)
 
@@ -140,6 +142,11 @@ class Rig(CommandLineTest):
         self.refused(2, "rig", Y, says=["--output"], cwd=self.folder)
         self.refused(2, "rig", Y, "-o", "y.glb", "--softness", "0", says=["--softness"],
                      cwd=self.folder)
+
+    def test_a_folder_as_an_output_is_refused_at_once(self):
+        (self.folder / "d.usda").mkdir()
+        self.refused(6, "rig", "missing.gltf", "-o", "d.usda", cwd=self.folder,
+                     says=["is a folder", "name another"])
 
     def test_all_formats_at_once_have_the_same_joints(self):
         names = ["y.json", "y.txt", "y.bvh", "y.usda", "y.npz", "y.glb"]

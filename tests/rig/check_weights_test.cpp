@@ -10,6 +10,8 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include "meshes/shapes.hpp"
+#include "rig/measure/turned_joints.hpp"
+#include "tests/rig/random_rigs.hpp"
 
 namespace curveskel::check_weights_laws {
 namespace {
@@ -53,6 +55,29 @@ Eigen::Index last_vertex(const Bar& bar) {
   Eigen::Index vertex = 0;
   bar.surface.positions.col(0).maxCoeff(&vertex);
   return vertex;
+}
+
+/// What turns with a joint is the sum of what moves with it and with all joints below it.
+TEST(TurningShares, AreTheSumsOverAllThatHangsFromAJoint) {
+  for (const int count : {1, 7, 40}) {
+    const Rig rig = random_rig(60, count, "b");
+    Eigen::MatrixXd wanted = Eigen::MatrixXf(rig.weights).cast<double>();
+    for (int joint = count - 1; joint > 0; --joint) {
+      wanted.col(rig.parents[joint]) += wanted.col(joint);
+    }
+    EXPECT_LT((Eigen::MatrixXd(turning_shares(rig)) - wanted).cwiseAbs().maxCoeff(), 1e-12);
+    TurningShares shares(rig);
+    for (int joint = count - 1; joint >= 0; --joint) {  // in any order
+      int last = -1;
+      Eigen::VectorXd found = Eigen::VectorXd::Zero(60);
+      for (const auto& [vertex, share] : shares.of(joint)) {
+        EXPECT_LT(last, vertex);
+        last = vertex;
+        found[vertex] = share;
+      }
+      EXPECT_LT((found - wanted.col(joint)).cwiseAbs().maxCoeff(), 1e-12);
+    }
+  }
 }
 
 TEST(CheckWeights, FindNothingInARigidBar) {

@@ -332,5 +332,20 @@ TEST(LeastPairs, HaveTheLeastSumOfAll) {
   }
 }
 
+/// No vertex turns by enough of it to be counted.
+TEST(CompareRigs, AJointOfALittleOfEachVertexIsNoLimb) {
+  RiggedSurface bar = rigged_bar({-6, 0});
+  bar.rig.weights.setZero();
+  for (Eigen::Index vertex = 0; vertex < bar.rig.weights.rows(); ++vertex) {
+    bar.rig.weights.insert(vertex, 0) = 0.993F;
+    bar.rig.weights.insert(vertex, 1) = 0.007F;
+  }
+  bar.rig.weights.makeCompressed();
+  const RigComparison found = compare_rigs(bar, bar);
+  ASSERT_TRUE(found.poses.has_value());
+  EXPECT_EQ(found.poses->poses, 0);
+  EXPECT_EQ(found.poses->mean_distance, 0);
+}
+
 }  // namespace
 }  // namespace curveskel::compare_rigs_laws

@@ -171,14 +171,16 @@ TEST_F(DressDae, NormalsStayNormal) {
   }
 }
 
-/// The box, turned, with a target in which vertex 3 is moved by .5 along y as it is shown.
-Dae morphed(bool relative, double weight) {
+/// The box, turned, with a target in which vertex 3, or each, is moved by .5 along y as it is
+/// shown.
+Dae morphed(bool relative, double weight, bool moves_all = false) {
   std::string numbers;
   for (std::size_t v = 0; v < 8; ++v) {
     const auto& p = encodings::corners[v];
     const Eigen::Vector3d base =
         relative ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(p[0], p[1], p[2]);
-    const Eigen::Vector3d move = v == 3 ? Eigen::Vector3d(0.5, 0, 0) : Eigen::Vector3d(0, 0, 0);
+    const bool moves = moves_all || v == 3;
+    const Eigen::Vector3d move = moves ? Eigen::Vector3d(0.5, 0, 0) : Eigen::Vector3d(0, 0, 0);
     for (const double number : Eigen::Vector3d(base + move)) {
       numbers += encodings::fbx_number(number) + " ";
     }
@@ -216,6 +218,18 @@ TEST_F(DressDae, MorphsBecomeMorphTargets) {
     EXPECT_LT(
         (Eigen::Map<const Eigen::Vector3f>(moved.data()) - Eigen::Vector3f(0, 0.5F, 0)).norm(),
         1e-6F);
+  }
+}
+
+/// Programs refuse a file with others. Vertices that are not listed are at 0.
+TEST_F(DressDae, MorphTargetsHaveTheBoundsOfTheirNumbers) {
+  for (const bool moves_all : {false, true}) {
+    const Glb glb = glb_of(dressed(written(morphed(true, 0, moves_all))).bytes);
+    const Json& target = glb.json["meshes"][0]["primitives"][0]["targets"][0];
+    const Json& accessor = glb.json["accessors"][target["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(accessor["sparse"]["count"] == accessor["count"], moves_all);
+    EXPECT_NEAR(accessor["min"][1].get<double>(), moves_all ? 0.5 : 0, 1e-6);
+    EXPECT_NEAR(accessor["max"][1].get<double>(), 0.5, 1e-6);
   }
 }
 

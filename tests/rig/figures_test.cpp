@@ -124,14 +124,17 @@ TEST(DividedBodies, HaveThePartsThatAreLeftIfAllElseFollows) {
       parts.parts.push_back({.follows = !is_member});
       if (is_member) members.push_back(c);
     }
-    const auto [body, skeleton] = divided.part_of_file(members);
+    const auto [body, skeleton, inputs] = divided.part_of_file(members);
     EXPECT_EQ(divided.part(members).body.surface.positions, body.surface.positions);
     EXPECT_EQ(divided.nodes(members), nodes_of_body(whole.skeleton, parts));
     const RepairedSurface left = body_of(whole.body, parts);
     const CurveSkeleton curves = skeleton_of_body(whole.skeleton, parts);
     EXPECT_EQ(body.surface.positions, left.surface.positions);
     EXPECT_EQ(body.surface.triangles, left.surface.triangles);
-    EXPECT_EQ(body.vertex_of_input, left.vertex_of_input);
+    ASSERT_TRUE(inputs);
+    EXPECT_EQ(body.vertex_of_input.size(), Eigen::Index(inputs->size()));
+    EXPECT_EQ(body.vertex_of_input, left.vertex_of_input(*inputs));
+    EXPECT_EQ((left.vertex_of_input.array() >= 0).count(), body.vertex_of_input.size());
     EXPECT_EQ(body.rims, left.rims);
     EXPECT_EQ(body.sheets, left.sheets);
     EXPECT_EQ(skeleton.nodes, curves.nodes);
@@ -168,6 +171,16 @@ RiggedBody small_figure(int vertices, int joints, int inputs, int first_input) {
   return made;
 }
 
+/// As figures of a crowd are found.
+void keep_own_inputs(RiggedBody& figure) {
+  std::vector<int> own;
+  for (int input = 0; input < int(figure.body.vertex_of_input.size()); ++input) {
+    if (figure.body.vertex_of_input[input] >= 0) own.push_back(input);
+  }
+  figure.body.vertex_of_input = Eigen::VectorXi(figure.body.vertex_of_input(own));
+  figure.inputs = own;
+}
+
 TEST(Figures, SideBySideHaveEachItsOwnRowsAndJoints) {
   for (const int count : {1, 2, 9}) {
     std::vector<RiggedBody> figures;
@@ -175,9 +188,10 @@ TEST(Figures, SideBySideHaveEachItsOwnRowsAndJoints) {
     const int inputs = count * (count + 5);
     for (int k = 0; k < count; ++k) {
       figures.push_back(small_figure(4 + k, 2 + k % 3, inputs, k * (count + 5)));
+      if (k % 2 == 1) keep_own_inputs(figures.back());
     }
     if (count == 9) figures[4].rig.readable.assign(figures[4].rig.names.size(), "Joint");
-    const RiggedBody all = side_by_side(figures);
+    const RiggedBody all = side_by_side(figures, inputs);
     const Eigen::MatrixXf weights = all.rig.weights;
     EXPECT_EQ(all.rig.readable.size(), count == 9 ? all.rig.names.size() : 0U);
     int vertex = 0;
@@ -194,6 +208,7 @@ TEST(Figures, SideBySideHaveEachItsOwnRowsAndJoints) {
       EXPECT_EQ(all.rig.names[std::size_t(joint)], figure_prefix(std::size_t(k)) + "joint");
       EXPECT_EQ(all.body.surface.triangles(k, 2), vertex + vertices - 1);
       EXPECT_EQ(all.body.vertex_of_input[k * (count + 5) + 1], vertex + 1);
+      EXPECT_EQ(all.body.vertex_of_input[k * (count + 5) + vertices], -1);
       EXPECT_EQ(all.skeleton.edges(k, 1), 2 * k + 1);
       EXPECT_EQ(all.skeleton.node_of_vertex[vertex], 2 * k + 1);
       vertex += vertices;

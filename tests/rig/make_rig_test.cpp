@@ -170,6 +170,24 @@ TEST(RigOfGiven, MovesEachVertexAsTheOneItBecame) {
   }
 }
 
+TEST(RigOfGiven, FollowersMoveWithAsManyJointsAsAreAsked) {
+  const RigSubject s = mapped_s();
+  const Rig rig = make_rig(s.surface, s.skeleton, {}, {});
+  const Eigen::Index count = s.surface.positions.rows();
+  const Eigen::VectorXi none = Eigen::VectorXi::Constant(count, -1);
+  for (const int most : {1, 2}) {
+    const Rig found =
+        rig_of_given(rig, s.surface, s.skeleton, none, s.surface, {.most_joints = most});
+    Eigen::Index largest = 0;
+    for (Eigen::Index v = 0; v < count; ++v) {
+      largest = std::max(largest, Eigen::Index(found.weights.row(v).nonZeros()));
+    }
+    EXPECT_EQ(largest, most);
+  }
+  EXPECT_THROW((void)rig_of_given(rig, s.surface, s.skeleton, none, s.surface, {.most_joints = 9}),
+               Error);
+}
+
 TEST(RigOfGiven, MovesWhatIsFarAwayToo) {
   const RigSubject s = mapped_s();
   const Rig rig = make_rig(s.surface, s.skeleton, {}, {});

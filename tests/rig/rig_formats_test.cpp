@@ -115,6 +115,66 @@ TEST_F(RigFormats, WrongJointsAreRefusedByName) {
   EXPECT_NE(refusal("a.txt", "no rig at all").find("no joint"), std::string::npos);
 }
 
+/// None of these is a number of a joint, though it may become one when it is rounded or cut.
+TEST_F(RigFormats, ParentsThatAreNoNumbersOfJointsAreRefused) {
+  for (const char* const parent :
+       {"1.9", "0.0", "1e+300", "-2", "2", "4294967295", "18446744073709551615", "true", "\"a\""}) {
+    const std::string found =
+        refusal("a.json", std::string(R"({"joints": [{"name": "a", "parent": -1, "position":)") +
+                              R"([0, 0, 0]}, {"name": "b", "parent": )" + parent +
+                              R"(, "position": [1, 0, 0]}]})");
+    EXPECT_NE(found.find("joint \"b\" with parent " + std::string(parent)), std::string::npos)
+        << parent << ": " << found;
+  }
+}
+
+TEST_F(RigFormats, AJointOfTextHasOneParent) {
+  const std::string joints = "joints a 0 0 0\njoints b 1 0 0\njoints c 2 0 0\nhier a c\n";
+  EXPECT_EQ(refusal("a.txt", joints), "");
+  const std::string found = refusal("a.txt", joints + "hier b c\n");
+  EXPECT_NE(found.find("joint \"c\" with the parents \"a\" and \"b\""), std::string::npos) << found;
+}
+
+TEST_F(RigFormats, JointsMayBeginWithAByteOrderMark) {
+  const Rig rig = random_rig_of(written_cases()[1]);
+  for (const auto& [name, format] :
+       {std::pair{"rig.json", RigFormat::json}, std::pair{"rig.txt", RigFormat::txt}}) {
+    const std::string marked = "\xEF\xBB\xBF" + formatted(rig, format);
+    expect_same_joints(read_joints(folder_.write(name, marked), {}), rig, true);
+  }
+}
+
+TEST_F(RigFormats, RigsThatNoFileHoldsAreRefused) {
+  const Eigen::Index vertices = torus_surface().positions.rows();
+  Rig without_joints;
+  without_joints.joints.resize(0, 3);
+  without_joints.weights.resize(vertices, 0);
+  Rig negative = random_rig_of(written_cases()[1]);
+  negative.weights.coeffRef(5, 1) = -0.5F;
+  const auto refused = [](const Rig& rig, RigFormat format, const std::string& words) {
+    try {
+      (void)formatted(rig, format);
+      ADD_FAILURE() << "no error that says " << words;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::input);
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  for (const auto& format : rig_formats) {
+    SCOPED_TRACE(format.name);
+    refused(without_joints, format.value, "no joint");
+    refused(negative, format.value, "a weight below 0");
+  }
+}
+
+TEST_F(RigFormats, RolesOfJsonAreUtf8) {
+  Rig rig = random_rig_of(written_cases()[1]);
+  rig.roles = {"\xFF\xFE", "spine"};
+  const Json json = Json::parse(formatted(rig, RigFormat::json));
+  EXPECT_NE(json["joints"][0]["role"], "");
+  EXPECT_EQ(json["joints"][1]["role"], "spine");
+}
+
 TEST_F(RigFormats, JsonHasFourWeightsOfSumOneForEachVertex) {
   for (const WrittenCase& one : written_cases()) {
     const Rig rig = random_rig_of(one);

@@ -140,6 +140,24 @@ TEST_F(VrmFiles, ThatKeepTheirJointsStayWhatTheyAre) {
   EXPECT_THROW((void)kept(file, *read_rig(file), {"Bo", "B", "free"}), Error);
 }
 
+/// VRM has no bone "tail", and one joint for each that it has.
+TEST_F(VrmFiles, HaveTheBonesOfVrmAloneEachOnce) {
+  const auto bones_of = [](const Json& json) {  // in any order
+    const Json& bones = json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"];
+    return nlohmann::json::parse(bones.dump());
+  };
+  const nlohmann::json before = bones_of(parted(read_all(human_file())).json);
+  const fs::path file = human_file([](Json& json) { json.erase("extensions"); });
+  Rig rig = *read_rig(file);
+  rig.roles = roles_by_name(rig);
+  const auto last_without = std::find(rig.roles.rbegin(), rig.roles.rend(), "");
+  ASSERT_NE(last_without, rig.roles.rend());
+  for (const char* const role : {"tail", "hips", "leftTail", "left"}) {
+    *last_without = role;
+    EXPECT_EQ(bones_of(kept(file, rig, meta)), before) << role;
+  }
+}
+
 TEST_F(VrmFiles, AreMadeOfJointsWhoseRolesAreKnown) {
   const Json vrm = parted(read_all(human_file())).json["extensions"];
   const fs::path file = human_file([](Json& json) { json.erase("extensions"); });

@@ -129,5 +129,36 @@ TEST_P(WriteRig, TakesNamesThatAreNoUtf8) {
   EXPECT_NE(text.find("caf\xef\xbf\xbd"), std::string::npos);
 }
 
+/// A weight of zero that is stored is none.
+TEST_P(WriteRig, VerticesWithoutAWeightGoWithTheFirstJoint) {
+  const Surface surface = torus_surface();
+  Rig rig = random_rig(surface.positions.rows(), 7, "b");
+  for (SkinWeights::InnerIterator it(rig.weights, 5); it; ++it) it.valueRef() = 0;
+  rig.weights.coeffRef(5, 6) = 0;
+  const auto found = read_rig(write(surface, rig));
+  ASSERT_TRUE(found);
+  for (SkinWeights::InnerIterator it(found->weights, 5); it; ++it) {
+    EXPECT_EQ(found->names[idx(it.col())], "b0");
+    EXPECT_EQ(it.value(), 1);
+  }
+}
+
+TEST(WriteRigFile, ThatFailsLeavesWhatWasThereBefore) {
+  const OwnFolder folder;
+  std::filesystem::create_directory(folder.path() / "rig.usda");
+  std::filesystem::create_directory(folder.path() / "kept");
+  const auto write_it = [&](const std::string& side) {
+    write_rig_file(folder.path() / "rig.usda", "#usda", {{side, "a picture"}});
+  };
+  EXPECT_THROW(write_it("rig_textures/skin.png"), Error);
+  EXPECT_THROW(write_it("kept/skin.png"), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "rig_textures"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "kept"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "kept"));
+  std::filesystem::remove(folder.path() / "rig.usda");
+  write_it("rig_textures/skin.png");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "rig_textures" / "skin.png"));
+}
+
 }  // namespace
 }  // namespace curveskel::write_rig_laws
