@@ -59,6 +59,16 @@ std::string skeleton_findings(const PolygonsRig& found, const RigPolygonsOptions
   return found.certificate ? all_failures(*found.certificate, options.extract.certificate) : "";
 }
 
+namespace {
+
+bool shows_limb(const BodyPlan& plan, const std::string& role) {
+  return std::any_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& joint) {
+    return joint.role == role && !joint.reason.starts_with("by proportion");
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> rig_findings(const CharacterRig& character,
                                       const CharacterOptions& options) {
   const BodyPlan& plan = character.plan;
@@ -73,6 +83,12 @@ std::vector<std::string> rig_findings(const CharacterRig& character,
     findings.push_back(fmt::format(
         "the names {} have no words for the plan {}; joints have readable names instead",
         name_of(name_styles, options.names), name_of(body_kinds, plan.plan)));
+  }
+  if (plan.by_proportion && !shows_limb(plan, "leftUpperLeg") &&
+      !shows_limb(plan, "leftUpperArm")) {
+    findings.emplace_back(
+        "neither legs nor arms are seen: all are placed where a human has them who stands upright, "
+        "which is wrong for one who sits or lies");
   }
   const BodyKind asked = options.plan.plan;
   const bool is_asked_for =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -59,14 +60,9 @@ class PartFinder {
       all += areas_.back();
     }
     for (std::size_t c = 0; c < areas_.size(); ++c) found_.parts[c].area_share = areas_[c] / all;
-    by_area_.resize(components_.size());
-    std::iota(by_area_.begin(), by_area_.end(), 0);
-    // Mirror images differ by rounding.
-    std::stable_sort(by_area_.begin(), by_area_.end(), [&](int a, int b) {
-      return std::llround(1e6 * found_.parts[idx(a)].area_share) >
-             std::llround(1e6 * found_.parts[idx(b)].area_share);
-    });
+    for (const Component& component : components_) middles_.push_back(centroid(component.surface));
     diagonal_ = bounding_box_diagonal(surface.positions);
+    sort_by_area();
   }
 
   RigParts find() {
@@ -75,33 +71,73 @@ class PartFinder {
     std::vector<char> decided(components_.size(), 0);
     for (std::size_t rank = 0; rank < by_area_.size(); ++rank) {
       monitor_.report("parts", static_cast<double>(rank) / static_cast<double>(by_area_.size()));
-      const int c = by_area_[rank];
-      if (decided[idx(c)] != 0) continue;
-      std::vector<int> together{c};
-      const int twin = found_.parts[idx(c)].twin;
-      if (rank > 0 && twin >= 0 && decided[idx(twin)] == 0) together.push_back(twin);
-      for (const int one : together) decided[idx(one)] = 1;
-      decide(together, rank == 0);
+      if (decided[idx(by_area_[rank])] != 0) continue;
+      std::vector<std::vector<int>> alike;  // each with its twin
+      const std::int64_t share = rounded_share(by_area_[rank]);
+      for (std::size_t k = rank; k < by_area_.size() && rounded_share(by_area_[k]) == share; ++k) {
+        add_undecided(by_area_[k], decided, alike);
+      }
+      const std::vector<std::vector<int>> rest = decide(alike, rank == 0);
+      // Arms are asked again with the legs there: beside the head alone the body looks thicker.
+      if (rest.size() < alike.size()) (void)decide(rest, false);
     }
     return std::move(found_);
   }
 
  private:
-  void decide(const std::vector<int>& together, bool is_first) {
-    double reach = 0;
-    for (const int c : together) {
-      if (is_first) continue;
-      measure(c);
-      reach += found_.parts[idx(c)].reach / static_cast<double>(together.size());
+  /// Mirror images differ by rounding.
+  [[nodiscard]] std::int64_t rounded_share(int c) const {
+    return std::llround(1e6 * found_.parts[idx(c)].area_share);
+  }
+
+  /// Of equals by their places: numbers depend on the order of faces.
+  void sort_by_area() {
+    const double unit = diagonal_ > 0 ? 1e-6 * diagonal_ : 1;
+    std::vector<std::array<std::int64_t, 4>> keys;
+    for (std::size_t c = 0; c < components_.size(); ++c) {
+      const Vector3d place = middles_[c] / unit;
+      keys.push_back({-rounded_share(static_cast<int>(c)), std::llround(place.x()),
+                      std::llround(place.y()), std::llround(place.z())});
     }
-    const bool follows = !is_first && reach < options_.follow;
-    for (const int c : together) {
-      RigPart& part = found_.parts[idx(c)];
-      part.follows = follows;
-      if (follows) continue;
-      part.host = -1;
+    by_area_.resize(components_.size());
+    std::iota(by_area_.begin(), by_area_.end(), 0);
+    std::stable_sort(by_area_.begin(), by_area_.end(),
+                     [&](int a, int b) { return keys[idx(a)] < keys[idx(b)]; });
+  }
+
+  void add_undecided(int c, std::vector<char>& decided,
+                     std::vector<std::vector<int>>& alike) const {
+    if (decided[idx(c)] != 0) return;
+    alike.push_back({c});
+    const int twin = found_.parts[idx(c)].twin;
+    if (twin >= 0 && decided[idx(twin)] == 0) alike.back().push_back(twin);
+    for (const int one : alike.back()) decided[idx(one)] = 1;
+  }
+
+  /// All of them as to the body before: of the limbs of a block figure, which are alike, none is
+  /// there when another one is asked about. Of the largest none is worn by another. Returns those
+  /// that follow.
+  std::vector<std::vector<int>> decide(const std::vector<std::vector<int>>& alike,
+                                       bool are_largest) {
+    std::vector<std::vector<int>> following;
+    std::vector<int> joining;
+    for (const std::vector<int>& together : alike) {
+      double reach = 0;
+      for (const int c : together) {
+        if (are_largest) continue;
+        measure(c);
+        reach += found_.parts[idx(c)].reach / static_cast<double>(together.size());
+      }
+      const bool follows = !are_largest && reach < options_.follow;
+      for (const int c : together) found_.parts[idx(c)].follows = follows;
+      if (follows) following.push_back(together);
+      if (!follows) joining.insert(joining.end(), together.begin(), together.end());
+    }
+    for (const int c : joining) {
+      found_.parts[idx(c)].host = -1;
       body_.add(c, components_[idx(c)], options_.threads);
     }
+    return following;
   }
 
   /// Sets the component's reach, and its host as if it followed.
@@ -126,13 +162,11 @@ class PartFinder {
   }
 
   void pair_twins() {
-    std::vector<Vector3d> middles;
-    for (const Component& component : components_) middles.push_back(centroid(component.surface));
     const Positions& largest = components_[idx(by_area_[0])].surface.positions;
     const Vector3d middle =
         0.5 * (largest.colwise().minCoeff() + largest.colwise().maxCoeff()).transpose();
     const std::vector<int> twins =
-        mirrored_twins({middles, areas_, by_area_}, middle, 0.01 * diagonal_, monitor_.stop);
+        mirrored_twins({middles_, areas_, by_area_}, middle, 0.01 * diagonal_, monitor_.stop);
     for (std::size_t c = 0; c < twins.size(); ++c) found_.parts[c].twin = twins[c];
   }
 
@@ -140,6 +174,7 @@ class PartFinder {
   const Monitor& monitor_;
   std::vector<Component> components_;
   std::vector<double> areas_;
+  std::vector<Vector3d> middles_;
   std::vector<int> by_area_;
   double diagonal_ = 0;
   BodySoFar body_;

@@ -49,8 +49,10 @@ std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
 }
 
 /// Of a body on one pair of legs a second pair, if it hangs down from another place of a trunk that
-/// is not upright, is about as long, and long enough to stand on. A tyrannosaur's arms are not.
-void add_lifted_legs(const CurveTree& tree, const Limbs& limbs, std::vector<int>& legs) {
+/// is not upright, is about as long, and long enough to stand on. A tyrannosaur's arms are not. It
+/// may be lifted in a pose, else it stands, if aslant.
+void add_second_legs(const CurveTree& tree, const Limbs& limbs, bool in_pose,
+                     std::vector<int>& legs) {
   constexpr double about = 1.7;
   constexpr double nearly = 0.75;  // of the way down, as the other pair may be bent
   constexpr double apart = 0.1;    // of the size or height
@@ -69,6 +71,7 @@ void add_lifted_legs(const CurveTree& tree, const Limbs& limbs, std::vector<int>
         down < apart * tree.height) {
       continue;
     }
+    if (!in_pose && !is_leg(tree, pair, sprawling_legs)) continue;
     legs.push_back(k);
     return;
   }
@@ -160,6 +163,18 @@ bool has_shoulders(const CurveTree& tree, const Limbs& limbs, int arms) {
   });
 }
 
+/// Longer limbs than its legs and arms, up to the top: on these it stands, turned over, and its
+/// legs here are ears.
+bool is_upside_down(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
+  const double longest =
+      std::max(limbs.pairs[idx(found.legs.front())].length, limbs.pairs[idx(found.arms)].length);
+  const double top = tree.ground + (1 - near_ground) * tree.height;
+  return std::any_of(limbs.pairs.begin(), limbs.pairs.end(), [&](const LimbPair& pair) {
+    const int tip = pair.ways.front().path.back();
+    return pair.length > longest && tree.nodes[idx(tip)].y() + tree.radii[idx(tip)] > top;
+  });
+}
+
 /// Why what stands upright with a pair of upper limbs is no human; empty for a human.
 std::string why_no_human(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   constexpr double shortest_arm = 1.0 / 3;  // of the leg: a rex has such arms, and a chair
@@ -169,6 +184,7 @@ std::string why_no_human(const CurveTree& tree, const Limbs& limbs, const PlanFo
   if (limbs.pairs[idx(found.arms)].length < shortest_arm * leg) {
     return "the upper limbs are shorter than a third of the legs; ";
   }
+  if (is_upside_down(tree, limbs, found)) return "it stands upside down; ";
   return has_shoulders(tree, limbs, found.arms) ? "" : "nothing rises above the upper limbs; ";
 }
 
@@ -222,7 +238,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
   PlanFound found;
   found.legs = find_legs(tree, limbs);
   const bool in_pose = standing == Standing::in_pose;
-  if (in_pose && found.legs.size() == 1) add_lifted_legs(tree, limbs, found.legs);
+  if (found.legs.size() == 1) add_second_legs(tree, limbs, in_pose, found.legs);
   const std::size_t legs = found.legs.size();
   if (legs < 2 && may_be_bird(wanted) && spreads_wings(tree, limbs, found)) return found;
   const bool is_asked_for = wanted == BodyKind::fish && !limbs.trunk.empty();

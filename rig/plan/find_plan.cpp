@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include <curveskel/error.hpp>
 #include "base/option_ranges.hpp"
 #include "rig/plan/frames.hpp"
+#include "rig/plan/looks.hpp"
 #include "rig/plan/outlook.hpp"
 #include "rig/plan/role_words.hpp"
 #include "rig/plan/things.hpp"
@@ -210,6 +212,22 @@ void require_sheets_of(const Surface& surface, const PlanOptions& options) {
   }
 }
 
+/// Who lies on his back stands on arms and legs as an animal does, but may be put together, of
+/// clothes. A table is alike from both ends.
+std::optional<Outlook> human_instead(const Outlook& animal, const Surface& surface,
+                                     const CurveSkeleton& skeleton, const PlanOptions& options) {
+  if (animal.found.plan != BodyKind::quadruped || is_alike_from_both_ends(animal)) return {};
+  PlanOptions asked = options;
+  asked.plan = BodyKind::humanoid;
+  asked.by_proportion = false;
+  Outlook human = best_outlook(surface, skeleton, asked);
+  const bool is_one = human.found.plan == BodyKind::humanoid && !human.found.is_forced &&
+                      human.tree.cycles == 0 && has_trunk(human) &&
+                      explained_by(human).share >= most_of_it &&
+                      why_a_thing(human, surface, asked).empty();
+  return is_one ? std::optional<Outlook>(std::move(human)) : std::nullopt;
+}
+
 constexpr const char* not_made_of_tubes =
     "the surface is not made of tubes, as bodies are; a plan can be asked for";
 
@@ -247,8 +265,14 @@ BodyPlan find_plan(const Surface& surface, const CurveSkeleton& skeleton,
     outlook.found.reason = not_made_of_tubes;
   } else if (is_found) {
     const std::string why = why_a_thing(outlook, surface, options);
-    if (!why.empty()) outlook.found.plan = BodyKind::other;
-    outlook.found.reason.insert(0, why);
+    std::optional<Outlook> human;
+    if (!why.empty()) human = human_instead(outlook, surface, skeleton, options);
+    if (human) {
+      outlook = std::move(*human);
+    } else {
+      if (!why.empty()) outlook.found.plan = BodyKind::other;
+      outlook.found.reason.insert(0, why);
+    }
   }
   const std::vector<Place> places = places_of(outlook);
   result.axes = outlook.axes.array() + 0.0;  // no -0

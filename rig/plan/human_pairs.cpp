@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include <curveskel/advanced/indices.hpp>
 #include "rig/plan/body_sections.hpp"
@@ -50,6 +52,36 @@ bool is_human_arm(const CurveTree& tree, const LimbPair& pair, double neck, doub
          arm_joints(tree, pair).shoulder.x() - tree.middle > narrowest * tree.height;
 }
 
+/// Most of either side lies within the other one's image.
+bool are_images(const CurveTree& tree, const LimbPair& pair) {
+  constexpr double most = 0.5;
+  return share_within_both(tree, pair.ways.front()) > most;
+}
+
+/// Of those who sit, and of dolls: the two longest pairs, the lower of which reaches the ground;
+/// neither is as short as no human's arm.
+HumanPairs longest_pairs(const CurveTree& tree, const Limbs& limbs) {
+  constexpr double shortest = 0.12;    // of the size
+  constexpr double most_unlike = 3.0;  // an arm is a third of its leg at least
+  std::vector<int> pairs(limbs.pairs.size());
+  std::iota(pairs.begin(), pairs.end(), 0);
+  const auto length = [&](int k) { return limbs.pairs[idx(k)].length; };
+  std::stable_sort(pairs.begin(), pairs.end(), [&](int a, int b) { return length(a) > length(b); });
+  if (pairs.size() < 2 || length(pairs[1]) < shortest * tree.size) return {};
+  if (length(pairs[0]) > most_unlike * length(pairs[1])) return {};
+  // Both may begin in the ball of a short trunk.
+  const auto height = [&](int k) {
+    const LimbPair& pair = limbs.pairs[idx(k)];
+    return tree.nodes[idx(pair.root)].y() + tree.nodes[idx(pair.ways.front().path.back())].y();
+  };
+  const bool is_first_lower = height(pairs[0]) < height(pairs[1]);
+  const HumanPairs seen{pairs[is_first_lower ? 0 : 1], pairs[is_first_lower ? 1 : 0]};
+  const bool sits = limbs.pairs[idx(seen.legs)].lowest < tree.ground + near_ground * tree.height;
+  const bool are_alike =
+      are_images(tree, limbs.pairs[idx(pairs[0])]) && are_images(tree, limbs.pairs[idx(pairs[1])]);
+  return sits && are_alike ? seen : HumanPairs{};
+}
+
 }  // namespace
 
 HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
@@ -70,7 +102,7 @@ HumanPairs human_pairs(const CurveTree& tree, const Limbs& limbs) {
     farthest = aside;
     seen.arms = k;
   }
-  return seen;
+  return seen.legs < 0 && seen.arms < 0 ? longest_pairs(tree, limbs) : seen;
 }
 
 }  // namespace curveskel

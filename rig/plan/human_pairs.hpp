@@ -5,7 +5,8 @@
 
 namespace curveskel {
 
-/// The pairs that are a human's by their heights; -1 = none.
+/// The pairs that are a human's by their heights; where there are none, the two longest if they are
+/// images of each other and the lower one reaches the ground, as of those who sit. -1 = none.
 struct HumanPairs {
   int legs = -1;  ///< from between knees and waist: what parts lower is a hem, or feet
   int arms = -1;  ///< from between hips and head, a third of the legs or longer

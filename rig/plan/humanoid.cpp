@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -97,6 +99,14 @@ class Humanoid {
         "on the line from the hip to the ankle, in a gown", false);
   }
 
+  /// True for a leg from the hip on that does not stand: more across than down as far as the ankle.
+  [[nodiscard]] static bool is_bent(const std::vector<Vector3d>& leg, double ankle) {
+    double length = 0;
+    std::size_t k = 1;
+    for (; k < leg.size() && leg[k - 1].y() > ankle; ++k) length += (leg[k] - leg[k - 1]).norm();
+    return (leg.front().y() - leg[k - 1].y()) < std::numbers::sqrt2 / 2 * length;
+  }
+
   void place_leg(const LimbPair& leg) {
     const Course course = mean_course(tree_, leg.ways.front());
     const std::size_t count = course.points.size();
@@ -126,12 +136,21 @@ class Humanoid {
     };
     const bool is_hidden = hides_legs(hip_height_);
     Vector3d ankle = at_share(is_hidden ? 0.5 : ankle_of_hips);
+    Vector3d knee = at_share(knee_of_hips);
+    const std::size_t hip_index = index_at(hip_height_);
+    const auto hip_place = course.points.begin() + static_cast<std::ptrdiff_t>(hip_index);
+    const bool is_in_pose =
+        posed_ != nullptr || is_bent({hip_place, course.points.end()}, ankle.y());
     std::optional<double> share;
-    if (posed_ != nullptr && !is_hidden) {  // a lifted foot is not as high as its leg is long
+    std::optional<double> way_to_knee;
+    if (is_in_pose && !is_hidden) {  // a lifted foot is not as high as its leg is long
+      constexpr double of_way = (1 - knee_of_hips) / (1 - ankle_of_hips);
       const auto last = static_cast<double>(count - 1);
-      const double hip = static_cast<double>(index_at(hip_height_)) / last;
-      share = ankle_in_pose(*posed_, limbs_, leg.ways.front(), hip);
+      const double hip = static_cast<double>(hip_index) / last;
+      share = ankle_in_pose(posed_ != nullptr ? *posed_ : tree_, limbs_, leg.ways.front(), hip);
+      way_to_knee = hip + of_way * (*share - hip);
       ankle = course.points[idx(std::lround(*share * last))];
+      knee = course.points[idx(std::lround(*way_to_knee * last))];
     }
     double toes = -std::numeric_limits<double>::infinity();
     for (const int v : leg.vertices) {
@@ -143,14 +162,16 @@ class Humanoid {
       place_hidden_leg(ankle);
     } else {
       add("leftUpperLeg", "hips", hip_, leg_pair(), "above the place where the legs part");
-      add("leftLowerLeg", "leftUpperLeg", at_share(knee_of_hips), leg_pair(),
-          ".56 of the hips' height above the ground");
+      add("leftLowerLeg", "leftUpperLeg", knee, leg_pair(),
+          way_to_knee ? "half-way from the hip to the ankle, along the leg"
+                      : ".56 of the hips' height above the ground");
+      if (posed_ != nullptr) places_.back().share = way_to_knee;
     }
     add("leftFoot", "leftLowerLeg", ankle, leg_pair(),
         is_hidden ? "half-way from the hem to the ground"
         : share   ? ".115 of the leg's length above its sole, along the shin"
                   : ".115 of the hips' height above the ground");
-    places_.back().share = share;
+    if (posed_ != nullptr) places_.back().share = share;
     add("leftToes", "leftFoot",
         {ankle.x(), tree_.ground + 0.02 * tree_.height, ankle.z() + 0.55 * (toes - ankle.z())},
         leg_pair(), ".55 of the way from the ankle to the tip of the foot");

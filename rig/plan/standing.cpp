@@ -142,6 +142,7 @@ double height_of_shoulders(const CurveTree& tree, const BodySections& sections) 
 }
 
 std::string reason_of(const HumanPairs& seen) {
+  if (seen.legs >= 0 && seen.arms >= 0) return "as asked; a pair of legs and one of arms";
   const std::string limbs = seen.legs >= 0 ? "arms" : seen.arms >= 0 ? "legs" : "legs and arms";
   return "as asked; " + limbs + " are not seen and stand by a human's proportions";
 }

@@ -135,6 +135,21 @@ TEST(HiddenLimbs, ABodyWithoutAnyLimbHasAllByProportion) {
   }
 }
 
+// All its limbs were made up, far from those that the curve has.
+TEST(HiddenLimbs, ADollThatSitsKeepsItsLimbs) {
+  const RigSubject subject = sitting_doll();
+  PlanOptions options = humanoid();
+  options.front = Direction::z;  // feet without toes do not say it
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton, options);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  EXPECT_EQ(plan.reason.find("not seen"), std::string::npos) << plan.reason;
+  EXPECT_FALSE(is_by_proportion(plan, "leftUpperLeg"));
+  EXPECT_FALSE(is_by_proportion(plan, "leftUpperArm"));
+  expect_near(plan, "leftLowerLeg", {2, 1, 3.5}, 1);
+  expect_near(plan, "leftLowerArm", {3.6, 4.4, 0.5}, 1);
+  expect_alike_on_both_sides(plan);
+}
+
 /// Legs that are seen are those of the same body with arms. No arms are: none at all, braids,
 /// stubs.
 TEST(HiddenLimbs, WhatIsNoWholeArmIsNone) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -117,6 +118,35 @@ TEST(FindParts, MirrorImagesDecideTogether) {
   EXPECT_NE(found.parts[1].reach < 1.11, found.parts[2].reach < 1.11);
   EXPECT_EQ(found.parts[1].follows, found.parts[2].follows);
   EXPECT_FALSE(found.parts[3].follows);
+}
+
+/// Head, trunk, arms and legs as games have them, of boxes; arms and legs are one box.
+std::vector<Shape> block_figure() {
+  const auto box_at = [](const Eigen::Vector3d& size, const Eigen::Vector3d& middle) {
+    Shape box = shapes::box(size, 2);
+    const Eigen::RowVector3d low = box.surface.positions.colwise().minCoeff();
+    const Eigen::RowVector3d high = box.surface.positions.colwise().maxCoeff();
+    return shapes::translated(box, middle - 0.5 * (low + high).transpose());
+  };
+  std::vector<Shape> figure{box_at({8, 12, 4}, {0, 18, 0}), box_at({8, 8, 8}, {0, 28.1, 0})};
+  for (const double side : {1.0, -1.0}) {
+    figure.push_back(box_at({4, 12, 4}, {2.1 * side, 5.9, 0}));
+    figure.push_back(box_at({4, 12, 4}, {6.1 * side, 18, 0}));
+  }
+  return figure;
+}
+
+// Arms followed a trunk beside which only the head was thick, unless a leg came before them.
+TEST(FindParts, DoesNotDependOnTheOrderOfEquals) {
+  const std::vector<Shape> figure = block_figure();
+  std::vector<std::size_t> order{0, 1, 2, 3, 4, 5};
+  do {
+    std::vector<Shape> parts;
+    for (const std::size_t part : order) parts.push_back(figure[part]);
+    const RigParts found = find_parts(shapes::together("", parts).surface);
+    ASSERT_EQ(found.parts.size(), parts.size());
+    EXPECT_TRUE(found.all_body()) << testing::PrintToString(order);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(FindParts, ZeroGivesAllJoints) {

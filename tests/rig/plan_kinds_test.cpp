@@ -76,6 +76,61 @@ TEST(FindPlan, SprawlsOnFourLegs) {
   EXPECT_EQ(plan.axes(2, 2), 1);
 }
 
+/// Ears are no arms where a pair of front legs reaches the ground, if aslant.
+TEST(FindPlan, AMouseWithLargeEarsStandsOnFourLegs) {
+  const RigSubject subject = mouse();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+}
+
+/// A human upside down, on its ears.
+TEST(FindPlan, NobodyStandsOnHisEars) {
+  for (const double ears : {0.0, 2.5}) {
+    BodyCurve figure;
+    const int head = figure.add({0, 17, 0}, 1.3);
+    const int chest = figure.add({0, 14, 0}, 1.4, head);
+    const int hips = figure.add({0, 9.5, 0}, 1.4, chest);
+    if (ears > 0) figure.add_pair(head, {{0.9, 18, 0}, {1, 18 + ears, 0}}, 0.4);
+    figure.add_pair(chest, {{2.2, 14, 0}, {5.5, 14, 0}, {8.5, 14, 0}}, 0.5);
+    figure.add_pair(hips, {{1.6, 9, 0}, {1.6, 5, 0}, {1.6, 0.6, 0}, {1.6, 0.5, 2}}, 0.6);
+    const RigSubject upright = subject_of("hare", figure);
+    EXPECT_EQ(find_plan(upright.surface, upright.skeleton).plan, BodyKind::humanoid);
+    PlanOptions upside_down;
+    upside_down.up = Direction::minus_y;
+    const BodyPlan plan = find_plan(upright.surface, upright.skeleton, upside_down);
+    EXPECT_EQ(plan.plan, BodyKind::other) << plan.reason;
+  }
+}
+
+/// Thighs are level: a share of the hips' height is in the shin.
+TEST(FindPlan, KneesOfTheSittingAreHalfWayAlongTheLeg) {
+  const RigSubject subject = sitting_human();
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  expect_near(plan, "leftLowerLeg", {1.4, 5, 5}, 1);
+  expect_near(plan, "leftFoot", {1.4, 0.8, 5}, 1);
+}
+
+/// In clothes, of which none has most of the area, so that it is no animal.
+TEST(FindPlan, WhoLiesOnHisBackInClothesIsAHuman) {
+  BodyCurve figure;
+  const int hips = figure.add({0, 2.2, -1}, 1.2);
+  const int chest = figure.add({0, 2.6, 5}, 1.3, hips);
+  const int neck = figure.add({0, 2.6, 6.8}, 0.7, chest);
+  figure.add({0, 2.4, 9}, 1.3, neck);
+  figure.add_pair(hips, {{1.2, 2.2, -1.6}, {1.6, 2.4, -5}, {2, 0.6, -9}}, 0.6);
+  figure.add_pair(chest, {{2, 2.6, 5}, {3.4, 2.2, 7}, {3, 0.5, 11}}, 0.5);
+  RigSubject subject = subject_of("lying", figure);
+  EXPECT_EQ(find_plan(subject.surface, subject.skeleton).plan, BodyKind::quadruped);
+  const Eigen::VectorXi nodes = subject.skeleton.node_of_vertex;
+  shapes::Shape layer;
+  layer.surface = subject.surface;
+  subject.surface = shapes::together("", {layer, layer, layer}).surface;
+  subject.skeleton.node_of_vertex = nodes.replicate(3, 1);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+}
+
 /// Legs seem to part at the hem: the hips are where a human has them, and the knees below them.
 TEST(FindPlan, AGownHidesHipsAndKnees) {
   BodyCurve figure;

@@ -140,6 +140,44 @@ inline RigSubject beast_with_ears(double share) {
   return subject_of("beast with ears", figure);
 }
 
+/// 14.6 high, its thighs level, its knees at z = 5, its hands over them.
+inline RigSubject sitting_human() {
+  BodyCurve figure;
+  const int hips = figure.add({0, 5, 0}, 1.2);
+  const int chest = figure.add({0, 10, 0}, 1.4, hips);
+  const int neck = figure.add({0, 11.8, 0}, 0.6, chest);
+  figure.add({0, 13.4, 0}, 1.2, neck);
+  figure.add_pair(hips, {{1.4, 5, 1}, {1.4, 5, 5}, {1.4, 0.6, 5}, {1.4, 0.5, 7}}, 0.5);
+  figure.add_pair(chest, {{2.2, 10, 0}, {2.6, 7.5, 0.5}, {2.6, 6.8, 4.2}}, 0.4);
+  return subject_of("sitting", figure);
+}
+
+/// A doll that sits on the ground, its legs ahead of it, its arms held out.
+inline RigSubject sitting_doll() {
+  BodyCurve figure;
+  const int hips = figure.add({0, 1.4, 0}, 1.4);
+  const int chest = figure.add({0, 5.5, 0}, 1.4, hips);
+  const int neck = figure.add({0, 7.4, 0}, 0.8, chest);
+  figure.add({0, 9.5, 0}, 1.8, neck);
+  figure.add_pair(hips, {{1.6, 1.3, 0.8}, {2, 1, 3.5}, {2.4, 0.9, 6}}, 0.8);
+  figure.add_pair(chest, {{2, 5.5, 0}, {3.6, 4.4, 0.5}, {5.2, 3.4, 1}}, 0.6);
+  return subject_of("doll", figure);
+}
+
+/// A mouse: ears that reach farther aside than its front legs, which stand aslant.
+inline RigSubject mouse() {
+  BodyCurve figure;
+  const int rump = figure.add({0, 4, -4}, 1.4);
+  const int withers = figure.add({0, 4.2, 3}, 1.2, rump);
+  const int poll = figure.add({0, 5, 4.5}, 1.2, withers);
+  figure.add({0, 4.4, 7.5}, 0.5, poll);
+  figure.add({0, 2.5, -13}, 0.3, figure.add({0, 3, -8}, 0.4, rump));
+  figure.add_pair(rump, {{1.6, 3.4, -4}, {1.9, 0.6, -4}, {1.9, 0.4, -2.4}}, 0.5);
+  figure.add_pair(withers, {{1.2, 3.6, 3}, {2.8, 0.6, 3}}, 0.4);
+  figure.add_pair(poll, {{1.2, 6, 4.5}, {3.6, 9, 4.5}}, 0.5);
+  return subject_of("mouse", figure);
+}
+
 /// On two legs, leaning far ahead of a tail, with short arms.
 inline RigSubject t_rex() {
   BodyCurve figure;
