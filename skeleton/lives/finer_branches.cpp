@@ -136,7 +136,9 @@ class FinerBranches {
 
   /// A leaf that ends in the tip's part of the surface, between its rim and its vertex, is its own,
   /// however far it keeps from the vertex: another one would run beside it in the same limb. One
-  /// that the tip's end does not see is a neighbour's.
+  /// that the tip's end does not see is a neighbour's. Of a bent limb, whose end lies on no
+  /// straight way from its rim, the leaf is the one that ends within two of its radii of the
+  /// vertex.
   void look_for_leaves(std::vector<Twins>& open) const {
     std::vector<int> degree(idx(curve_.nodes()), 0);
     for (const auto& [a, b] : curve_.edges()) {
@@ -153,7 +155,9 @@ class FinerBranches {
         const Vector3d ahead = vertex(tip.life->vertex) - rim;
         tip.has_leaf = std::any_of(leaves.begin(), leaves.end(), [&](int leaf) {
           const Vector3d at = curve_.position(leaf);
-          if ((at - vertex(tip.life->vertex)).norm() > ahead.norm()) return false;
+          const double distance = (at - vertex(tip.life->vertex)).norm();
+          if (distance <= 2 * curve_.radius(leaf)) return true;
+          if (distance > ahead.norm()) return false;
           if (!((at - rim).dot(ahead) > 0)) return false;
           const std::optional<Vector3d> end = end_of(*tip.life);
           return end.has_value() && sees(at, *end);

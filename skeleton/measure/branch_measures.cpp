@@ -60,19 +60,33 @@ double curvature_of(const CurveDerivatives& by_length) {
   return by_length.first.cross(by_length.second).norm() / (speed * speed * speed);
 }
 
-/// A third derivative of a thin tube's curve, over two of its radii, is the noise of its nodes: the
-/// twist is that over a stretch on which the bend itself shows.
+/// A third derivative of a thin tube's curve, over two of its radii, is the noise of its nodes:
+/// those over a stretch on which the bend itself shows. Noise bends, too, so that the stretch grows
+/// until the bend is the same on it.
+CurveDerivatives derivatives_over_bend(const BranchCurve& curve, double s) {
+  constexpr double share = 0.3;  // of the radius of curvature, on either side
+  constexpr double settled = 1.1;
+  constexpr int rounds = 6;
+  CurveDerivatives by_length = derivatives_at(curve, s);
+  double half = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const double curvature = curvature_of(by_length);
+    const double wanted = std::min(share / curvature, curve.length());
+    if (!(curvature > 0) || wanted <= settled * half) break;
+    half = wanted;
+    by_length = derivatives_at(curve, s, half);
+  }
+  return by_length;
+}
+
 void measure_bends(const BranchCurve& curve, BranchMeasures& measures) {
-  constexpr double share_of_bend = 0.3;  // of the radius of curvature, on either side
   const std::vector<double> shares = shares_of_nodes(curve);
   double twist = 0;
   double weights = 0;
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const double curvature = curvature_of(derivatives_at(curve, curve.lengths[k]));
-    measures.curvature += shares[k] * curvature;
-    if (!(curvature > 0)) continue;
-    const CurveDerivatives wide =
-        derivatives_at(curve, curve.lengths[k], share_of_bend / curvature);
+    const double s = curve.lengths[k];
+    measures.curvature += shares[k] * curvature_of(derivatives_at(curve, s));
+    const CurveDerivatives wide = derivatives_over_bend(curve, s);
     const Eigen::Vector3d binormal = wide.first.cross(wide.second);
     twist += shares[k] * binormal.dot(wide.third);
     weights += shares[k] * binormal.squaredNorm();
