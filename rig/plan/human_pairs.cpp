@@ -76,7 +76,9 @@ HumanPairs longest_pairs(const CurveTree& tree, const Limbs& limbs) {
   };
   const bool is_first_lower = height(pairs[0]) < height(pairs[1]);
   const HumanPairs seen{pairs[is_first_lower ? 0 : 1], pairs[is_first_lower ? 1 : 0]};
-  const bool sits = limbs.pairs[idx(seen.legs)].lowest < tree.ground + near_ground * tree.height;
+  const double ground = tree.ground + near_ground * tree.height;
+  const bool sits = limbs.pairs[idx(seen.legs)].lowest < ground &&
+                    limbs.pairs[idx(seen.arms)].lowest > ground;  // no toes
   const bool are_alike =
       are_images(tree, limbs.pairs[idx(pairs[0])]) && are_images(tree, limbs.pairs[idx(pairs[1])]);
   return sits && are_alike ? seen : HumanPairs{};

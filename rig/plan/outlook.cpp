@@ -191,7 +191,8 @@ Outlook best_of_tubes(LookedAt& body, const PlanOptions& options) {
   }
   for (std::size_t k = 0; k < frames.size() && best.found.plan == BodyKind::other; ++k) {
     Outlook other = look(Sides::completed, body, frames[k], options.plan);
-    if (is_whole_but_for_a_limb(other)) best = std::move(other);
+    // From the side one arm hides the other, or seems to be missing.
+    if (is_whole_but_for_a_limb(other) && !shows_side(other.tree)) best = std::move(other);
   }
   if (best.found.plan == BodyKind::other && refusal.length >= 0) {
     best.found.reason = refusal.reason;

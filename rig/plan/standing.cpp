@@ -147,7 +147,8 @@ std::string reason_of(const HumanPairs& seen) {
   return "as asked; " + limbs + " are not seen and stand by a human's proportions";
 }
 
-/// As people are from their side: about half as wide as deep.
+}  // namespace
+
 bool shows_side(const CurveTree& tree) {
   constexpr double deeper = 1.5;
   std::vector<Vector3d> upper;
@@ -166,8 +167,6 @@ bool shows_side(const CurveTree& tree) {
   }
   return depth > deeper * deeper * width;
 }
-
-}  // namespace
 
 bool shows_all_limbs(const Outlook& outlook) {
   const std::vector<int>& legs = outlook.found.legs;

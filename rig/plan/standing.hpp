@@ -23,4 +23,7 @@ namespace curveskel {
 /// upright in none; where up is said, it is.
 [[nodiscard]] std::optional<Outlook> best_standing(LookedAt& body, const PlanOptions& options);
 
+/// True of a body whose upper half is as people's is from their side: about half as wide as deep.
+[[nodiscard]] bool shows_side(const CurveTree& tree);
+
 }  // namespace curveskel

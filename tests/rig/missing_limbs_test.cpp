@@ -48,6 +48,25 @@ const std::vector<Maimed>& all_maimed() {
   return all;
 }
 
+// From the side the legs of a stride are images of each other, and one arm has none.
+TEST(MissingLimbs, AreNotMadeUpForWhoIsSeenFromTheSide) {
+  BodyCurve figure;
+  const int hips = figure.add({0, 10, 0}, 1);
+  const int chest = figure.add({0, 15, 0}, 1, hips);
+  figure.add({0, 18.6, 0}, 1.2, figure.add({0, 16.8, 0}, 0.6, chest));
+  for (const double x : {1.0, -1.0}) {
+    const int thigh = figure.add({x * 0.3, 9, x * 1}, 0.6, hips);
+    figure.add({x * 0.3, 0.6, x * 3}, 0.6, figure.add({x * 0.3, 5, x * 2}, 0.6, thigh));
+  }
+  const int elbow = figure.add({3.4, 12, 1}, 0.5, figure.add({3, 15, 0}, 0.8, chest));
+  figure.add({3.4, 12.5, 5}, 0.5, elbow);
+  const int stump = figure.add({-3, 15, 0}, 0.8, chest);
+  figure.add({-4.2, 14, 0}, 1.2, stump);  // with what it carries
+  const RigSubject subject = subject_of("strider", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_FALSE(plan.reason.starts_with("one limb is not whole")) << plan.reason << plan.axes;
+}
+
 TEST(MissingLimbs, MakeNoHumanAnotherThing) {
   const RigSubject whole = human();
   const BodyPlan as_whole = find_plan(whole.surface, whole.skeleton);

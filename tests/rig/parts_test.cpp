@@ -120,15 +120,15 @@ TEST(FindParts, MirrorImagesDecideTogether) {
   EXPECT_FALSE(found.parts[3].follows);
 }
 
-/// Head, trunk, arms and legs as games have them, of boxes; arms and legs are one box.
+/// Trunk, head in a hat, arms and legs as games have them, of boxes; arms and legs are one box.
 std::vector<Shape> block_figure() {
   const auto box_at = [](const Eigen::Vector3d& size, const Eigen::Vector3d& middle) {
-    Shape box = shapes::box(size, 2);
+    Shape box = shapes::box(size, 1);
     const Eigen::RowVector3d low = box.surface.positions.colwise().minCoeff();
     const Eigen::RowVector3d high = box.surface.positions.colwise().maxCoeff();
     return shapes::translated(box, middle - 0.5 * (low + high).transpose());
   };
-  std::vector<Shape> figure{box_at({8, 12, 4}, {0, 18, 0}), box_at({8, 8, 8}, {0, 28.1, 0})};
+  std::vector<Shape> figure{box_at({8, 12, 4}, {0, 18, 0}), box_at({9, 9, 9}, {0, 28.1, 0})};
   for (const double side : {1.0, -1.0}) {
     figure.push_back(box_at({4, 12, 4}, {2.1 * side, 5.9, 0}));
     figure.push_back(box_at({4, 12, 4}, {6.1 * side, 18, 0}));
