@@ -156,7 +156,8 @@ class FinerBranches {
         tip.has_leaf = std::any_of(leaves.begin(), leaves.end(), [&](int leaf) {
           const Vector3d at = curve_.position(leaf);
           const double distance = (at - vertex(tip.life->vertex)).norm();
-          if (distance <= 2 * curve_.radius(leaf)) return true;
+          const bool is_no_wider = curve_.radius(leaf) <= tip.rim_radius;
+          if (is_no_wider && distance <= 2 * curve_.radius(leaf)) return true;
           if (distance > ahead.norm()) return false;
           if (!((at - rim).dot(ahead) > 0)) return false;
           const std::optional<Vector3d> end = end_of(*tip.life);

@@ -89,7 +89,7 @@ TEST(BranchMeasures, OfAThinTubesHelixHaveItsTorsion) {
     CurveSkeleton helix = thin_helix(1, 3, 1500);
     helix.radii.setConstant(share);
     std::mt19937 generator(5);
-    std::normal_distribution<double> off(0, 0.03 * share);
+    std::normal_distribution<double> off(0, 0.003 * share);
     for (double& coordinate : helix.nodes.reshaped()) coordinate += off(generator);
     const double rise = 3 / (2 * std::numbers::pi);
     EXPECT_NEAR(branch_measures(helix).at(0).torsion * (1 + rise * rise) / rise, 1, 0.05) << share;
