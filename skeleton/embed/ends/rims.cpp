@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include <curveskel/advanced/graph.hpp>
@@ -114,9 +115,11 @@ std::vector<Limb> limbs_of(const CurveSkeleton& skeleton) {
 class Reaching {
  public:
   Reaching(CurveSkeleton& skeleton, const Surface& surface, double diagonal,
-           const SurfaceTree& tree, const std::vector<std::vector<std::int32_t>>& rims)
+           const SurfaceTree& tree, const SurfaceTree* open,
+           const std::vector<std::vector<std::int32_t>>& rims)
       : skeleton_(skeleton),
         tree_(tree),
+        open_(open),
         below_(depth * diagonal),
         limbs_(limbs_of(skeleton)),
         taken_(limbs_.size(), false),
@@ -146,6 +149,13 @@ class Reaching {
            rim.mean_radius >= least_width * radius && way_is_inside(tree_, p, end_of(rim, p));
   }
 
+  /// The limb's radius at a node, which holes beside it do not make narrower.
+  [[nodiscard]] double width_at(int node) const {
+    const double radius = skeleton_.radii[node];
+    if (open_ == nullptr) return radius;
+    return std::max(radius, open_->nearest(skeleton_.nodes.row(node)).distance);
+  }
+
   /// The direction in which the limb arrives at its node k from outside the ball there; within, it
   /// has none, zero.
   [[nodiscard]] Eigen::Vector3d direction(const Limb& limb, std::size_t k) const {
@@ -162,8 +172,9 @@ class Reaching {
     const Eigen::Vector3d arrives = direction(limb, k);
     if (arrives.isZero()) return true;
     const Eigen::Vector3d p = skeleton_.nodes.row(limb[k]);
-    // A hole in the limb's side is none that the limb ends in.
-    if (!rim.normal.isZero() && std::abs(arrives.dot(rim.normal)) < cosine) return false;
+    // A hole in the limb's side, which is narrower than the limb, is none that the limb ends in.
+    const bool lies_along = !rim.normal.isZero() && std::abs(arrives.dot(rim.normal)) < cosine;
+    if (lies_along && rim.mean_radius < width_at(limb[k])) return false;
     return arrives.dot((rim.middle - p).normalized()) >= cosine;
   }
 
@@ -276,11 +287,13 @@ class Reaching {
     }
   }
 
-  /// A hole in the side of a limb touches the ball there: nothing leads away to it.
+  /// A hole in the side of a limb touches the ball there and is narrower than the limb: nothing
+  /// leads away to it. A waist is as wide as the body at the crotch.
   [[nodiscard]] bool is_beside_the_curve(const Rim& rim) const {
     for (Eigen::Index node = 0; node < skeleton_.nodes.rows(); ++node) {
       const double distance = (rim.middle - skeleton_.nodes.row(node).transpose()).norm();
-      if (distance < least_length * skeleton_.radii[node]) return true;
+      const bool touches = distance < least_length * skeleton_.radii[node];
+      if (touches && rim.mean_radius < width_at(static_cast<int>(node))) return true;
     }
     return false;
   }
@@ -317,7 +330,8 @@ class Reaching {
 
   CurveSkeleton& skeleton_;
   const SurfaceTree& tree_;
-  double below_;  // the closing of a hole
+  const SurfaceTree* open_;  // over the surface without what closes its holes; may be null
+  double below_;             // the closing of a hole
   std::vector<Rim> rims_;
   std::vector<Limb> limbs_;
   std::vector<char> taken_;    // by limb
@@ -330,14 +344,15 @@ void reach_rims(CurveSkeleton& skeleton, const Surface& surface, double diagonal
                 const SurfaceTree& tree, const Surface& open,
                 const std::vector<std::vector<std::int32_t>>& rims) {
   if (rims.empty()) return;
-  Reaching(skeleton, surface, diagonal, tree, rims).run();
-  if (open.triangles.rows() == 0) return;
+  std::optional<SurfaceTree> open_tree;
+  if (open.triangles.rows() > 0) open_tree.emplace(open);
+  Reaching(skeleton, surface, diagonal, tree, open_tree ? &*open_tree : nullptr, rims).run();
+  if (!open_tree) return;
   constexpr double rounding = 1e-9;  // of two trees over the same faces
-  const SurfaceTree open_tree(open);
   for (Eigen::Index node = 0; node < skeleton.nodes.rows(); ++node) {
     const Eigen::Vector3d place = skeleton.nodes.row(node);
     const double closed = tree.inscribed_radius(place);
-    const double distance = open_tree.nearest(place).distance;
+    const double distance = open_tree->nearest(place).distance;
     if (closed > 0 && distance > (1 + rounding) * closed) skeleton.radii[node] = distance;
   }
 }
