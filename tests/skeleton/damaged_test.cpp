@@ -179,8 +179,8 @@ TEST(Damaged, HolesInATubesSideNeitherEndNorForkItsCurve) {
     for (const double from_end : {0.4, 0.8, 1.5, 5.0}) {
       SCOPED_TRACE(testing::Message() << hole << ' ' << from_end);
       const Eigen::RowVector3d at(5 - from_end, 0.5, 0);
-      const Extraction found = extracted(
-          part_of(tube.surface, [&](const auto& p) { return (p - at).norm() > hole; }));
+      const Extraction found =
+          extracted(part_of(tube.surface, [&](const auto& p) { return (p - at).norm() > hole; }));
       EXPECT_EQ(found.certificate.tips, 2);
       EXPECT_LT(found.skeleton.nodes.rightCols<2>().rowwise().norm().maxCoeff(), 0.05);
     }
