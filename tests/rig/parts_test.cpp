@@ -142,6 +142,7 @@ TEST(FindParts, DoesNotDependOnTheOrderOfEquals) {
   std::vector<std::size_t> order{0, 1, 2, 3, 4, 5};
   do {
     std::vector<Shape> parts;
+    parts.reserve(order.size());
     for (const std::size_t part : order) parts.push_back(figure[part]);
     const RigParts found = find_parts(shapes::together("", parts).surface);
     ASSERT_EQ(found.parts.size(), parts.size());
