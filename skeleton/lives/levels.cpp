@@ -197,8 +197,9 @@ void set_parents(const std::vector<Branch>& all, const std::vector<std::vector<i
     reach(all[b].nodes.front(), static_cast<int>(b));
     reach(all[b].nodes.back(), static_cast<int>(b));
   }
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    const int node = reached[k];
+  std::size_t next = 0;
+  while (next < reached.size()) {
+    const int node = reached[next++];
     for (const int b : at[idx(node)]) {
       const Branch& branch = all[idx(b)];
       if (levels[idx(b)].life >= lives_for_ever || b == holder[idx(node)]) continue;
