@@ -78,7 +78,12 @@ class Pose {
         for (const auto& b : directions_across(a)) add(settled, a, b);
       }
     } else {
-      const Eigen::Vector3d skew = skewness(axes);
+      // The least skew axis points away from its own third moment, the others towards theirs: as
+      // good as any other rule, and it leaves most surfaces of the studies in the frame they had.
+      Eigen::Vector3d skew = skewness(axes);
+      Eigen::Index weakest = 0;
+      skew.cwiseAbs().minCoeff(&weakest);
+      skew(weakest) = -skew(weakest);
       for (const double x : signs(skew.x())) {
         for (const double y : signs(skew.y())) {
           for (const double z : signs(skew.z())) {
