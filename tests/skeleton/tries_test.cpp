@@ -202,7 +202,7 @@ TEST(History, TellsWhySecondContractionsAndLevelSetsWereMade) {
 // when all was done, which then was all for nothing.
 TEST(History, OfAComponentThatCoarseningCostsItsHandlesGoesOnFromAllVertices) {
   for (const int holes : {2, 3, 4}) {
-    const Surface surface = thin_walled(holes, 0.03);
+    const Surface surface = thin_walled(holes, 0.02);
     shapes::Shape sieve = shapes::sieve(holes);
     sieve.surface = surface;
     const Surface two =
