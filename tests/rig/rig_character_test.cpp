@@ -291,15 +291,16 @@ TEST(JointBudget, DigitsOfBothHandsGoByTheirPlaces) {
 /// A snake is no stump for having many joints.
 TEST(JointBudget, LongLimbsKeepTheirReachAndTheirShares) {
   constexpr int count = 65;
+  constexpr Eigen::Index vertices = 3 * Eigen::Index{count};
   CharacterRig snake;
   snake.rig.joints.setZero(count, 3);
   snake.rig.joints.col(0) = Eigen::VectorXd::LinSpaced(count, 0, count - 1);
   snake.rig.parents = Eigen::VectorXi::LinSpaced(count, -1, count - 2);
   snake.rig.roles.assign(count, "");
   Surface given;
-  given.positions.resize(3 * count, 3);
+  given.positions.resize(vertices, 3);
   given.triangles.resize(count, 3);
-  snake.rig.weights.resize(3 * count, count);
+  snake.rig.weights.resize(vertices, count);
   for (int joint = 0; joint < count; ++joint) {
     snake.rig.names.push_back("spine" + std::to_string(joint));
     given.triangles.row(joint) << 3 * joint, 3 * joint + 1, 3 * joint + 2;
@@ -314,7 +315,7 @@ TEST(JointBudget, LongLimbsKeepTheirReachAndTheirShares) {
     const double fair_share = double(count) / budget;
     EXPECT_GT(few.joints.col(0).maxCoeff(), count - 1 - 2 * fair_share) << budget;
     const Eigen::RowVectorXf moved =
-        Eigen::RowVectorXf::Ones(3 * count) * Eigen::MatrixXf(few.weights);
+        Eigen::RowVectorXf::Ones(vertices) * Eigen::MatrixXf(few.weights);
     EXPECT_LE(moved.maxCoeff() / 3, 2 * fair_share + 1) << budget;
     expect_same_but_fewer(few, snake.rig);
   }
