@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -12,6 +11,7 @@
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/body_plan.hpp>
 #include <curveskel/error.hpp>
+#include <curveskel/role_names.hpp>
 #include "base/utf8.hpp"
 #include "rig/gltf/gltf_document.hpp"
 #include "rig/gltf/read_vrm.hpp"
@@ -26,33 +26,16 @@ bool has_role(const Rig& rig, std::string_view role) {
   return std::find(rig.roles.begin(), rig.roles.end(), role) != rig.roles.end();
 }
 
-/// On both sides.
-constexpr std::array human_limbs{
-    "Eye",           "UpperLeg",           "LowerLeg",      "Foot",
-    "Toes",          "Shoulder",           "UpperArm",      "LowerArm",
-    "Hand",          "ThumbMetacarpal",    "ThumbProximal", "ThumbDistal",
-    "IndexProximal", "IndexIntermediate",  "IndexDistal",   "MiddleProximal",
-    "MiddleDistal",  "MiddleIntermediate", "RingProximal",  "RingIntermediate",
-    "RingDistal",    "LittleProximal",     "LittleDistal",  "LittleIntermediate"};
-constexpr std::array human_middle{"hips", "spine", "chest", "upperChest", "neck", "head", "jaw"};
-
-/// VRM 1.0 has these names alone, and programs refuse a file with others.
-bool is_human_bone(std::string_view role) {
-  for (const std::string_view side : {"left", "right"}) {
-    if (!role.starts_with(side)) continue;
-    return std::find(human_limbs.begin(), human_limbs.end(), role.substr(side.size())) !=
-           human_limbs.end();
-  }
-  return std::find(human_middle.begin(), human_middle.end(), role) != human_middle.end();
-}
-
 /// A human's roles are VRM's words; joints of other roles, and those of a scene's other figures,
-/// have none there. Of several joints with one role the first is the bone, as where VRM is read.
+/// have none there, as programs refuse a file with other bones. Of several joints with one role the
+/// first is the bone, as where VRM is read.
 Json bones_of(const Rig& rig, const std::vector<int>& nodes) {
+  const std::vector<std::string> human = roles_of(BodyKind::humanoid);
   Json bones = Json::object();
   for (std::size_t joint = 0; joint < rig.roles.size(); ++joint) {
     const std::string& role = rig.roles[joint];
-    if (!is_human_bone(role) || bones.contains(role)) continue;
+    const bool is_bone = std::find(human.begin(), human.end(), role) != human.end();
+    if (!is_bone || bones.contains(role)) continue;
     bones[role] = {{"node", nodes.at(joint)}};
   }
   return bones;

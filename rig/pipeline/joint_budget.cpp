@@ -23,8 +23,7 @@ namespace {
 /// How much would be missed, and which joint it is.
 struct Worth {
   bool has_role;
-  double
-      moved_area;  ///< by it and by those that left it theirs; of joints that go together the most
+  double moved_area;   ///< with that of joints that went; of joints that go together the most
   double bone_length;  ///< to the parent that stays
   int joint;
 

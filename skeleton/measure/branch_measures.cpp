@@ -62,12 +62,12 @@ double curvature_of(const CurveDerivatives& by_length) {
 
 /// A third derivative of a thin tube's curve, over two of its radii, is the noise of its nodes:
 /// those over a stretch on which the bend itself shows. Noise bends, too, so that the stretch grows
-/// until the bend is the same on it.
-CurveDerivatives derivatives_over_bend(const BranchCurve& curve, double s) {
+/// from that of `by_length` until the bend is the same on it.
+CurveDerivatives derivatives_over_bend(const BranchCurve& curve, double s,
+                                       CurveDerivatives by_length) {
   constexpr double share = 0.3;  // of the radius of curvature, on either side
   constexpr double settled = 1.1;
   constexpr int rounds = 6;
-  CurveDerivatives by_length = derivatives_at(curve, s);
   double half = 0;
   for (int round = 0; round < rounds; ++round) {
     const double curvature = curvature_of(by_length);
@@ -85,8 +85,9 @@ void measure_bends(const BranchCurve& curve, BranchMeasures& measures) {
   double weights = 0;
   for (std::size_t k = 0; k < shares.size(); ++k) {
     const double s = curve.lengths[k];
-    measures.curvature += shares[k] * curvature_of(derivatives_at(curve, s));
-    const CurveDerivatives wide = derivatives_over_bend(curve, s);
+    const CurveDerivatives near = derivatives_at(curve, s);
+    measures.curvature += shares[k] * curvature_of(near);
+    const CurveDerivatives wide = derivatives_over_bend(curve, s, near);
     const Eigen::Vector3d binormal = wide.first.cross(wide.second);
     twist += shares[k] * binormal.dot(wide.third);
     weights += shares[k] * binormal.squaredNorm();

@@ -122,8 +122,9 @@ std::vector<std::int32_t> nearby_vertices(const Positions& positions,
   if (positions.rows() == 0) return first;
   const Eigen::RowVector3d origin = positions.colwise().minCoeff();
   // Few vertices are near a side of cells this wide, beyond which another cell has to be looked at.
-  const double width = 32 * distance;
-  const double margin = distance / width * (1 + 1e-6);      // of a cell
+  constexpr double distances = 32;
+  constexpr double margin = (1 + 1e-6) / distances;  // of a cell
+  const double width = distances * distance;
   std::unordered_map<std::uint64_t, std::int32_t> last_in;  // cell -> the last that stands there
   std::vector<std::int32_t> before(first.size(), -1);       // in the same cell
   const auto key_of = [](const Eigen::RowVector3d& cell) {

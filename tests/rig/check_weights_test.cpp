@@ -57,7 +57,7 @@ Eigen::Index last_vertex(const Bar& bar) {
   return vertex;
 }
 
-/// What turns with a joint is the sum of what moves with it and with all joints below it.
+/// A joint turns the sum of all that moves with it and with the joints below it.
 TEST(TurningShares, AreTheSumsOverAllThatHangsFromAJoint) {
   for (const int count : {1, 7, 40}) {
     const Rig rig = random_rig(60, count, "b");
