@@ -208,6 +208,9 @@ int run_program(CLI::App& program, const std::vector<Verb>& verbs,
   Terminal terminal;
   program.require_subcommand(1);
   program.set_version_flag("--version", program_and_version());
+  if (verbs.size() == 1) {  // whose name the user does not type
+    verbs.front().parser->set_version_flag("--version", program_and_version());
+  }
   program.footer(exit_codes);
   try {
     program.parse(std::vector(arguments.rbegin(), arguments.rend()));  // CLI11 starts at the back

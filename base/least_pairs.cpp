@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 
 namespace curveskel {
 namespace {
@@ -77,17 +78,20 @@ class LeastPairing {
 
 }  // namespace
 
-std::vector<int> least_pairs(const Eigen::MatrixXd& costs) {
+std::vector<int> least_pairs(const Eigen::MatrixXd& costs, const std::stop_token& stop) {
   if (costs.rows() > costs.cols()) {
     std::vector<int> columns(idx(costs.rows()), -1);
-    const std::vector<int> rows = least_pairs(costs.transpose());
+    const std::vector<int> rows = least_pairs(costs.transpose(), stop);
     for (std::size_t column = 0; column < rows.size(); ++column) {
       columns[idx(rows[column])] = static_cast<int>(column);
     }
     return columns;
   }
   LeastPairing pairing(costs);
-  for (Eigen::Index row = 0; row < costs.rows(); ++row) pairing.add(static_cast<int>(row));
+  for (Eigen::Index row = 0; row < costs.rows(); ++row) {
+    throw_if_stopped(stop);
+    pairing.add(static_cast<int>(row));
+  }
   return pairing.column_of_rows();
 }
 

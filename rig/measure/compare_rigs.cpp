@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -99,7 +100,8 @@ std::string why_not_posed(const RiggedSurface& rig, const RiggedSurface& truth, 
 
 /// The joint of the rig that is the same as each of the truth's; empty where those that move
 /// something are not in the same places. Of several in one place the names tell.
-std::vector<int> same_joints(const Rig& rig, const Rig& truth, double size) {
+std::vector<int> same_joints(const Rig& rig, const Rig& truth, double size,
+                             const std::stop_token& stop) {
   constexpr double alike = 1e-3;
   Eigen::MatrixXd costs = distances_between(truth.joints, rig.joints) / size;
   for (Eigen::Index row = 0; row < costs.rows(); ++row) {
@@ -108,7 +110,7 @@ std::vector<int> same_joints(const Rig& rig, const Rig& truth, double size) {
       costs(row, column) += same_name ? 0 : 0.1 * alike;
     }
   }
-  const std::vector<int> pairs = least_pairs(costs);
+  const std::vector<int> pairs = least_pairs(costs, stop);
   std::vector<bool> ours = moving_joints(rig);
   const std::vector<bool> theirs = moving_joints(truth);
   for (std::size_t joint = 0; joint < pairs.size(); ++joint) {
@@ -156,7 +158,7 @@ WeightDifference compare_weights(const SkinWeights& rig, const SkinWeights& trut
 }
 
 void compare_places(const Rig& rig, const RiggedSurface& truth, double size,
-                    RigComparison& result) {
+                    const std::stop_token& stop, RigComparison& result) {
   constexpr double one_place = 1e-6;
   const RigBones ours = rig_bones(rig, one_place * size);
   const RigBones theirs = rig_bones(truth.rig, one_place * size);
@@ -174,7 +176,7 @@ void compare_places(const Rig& rig, const RiggedSurface& truth, double size,
   result.root_distance =
       (rig.joints.row(root_joint(rig)) - truth.rig.joints.row(root_joint(truth.rig))).norm() / size;
   const Eigen::MatrixXd distances = distances_between(theirs.places, ours.places);
-  const std::vector<int> pairs = least_pairs(distances);
+  const std::vector<int> pairs = least_pairs(distances, stop);
   const double fixed = hit_share * size;
   result.by_size = joint_hits(distances, pairs, Eigen::VectorXd::Constant(distances.rows(), fixed));
   result.by_thickness = joint_hits(distances, pairs, half_thickness(truth.surface, theirs, fixed));
@@ -199,13 +201,13 @@ RigComparison compare_rigs(const RiggedSurface& rig, const RiggedSurface& truth,
   monitor.report("compare", 0);
   const double size = longest_box_side(truth.surface);
   RigComparison result;
-  compare_places(rig.rig, truth, size, result);
+  compare_places(rig.rig, truth, size, monitor.stop, result);
   monitor.report("compare", 0.5);
   result.not_posed = why_not_posed(rig, truth, size);
   result.not_weighed = result.not_posed;
   if (!result.not_posed.empty()) return result;
   result.poses = compare_poses(rig.rig, truth, size, monitor);
-  const std::vector<int> pairs = same_joints(rig.rig, truth.rig, size);
+  const std::vector<int> pairs = same_joints(rig.rig, truth.rig, size, monitor.stop);
   if (pairs.empty()) {
     result.not_weighed = "the joints are in other places than the truth's";
   } else {

@@ -129,7 +129,7 @@ bool runs_against(const MatchSide& a, const Branch& one, const MatchSide& b, con
 
 std::vector<BranchPair> pair_branches(const MatchedBodies& bodies, const std::vector<int>& partner,
                                       const Eigen::MatrixXd& overlaps, const NodeMotions& motions) {
-  const auto& [a, of_a, b, of_b, like] = bodies;
+  const auto& [a, of_a, b, of_b, like, stop] = bodies;
   std::vector<int> pair_in_a(of_a.tips.size(), -1);
   std::vector<int> pair_in_b(of_b.tips.size(), -1);
   int tip_pairs = 0;
@@ -148,7 +148,7 @@ std::vector<BranchPair> pair_branches(const MatchedBodies& bodies, const std::ve
       if (one.sides == other.sides) costs(i, k) -= enough;
     }
   }
-  const std::vector<int> best = least_pairs(costs);
+  const std::vector<int> best = least_pairs(costs, stop);
   const std::vector<Branch> all_a = branches(a.skeleton);
   const std::vector<Branch> all_b = branches(b.skeleton);
   std::vector<BranchPair> pairs;

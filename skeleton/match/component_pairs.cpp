@@ -84,14 +84,14 @@ Points shifts_of(const Centroids& centroids, const std::vector<int>& pairs) {
 }  // namespace
 
 std::vector<int> pair_components(const TipFeatures& a, const TipFeatures& b,
-                                 const NodeMotions& motions) {
+                                 const NodeMotions& motions, const std::stop_token& stop) {
   const Centroids centroids = centroids_of(a, b, motions);
   Eigen::MatrixXd costs = costs_of(a, b, centroids, Points::Zero(3, centroids.of_a.cols()));
-  std::vector<int> pairs = least_pairs(costs);
+  std::vector<int> pairs = least_pairs(costs, stop);
   constexpr int rounds = 6;
   for (int round = 0; round < rounds && pairs.size() > 2; ++round) {
     costs = costs_of(a, b, centroids, shifts_of(centroids, pairs));
-    std::vector<int> better = least_pairs(costs);
+    std::vector<int> better = least_pairs(costs, stop);
     const bool settled = better == pairs;
     pairs = std::move(better);
     if (settled) break;

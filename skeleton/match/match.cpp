@@ -105,11 +105,12 @@ class Trials {
   }
 
   [[nodiscard]] PairingOutcome outcome_of(NodeMotions motions) const {
-    std::vector<int> components = pair_components(bodies_.of_a, bodies_.of_b, motions);
+    std::vector<int> components =
+        pair_components(bodies_.of_a, bodies_.of_b, motions, bodies_.stop);
     std::vector<BranchPair> pairs = pairs_of(motions, components);
     if (!seats_.empty()) {
       seats_.seat(motions, pairing_.pair(pairs, motions, seats_.vertices()).partner);
-      components = pair_components(bodies_.of_a, bodies_.of_b, motions);
+      components = pair_components(bodies_.of_a, bodies_.of_b, motions, bodies_.stop);
       seats_.lay_onto_partners(motions, components);
       pairs = pairs_of(motions, components);
     }
@@ -206,7 +207,7 @@ SkeletonMatch match_skeletons(const MatchSide& a, const MatchSide& b, const Matc
   const Eigen::MatrixXd like = likeness(of_a, of_b);
   monitor.report("match", 0.1);
   const SurfaceTree tree_b(b.surface, options.threads);
-  const MatchedBodies bodies{a, of_a, b, of_b, like};
+  const MatchedBodies bodies{a, of_a, b, of_b, like, monitor.stop};
   std::vector<CoreAlignment> alignments;
   for (const double scale : scales_between(of_a, of_b)) {
     const auto found = align_cores(bodies, tree_b, scale, most_alignments, options, monitor.stop);

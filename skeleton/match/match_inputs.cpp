@@ -117,8 +117,9 @@ SkeletonMatch match_by_vertices(const MatchSide& a, const MatchSide& b,
   monitor.report("match", 0.3);
   const NodeMotions motions = known_motions(a, of_a, b, of_b, vertex_of_a);
   const Eigen::MatrixXd like = likeness(of_a, of_b);
-  const MatchedBodies bodies{a, of_a, b, of_b, like};
-  const std::vector<int> tips = pair_tips(bodies, motions, pair_components(of_a, of_b, motions));
+  const MatchedBodies bodies{a, of_a, b, of_b, like, monitor.stop};
+  const std::vector<int> tips =
+      pair_tips(bodies, motions, pair_components(of_a, of_b, motions, monitor.stop));
   monitor.report("match", 0.7);
   const BranchTerritories territories_b = branch_territories(b.surface, b.skeleton);
   const Eigen::MatrixXd overlaps =

@@ -50,7 +50,7 @@ PartSeats::~PartSeats() = default;
 
 PartSeats::PartSeats(const MatchedBodies& bodies, int threads)
     : a_(bodies.a), b_(bodies.b), threads_(threads) {
-  const auto& [a, of_a, b, of_b, like] = bodies;
+  const auto& [a, of_a, b, of_b, like, stop] = bodies;
   const std::vector<int> component = component_of_vertex(a, of_a);
   std::vector<std::vector<int>> vertices(of_a.middle.size());
   for (int v = 0; v < static_cast<int>(component.size()); ++v) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/monitor.hpp>
 #include "base/least_pairs.hpp"
 
 namespace curveskel {
@@ -111,7 +112,7 @@ double support(const Candidate& one, const std::vector<Candidate>& candidates,
 
 std::vector<int> pair_tips(const MatchedBodies& bodies, const NodeMotions& motions,
                            const std::vector<int>& component_pairs) {
-  const auto& [a, of_a, b, of_b, like] = bodies;
+  const auto& [a, of_a, b, of_b, like, stop] = bodies;
   std::vector<int> partner(of_a.tips.size(), -1);
   if (of_a.tips.empty() || of_b.tips.empty()) return partner;
   std::vector<Candidate> candidates =
@@ -124,6 +125,7 @@ std::vector<int> pair_tips(const MatchedBodies& bodies, const NodeMotions& motio
     normalise(candidates, of_a.tips.size(), of_b.tips.size(), temperature);
     std::vector<double> scores(candidates.size());
     for (const std::vector<std::size_t>& numbers : of_components) {
+      throw_if_stopped(stop);
       for (const std::size_t k : numbers) {
         const double agreed = support(candidates[k], candidates, numbers, of_a, of_b);
         scores[k] = candidates[k].own + 4 * std::log(0.02 + agreed);
@@ -138,7 +140,7 @@ std::vector<int> pair_tips(const MatchedBodies& bodies, const NodeMotions& motio
       Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(of_a.tips.size()),
                                 static_cast<Eigen::Index>(of_b.tips.size()), no_pair);
   for (const Candidate& one : candidates) costs(one.a, one.b) = -one.score;
-  const std::vector<int> pairs = least_pairs(costs);
+  const std::vector<int> pairs = least_pairs(costs, stop);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i] < 0) continue;
     if (costs(static_cast<Eigen::Index>(i), pairs[i]) < -least_score) partner[i] = pairs[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct MatchedBodies {
   const MatchSide& b;
   const TipFeatures& of_b;
   const Eigen::MatrixXd& like;  ///< see `likeness`
+  const std::stop_token& stop;
 };
 
 }  // namespace curveskel

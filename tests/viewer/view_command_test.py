@@ -56,6 +56,10 @@ class Options(ViewTest):
         overridden = self.picture(Y, "--embed", "own", "--preset", "default")
         numpy.testing.assert_array_equal(usual, overridden)
 
+    def test_version(self):
+        self.assertRegex(self.run_ok("view", "--version").out.decode(),
+                         r"^curveskel \d+\.\d+\.\d+\n$")
+
     def test_unknown_presets_are_refused(self):
         self.refused(USAGE, "view", Y, "--screenshot", "x.png", "--preset", "nonsense",
                      says=["default", "paper"], cwd=self.folder)
