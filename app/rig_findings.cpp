@@ -56,7 +56,12 @@ std::optional<std::string> posture_of_given(const Rig& given) {
 }  // namespace
 
 std::string skeleton_findings(const PolygonsRig& found, const RigPolygonsOptions& options) {
-  return found.certificate ? all_failures(*found.certificate, options.extract.certificate) : "";
+  if (found.certificate) return all_failures(*found.certificate, options.extract.certificate);
+  if (found.given_inside >= options.extract.certificate.inside_needed) return "";
+  return fmt::format(
+      "{:.3g} % of the length of the skeleton given is inside the surface, needed {:.3g} %; give "
+      "one of this surface, in its pose",
+      100 * found.given_inside, 100 * options.extract.certificate.inside_needed);
 }
 
 namespace {

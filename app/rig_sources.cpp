@@ -15,29 +15,13 @@
 namespace curveskel {
 namespace {
 
-/// A skeleton of this surface is not mostly elsewhere.
-void require_nodes_nearby(const CurveSkeleton& skeleton, const PolygonSoup& soup,
-                          const std::string& file) {
-  const Eigen::RowVector3d low = soup.positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = soup.positions.colwise().maxCoeff();
-  Eigen::Index within = 0;
-  for (const auto& node : skeleton.nodes.rowwise()) {
-    within += (node.array() >= low.array()).all() && (node.array() <= high.array()).all() ? 1 : 0;
-  }
-  if (2 * within >= skeleton.nodes.rows()) return;
-  throw Error(Fault::input,
-              fmt::format("{}: {} of {} nodes lie within the box of {}; needed is a skeleton of "
-                          "this surface, in its coordinates",
-                          file, within, skeleton.nodes.rows(), soup.file.filename().string()));
-}
-
-/// Of the joints, times a factor, those within the surface's box.
-Eigen::Index joints_within(const Rig& rig, const Positions& positions, double factor) {
+/// Of the points, times a factor, those within the surface's box.
+Eigen::Index points_within(const Positions& points, const Positions& positions, double factor) {
   const Eigen::Array3d low = positions.colwise().minCoeff().transpose();
   const Eigen::Array3d high = positions.colwise().maxCoeff().transpose();
   Eigen::Index within = 0;
-  for (const auto& joint : rig.joints.rowwise()) {
-    const Eigen::Array3d place = factor * joint.transpose();
+  for (const auto& point : points.rowwise()) {
+    const Eigen::Array3d place = factor * point.transpose();
     within += (place >= low).all() && (place <= high).all() ? 1 : 0;
   }
   return within;
@@ -54,7 +38,8 @@ Rig with_roles(Rig rig) {
 
 void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
                          const std::string& name) {
-  require_nodes_nearby(skeleton, soup, name);
+  const PointPlaces places = places_of(skeleton.nodes, "nodes", soup.positions, name);
+  if (!places.most_within) throw Error(Fault::input, places.finding);
   const Eigen::Index map = skeleton.node_of_vertex.size();
   if (map == 0 || map == soup.positions.rows()) return;
   throw Error(Fault::input,
@@ -76,37 +61,42 @@ bool keeps_joints_alone(SurfaceFormat format) {
   return format == SurfaceFormat::fbx || format == SurfaceFormat::dae;
 }
 
-JointPlaces places_of(const Rig& rig, const Positions& positions,
+PointPlaces places_of(const Positions& points, std::string_view kind, const Positions& positions,
                       const std::filesystem::path& file) {
-  const Eigen::Index count = rig.joints.rows();
-  const Eigen::Index within = joints_within(rig, positions, 1);
-  const double sizes = bounding_box_diagonal(rig.joints) / bounding_box_diagonal(positions);
+  const Eigen::Index count = points.rows();
+  const Eigen::Index within = points_within(points, positions, 1);
+  const double sizes = bounding_box_diagonal(points) / bounding_box_diagonal(positions);
   const auto fits_times = [&](double factor) {
     constexpr double alike = 3;  // a skeleton is about as large as its body
     const bool is_as_large = factor * sizes < alike && factor * sizes > 1 / alike;
-    return is_as_large && 2 * joints_within(rig, positions, factor) >= count;
+    return is_as_large && 2 * points_within(points, positions, factor) >= count;
   };
   if (2 * within >= count) {
-    if (!fits_times(100)) return {};
-    return {true, fmt::format("{}: the joints lie within {:.2g} of the size of the surface; times "
-                              "100 they would be as large as it: export both in one unit",
-                              file.string(), sizes)};
+    for (const double factor : {100.0, 1000.0}) {
+      if (!fits_times(factor)) continue;
+      return {true, true,
+              fmt::format("{}: the {} lie within {:.2g} of the size of the surface; times {} they "
+                          "would be as large as it: export both in one unit",
+                          file.string(), kind, sizes, factor)};
+    }
+    return {};
   }
-  std::string remedy =
-      "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)";
-  for (const double factor : {0.01, 100.0}) {
+  std::string remedy = fmt::format(
+      "needed are {} in its coordinates (glTF has y up, Blender z: export both the same way)",
+      kind);
+  for (const double factor : {0.001, 0.01, 0.1, 10.0, 100.0, 1000.0}) {
     if (!fits_times(factor)) continue;
     remedy = fmt::format("times {} they would: export both in one unit", factor);
   }
-  return {within > 0,
-          fmt::format("{}: {} of {} joints lie within the box of the surface; {}", file.string(),
-                      within == 0 ? "none" : std::to_string(within), count, remedy)};
+  return {within > 0, false,
+          fmt::format("{}: {} of {} {} lie within the box of the surface; {}", file.string(),
+                      within == 0 ? "none" : std::to_string(within), count, kind, remedy)};
 }
 
 GivenJoints joints_for(const std::filesystem::path& file, const PolygonSoup& soup,
                        const Monitor& monitor) {
   Rig rig = with_roles(read_joints(file, monitor));
-  JointPlaces places = places_of(rig, soup.positions, file);
+  PointPlaces places = places_of(rig.joints, "joints", soup.positions, file);
   if (!places.any_within) throw Error(Fault::input, places.finding);
   return {std::move(rig), std::move(places.finding)};
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <curveskel/curve_skeleton.hpp>
 #include <curveskel/monitor.hpp>
@@ -32,14 +33,17 @@ void require_skeleton_of(const PolygonSoup& soup, const CurveSkeleton& skeleton,
 [[nodiscard]] Rig rig_in(const std::filesystem::path& mesh, SurfaceFormat format,
                          const Monitor& monitor);
 
-struct JointPlaces {
-  bool any_within = true;  ///< of the surface's box
-  std::string finding;     ///< where most lie outside, and by which unit not
+/// Of joints or nodes beside a surface.
+struct PointPlaces {
+  bool any_within = true;   ///< of the surface's box
+  bool most_within = true;  ///< the same
+  std::string finding;      ///< where most lie outside, and by which unit not
 };
 
-/// `positions` are the surface's vertices, `file` the joints', for the message.
-[[nodiscard]] JointPlaces places_of(const Rig& rig, const Positions& positions,
-                                    const std::filesystem::path& file);
+/// `positions` are the surface's vertices; `kind` ("joints") and the points' `file` are for the
+/// message.
+[[nodiscard]] PointPlaces places_of(const Positions& points, std::string_view kind,
+                                    const Positions& positions, const std::filesystem::path& file);
 
 struct GivenJoints {
   Rig rig;

@@ -103,7 +103,8 @@ int run_rig_truth(const EvaluateArguments& arguments, Session& session) {
   const std::array<std::pair<const Rig*, std::filesystem::path>, 2> both{
       {{&rig.rig, arguments.mesh}, {&truth.rig, arguments.rig_truth}}};
   for (const auto& [one, file] : both) {
-    const std::string finding = places_of(*one, truth.surface.positions, file).finding;
+    const std::string finding =
+        places_of(one->joints, "joints", truth.surface.positions, file).finding;
     if (!finding.empty()) session.terminal.warn(finding);
   }
   const RigComparison comparison = compare_rigs(rig, truth, monitor);
@@ -161,6 +162,9 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   const CurveSkeleton skeleton = read_skeleton(arguments.skeleton);
   RepairedSurface repaired = repair(read_surface(arguments.mesh, monitor), arguments.repair,
                                     monitor, arguments.options.threads);
+  const std::string finding =
+      places_of(skeleton.nodes, "nodes", repaired.surface.positions, arguments.skeleton).finding;
+  if (!finding.empty()) session.terminal.warn(finding);
   Evaluation evaluation;
   evaluation.options = arguments.options;
   RepairedEvaluation found =

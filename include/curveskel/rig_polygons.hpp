@@ -47,6 +47,7 @@ struct PolygonsRig {
   /// Of the skeleton, where it was extracted. `curve_like` is judged by
   /// `made_of_tubes_but_for_sheets`.
   std::optional<Certificate> certificate;
+  double given_inside = 1;  ///< share of the length of a skeleton that was given
 };
 
 /// `repair`, `find_parts`, `extract_repaired` of the body alone, `rig_body` or

@@ -51,7 +51,7 @@ class JointPlacer {
         least_length_(options.least_bone * longest_side(skeleton.nodes)),
         least_radius_(std::max(options.straight_bone * longest_side(skeleton.nodes),
                                usual_planned_bone(planned)) /
-                      options.bone_length) {
+                      JointOptions{}.bone_length) {
     joints_.joint_of_node.setConstant(skeleton.nodes.rows(), -1);
     planned_at_.assign(idx(skeleton.nodes.rows()), -1);
     find_reach();

@@ -7,6 +7,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/clean.hpp>
 #include <curveskel/extract_repaired.hpp>
 #include <curveskel/levels.hpp>
@@ -15,6 +16,7 @@
 #include <curveskel/topology.hpp>
 #include "rig/pipeline/figures.hpp"
 #include "rig/plan/frames.hpp"
+#include "skeleton/certify/verdict.hpp"
 #include "surface/repair/sound_repaired.hpp"
 
 namespace curveskel {
@@ -71,6 +73,15 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
   curve.certificate->curve_like = made_of_tubes_but_for_sheets(curve.certificate->tube_share, body);
   curve.skeleton = std::move(found.extraction.skeleton);
   return curve;
+}
+
+double share_inside(const Surface& surface, const CurveSkeleton& skeleton,
+                    const RigPolygonsOptions& options, const Monitor& monitor) {
+  const Topology counted = topology(surface);
+  const SurfaceTree tree(surface, options.threads);
+  const CertifiedSurface certified{surface, tree, bounding_box_diagonal(surface.positions),
+                                   counted.components(), counted.total_genus()};
+  return verdict(certified, skeleton, options.extract.certificate, monitor).inside_fraction;
 }
 
 /// The plan of a single figure that has one, to be asked for at a finer level:
@@ -131,6 +142,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
     const CurveSkeleton whole = skeleton_of_repaired(*sources.skeleton, repaired.vertex_of_input,
                                                      repaired.surface.positions.rows());
     result.character = rig_character(given, repaired, whole, wanted, monitor);
+    result.given_inside = share_inside(repaired.surface, whole, options, monitor);
     result.character.rig.to_y_up =
         axes_to_gltf(soup.format, soup.to_gltf, result.character.plan, wanted.plan.up);
     return result;

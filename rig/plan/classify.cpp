@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -97,7 +98,7 @@ int find_arms(const CurveTree& tree, const Limbs& limbs, int leg) {
   double farthest = 0;
   for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
     const LimbPair& pair = limbs.pairs[idx(k)];
-    if (is_leg(tree, pair) || pair.length <= 0.12 * tree.size) continue;
+    if (k == leg || is_leg(tree, pair) || pair.length <= 0.12 * tree.size) continue;
     if (tree.nodes[idx(pair.root)].y() <= hips - 0.02 * tree.height) continue;
     const double aside = std::abs(tree.aside(pair.ways.front().path.back()));
     if (aside <= farthest) continue;
@@ -216,6 +217,19 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   }
 }
 
+/// With legs wide apart, as in a star jump: one sprawling pair, if what stands on it is human.
+std::optional<PlanFound> straddling_human(const CurveTree& tree, const Limbs& limbs) {
+  PlanFound found;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) found.legs.push_back(k);
+  }
+  if (found.legs.size() != 1) return std::nullopt;
+  found.arms = find_arms(tree, limbs, found.legs.front());
+  name_biped(tree, limbs, found);
+  if (found.plan != BodyKind::humanoid) return std::nullopt;
+  return found;
+}
+
 bool may_be_bird(BodyKind wanted) {
   return wanted == BodyKind::automatic || wanted == BodyKind::bird;
 }
@@ -249,6 +263,9 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
                                 : "a long level trunk with fins, none of which reaches the ground";
     found.legs.clear();
     return found;
+  }
+  if (legs == 0 && (wanted == BodyKind::automatic || wanted == BodyKind::humanoid)) {
+    if (const std::optional<PlanFound> human = straddling_human(tree, limbs)) return *human;
   }
   if (legs == 0) {
     found.reason = "no pair of limbs that mirror each other reaches the ground";

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
@@ -123,24 +122,62 @@ class SideOfLeg {
   std::vector<Vector2d> vertices_;
 };
 
-/// By how much a quadruped reaches higher beyond its front legs than beyond its hind legs: by its
-/// trunk, and by its surface. Where the trunk ends above the legs it is as high as there.
+/// What of a quadruped lies beyond a pair of legs.
+struct BeyondLegs {
+  const CurveTree& tree;
+  const Limbs& limbs;
+  Vector3d root;  ///< of the legs
+  double ahead;   ///< 1 in front of them, -1 behind them
+
+  [[nodiscard]] bool has(const Vector3d& p) const { return ahead * (p.z() - root.z()) > 0; }
+
+  /// The largest radius in the outer half of the trunk's way; 0 where the trunk ends at the legs.
+  [[nodiscard]] double outer_radius() const {
+    double farthest = 0;
+    for (const int node : limbs.trunk) {
+      const Vector3d& p = tree.nodes[idx(node)];
+      if (has(p)) farthest = std::max(farthest, (p - root).norm());
+    }
+    double largest = 0;
+    for (const int node : limbs.trunk) {
+      const Vector3d& p = tree.nodes[idx(node)];
+      if (!has(p) || 2 * (p - root).norm() < farthest) continue;
+      largest = std::max(largest, tree.radii[idx(node)]);
+    }
+    return largest;
+  }
+
+  /// The height of the trunk and that of the surface in one sum, thinner parts left out. Where the
+  /// trunk ends at the legs it is as high as there.
+  [[nodiscard]] double height(double least_radius) const {
+    double trunk = root.y();
+    for (const int node : limbs.trunk) {
+      const Vector3d& p = tree.nodes[idx(node)];
+      if (has(p) && tree.radii[idx(node)] >= least_radius) trunk = std::max(trunk, p.y());
+    }
+    double surface = tree.ground;
+    for (std::size_t v = 0; v < tree.vertices.size(); ++v) {
+      const int node = tree.node_of_vertex[v];
+      if (node >= 0 && tree.radii[idx(node)] < least_radius) continue;
+      if (has(tree.vertices[v])) surface = std::max(surface, tree.vertices[v].y());
+    }
+    return trunk + surface;
+  }
+};
+
+/// By how much a quadruped reaches higher beyond its front legs than beyond its hind legs. An end
+/// of less than half of the other's thickness is a tail, whose height says nothing.
 double front_above_rear(const CurveTree& tree, const Limbs& limbs, const PlanFound& found) {
   const Vector3d& a = tree.nodes[idx(limbs.pairs[idx(found.legs[0])].root)];
   const Vector3d& b = tree.nodes[idx(limbs.pairs[idx(found.legs[1])].root)];
-  const auto& [rear, front] = a.z() < b.z() ? std::tie(a, b) : std::tie(b, a);
-  double trunk[2] = {rear.y(), front.y()};
-  for (const int node : limbs.trunk) {
-    const Vector3d& p = tree.nodes[idx(node)];
-    if (p.z() < rear.z()) trunk[0] = std::max(trunk[0], p.y());
-    if (p.z() > front.z()) trunk[1] = std::max(trunk[1], p.y());
-  }
-  double surface[2] = {tree.ground, tree.ground};
-  for (const Vector3d& p : tree.vertices) {
-    if (p.z() < rear.z()) surface[0] = std::max(surface[0], p.y());
-    if (p.z() > front.z()) surface[1] = std::max(surface[1], p.y());
-  }
-  return trunk[1] - trunk[0] + surface[1] - surface[0];
+  const bool first_is_rear = a.z() < b.z();
+  const BeyondLegs rear{tree, limbs, first_is_rear ? a : b, -1};
+  const BeyondLegs front{tree, limbs, first_is_rear ? b : a, 1};
+  const double rear_radius = rear.outer_radius();
+  const double front_radius = front.outer_radius();
+  const auto least = [](double own, double other) { return 2 * own < other ? other / 2 : 0; };
+  return front.height(least(front_radius, rear_radius)) -
+         rear.height(least(rear_radius, front_radius));
 }
 
 /// The length of the ears, horns and jaws in the front half, less that of those in the rear half.

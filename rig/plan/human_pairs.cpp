@@ -20,7 +20,7 @@ double share_of_human(const CurveTree& tree, double y) {
 }
 
 bool is_human_leg(const CurveTree& tree, const LimbPair& pair) {
-  constexpr double aside = 0.45;  // of its length, as of upright legs
+  constexpr double aside = 0.8;  // of its length, as of sprawling legs
   constexpr double knee = knee_of_hips * hips_of_shoulders * shoulders_of_height;
   const Vector3d& root = tree.nodes[idx(pair.root)];
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];

@@ -213,11 +213,31 @@ class Humanoid {
     return below == nullptr ? hip_.z() : below->z();
   }
 
+  /// By more than half of a right angle: the curve then leaves the trunk below the shoulders.
+  [[nodiscard]] bool are_arms_raised() const {
+    const Vector3d upper = arm_joints_.elbow - arm_joints_.shoulder;
+    return arm_ != nullptr && upper.y() > std::numbers::sqrt2 / 2 * upper.norm();
+  }
+
+  /// Nearer to an arm's line than to the mirror plane.
+  [[nodiscard]] bool is_of_arm(const Vector3d& p) const {
+    const double aside = std::abs(p.x() - tree_.middle);
+    const Vector3d on_left(tree_.middle + aside, p.y(), p.z());
+    const auto off = [&](const Vector3d& from, const Vector3d& to) {
+      const Vector3d bone = to - from;
+      const double share = (on_left - from).dot(bone) / std::max(bone.squaredNorm(), 1e-300);
+      return (on_left - from - std::clamp(share, 0.0, 1.0) * bone).norm();
+    };
+    return std::min(off(arm_joints_.shoulder, arm_joints_.elbow),
+                    off(arm_joints_.elbow, arm_joints_.wrist)) < aside;
+  }
+
   /// The height at which the body is narrowest between the arms and the head.
   [[nodiscard]] double neck_height() const {
     constexpr int slices = 60;
+    const bool raised = are_arms_raised();
     const double from =
-        arm_ == nullptr ? arm_joints_.shoulder.y() : tree_.nodes[idx(arm_->root)].y();
+        arm_ == nullptr || raised ? arm_joints_.shoulder.y() : tree_.nodes[idx(arm_->root)].y();
     double top = from;
     for (const Vector3d& p : tree_.vertices) {
       if (std::abs(p.x() - tree_.middle) < 0.05 * tree_.height) top = std::max(top, p.y());
@@ -227,7 +247,7 @@ class Humanoid {
     const double thickness = 0.012 * tree_.height;
     for (const Vector3d& p : tree_.spread) {
       const double aside = std::abs(p.x() - tree_.middle);
-      if (aside >= 0.16 * tree_.height) continue;
+      if (aside >= 0.16 * tree_.height || (raised && is_of_arm(p))) continue;
       for (int k = 0; k < slices; ++k) {
         if (std::abs(p.y() - from - step * k) < thickness) asides[idx(k)].push_back(aside);
       }

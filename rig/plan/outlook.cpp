@@ -39,15 +39,16 @@ double middle_along(const CurveTree& tree, int axis) {
   return 0.5 * (least + most);
 }
 
-/// One whose file has z up, which is as usual as y: nothing else was seen by place. A column that
-/// stands is no fish: its belly is the image of its back.
-std::optional<Outlook> fish_with_other_up(LookedAt& body,
-                                          const std::vector<Eigen::Matrix3d>& frames,
-                                          const PlanOptions& options) {
+/// A fish, or a bird on its legs, whose file has z up, which is as usual as y: nothing else was
+/// seen by place. A column that stands is no fish: its belly is the image of its back.
+std::optional<Outlook> animal_with_other_up(LookedAt& body,
+                                            const std::vector<Eigen::Matrix3d>& frames,
+                                            const PlanOptions& options) {
   for (const Eigen::Matrix3d& axes : frames) {
     if (axes.row(1) == frames.front().row(1)) continue;
     Outlook other = look(Sides::images, body, axes, options.plan);
-    const bool is_seen = other.found.plan == BodyKind::fish &&
+    const bool is_standing_bird = other.found.plan == BodyKind::bird && !other.found.legs.empty();
+    const bool is_seen = (other.found.plan == BodyKind::fish || is_standing_bird) &&
                          asymmetry(other.tree, 0, other.tree.middle) < symmetric &&
                          asymmetry(other.tree, 1, middle_along(other.tree, 1)) >= symmetric;
     if (is_seen) return other;
@@ -133,17 +134,21 @@ Outlook best_by_place(LookedAt& body, const std::vector<Eigen::Matrix3d>& frames
     if (is_clear(other.found.plan)) best = std::move(other);
   }
   if (best.found.plan == BodyKind::other) {
-    if (std::optional<Outlook> fish = fish_with_other_up(body, frames, options)) return *fish;
+    if (std::optional<Outlook> one = animal_with_other_up(body, frames, options)) return *one;
   }
   return best;
 }
 
 /// A human or a quadruped on its back, its front or a side. Nobody stands so, so nothing is left to
-/// chance: its sides are images of each other, and it is all that there is.
+/// chance: its sides are images of each other, and it is all that there is. What stands on two legs
+/// with a tail, as alike on both sides, does not lie.
 std::optional<Outlook> best_lying(LookedAt& body, const PlanOptions& options,
                                   const Outlook& usual) {
   std::optional<Outlook> best;
   double least = symmetric;
+  if (usual.found.plan == BodyKind::tailed_biped) {
+    least = std::min(least, asymmetry(usual.tree, 0, usual.tree.middle));
+  }
   for (const Eigen::Matrix3d& axes : frames_of_lying(options)) {
     const bool is_upside_down = axes.row(1).dot(usual.axes.row(1)) < 0;
     if (is_upside_down && usual.found.plan != BodyKind::other) continue;

@@ -157,11 +157,12 @@ Certificate judged(const CertifiedSurface& surface, const MeasuredCurve& subject
   count(skeleton, certificate);
   certificate.components_of_surface = surface.components;
   certificate.genus = surface.genus;
-  if (surface.components > 1 && certificate.components == surface.components) {
-    certificate.components_without_curve = components_without_curve(surface.surface, skeleton);
-  }
   certificate.homology_rank = surface.genus > 0 ? homology_rank(surface.surface, skeleton) : 0;
   measure_inside(subject, options, certificate);
+  const bool may_be_elsewhere = surface.components > 1 || certificate.inside_fraction == 0;
+  if (may_be_elsewhere && certificate.components == surface.components) {
+    certificate.components_without_curve = components_without_curve(surface.surface, skeleton);
+  }
   return certificate;
 }
 

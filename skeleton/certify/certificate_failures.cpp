@@ -26,6 +26,8 @@ std::string failures(const Certificate& certificate, const CertificateOptions& o
   if (c.components != c.components_of_surface) {
     add("the skeleton has " + number(c.components) + " components, the surface " +
         number(c.components_of_surface));
+  } else if (!c.components_right() && c.components_of_surface == 1) {
+    add("no node of the skeleton is inside the surface, or near it");
   } else if (!c.components_right()) {
     add(number(c.components_without_curve) + " of the surface's " +
         number(c.components_of_surface) + " components have no component of the skeleton inside");

@@ -136,6 +136,18 @@ TEST(JointPlaces, AreNoBeadsOnThinLimbs) {
   }
 }
 
+TEST(JointPlaces, AreFewerWhereLongerBonesAreAskedFor) {
+  for (const double radius : {0.02, 0.2, 1.0}) {
+    const CurveSkeleton body = spiny_body(radius);
+    std::vector<Eigen::Index> counts;  // of joints
+    for (const double bone_length : {2.0, 4.0, 6.0, 9.0, 20.0}) {
+      counts.push_back(place_joints(body, {.bone_length = bone_length}).parents.size());
+    }
+    EXPECT_TRUE(std::is_sorted(counts.rbegin(), counts.rend())) << "radius " << radius;
+    EXPECT_GT(counts.front(), counts.back()) << "radius " << radius;
+  }
+}
+
 TEST(JointPlaces, AreAtCorners) {
   for (const double turn : {pi / 3, pi / 2, 2 * pi / 3}) {
     for (const double first : {3.0, 4.3, 6.0, 9.5}) {

@@ -17,8 +17,9 @@ struct JointOptions {
   double bend =
       0.5;  ///< of the radius: a curve that is so far off a bone is worth a joint; same range
   // Of the longest side of the skeleton's box; 0..1.
-  double straight_bone = 0.06;  ///< that a straight limb is cut into at least, however thin it is:
-                                ///< fins, plates and spikes are no chains of beads
+  double straight_bone = 0.06;  ///< that a straight limb is cut into at least, however thin it is,
+                                ///< by the default `bone_length` (others in proportion): fins,
+                                ///< plates and spikes are no chains of beads
   double least_bone = 0.02;     ///< nothing shorter becomes a bone of its own
 };
 
@@ -43,7 +44,7 @@ struct Joints {
 /// bone do not divide a limb, and move with where they hang. Along a limb the joints minimise, over
 /// all choices (dynamic programming), the sum over bones of 1 + (length / (bone_length r))^2 +
 /// (deviation / (bend r))^2, lengths measured in the radius r where they are (or in that of which
-/// straight_bone is so many), deviation the largest distance of the curve from the bone. Components
+/// straight_bone is 6), deviation the largest distance of the curve from the bone. Components
 /// hang from each other where they touch widely or are nearest, in a tree from the heaviest (length
 /// times radius) or that of a wanted root, so that there is one root for what belongs together;
 /// each is rooted where it hangs. Bodies that stand apart (by more than a quarter of the larger

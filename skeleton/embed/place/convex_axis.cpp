@@ -67,6 +67,21 @@ bool behind_all_triangles(const std::vector<Point>& corners, const Surface& surf
   return true;
 }
 
+/// True if no point between the two is farther out than `deepest`. The distance to the surface says
+/// how long the next step may be; along a face it is twice `deepest` or a hundredth of the way, as
+/// other chords cross a gap that this one steps over.
+bool stays_inside(const SurfaceTree& tree, const Point& from, const Point& to, double deepest) {
+  const double length = (to - from).norm();
+  const double least_step = std::max(2 * deepest, length / 100);
+  double along = 0;
+  while (along < length) {
+    const double depth = tree.inscribed_radius(from + along / length * (to - from));
+    if (depth < -deepest) return false;
+    along += std::max(depth, least_step);
+  }
+  return true;
+}
+
 /// The point from the middle half-way to the surface along `ahead`, from there half-way again, and
 /// so on as long as half of the way leads out of the inscribed ball and is longer than `shortest`:
 /// from a thin rod's middle its end is any number of radii off. Each point but the first goes
@@ -95,11 +110,16 @@ bool is_convex(const WorkingSurface& working, const SurfaceTree& tree, double de
   const double deepest = dent * working.balls().radii.maxCoeff();
   const std::vector<Point> corners = vertices_farthest_out(working);
   if (behind_all_triangles(corners, working.surface())) return true;
-  for (const double share : {0.5, 0.25, 0.75}) {
+  // Middles first: there most bodies of limbs are found out, but not a comb of five teeth, of which
+  // middles and quarters lie in teeth.
+  for (const bool whole : {false, true}) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       for (std::size_t j = i + 1; j < corners.size(); ++j) {
-        const Point between = corners[i] + share * (corners[j] - corners[i]);
-        if (tree.inscribed_radius(between) < -deepest) return false;
+        const Point middle = 0.5 * (corners[i] + corners[j]);
+        if (whole ? !stays_inside(tree, corners[i], corners[j], deepest)
+                  : tree.inscribed_radius(middle) < -deepest) {
+          return false;
+        }
       }
     }
   }

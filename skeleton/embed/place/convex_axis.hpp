@@ -12,7 +12,7 @@ namespace curveskel {
 
 /// True if the chords between the vertices that lie farthest out in directions all round leave the
 /// body nowhere by more than the share `dent` of the largest inscribed radius. O(#V + #F); and
-/// queries, some hundred where it is true but for dents, few where it is not.
+/// queries, some thousand where it is true but for dents, few where it is not.
 [[nodiscard]] bool is_convex(const WorkingSurface& working, const SurfaceTree& tree, double dent);
 
 /// One arc that stands for all groups of the partition: along the line through the origin, in

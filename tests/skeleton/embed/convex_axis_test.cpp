@@ -5,14 +5,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/tree.hpp>
+#include <curveskel/clean.hpp>
 #include <curveskel/extract.hpp>
+#include <curveskel/read.hpp>
 #include "meshes/shapes.hpp"
 #include "skeleton/embed/working_surface.hpp"
 
@@ -99,6 +103,62 @@ void expect_line_through_middle(const CurveSkeleton& curve, const Vector3d& alon
   for (const double end : {places.maxCoeff(), -places.minCoeff()}) {
     EXPECT_GE(end, 0.499 * half);
     EXPECT_LT(end, half);
+  }
+}
+
+/// Cubes of size 1 in the plane of x and y: a back, and `teeth` on it, a gap of one cube apart.
+Surface comb(int teeth, int length) {
+  const int width = 2 * teeth - 1;
+  const auto is_filled = [=](int x, int y) {
+    return x >= 0 && x < width && y >= 0 && y <= length && (y == 0 || x % 2 == 0);
+  };
+  const auto vertex = [=](int x, int y, int z) { return 2 * (y * (width + 1) + x) + z; };
+  std::vector<Eigen::RowVector3i> triangles;
+  const auto add_quad = [&](int a, int b, int c, int d) {
+    triangles.emplace_back(a, b, c);
+    triangles.emplace_back(a, c, d);
+  };
+  for (int y = 0; y <= length; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_filled(x, y)) continue;
+      const auto corner = [&](int k, int z) {
+        return vertex(x + (k == 1 || k == 2), y + k / 2, z);
+      };
+      add_quad(corner(0, 1), corner(1, 1), corner(2, 1), corner(3, 1));
+      add_quad(corner(3, 0), corner(2, 0), corner(1, 0), corner(0, 0));
+      const std::array<bool, 4> open{!is_filled(x, y - 1), !is_filled(x + 1, y),
+                                     !is_filled(x, y + 1), !is_filled(x - 1, y)};
+      for (int k = 0; k < 4; ++k) {
+        if (!open[idx(k)]) continue;
+        const int next = (k + 1) % 4;
+        add_quad(corner(k, 0), corner(next, 0), corner(next, 1), corner(k, 1));
+      }
+    }
+  }
+  Surface comb;
+  comb.positions.resize(Eigen::Index{2} * (width + 1) * (length + 2), 3);
+  for (int y = 0; y < length + 2; ++y) {
+    for (int x = 0; x <= width; ++x) {
+      for (const int z : {0, 1}) comb.positions.row(vertex(x, y, z)) << x, y, z;
+    }
+  }
+  comb.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    comb.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  }
+  return clean(soup_of(comb)).surface;
+}
+
+TEST(ConvexAxis, ACombIsNotConvexHoweverManyTeethItHas) {
+  for (int teeth = 2; teeth <= 17; ++teeth) {
+    for (const int length : {3, 10}) {
+      SCOPED_TRACE(testing::Message() << teeth << " teeth, " << length << " long");
+      const Surface surface = comb(teeth, length);
+      EXPECT_FALSE(is_convex_shape(surface));
+    }
+  }
+  for (const int teeth : {5, 9}) {
+    EXPECT_EQ(graph_topology(extract(comb(teeth, 10), {}, {}).skeleton).tips, teeth) << teeth;
   }
 }
 
