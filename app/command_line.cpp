@@ -129,8 +129,9 @@ std::string what_is_too_much(const CLI::App& verb) {
   const auto option = std::find_if(rest.begin(), rest.end(),
                                    [](const std::string& text) { return text.starts_with("-"); });
   if (option == rest.end()) {
-    return fmt::format("{} is one too many; one call is for one surface, ./run batch for many",
-                       rest.empty() ? "an argument" : rest.front());
+    const bool takes_surface = verb.get_option_no_throw("MESH") != nullptr;
+    return fmt::format("{} is one too many{}", rest.empty() ? "an argument" : rest.front(),
+                       takes_surface ? "; one call is for one surface, ./run batch for many" : "");
   }
   const std::string name = option->substr(0, option->find('='));
   const std::string nearest = nearest_option(verb, name);

@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include "app/counted.hpp"
+
 namespace curveskel {
 namespace {
 
 std::string hits_line(const char* name, const JointHits& hits) {
-  return fmt::format("  {:<17}{:>7.3f} precision, {:.3f} recall, {:.3f} overlap ({} pairs)\n", name,
-                     hits.precision, hits.recall, hits.overlap, hits.hits);
+  return fmt::format("  {:<17}{:>7.3f} precision, {:.3f} recall, {:.3f} overlap ({})\n", name,
+                     hits.precision, hits.recall, hits.overlap, count_of(hits.hits, "pair"));
 }
 
 }  // namespace
@@ -25,7 +27,8 @@ std::string rig_comparison_table(const RigComparison& c) {
   text += hits_line("within 5 %", c.by_size);
   if (c.poses) {
     text += fmt::format("  poses            {:>8.2f} %  of L from the truth's, {:.2f} shared; {}\n",
-                        100 * c.poses->mean_distance, c.poses->shared, c.poses->poses);
+                        100 * c.poses->mean_distance, c.poses->shared,
+                        count_of(c.poses->poses, "pose"));
   } else {
     text += fmt::format("  poses            not compared: {}\n", c.not_posed);
   }

@@ -17,8 +17,8 @@ namespace curveskel {
 /// and beside a rig that is kept: refused there.
 inline constexpr std::array idle_beside_skeleton{"detail", "fair"};
 inline constexpr std::array idle_beside_joints{"bone-length", "follow", "front", "joint-budget",
-                                               "names",       "plan",   "root"};
-inline constexpr std::array idle_beside_kept_rig{"ground-root", "pose", "up"};
+                                               "names",       "plan",   "pose",  "root"};
+inline constexpr std::array idle_beside_kept_rig{"ground-root", "up"};
 
 /// Throws Error(Fault::input) where the skeleton is mostly elsewhere, or has nodes for other
 /// vertices than the surface's. `name` is for messages.

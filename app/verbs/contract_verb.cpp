@@ -15,6 +15,7 @@
 #include <curveskel/write_surface.hpp>
 #include "app/arguments.hpp"
 #include "app/command_line.hpp"
+#include "app/counted.hpp"
 #include "app/kernel_cache.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
@@ -96,16 +97,20 @@ std::string outcome(const Contraction& contraction, int component) {
   const auto reason = std::find_if(stops.begin(), stops.end(),
                                    [&](const auto& one) { return one.value == contraction.stop; });
   const Step last = contraction.steps.empty() ? Step{} : contraction.steps.back();
-  return fmt::format("component {}: {} iterations, area {:.2e}, volume {:.2e}; {}\n", component,
-                     contraction.steps.size(), last.area_ratio, last.volume_ratio, reason->meaning);
+  return fmt::format("component {}: {}, area {:.2e}, volume {:.2e}; {}\n", component,
+                     count_of(static_cast<std::int64_t>(contraction.steps.size()), "iteration"),
+                     last.area_ratio, last.volume_ratio, reason->meaning);
 }
 
 int run_contract(const ContractArguments& arguments, Session& session) {
   if (arguments.quiet) session.terminal.be_quiet();
-  const SurfaceFormat format = format_of(arguments.output, surface_formats);
-  if (format != SurfaceFormat::ply && format != SurfaceFormat::om) {
-    throw UsageError(arguments.output + ": the contracted surface is written as ply or om");
+  const std::string extension = lower_extension(arguments.output);
+  if (extension != "ply" && extension != "om") {
+    throw UsageError(arguments.output +
+                     ": the contracted surface is written as ply or om; name a "
+                     "file with that extension");
   }
+  const SurfaceFormat format = format_of(arguments.output, surface_formats);
   check_outputs({arguments.output}, {arguments.mesh});
   if (!arguments.frames.empty()) {
     require_no_frame(arguments.mesh, arguments.frames);

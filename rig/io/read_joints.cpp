@@ -102,6 +102,9 @@ Rig joints_of_json(const FileBytes& file) {
   std::vector<GivenJoint> joints;
   try {
     const Json parsed = Json::parse(file.content);
+    if (parsed.is_object() && parsed.contains("nodes") && !parsed.contains("joints")) {
+      file.fail("a skeleton's nodes", "joints", "give it as --skeleton instead");
+    }
     const Json& entries = parsed.at("joints");
     for (const Json& entry : entries) {
       GivenJoint joint;

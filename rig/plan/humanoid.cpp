@@ -219,19 +219,6 @@ class Humanoid {
     return arm_ != nullptr && upper.y() > std::numbers::sqrt2 / 2 * upper.norm();
   }
 
-  /// Nearer to an arm's line than to the mirror plane.
-  [[nodiscard]] bool is_of_arm(const Vector3d& p) const {
-    const double aside = std::abs(p.x() - tree_.middle);
-    const Vector3d on_left(tree_.middle + aside, p.y(), p.z());
-    const auto off = [&](const Vector3d& from, const Vector3d& to) {
-      const Vector3d bone = to - from;
-      const double share = (on_left - from).dot(bone) / std::max(bone.squaredNorm(), 1e-300);
-      return (on_left - from - std::clamp(share, 0.0, 1.0) * bone).norm();
-    };
-    return std::min(off(arm_joints_.shoulder, arm_joints_.elbow),
-                    off(arm_joints_.elbow, arm_joints_.wrist)) < aside;
-  }
-
   /// The height at which the body is narrowest between the arms and the head.
   [[nodiscard]] double neck_height() const {
     constexpr int slices = 60;
@@ -245,9 +232,11 @@ class Humanoid {
     const double step = 0.75 * (top - from) / (slices - 1);
     std::vector<std::vector<double>> asides(slices);
     const double thickness = 0.012 * tree_.height;
+    const double elbow = std::abs(arm_joints_.elbow.x() - tree_.middle);
+    const double widest = std::min(0.16 * tree_.height, raised ? 0.5 * elbow : tree_.size);
     for (const Vector3d& p : tree_.spread) {
       const double aside = std::abs(p.x() - tree_.middle);
-      if (aside >= 0.16 * tree_.height || (raised && is_of_arm(p))) continue;
+      if (aside >= widest) continue;
       for (int k = 0; k < slices; ++k) {
         if (std::abs(p.y() - from - step * k) < thickness) asides[idx(k)].push_back(aside);
       }

@@ -59,7 +59,8 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
 
   std::vector<ComponentWrap> wraps;
   const auto owners = component_by_place(skeleton, split_components(surface, counted));
-  const auto all_failing = failing_components(surface, counted, skeleton, owners, options, monitor);
+  const auto all_failing =
+      failing_components(surface, counted, skeleton, owners, options, false, monitor);
   if (all_failing.empty()) return result;
   const double gap = as_repaired.wrap_gap;
   const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(all_failing.size());

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <curveskel/advanced/indices.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"
@@ -49,6 +51,9 @@ ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) 
   return one;
 }
 
+constexpr std::string_view turned_limbs =
+    "limbs are inside out, whose faces were turned to agree with their neighbours";
+
 std::string why_wrapped(double gap) {
   std::ostringstream words;
   words.precision(3);
@@ -56,6 +61,8 @@ std::string why_wrapped(double gap) {
         << " of its extent are wrapped over";
   return words.str();
 }
+
+constexpr double least_turned = 0.01;  // of the area of all; see `has_turned_limbs`
 
 /// The widest wrap of a component, none if that encloses nothing, and a budget that knows from it
 /// how many vertices narrower ones take.
@@ -141,19 +148,26 @@ std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing
   return wraps;
 }
 
+/// "the certificate failed (...), so what it fails for".
+std::string why_again(const Certificate& certificate, const CertificateOptions& options) {
+  if (certificate.correct()) return std::string(turned_limbs) + ", so their component";
+  return "the certificate failed (" + failures(certificate, options) + "), so what it fails for";
+}
+
 /// Which of the failing components were wrapped.
 std::string which_were(std::size_t wrapped, std::size_t failing) {
-  if (wrapped == failing) return "what it fails for was wrapped";
-  return std::to_string(wrapped) + " of the " + std::to_string(failing) +
-         " components that it fails for were wrapped (no wrap of the others has one that holds)";
+  if (wrapped == failing) return "was wrapped";
+  return "was wrapped in " + std::to_string(wrapped) + " of " + std::to_string(failing) +
+         " components (no wrap of the others has a certificate that holds)";
 }
 
 std::vector<FailingComponent> failing_of(const Surface& surface, const Extraction& extraction,
-                                         const CertificateOptions& options,
+                                         const CertificateOptions& options, bool may_be_turned,
                                          const Monitor& monitor) {
   const Topology counted = topology(surface);
   return failing_components(surface, counted, extraction.skeleton,
-                            component_by_map(extraction.skeleton, counted), options, monitor);
+                            component_by_map(extraction.skeleton, counted), options, may_be_turned,
+                            monitor);
 }
 
 /// The results of the components that are not wrapped, as the surface with the wraps numbers them.
@@ -174,7 +188,8 @@ Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOpti
   silent.note = nullptr;
   const Plan<Extracted>::Room room{given.so_far, silent, given.log, given.number};
   const Extraction& failed = given.so_far.best->found.extraction;
-  const auto failing = failing_of(repaired.surface, failed, options.certificate, silent);
+  const auto failing = failing_of(repaired.surface, failed, options.certificate,
+                                  repaired.changes.faces_flipped > 0, silent);
   const auto wraps =
       wraps_of(failing, as_repaired.wrap_gap, repaired.surface.positions.rows(), options, room);
   if (wraps.empty()) throw GaveUp("no wrap has a certificate that holds");
@@ -191,9 +206,8 @@ Extracted extracted_from_wraps(const RepairedSurface& repaired, const RepairOpti
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   found.extraction.times = {{"wrap", taken.count()}};
   return {std::move(found),
-          "the certificate failed (" + failures(failed.certificate, options.certificate) +
-              "), so " + which_were(wraps.size(), failing.size()) +
-              ", and the skeleton extracted again",
+          why_again(failed.certificate, options.certificate) + " " +
+              which_were(wraps.size(), failing.size()) + ", and the skeleton extracted again",
           std::move(whole.parts), std::move(whole.components)};
 }
 
@@ -209,8 +223,11 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
   const auto why = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
     if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;
     const Certificate& found = so_far.best->found.extraction.certificate;
-    if (found.correct()) return std::nullopt;
-    return failures(found, its.certificate);
+    if (!found.correct()) return failures(found, its.certificate);
+    if (repaired.changes.faces_flipped == 0) return std::nullopt;
+    const SurfaceTree tree(repaired.surface, its.threads);
+    if (turned_share(repaired.surface, tree) < least_turned) return std::nullopt;
+    return std::string(turned_limbs);
   };
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
                      return extracted_from_wraps(repaired, as_repaired, its, room);
@@ -226,7 +243,8 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
 bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap>& wraps,
                 const CertificateOptions& options, const Monitor& monitor) {
   if (found.extraction.certificate.correct()) return true;
-  const auto failing = failing_of(found.wrapped->surface, found.extraction, options, monitor);
+  const auto failing =
+      failing_of(found.wrapped->surface, found.extraction, options, false, monitor);
   int added = 0;  // components so far that wraps have beyond one each
   for (const ComponentWrap& one : wraps) {
     const int first = one.component + added;

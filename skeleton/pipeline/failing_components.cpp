@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/tree.hpp>
 #include "skeleton/certify/verdict.hpp"
 #include "skeleton/graph/sequence_tree.hpp"
 #include "surface/spatial/morton.hpp"
@@ -143,11 +144,40 @@ Certificate verdict_alone(const Surface& component, int genus, double diagonal,
   return verdict({component, tree, diagonal, 1, genus}, skeleton, options, monitor);
 }
 
+double turned_share(const Surface& surface, const SurfaceTree& tree) {
+  constexpr int samples = 256;
+  constexpr double off = 1e-4;  // of the size
+  const double step = off * bounding_box_diagonal(surface.positions);
+  const double spacing = area(surface) / samples;
+  double until_next = 0.5 * spacing;
+  int taken = 0;
+  int turned = 0;
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    const Eigen::Vector3d a = surface.positions.row(triangle[0]);
+    const Eigen::Vector3d b = surface.positions.row(triangle[1]);
+    const Eigen::Vector3d c = surface.positions.row(triangle[2]);
+    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    until_next -= 0.5 * normal.norm();
+    if (until_next > 0) continue;
+    while (until_next <= 0) until_next += spacing;
+    const Eigen::Vector3d outwards = step * normal.normalized();
+    const Eigen::Vector3d middle = (a + b + c) / 3;
+    ++taken;
+    if (tree.inside(middle + outwards) && !tree.inside(middle - outwards)) ++turned;
+  }
+  return taken == 0 ? 0 : static_cast<double>(turned) / taken;
+}
+
+bool has_turned_limbs(const Surface& component) {
+  constexpr double limb = 0.05;
+  return turned_share(component, SurfaceTree(component)) > limb;
+}
+
 std::vector<FailingComponent> failing_components(const Surface& surface, const Topology& counted,
                                                  const CurveSkeleton& skeleton,
                                                  const std::vector<int>& component_of_node,
                                                  const CertificateOptions& options,
-                                                 const Monitor& monitor) {
+                                                 bool may_be_turned, const Monitor& monitor) {
   const double diagonal = bounding_box_diagonal(surface.positions);
   auto parts = split_components(surface, counted);
   auto curves = divided(skeleton, component_of_node, counted.components());
@@ -156,7 +186,8 @@ std::vector<FailingComponent> failing_components(const Surface& surface, const T
     Surface& part = parts[idx(c)].surface;
     const int genus = counted.genus[idx(c)];
     const CurveSkeleton& curve = curves[idx(c)];
-    if (verdict_alone(part, genus, diagonal, curve, options, monitor).correct()) continue;
+    const bool holds = verdict_alone(part, genus, diagonal, curve, options, monitor).correct();
+    if (holds && !(may_be_turned && has_turned_limbs(part))) continue;
     failing.push_back({c, std::move(part), genus, std::move(curves[idx(c)])});
   }
   return failing;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 
@@ -29,7 +30,16 @@ namespace curveskel {
                                         const CurveSkeleton& skeleton,
                                         const CertificateOptions& options, const Monitor& monitor);
 
-/// A component whose own certificate does not hold.
+/// Share of the area, by 256 samples, beyond whose faces, not behind them, the surface winds round
+/// something: of limbs whose faces had to be turned to agree with those of the body. `tree` is the
+/// surface's. O(#F + log #F for each sample). Precondition: closed.
+[[nodiscard]] double turned_share(const Surface& surface, const SurfaceTree& tree);
+
+/// True if more than a twentieth of the area is inside out, as limbs are that had to be turned to
+/// agree with their body: inscribed balls have no room there, so that the curve has no such limb.
+[[nodiscard]] bool has_turned_limbs(const Surface& component);
+
+/// A component whose own certificate does not hold, or that has turned limbs.
 struct FailingComponent {
   int number = 0;  ///< in `topology`
   Surface surface;
@@ -37,10 +47,11 @@ struct FailingComponent {
   CurveSkeleton skeleton;  ///< the part that belongs to the component
 };
 
-/// In the order of their numbers. D is the whole surface's for all.
+/// In the order of their numbers. D is the whole surface's for all. Turned limbs are looked for
+/// where `may_be_turned`.
 [[nodiscard]] std::vector<FailingComponent> failing_components(
     const Surface& surface, const Topology& counted, const CurveSkeleton& skeleton,
     const std::vector<int>& component_of_node, const CertificateOptions& options,
-    const Monitor& monitor);
+    bool may_be_turned, const Monitor& monitor);
 
 }  // namespace curveskel

@@ -282,6 +282,47 @@ TEST(FindPlan, PawsOutweighALiftedTail) {
 }
 
 /// A front that is said holds, in shoes with the longer end behind, too.
+TEST(FindPlan, AThinTailIsNoHeadHoweverHighItStands) {
+  for (const double front : {1.0, -1.0}) {
+    for (const double top : {9.0, 13.0, 18.0}) {
+      BodyCurve figure;
+      const int rump = figure.add({0, 8, -6 * front}, 1.4);
+      const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
+      const int neck = figure.add({0, 10.5, 8 * front}, 0.8, withers);
+      figure.add({0, 11, 10.5 * front}, 1, neck);
+      const int tail = figure.add({0, 8.5, -8.5 * front}, 0.4, rump);
+      figure.add({0, top, -10.5 * front}, 0.3, tail);
+      for (const double z : {-6.0, 5.0}) {
+        figure.add_pair(z < 0 ? rump : withers, {{1.5, 6, z * front}, {1.5, 0.5, z * front}}, 0.5);
+      }
+      const RigSubject subject = subject_of("lifted tail", figure);
+      const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+      ASSERT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
+      ASSERT_NE(joint_of(plan, "head"), nullptr);
+      EXPECT_GT(joint_of(plan, "head")->position.z() * front, 5) << "tail up to " << top;
+    }
+  }
+}
+
+TEST(FindPlan, ABirdOnItsLegsIsOneWithZUpToo) {
+  BodyCurve figure;
+  const int hips = figure.add({0, 5, 0}, 1.2);
+  const int chest = figure.add({0, 6, 2}, 1.2, hips);
+  figure.add({0, 8.6, 5.6}, 0.8, figure.add({0, 8, 4}, 0.5, chest));
+  figure.add({0, 4.6, -5}, 0.5, hips);
+  figure.add_pair(hips, {{1, 3.5, 0}, {1, 0.5, 0}, {1, 0.4, 1.2}}, 0.3);
+  figure.add_pair(chest, {{2, 6.5, 2}, {6, 7, 1.5}, {11, 7, 0}}, 0.4);
+  const RigSubject bird = subject_of("bird", figure);
+  for (const bool is_z_up : {false, true}) {
+    const Eigen::Vector3d up = Eigen::Vector3d::Unit(is_z_up ? 2 : 1);
+    const Eigen::Vector3d front = is_z_up ? Eigen::Vector3d(0, -1, 0) : Eigen::Vector3d(0, 0, 1);
+    const RigSubject turned = standing_in(bird, frame(up, front));
+    const BodyPlan plan = find_plan(turned.surface, turned.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::bird) << plan.reason;
+    EXPECT_LT((plan.axes - frame(up, front)).norm(), 1e-12) << plan.axes;
+  }
+}
+
 TEST(FindPlan, ToesDoNotOverruleWhatIsSaid) {
   const RigSubject back =
       standing_in(human(), frame(Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ()));

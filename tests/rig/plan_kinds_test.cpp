@@ -112,6 +112,38 @@ TEST(FindPlan, KneesOfTheSittingAreHalfWayAlongTheLeg) {
 }
 
 /// In clothes, of which none has most of the area, so that it is no animal.
+TEST(FindPlan, LegsMayBeWideApart) {
+  for (const double degrees : {15.0, 30.0, 42.0, 50.0}) {
+    const double aside = std::sin(degrees * std::numbers::pi / 180);
+    const double down = std::cos(degrees * std::numbers::pi / 180);
+    const double hip = 8.4 * down + 0.6;
+    BodyCurve figure;
+    const int hips = figure.add({0, hip + 1, 0}, 1.4);
+    const int chest = figure.add({0, hip + 6, 0}, 1.5, hips);
+    figure.add({0, hip + 9.6, 0}, 1.3, figure.add({0, hip + 7.8, 0}, 0.6, chest));
+    figure.add_pair(hips,
+                    {{1.4, hip, 0},
+                     {1.4 + 4 * aside, hip - 4 * down, 0},
+                     {1.4 + 8.4 * aside, 0.6, 0},
+                     {1.4 + 8.4 * aside, 0.5, 2}},
+                    0.6);
+    figure.add_pair(chest, {{2.2, hip + 6, 0}, {5.5, hip + 6, 0}, {8.5, hip + 6, 0}}, 0.5);
+    const RigSubject subject = subject_of("straddling", figure);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::humanoid) << degrees << ": " << plan.reason;
+  }
+}
+
+TEST(FindPlan, RaisedArmsLeaveTheNeckBelowTheHead) {
+  BodyCurve figure;
+  const int chest = add_body_without_arms(figure);
+  figure.add_pair(chest, {{2.2, 15.5, 0}, {2.4, 19, 0}, {2.4, 22.5, 0}}, 0.5);
+  const RigSubject subject = subject_of("arms up", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  ASSERT_EQ(plan.plan, BodyKind::humanoid) << plan.reason;
+  expect_near(plan, "head", {0, 16.9, 0}, 0.6);
+}
+
 TEST(FindPlan, WhoLiesOnHisBackInClothesIsAHuman) {
   BodyCurve figure;
   const int hips = figure.add({0, 2.2, -1}, 1.2);

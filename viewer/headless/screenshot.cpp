@@ -83,7 +83,7 @@ void go_to(Scene& scene, const StageWish& wish) {
   if (last < 0) {
     throw Error(Fault::input, "the stage " + name_of(wish) +
                                   " never came; a run over a surface has input, contraction:K, "
-                                  "skeleton, rig, and fairing:K with --fair N");
+                                  "surgery, skeleton, rig, and fairing:K with --fair N");
   }
   if (wish.iteration > last) {
     throw Error(Fault::input, name_of(wish) + " took " + std::to_string(last) +
