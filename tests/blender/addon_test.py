@@ -16,6 +16,8 @@ ZIP = pathlib.Path(os.environ["CURVESKEL_ADDON"])  # as the build makes it
 LAWS = SOURCE / "tests" / "blender" / "addon"
 FIND_LAWS = f"import sys; sys.dont_write_bytecode = True; sys.path.append({str(LAWS)!r})"
 
+PYTHON_MODULE = "__version__ = 'of the Python module'\n"  # as python3-curveskel, in its stead
+
 
 def capped_bar():
     """Half of a bar along x, from 0 to 4, open at 0: rings of eight and a cap."""
@@ -55,10 +57,13 @@ class AddOn(unittest.TestCase):
             (folder / "button.off").write_text(OCTAHEDRON)
             (folder / "tmp").mkdir()
             (folder / "scripts").mkdir()
+            (folder / "modules" / "curveskel").mkdir(parents=True)
+            (folder / "modules" / "curveskel" / "__init__.py").write_text(PYTHON_MODULE)
             # Blender takes the first python3 in the path for its own.
             environment = {**os.environ, "TMPDIR": str(folder / "tmp"),
                            "BLENDER_USER_SCRIPTS": str(folder / "scripts"),
                            "BLENDER_USER_CONFIG": str(folder / "config"),
+                           "PYTHONPATH": str(folder / "modules"),
                            "PATH": f"{PROGRAM.parent}:/usr/local/bin:/usr/bin:/bin"}
             done = subprocess.run(
                 [*with_screen, shutil.which("blender"), *before, "--python-exit-code", "1",
@@ -66,6 +71,9 @@ class AddOn(unittest.TestCase):
                 capture_output=True, text=True, stdin=subprocess.DEVNULL, env=environment,
                 check=False, timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+
+    def test_stands_beside_the_python_module(self):
+        self.run_in_blender("python_module")
 
     def test_rigs_the_users_own_objects(self):
         self.run_in_blender("rig")
@@ -106,7 +114,7 @@ class AddOn(unittest.TestCase):
 class Panel(unittest.TestCase):
     def choices(self, name):
         """The first words of the lists in panel.py."""
-        tree = ast.parse((SOURCE / "blender" / "curveskel" / "panel.py").read_text())
+        tree = ast.parse((SOURCE / "blender" / "curveskel_addon" / "panel.py").read_text())
         for statement in tree.body:
             if isinstance(statement, ast.Assign) and statement.targets[0].id == name:
                 return [pair[0] for pair in ast.literal_eval(statement.value.generators[0].iter)]

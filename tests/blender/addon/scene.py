@@ -12,7 +12,7 @@ folder = pathlib.Path(sys.argv[-2])
 source = pathlib.Path(sys.argv[-1])
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.preferences.addon_install(filepath=str(folder / "curveskel.zip"))
-bpy.ops.preferences.addon_enable(module="curveskel")
+bpy.ops.preferences.addon_enable(module="curveskel_addon")
 
 
 def mesh_object(name, places, faces):
