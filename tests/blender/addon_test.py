@@ -7,6 +7,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -71,6 +72,7 @@ class AddOn(unittest.TestCase):
                 capture_output=True, text=True, stdin=subprocess.DEVNULL, env=environment,
                 check=False, timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+            return done.stdout
 
     def test_stands_beside_the_python_module(self):
         self.run_in_blender("python_module")
@@ -99,6 +101,21 @@ class AddOn(unittest.TestCase):
     def test_skeleton_comes_as_curves_with_radii(self):
         self.run_in_blender("skeleton")
 
+    def test_what_the_program_warns_of_is_said(self):
+        said = self.run_in_blender("warnings")
+        for words in (", 1 warning\n", "Warning: no quadruped, which was asked for", ", 2 warnings\n",
+                      "Warning: the names mixamo have no words for the plan quadruped",
+                      "Warning: 1 of 2: the names mixamo have no words for the plan other",
+                      "Warning: 2 of 2: no quadruped, which was asked for",
+                      "lie within the box of the surface; move or turn the armature into",
+                      ": scale the armature so\n"):
+            self.assertIn(words, said)
+        for words in ("--", "json", "glTF", "in.obj"):
+            self.assertNotIn(words, said)
+
+    def test_the_head_is_where_the_body_looks(self):
+        self.run_in_blender("front")
+
     def test_failures_are_said_and_leave_nothing(self):
         self.run_in_blender("failures")
 
@@ -109,6 +126,24 @@ class AddOn(unittest.TestCase):
     def test_buttons_run_and_end_in_a_window(self):
         self.run_in_blender("window", ("--factory-startup", "--enable-event-simulate"),
                             ("xvfb-run", "-a", "-s", "-screen 0 1280x800x24"))
+
+
+class Words(unittest.TestCase):
+    def test_are_those_of_the_panel(self):
+        sys.path.insert(0, str(SOURCE / "blender" / "curveskel_addon"))
+        import program
+        for said, here in (
+                ("in.obj: found a flat drawing; give it thickness (--least-sheet 0.01 does so with "
+                 "sheets of a hundredth and more; Blender: the Solidify modifier) or close it first",
+                 "found a flat drawing; give it thickness (the Solidify modifier) or close it first"),
+                ("give another --up or --front", "give another Up or Front"),
+                ("--front -y needs a plan, and --plan none makes none",
+                 "Front -y needs a plan, and Plan none makes none"),
+                ("another shape; choose a narrower --wrap-gap, or --wrap never", "another shape"),
+                ("is large; choose a wider --wrap-gap, or decimate the surface first",
+                 "is large; decimate the surface first"),
+                ("in this order? (--wrap all takes what encloses them all)", "in this order?")):
+            self.assertEqual(program.in_blender(said), here)
 
 
 class Panel(unittest.TestCase):

@@ -31,6 +31,15 @@ def off(file):
              for line in lines[2 + vertices:2 + vertices + faces]])
 
 
+def obj(name, file):
+    # y is up in the file, z here
+    rows = [line.split() for line in (source / file).read_text().splitlines()]
+    places = [tuple(map(float, row[1:4])) for row in rows if row and row[0] == "v"]
+    return mesh_object(name, [(x, -z, y) for x, y, z in places],
+                       [[int(corner.split("/")[0]) - 1 for corner in row[1:]]
+                        for row in rows if row and row[0] == "f"])
+
+
 def select(*things):
     bpy.ops.object.select_all(action="DESELECT")
     for thing in things:
